@@ -1,0 +1,24 @@
+# Compiler flags of every Taut target.
+#
+# The deal.II macro appends the flags that Debian built deal.II with, "-g -O2" among them, after those of the
+# target, and the last optimisation flag wins. They are emptied here, before the macro runs, so that what
+# compile_commands.json shows is exactly what is written below.
+set(DEAL_II_CXX_FLAGS "")
+set(DEAL_II_CXX_FLAGS_DEBUG "")
+set(DEAL_II_CXX_FLAGS_RELEASE "")
+
+set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
+set(CMAKE_CXX_FLAGS_DEBUG "-O0 -g")
+
+function(taut_setup_target target)
+  deal_ii_setup_target(${target})
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -fopenmp-simd)
+  if(TAUT_NATIVE)
+    target_compile_options(${target} PRIVATE -march=native)
+  endif()
+  if(TAUT_WERROR)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+  # deal.II's imported target does not pass its include folders on: without them a user of the library misses mpi.h.
+  target_include_directories(${target} SYSTEM PUBLIC ${DEAL_II_INCLUDE_DIRS})
+endfunction()
