@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_active_set_system_h
+#define taut_active_set_system_h
+
+#include <taut/complementarity/dense_operator.h>
+#include <taut/complementarity/options.h>
+#include <taut/complementarity/problem.h>
+
+namespace taut
+{
+  /**
+   * The linear system of one active set a: D_i = 0 on its rows, N_i = 0 on all others,
+   *
+   *     F_aa N_a + G_a^T alpha = -d_a,    G_a N_a = -e.
+   *
+   * alpha comes from the Schur complement G_a F_aa^-1 G_a^T, everything is then corrected with the
+   * gaps that remain. Dependent rows are solved with F_aa + shift diag(F_aa); the corrections are
+   * then those of the proximal point method and end at the exact solution if there is one, with
+   * multipliers split evenly.
+   */
+  class ActiveSetSystem
+  {
+  public:
+    enum class Outcome
+    {
+      solved,      ///< the gaps of the set are at linear_tolerance
+      unsettled,   ///< they are not: the rows contradict each other, or nearly so
+      inadmissible ///< no solution was computed: the rows do not hold a body, or have no stiffness
+    };
+
+    explicit ActiveSetSystem(const ComplementarityOptions &options) : options(options) {}
+
+    /**
+     * Writes multiplier, kernel_amplitude and gap of @p solution, and the terms s_i of the gaps. @p
+     * set is ordered; keeping the order from call to call lets the operator keep its factor.
+     */
+    Outcome solve(const MixedComplementarityProblem &problem, ComplementarityOperator &matrix,
+                  const std::vector<std::size_t> &set, MixedComplementaritySolution &solution,
+                  std::vector<double> &terms);
+
+  private:
+    bool correct(const MixedComplementarityProblem &problem, ComplementarityOperator &matrix,
+                 const std::vector<std::size_t> &set, MixedComplementaritySolution &solution);
+    void prepare_kernel(const MixedComplementarityProblem &problem, ComplementarityOperator &matrix,
+                        const std::vector<std::size_t> &set);
+    bool correct_kernel(const MixedComplementarityProblem &problem,
+                        const std::vector<std::size_t> &set,
+                        MixedComplementaritySolution &solution);
+
+    ComplementarityOptions options;
+
+    double shift = 0.;
+    std::vector<double> rhs, step;
+
+    /// F_aa^-1 G_k^T for each kernel vector, and G_a F_aa^-1 G_a^T; of this set and shift if ready.
+    bool kernel_is_ready = false;
+    std::vector<std::vector<double>> kernel_responses;
+    DenseOperator kernel_schur;
+  };
+} // namespace taut
+
+#endif

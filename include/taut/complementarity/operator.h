@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_complementarity_operator_h
+#define taut_complementarity_operator_h
+
+#include <cstddef>
+#include <vector>
+
+namespace taut
+{
+  /**
+   * The symmetric positive semidefinite matrix F of a mixed complementarity problem, as its solvers
+   * see it: n rows, one a multiplier. In Taut it is the contact Schur complement, F = sum_k B_k^T
+   * A_k^-1 B_k + S.
+   */
+  class ComplementarityOperator
+  {
+  public:
+    virtual ~ComplementarityOperator() = default;
+
+    /// Number of rows n.
+    virtual std::size_t size() const = 0;
+
+    /// F_ii, not negative.
+    virtual double diagonal(std::size_t i) const = 0;
+
+    /// y = F x; y is resized.
+    virtual void apply(const std::vector<double> &x, std::vector<double> &y) const = 0;
+
+    /**
+     * An upper bound y_i >= sum_j |F_ij| |x_j|, the scale of the rounding error of row i of F x.
+     * Exact where the entries are at hand; otherwise from |F_ij| <= sqrt(F_ii F_jj), which holds
+     * for every semidefinite F.
+     */
+    virtual void apply_absolute(const std::vector<double> &x, std::vector<double> &y) const = 0;
+
+    /**
+     * Solves F_aa x_a = rhs_a on the ordered rows @p set; x is zero on all other rows. With @p
+     * shift > 0 solves (F_aa + shift diag(F_aa)) x_a = rhs_a. Returns false, with x unspecified, if
+     * the rows are dependent to working precision and the system has therefore not been solved.
+     */
+    virtual bool solve(const std::vector<std::size_t> &set, const std::vector<double> &rhs,
+                       double shift, std::vector<double> &x) = 0;
+  };
+} // namespace taut
+
+#endif

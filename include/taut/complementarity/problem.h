@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_problem_h
+#define taut_problem_h
+
+#include <taut/complementarity/operator.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace taut
+{
+  /**
+   * The mixed linear complementarity problem of one step, without its matrix F:
+   *
+   *     D = F N + d + G^T alpha,    G N = -e,
+   *     D_i = 0                             on bilateral rows,
+   *     N_i >= 0, D_i >= 0, N_i D_i = 0     on unilateral rows.
+   *
+   * Translations have N in N and D in m, rotations N in N m and D in rad. A row with F_ii = 0 that
+   * no kernel vector moves is inert: its gap is d_i whatever the multipliers, and its multiplier is
+   * 0.
+   */
+  struct MixedComplementarityProblem
+  {
+    /// n rows: not 0 where the row is unilateral.
+    std::vector<char> unilateral;
+
+    /// d, n rows: the gaps without multipliers [m, rad].
+    std::vector<double> free_gap;
+
+    /**
+     * Size n, or empty: magnitude of the terms that d_i was summed from, when they are much larger
+     * than d_i itself [m, rad]. Rounding of d_i is measured against |d_i| + gap_scale_i.
+     */
+    std::vector<double> gap_scale;
+
+    /// G, n_kernel x n, row-major: columns of the kernel vectors of floating bodies at the rows.
+    /// Empty otherwise.
+    std::vector<double> kernel;
+
+    /// e, n_kernel: load on each kernel vector, which G N has to balance [N, N m].
+    std::vector<double> kernel_load;
+
+    std::size_t size() const { return unilateral.size(); }
+    std::size_t n_kernel() const { return kernel_load.size(); }
+
+    /// True if a kernel vector moves row i.
+    bool in_kernel(std::size_t i) const;
+
+    /// Throws std::invalid_argument if the sizes of the arrays and of the operator do not fit
+    /// together.
+    void check(const ComplementarityOperator &matrix) const;
+  };
+
+  /// What a solver finds, and where it starts from.
+  struct MixedComplementaritySolution
+  {
+    std::vector<double> multiplier;       ///< N [N, N m]
+    std::vector<double> gap;              ///< D [m, rad]
+    std::vector<double> kernel_amplitude; ///< alpha, n_kernel
+
+    /// n rows: not 0 where N_i was solved for and D_i = 0; 0 where N_i = 0.
+    std::vector<char> closed;
+
+    /// Zero multipliers and amplitudes; d as gaps. Keeps @p closed if it has the right size, else
+    /// opens all.
+    void reset(const MixedComplementarityProblem &problem);
+  };
+
+  /**
+   * The size s_i of the terms that the gap of a row is summed from, and hence of its rounding
+   * error:
+   *
+   *     s_i = |d_i| + gap_scale_i + sum_j |F_ij| |N_j| + sum_k |G_ki| |alpha_k|.
+   */
+  void gap_terms(const MixedComplementarityProblem &problem, const ComplementarityOperator &matrix,
+                 const std::vector<double> &multiplier, const std::vector<double> &kernel_amplitude,
+                 std::vector<double> &terms);
+
+  /**
+   * D = F N + d + G^T alpha.
+   */
+  void gaps(const MixedComplementarityProblem &problem, const ComplementarityOperator &matrix,
+            const std::vector<double> &multiplier, const std::vector<double> &kernel_amplitude,
+            std::vector<double> &gap);
+
+  /**
+   * The positive factor w_i that makes a multiplier comparable with a gap in min(w_i N_i, D_i):
+   * F_ii. The diagonal of a floating body's F depends on the choice of a pseudo-inverse and may
+   * vanish; rows that a kernel vector moves use max(F_ii, s_i / max_j |N_j|) instead.
+   */
+  void multiplier_weights(const MixedComplementarityProblem &problem,
+                          const ComplementarityOperator &matrix,
+                          const std::vector<double> &multiplier, const std::vector<double> &terms,
+                          std::vector<double> &weights);
+
+  /**
+   * How well a problem is solved: all numbers are relative, 1e-10 is solved, 1 is not. A row
+   * without any terms (s_i = 0) counts as 0 if it holds exactly and as infinite if not;
+   * not-a-number stays not-a-number.
+   */
+  struct ComplementarityResidual
+  {
+    /// |min(w_i N_i, D_i)| / s_i on unilateral rows, |D_i| / s_i on bilateral ones.
+    std::vector<double> rows;
+
+    /// |G N + e|_k / (|e_k| + sum_i |G_ki| |N_i|).
+    std::vector<double> kernel;
+
+    /// The largest of all entries.
+    double max = 0.;
+  };
+
+  /// The one definition of "solved". @p gap may come from F N + d + G^T alpha or from the
+  /// displacements.
+  ComplementarityResidual residual(const MixedComplementarityProblem &problem,
+                                   const ComplementarityOperator &matrix,
+                                   const MixedComplementaritySolution &solution);
+
+  /// The same from terms and weights that the caller has at hand; allocates nothing if @p result
+  /// has its size.
+  void residual(const MixedComplementarityProblem &problem,
+                const MixedComplementaritySolution &solution, const std::vector<double> &terms,
+                const std::vector<double> &weights, ComplementarityResidual &result);
+} // namespace taut
+
+#endif

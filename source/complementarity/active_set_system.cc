@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/complementarity/active_set_system.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace taut
+{
+  namespace
+  {
+    /// Largest |D_i| / s_i on the set; not-a-number if one is.
+    double largest_gap(const std::vector<std::size_t> &set, const std::vector<double> &gap,
+                       const std::vector<double> &terms)
+    {
+      double largest = 0.;
+      for (const std::size_t i : set)
+        if (!(std::abs(gap[i]) <= largest * terms[i]) && !std::isnan(largest))
+          largest = std::abs(gap[i]) / terms[i];
+      return largest;
+    }
+
+    /// Largest F_ii |x_i| on the set.
+    double largest_step(const std::vector<std::size_t> &set, const ComplementarityOperator &matrix,
+                        const std::vector<double> &step)
+    {
+      double largest = 0.;
+      for (const std::size_t i : set)
+        largest = std::max(largest, matrix.diagonal(i) * std::abs(step[i]));
+      return largest;
+    }
+
+    double dot_on_set(const std::vector<std::size_t> &set, const double *a,
+                      const std::vector<double> &b)
+    {
+      double sum = 0.;
+      for (const std::size_t i : set)
+        sum += a[i] * b[i];
+      return sum;
+    }
+  } // namespace
+
+  ActiveSetSystem::Outcome ActiveSetSystem::solve(const MixedComplementarityProblem &problem,
+                                                  ComplementarityOperator &matrix,
+                                                  const std::vector<std::size_t> &set,
+                                                  MixedComplementaritySolution &solution,
+                                                  std::vector<double> &terms)
+  {
+    solution.reset(problem);
+    rhs.resize(problem.size());
+    shift = 0.;
+    kernel_is_ready = false;
+    double last_gap = 0., last_step = 0.;
+    for (unsigned int correction = 0; correction <= options.max_corrections; ++correction)
+    {
+      if (!correct(problem, matrix, set, solution))
+        return Outcome::inadmissible;
+      gaps(problem, matrix, solution.multiplier, solution.kernel_amplitude, solution.gap);
+      gap_terms(problem, matrix, solution.multiplier, solution.kernel_amplitude, terms);
+
+      // Contradictory rows grow by the same step in each correction, and so do the terms that gaps
+      // are measured with: with a shift, gaps are small only if the steps are getting small, too.
+      const double gap = largest_gap(set, solution.gap, terms);
+      const double size = shift == 0. ? 0. : largest_step(set, matrix, step);
+      const bool shrinks = shift == 0. || (correction > 0 && size <= 0.5 * last_step);
+      if (gap <= options.linear_tolerance && shrinks)
+        return Outcome::solved;
+      if (correction > 0 && !(gap < 0.5 * last_gap && shrinks))
+        break;
+      last_gap = gap;
+      last_step = size;
+    }
+    return Outcome::unsettled;
+  }
+
+  bool ActiveSetSystem::correct(const MixedComplementarityProblem &problem,
+                                ComplementarityOperator &matrix,
+                                const std::vector<std::size_t> &set,
+                                MixedComplementaritySolution &solution)
+  {
+    std::transform(solution.gap.begin(), solution.gap.end(), rhs.begin(), std::negate<double>());
+    if (!matrix.solve(set, rhs, shift, step))
+    {
+      if (shift != 0.)
+        return false;
+      shift = options.redundancy_shift;
+      kernel_is_ready = false;
+      if (!matrix.solve(set, rhs, shift, step))
+        return false;
+    }
+    if (problem.n_kernel() > 0)
+    {
+      if (!kernel_is_ready)
+        prepare_kernel(problem, matrix, set);
+      if (!correct_kernel(problem, set, solution))
+        return false;
+    }
+    for (const std::size_t i : set)
+      solution.multiplier[i] += step[i];
+    return true;
+  }
+
+  void ActiveSetSystem::prepare_kernel(const MixedComplementarityProblem &problem,
+                                       ComplementarityOperator &matrix,
+                                       const std::vector<std::size_t> &set)
+  {
+    const std::size_t n_kernel = problem.n_kernel();
+    kernel_responses.resize(n_kernel);
+    kernel_schur.reinit(n_kernel);
+    for (std::size_t k = 0; k < n_kernel; ++k)
+    {
+      const double *const column = &problem.kernel[k * problem.size()];
+      const std::vector<double> kernel_rhs(column, column + problem.size());
+      matrix.solve(set, kernel_rhs, shift, kernel_responses[k]);
+      for (std::size_t l = 0; l <= k; ++l)
+        kernel_schur.set(k, l, dot_on_set(set, column, kernel_responses[l]));
+    }
+    kernel_is_ready = true;
+  }
+
+  // step solves F x = -D on the set: with the amplitudes' share it also brings G N + e to zero.
+  bool ActiveSetSystem::correct_kernel(const MixedComplementarityProblem &problem,
+                                       const std::vector<std::size_t> &set,
+                                       MixedComplementaritySolution &solution)
+  {
+    const std::size_t n_kernel = problem.n_kernel();
+    std::vector<std::size_t> all(n_kernel);
+    std::iota(all.begin(), all.end(), 0);
+    std::vector<double> unbalance = problem.kernel_load, amplitude;
+    for (std::size_t k = 0; k < n_kernel; ++k)
+    {
+      const double *const column = &problem.kernel[k * problem.size()];
+      unbalance[k] += dot_on_set(set, column, solution.multiplier) + dot_on_set(set, column, step);
+    }
+    if (!kernel_schur.solve(all, unbalance, 0., amplitude))
+      return false;
+    for (std::size_t k = 0; k < n_kernel; ++k)
+    {
+      solution.kernel_amplitude[k] += amplitude[k];
+      for (const std::size_t i : set)
+        step[i] -= kernel_responses[k][i] * amplitude[k];
+    }
+    return true;
+  }
+} // namespace taut

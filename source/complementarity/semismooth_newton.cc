@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/complementarity/semismooth_newton.h>
+
+#include <algorithm>
+
+namespace taut
+{
+  namespace
+  {
+    /// One 64-bit number for a set: the sum of a well-mixed number (splitmix64) for each of its
+    /// rows.
+    std::uint64_t hash(const std::vector<std::size_t> &set)
+    {
+      std::uint64_t sum = 1;
+      for (const std::size_t row : set)
+      {
+        std::uint64_t z = (row + 1) * 0x9e3779b97f4a7c15u;
+        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+        sum += z ^ (z >> 31);
+      }
+      return sum;
+    }
+  } // namespace
+
+  SemismoothNewton::Outcome SemismoothNewton::solve(const MixedComplementarityProblem &problem,
+                                                    ComplementarityOperator &matrix,
+                                                    MixedComplementaritySolution &solution)
+  {
+    solution.closed.resize(problem.size());
+    for (iterations = 1; iterations <= options.max_iterations; ++iterations)
+    {
+      collect_set(problem, matrix, solution);
+      if (options.detect_cycles && comes_back())
+        return Outcome::cycle;
+
+      const auto outcome = system.solve(problem, matrix, set, solution, terms);
+      if (outcome == ActiveSetSystem::Outcome::inadmissible)
+        return Outcome::unsettled;
+      multiplier_weights(problem, matrix, solution.multiplier, terms, weights);
+      if (flip_rows(problem, solution))
+        continue;
+
+      taut::residual(problem, solution, terms, weights, final_residual);
+      return outcome == ActiveSetSystem::Outcome::solved ? Outcome::solved : Outcome::unsettled;
+    }
+    return Outcome::max_iterations;
+  }
+
+  void SemismoothNewton::collect_set(const MixedComplementarityProblem &problem,
+                                     const ComplementarityOperator &matrix,
+                                     MixedComplementaritySolution &solution)
+  {
+    set.clear();
+    for (std::size_t i = 0; i < problem.size(); ++i)
+    {
+      const bool inert = matrix.diagonal(i) == 0. && !problem.in_kernel(i);
+      solution.closed[i] = !inert && (!problem.unilateral[i] || solution.closed[i]);
+      if (solution.closed[i])
+        set.push_back(i);
+    }
+  }
+
+  bool SemismoothNewton::flip_rows(const MixedComplementarityProblem &problem,
+                                   MixedComplementaritySolution &solution) const
+  {
+    bool flipped = false;
+    for (std::size_t i = 0; i < problem.size(); ++i)
+    {
+      if (!problem.unilateral[i] || weights[i] == 0.)
+        continue;
+      const double band = options.dead_band * terms[i];
+      const bool flips = solution.closed[i] ? weights[i] * solution.multiplier[i] < -band
+                                            : solution.gap[i] < -band;
+      if (flips)
+        solution.closed[i] = !solution.closed[i];
+      flipped |= flips;
+    }
+    return flipped;
+  }
+
+  bool SemismoothNewton::comes_back()
+  {
+    const std::uint64_t current = hash(set);
+    if (iterations == 1)
+      history.fill(0);
+    const bool known = std::find(history.begin(), history.end(), current) != history.end();
+    history[iterations % history.size()] = current;
+    return known;
+  }
+} // namespace taut
