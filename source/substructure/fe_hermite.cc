@@ -7,6 +7,7 @@
 #include <deal.II/base/polynomial.h>
 #include <deal.II/base/tensor_product_polynomials.h>
 #include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/mapping.h>
 #include <deal.II/lac/vector.h>
 
 #include <cmath>
@@ -45,6 +46,19 @@ namespace taut
       scale_slope_rows(h, output_data.shape_gradients);
       scale_slope_rows(h, output_data.shape_hessians);
       scale_slope_rows(h, output_data.shape_3rd_derivatives);
+    }
+
+    /// Whether vertices and midpoint of the mapped cell are those of a straight line at its place.
+    template <int dim, int spacedim>
+    [[maybe_unused]] bool
+    is_affine(const dealii::Mapping<dim, spacedim> &mapping,
+              const typename dealii::Triangulation<dim, spacedim>::cell_iterator &cell,
+              const double tolerance)
+    {
+      const dealii::Point<spacedim> middle =
+          cell->vertex(0) + (cell->vertex(1) - cell->vertex(0)) / 2;
+      const auto mapped = mapping.transform_unit_to_real_cell(cell, dealii::Point<dim>(0.5));
+      return mapping.preserves_vertex_locations() && mapped.distance(middle) < tolerance;
     }
   } // namespace
 
@@ -120,6 +134,10 @@ namespace taut
       const ElementInternal &fe_internal, ElementOutput &output_data) const
   {
     const double h = signed_length(cell);
+    Assert(
+        is_affine(mapping, cell, 1e-6 * std::abs(h)),
+        dealii::ExcMessage("FE_Hermite needs a mapping that is affine on each cell and keeps the "
+                           "vertices of the triangulation."));
 
     // For similar cells the base class would keep what it wrote last, which has been scaled since
     // and would be scaled twice: all derivatives have to be new.
@@ -145,25 +163,11 @@ namespace taut
       const MappingOutput &mapping_data, const ElementInternal &fe_internal,
       ElementOutput &output_data) const
   {
-    // On faces the base class writes everything anew for each cell, values too.
+    // On faces, which have no subfaces here, the base class writes everything anew for each cell,
+    // values too.
     dealii::FE_Poly<dim, spacedim>::fill_fe_face_values(cell, face_no, quadrature, mapping,
                                                         mapping_internal, mapping_data, fe_internal,
                                                         output_data);
-    const double h = signed_length(cell);
-    scale_slope_rows(h, output_data.shape_values);
-    scale_slope_derivatives(h, output_data);
-  }
-
-  template <int dim, int spacedim>
-  void FE_Hermite<dim, spacedim>::fill_fe_subface_values(
-      const CellIterator &cell, const unsigned int face_no, const unsigned int sub_no,
-      const dealii::Quadrature<dim - 1> &quadrature, const dealii::Mapping<dim, spacedim> &mapping,
-      const MappingInternal &mapping_internal, const MappingOutput &mapping_data,
-      const ElementInternal &fe_internal, ElementOutput &output_data) const
-  {
-    dealii::FE_Poly<dim, spacedim>::fill_fe_subface_values(cell, face_no, sub_no, quadrature,
-                                                           mapping, mapping_internal, mapping_data,
-                                                           fe_internal, output_data);
     const double h = signed_length(cell);
     scale_slope_rows(h, output_data.shape_values);
     scale_slope_derivatives(h, output_data);

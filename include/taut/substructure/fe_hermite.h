@@ -31,7 +31,7 @@ namespace taut
    *
    * Through FEValues the gradient of a shape function is t dw/ds and its hessian t (x) t d2w/ds2, t
    * the unit tangent. The mapping must be affine on each cell and keep the vertices of the
-   * triangulation, e.g. MappingQ1 (not checked).
+   * triangulation, e.g. MappingQ1 (checked in debug mode).
    *
    * What follows from the slopes: shape functions depend on the length of their cell, so
    * shape_value() and the like are those of a cell of length 1; there are no support points (use
@@ -91,15 +91,6 @@ namespace taut
                              const MappingInternal &mapping_internal,
                              const MappingOutput &mapping_data, const ElementInternal &fe_internal,
                              ElementOutput &output_data) const override;
-
-    void fill_fe_subface_values(const CellIterator &cell, const unsigned int face_no,
-                                const unsigned int sub_no,
-                                const dealii::Quadrature<dim - 1> &quadrature,
-                                const dealii::Mapping<dim, spacedim> &mapping,
-                                const MappingInternal &mapping_internal,
-                                const MappingOutput &mapping_data,
-                                const ElementInternal &fe_internal,
-                                ElementOutput &output_data) const override;
   };
 } // namespace taut
 
