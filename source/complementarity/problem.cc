@@ -58,7 +58,7 @@ namespace taut
       terms[i] += std::abs(problem.free_gap[i]);
     for (std::size_t i = 0; i < problem.gap_scale.size(); ++i)
       terms[i] += problem.gap_scale[i];
-    for (std::size_t k = 0; k < problem.n_kernel(); ++k)
+    for (std::size_t k = 0; k < kernel_amplitude.size(); ++k)
       for (std::size_t i = 0; i < n; ++i)
         terms[i] += std::abs(problem.kernel[k * n + i] * kernel_amplitude[k]);
   }
@@ -71,7 +71,7 @@ namespace taut
     matrix.apply(multiplier, gap);
     for (std::size_t i = 0; i < n; ++i)
       gap[i] += problem.free_gap[i];
-    for (std::size_t k = 0; k < problem.n_kernel(); ++k)
+    for (std::size_t k = 0; k < kernel_amplitude.size(); ++k)
       for (std::size_t i = 0; i < n; ++i)
         gap[i] += problem.kernel[k * n + i] * kernel_amplitude[k];
   }

@@ -2,14 +2,18 @@
 #ifndef taut_exceptions_h
 #define taut_exceptions_h
 
+#include <cstddef>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace taut
 {
   /**
-   * A mistake in what the user asked for, or a limit of the method that the user can do something about. The message
-   * says what is wrong, where, and what to do; the program prints it without a stack trace and ends with exit code 1.
+   * A mistake in what the user asked for, or a limit of the method that the user can do something
+   * about. The message says what is wrong, where, and what to do; the program prints it without a
+   * stack trace and ends with exit code 1.
    */
   class UserError : public std::runtime_error
   {
@@ -17,15 +21,43 @@ namespace taut
     using std::runtime_error::runtime_error;
   };
 
-  /// A complementarity problem without a solution: the gaps of the named rows contradict each other.
+  /// A complementarity problem without a solution: the gaps of the named rows contradict each
+  /// other.
   class ContradictoryRows : public UserError
   {
   public:
-    using UserError::UserError;
+    explicit ContradictoryRows(const std::string &message, std::vector<std::size_t> rows = {})
+        : UserError(message), row_indices(std::move(rows))
+    {
+    }
+
+    /// Indices in the complementarity problem, for whoever knows the names of its rows.
+    const std::vector<std::size_t> &rows() const { return row_indices; }
+
+  private:
+    std::vector<std::size_t> row_indices;
   };
 
-  /// A body that the equations do not hold: a singular matrix, or loads that no admissible contact force balances.
+  /// A body that the equations do not hold: a singular matrix, or loads that no admissible contact
+  /// force balances.
   class BodyNotHeld : public UserError
+  {
+  public:
+    explicit BodyNotHeld(const std::string &message, std::vector<std::size_t> kernel = {})
+        : UserError(message), kernel_indices(std::move(kernel))
+    {
+    }
+
+    /// Indices of the kernel vectors that stay unbalanced in the complementarity problem; empty if
+    /// it was not that.
+    const std::vector<std::size_t> &kernel() const { return kernel_indices; }
+
+  private:
+    std::vector<std::size_t> kernel_indices;
+  };
+
+  /// A complementarity problem that was left with a residual above the tolerance.
+  class NotSolved : public UserError
   {
   public:
     using UserError::UserError;

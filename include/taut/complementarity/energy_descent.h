@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_energy_descent_h
+#define taut_energy_descent_h
+
+#include <taut/complementarity/dense_operator.h>
+#include <taut/complementarity/options.h>
+#include <taut/complementarity/problem.h>
+
+namespace taut
+{
+  /**
+   * The energy-ordered active set for a problem without kernel. The energy 1/2 N^T F N + d^T N
+   * falls with every change of the set, so no set comes back and the method is finite (the argument
+   * of Lawson and Hanson, Solving Least Squares Problems, 1974, chapter 23):
+   *
+   * - Bilateral rows are closed first and stay.
+   * - Of the open rows with a negative gap, the one with the largest D_i^2 / (2 F_ii) closes.
+   * - On the way to the minimum on the new set, the first multiplier that would turn negative stops
+   * the motion; its row opens, and the rest goes on.
+   * - A row that depends on the closed ones is taken in exchange: along the direction z with F z =
+   * 0 the energy falls until a multiplier gets to zero. If none does, the gaps of the rows with z_i
+   * != 0 contradict each other.
+   */
+  class EnergyDescent
+  {
+  public:
+    explicit EnergyDescent(const ComplementarityOptions &options) : options(options) {}
+
+    /**
+     * Zero multipliers, bilateral rows closed as far as they are independent. False if the gaps of
+     * the others contradict them: contradictory_rows() are those that do.
+     */
+    bool start(const MixedComplementarityProblem &problem, DenseOperator &matrix);
+
+    /**
+     * On to the minimum, or until 20 (n + 5) rows have been closed: only rounding can bring it
+     * there. May be called again after the free gaps have changed, and then goes on from the
+     * multipliers and the set of the last call. False if there is no minimum: the gaps of
+     * contradictory_rows() contradict each other.
+     */
+    bool descend(const MixedComplementarityProblem &problem, DenseOperator &matrix);
+
+    const std::vector<double> &multiplier() const { return multipliers; }
+
+    const std::vector<std::size_t> &contradictory_rows() const { return contradiction; }
+
+    /// Changes of the set since start().
+    unsigned int n_changes() const { return changes; }
+
+  private:
+    std::size_t most_violated() const;
+    bool close(std::size_t row);
+    bool exchange(std::size_t row);
+    bool minimize();
+
+    std::size_t first_zero(double length) const;
+    bool move(double length);
+    void open(std::size_t position);
+    void update_gaps();
+    bool is_settled() const;
+
+    double find_null_direction(std::size_t row);
+    bool is_rounding(std::size_t row, double null_terms) const;
+
+    ComplementarityOptions options;
+
+    /// Of the current call.
+    const MixedComplementarityProblem *problem = nullptr;
+    DenseOperator *matrix = nullptr;
+
+    std::vector<double> multipliers, gap, terms, rhs;
+    std::vector<double> direction; ///< zero outside the set
+    std::vector<std::size_t> closed_rows, contradiction;
+    std::vector<char> is_closed;
+
+    /// Rows that rounding did not let in, until the multipliers move again.
+    std::vector<char> blocked;
+    unsigned int changes = 0;
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
+#include <taut/complementarity/solver.h>
+
+#include <cmath>
+#include <sstream>
+
+namespace taut
+{
+  namespace
+  {
+    std::string list(const std::string &what, const std::vector<std::size_t> &indices)
+    {
+      std::ostringstream text;
+      text << what << (indices.size() == 1 ? "" : "s");
+      for (std::size_t i = 0; i < indices.size(); ++i)
+        text << (i == 0 ? " " : ", ") << indices[i];
+      return text.str();
+    }
+  } // namespace
+
+  ComplementaritySolver::ComplementaritySolver(const std::string &method,
+                                               const ComplementarityOptions &options)
+      : options(options), use_newton(method == "semismooth Newton"), newton(options),
+        energy_ordered(options)
+  {
+    if (!use_newton && method != "energy-ordered")
+      throw UserError("unknown complementarity method '" + method +
+                      "'; known are: semismooth Newton, energy-ordered");
+  }
+
+  const ComplementarityResult &
+  ComplementaritySolver::solve(const MixedComplementarityProblem &problem,
+                               ComplementarityOperator &matrix)
+  {
+    problem.check(matrix);
+    try
+    {
+      check_inert_rows(problem, matrix);
+      if (result.solution.closed.size() != problem.size())
+        result.solution.closed.assign(problem.size(), problem.n_kernel() > 0);
+      result.iterations = 0;
+      result.used_fallback = false;
+      if (!use_newton || !solve_with_newton(problem, matrix))
+        solve_energy_ordered(problem, matrix);
+    }
+    catch (...)
+    {
+      result.solution.closed.clear();
+      throw;
+    }
+    return result;
+  }
+
+  void ComplementaritySolver::check_inert_rows(const MixedComplementarityProblem &problem,
+                                               const ComplementarityOperator &matrix) const
+  {
+    std::vector<std::size_t> violated;
+    for (std::size_t i = 0; i < problem.size(); ++i)
+    {
+      const double d = problem.free_gap[i];
+      const double scale = problem.gap_scale.empty() ? 0. : problem.gap_scale[i];
+      const bool is_open = d > 0. && problem.unilateral[i];
+      if (matrix.diagonal(i) == 0. && !problem.in_kernel(i) && !is_open &&
+          std::abs(d) > options.tolerance * (std::abs(d) + scale))
+        violated.push_back(i);
+    }
+    if (!violated.empty())
+      throw ContradictoryRows("nothing that moves could close the gap of " + list("row", violated) +
+                                  ": connect them to something that is free, or change the gaps",
+                              violated);
+  }
+
+  bool ComplementaritySolver::solve_with_newton(const MixedComplementarityProblem &problem,
+                                                ComplementarityOperator &matrix)
+  {
+    const auto outcome = newton.solve(problem, matrix, result.solution);
+    result.iterations = newton.n_iterations();
+    result.residual = newton.residual();
+    return outcome == SemismoothNewton::Outcome::solved && result.residual.max <= options.tolerance;
+  }
+
+  void ComplementaritySolver::solve_energy_ordered(const MixedComplementarityProblem &problem,
+                                                   const ComplementarityOperator &matrix)
+  {
+    using Outcome = EnergyOrderedActiveSet::Outcome;
+    const Outcome outcome = energy_ordered.solve(problem, matrix, result.solution);
+    result.iterations += energy_ordered.n_changes();
+    result.used_fallback = use_newton;
+    result.residual = energy_ordered.residual();
+
+    const std::vector<std::size_t> &failed = energy_ordered.failed_indices();
+    if (outcome == Outcome::contradictory)
+      throw ContradictoryRows("the gaps of " + list("row", failed) +
+                                  " contradict each other: remove one of them, or make one elastic",
+                              failed);
+    if (outcome == Outcome::not_held)
+      throw BodyNotHeld("no admissible multiplier balances the load on " +
+                            list("kernel vector", failed) + ": hold the body",
+                        failed);
+    if (!(result.residual.max <= options.tolerance))
+    {
+      std::ostringstream text;
+      text << "the complementarity problem is not solved: its residual is " << result.residual.max
+           << ", more than " << options.tolerance
+           << "; check the free gaps, or raise the tolerance";
+      throw NotSolved(text.str());
+    }
+  }
+} // namespace taut
