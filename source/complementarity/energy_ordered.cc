@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/complementarity/energy_ordered.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace taut
 {
   namespace
@@ -23,6 +26,42 @@ namespace taut
     {
       for (std::size_t i = 0; i < y.size(); ++i)
         y[i] += factor * x[i];
+    }
+
+    /// 1 if F has entries; else the length over force that gives the penalty the size of the gaps.
+    double compliance(const MixedComplementarityProblem &problem, const DenseOperator &matrix,
+                      const std::vector<double> &multiplier)
+    {
+      double gap = 0., force = 0.;
+      for (std::size_t i = 0; i < problem.size(); ++i)
+      {
+        if (matrix.diagonal(i) > 0.)
+          return 1.;
+        gap = std::max(gap, std::abs(problem.free_gap[i]));
+        force = std::max(force, std::abs(multiplier[i]));
+      }
+      return gap > 0. && force > 0. ? gap / force : 1.;
+    }
+
+    /**
+     * alpha carries rounding of the penalty's size. Where the gaps of the closed rows tell it, they
+     * tell it better; where they do not, an amplitude that is nothing but this rounding is zero.
+     */
+    void settle_amplitude(const MixedComplementarityProblem &problem, const DenseOperator &matrix,
+                          KernelPenalty &penalty, double factor,
+                          MixedComplementaritySolution &solution)
+    {
+      std::vector<char> closed(problem.size());
+      for (std::size_t i = 0; i < problem.size(); ++i)
+        closed[i] = !problem.unilateral[i] || solution.multiplier[i] > 0.;
+      gaps(problem, matrix, solution.multiplier, solution.kernel_amplitude, solution.gap);
+      KernelPenalty closed_rows(problem, matrix, closed);
+      add(solution.kernel_amplitude, 1., closed_rows.closing_amplitude(solution.gap));
+
+      const std::vector<double> terms = penalty.amplitude_terms(solution.multiplier);
+      for (std::size_t k = 0; k < terms.size(); ++k)
+        if (std::abs(solution.kernel_amplitude[k]) <= 1e-15 * factor * terms[k])
+          solution.kernel_amplitude[k] = 0.;
     }
 
     DenseOperator assemble(const ComplementarityOperator &matrix)
@@ -85,12 +124,11 @@ namespace taut
                                                DenseOperator &matrix,
                                                MixedComplementaritySolution &solution)
   {
-    // Gaps are accurate to rounding of the penalty's terms; its dead band must not be wider than
-    // that of the rows.
+    // Gaps are as accurate as the penalty's terms allow; the dead band must not get wider by them.
     ComplementarityOptions kernel_options = options;
     kernel_options.dead_band /= kernel_factor;
     EnergyDescent descent(kernel_options);
-    KernelPenalty penalty(problem, matrix);
+    KernelPenalty penalty(problem, matrix, std::vector<char>(problem.size(), 1));
 
     // N >= 0 with the least unbalance: the same descent with G^T R G and G^T R e alone.
     DenseOperator projector(problem.size());
@@ -104,22 +142,34 @@ namespace taut
     if (!failed.empty())
       return Outcome::not_held;
 
-    penalty.add_to(matrix, kernel_factor);
-    bool is_consistent = true;
-    for (unsigned int update = 0; update < max_updates && is_consistent; ++update)
-    {
-      std::vector<double> amplitude = solution.kernel_amplitude;
-      add(amplitude, kernel_factor, penalty.weigh(problem.kernel_load));
-      const auto held = penalty.without_kernel(problem.free_gap, amplitude);
-      is_consistent = (update > 0 || descent.start(held, matrix)) && descent.descend(held, matrix);
-      solution.multiplier = descent.multiplier();
-      add(solution.kernel_amplitude, kernel_factor,
-          penalty.weigh(penalty.unbalance(solution.multiplier)));
-      if (penalty.unbalanced(solution.multiplier, balanced).empty())
-        break;
-    }
+    const double factor = kernel_factor * compliance(problem, matrix, descent.multiplier());
+    const bool is_consistent = hold(problem, matrix, penalty, factor, descent, solution);
     changes += descent.n_changes();
     failed = is_consistent ? std::vector<std::size_t>() : descent.contradictory_rows();
     return is_consistent ? Outcome::finished : Outcome::contradictory;
+  }
+
+  bool EnergyOrderedActiveSet::hold(const MixedComplementarityProblem &problem,
+                                    const DenseOperator &matrix, KernelPenalty &penalty,
+                                    double factor, EnergyDescent &descent,
+                                    MixedComplementaritySolution &solution) const
+  {
+    DenseOperator held = matrix;
+    penalty.add_to(held, factor);
+    for (unsigned int update = 0; update < max_updates; ++update)
+    {
+      std::vector<double> amplitude = solution.kernel_amplitude;
+      add(amplitude, factor, penalty.weigh(problem.kernel_load));
+      const auto problem_at = penalty.without_kernel(problem.free_gap, amplitude);
+      if ((update == 0 && !descent.start(problem_at, held)) || !descent.descend(problem_at, held))
+        return false;
+      solution.multiplier = descent.multiplier();
+      add(solution.kernel_amplitude, factor, penalty.weigh(penalty.unbalance(solution.multiplier)));
+      if (penalty.unbalanced(solution.multiplier, balanced).empty())
+        break;
+    }
+
+    settle_amplitude(problem, matrix, penalty, factor, solution);
+    return true;
   }
 } // namespace taut

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/complementarity/kernel_penalty.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -15,35 +16,35 @@ namespace taut
     constexpr double dependence_shift = 1e-9;
 
     /// W_i.
-    std::vector<double> row_weights(const DenseOperator &matrix)
+    std::vector<double> inverse_diagonal(const DenseOperator &matrix, const std::vector<char> &rows)
     {
       const std::size_t n = matrix.size();
       double mean = 0.;
       for (std::size_t i = 0; i < n; ++i)
         mean += matrix.diagonal(i) / n;
-      std::vector<double> weights(n);
+      std::vector<double> weights(n, 0.);
       for (std::size_t i = 0; i < n; ++i)
-        if (matrix.diagonal(i) > smallest_diagonal * mean)
+        if (rows[i] && matrix.diagonal(i) > smallest_diagonal * mean)
           weights[i] = 1. / matrix.diagonal(i);
-        else
+        else if (rows[i])
           weights[i] = mean > 0. ? 1. / mean : 1.;
       return weights;
     }
   } // namespace
 
   KernelPenalty::KernelPenalty(const MixedComplementarityProblem &problem,
-                               const DenseOperator &matrix)
-      : problem(problem), all(problem.n_kernel()), weights(problem.n_kernel())
+                               const DenseOperator &matrix, const std::vector<char> &rows)
+      : problem(problem), all(problem.n_kernel()), row_weights(inverse_diagonal(matrix, rows)),
+        weights(problem.n_kernel())
   {
     std::iota(all.begin(), all.end(), 0);
-    const std::vector<double> W = row_weights(matrix);
     for (const std::size_t k : all)
     {
       for (std::size_t l = 0; l <= k; ++l)
       {
         double sum = 0.;
         for (std::size_t i = 0; i < problem.size(); ++i)
-          sum += entry(k, i) * W[i] * entry(l, i);
+          sum += entry(k, i) * row_weights[i] * entry(l, i);
         weights.set(k, l, sum);
       }
       if (weights.diagonal(k) == 0.) // moves no row
@@ -60,19 +61,29 @@ namespace taut
     return sums;
   }
 
+  std::vector<double> KernelPenalty::balance_terms(const std::vector<double> &multiplier) const
+  {
+    double largest = 0.;
+    for (const double value : multiplier)
+      largest = std::max(largest, std::abs(value));
+    std::vector<double> terms(all.size());
+    for (const std::size_t k : all)
+    {
+      terms[k] = std::abs(problem.kernel_load[k]);
+      for (std::size_t i = 0; i < problem.size(); ++i)
+        terms[k] += std::abs(entry(k, i)) * largest;
+    }
+    return terms;
+  }
+
   std::vector<std::size_t> KernelPenalty::unbalanced(const std::vector<double> &multiplier,
                                                      double tolerance) const
   {
-    const std::vector<double> sums = unbalance(multiplier);
+    const std::vector<double> sums = unbalance(multiplier), terms = balance_terms(multiplier);
     std::vector<std::size_t> indices;
     for (const std::size_t k : all)
-    {
-      double terms = std::abs(problem.kernel_load[k]);
-      for (std::size_t i = 0; i < problem.size(); ++i)
-        terms += std::abs(entry(k, i) * multiplier[i]);
-      if (!(std::abs(sums[k]) <= tolerance * terms))
+      if (!(std::abs(sums[k]) <= tolerance * terms[k]))
         indices.push_back(k);
-    }
     return indices;
   }
 
@@ -82,6 +93,30 @@ namespace taut
     if (!weights.solve(all, g, 0., result))
       weights.solve(all, g, dependence_shift, result);
     return result;
+  }
+
+  std::vector<double> KernelPenalty::closing_amplitude(const std::vector<double> &gap)
+  {
+    std::vector<double> sums(all.size(), 0.);
+    for (const std::size_t k : all)
+      for (std::size_t i = 0; i < problem.size(); ++i)
+        sums[k] -= entry(k, i) * row_weights[i] * gap[i];
+    return weigh(sums);
+  }
+
+  std::vector<double> KernelPenalty::amplitude_terms(const std::vector<double> &multiplier)
+  {
+    const std::vector<double> terms = balance_terms(multiplier);
+    std::vector<double> sums(all.size(), 0.);
+    for (const std::size_t l : all)
+    {
+      std::vector<double> unit(all.size(), 0.);
+      unit[l] = terms[l];
+      const std::vector<double> column = weigh(unit);
+      for (const std::size_t k : all)
+        sums[k] += std::abs(column[k]);
+    }
+    return sums;
   }
 
   void KernelPenalty::add_to(DenseOperator &matrix, double factor)

@@ -58,9 +58,23 @@ namespace taut
       terms[i] += std::abs(problem.free_gap[i]);
     for (std::size_t i = 0; i < problem.gap_scale.size(); ++i)
       terms[i] += problem.gap_scale[i];
+    if (kernel_amplitude.empty())
+      return;
+
+    const std::vector<double> own_terms = terms;
     for (std::size_t k = 0; k < kernel_amplitude.size(); ++k)
+    {
+      const double *const column = &problem.kernel[k * n];
+      double weighted_terms = 0., weights = 0.;
       for (std::size_t i = 0; i < n; ++i)
-        terms[i] += std::abs(problem.kernel[k * n + i] * kernel_amplitude[k]);
+      {
+        weighted_terms += std::abs(column[i]) * own_terms[i];
+        weights += column[i] * column[i];
+      }
+      const double fit = weights > 0. ? weighted_terms / weights : 0.;
+      for (std::size_t i = 0; i < n; ++i)
+        terms[i] += std::abs(column[i]) * std::max(std::abs(kernel_amplitude[k]), fit);
+    }
   }
 
   void gaps(const MixedComplementarityProblem &problem, const ComplementarityOperator &matrix,
@@ -118,9 +132,10 @@ namespace taut
       double scale = std::abs(balance);
       for (std::size_t i = 0; i < n; ++i)
       {
-        const double term = problem.kernel[k * n + i] * solution.multiplier[i];
-        balance += term;
-        scale += std::abs(term);
+        const double g = problem.kernel[k * n + i];
+        const double known_to = weights[i] > 0. ? terms[i] / weights[i] : 0.;
+        balance += g * solution.multiplier[i];
+        scale += std::abs(g) * (std::abs(solution.multiplier[i]) + known_to);
       }
       result.kernel[k] = relative(std::abs(balance), scale);
       result.max = larger(result.max, result.kernel[k]);

@@ -44,6 +44,9 @@ namespace taut
                      MixedComplementaritySolution &solution);
     Outcome minimize_with_kernel(const MixedComplementarityProblem &problem, DenseOperator &matrix,
                                  MixedComplementaritySolution &solution);
+    bool hold(const MixedComplementarityProblem &problem, const DenseOperator &matrix,
+              KernelPenalty &penalty, double factor, EnergyDescent &descent,
+              MixedComplementaritySolution &solution) const;
 
     ComplementarityOptions options;
     std::vector<std::size_t> failed;

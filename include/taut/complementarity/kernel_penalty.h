@@ -15,19 +15,35 @@ namespace taut
   class KernelPenalty
   {
   public:
-    /// Keeps a reference to @p problem. Where F_ii is nothing, or rounding, the mean of the
-    /// diagonal serves for it.
-    KernelPenalty(const MixedComplementarityProblem &problem, const DenseOperator &matrix);
+    /**
+     * Keeps a reference to @p problem. Where F_ii is nothing, or rounding, the mean of the diagonal
+     * serves for it, or 1 if that is nothing, too. Rows that are 0 in @p rows are left out: W_i =
+     * 0.
+     */
+    KernelPenalty(const MixedComplementarityProblem &problem, const DenseOperator &matrix,
+                  const std::vector<char> &rows);
 
     /// G N + e.
     std::vector<double> unbalance(const std::vector<double> &multiplier) const;
 
-    /// The kernel vectors k with |G N + e|_k > tolerance (|e_k| + sum_i |G_ki| |N_i|).
+    /// |e_k| + sum_i |G_ki| max_j |N_j|: the terms of G N + e, not smaller where they happen to
+    /// vanish.
+    std::vector<double> balance_terms(const std::vector<double> &multiplier) const;
+
+    /// The kernel vectors k with |G N + e|_k larger than @p tolerance times its terms.
     std::vector<std::size_t> unbalanced(const std::vector<double> &multiplier,
                                         double tolerance) const;
 
     /// R g. Kernel vectors that depend on each other at the rows share the load.
     std::vector<double> weigh(const std::vector<double> &g);
+
+    /// The amplitude x with the least sum of W_i (D + G^T x)_i^2: the motion that closes the gaps
+    /// of the rows best.
+    std::vector<double> closing_amplitude(const std::vector<double> &gap);
+
+    /// sum_l |R_kl| times the terms of (G N + e)_l: what the rounding of R (G N + e) is relative
+    /// to.
+    std::vector<double> amplitude_terms(const std::vector<double> &multiplier);
 
     /// matrix += factor G^T R G.
     void add_to(DenseOperator &matrix, double factor);
@@ -43,8 +59,9 @@ namespace taut
     }
 
     const MixedComplementarityProblem &problem;
-    std::vector<std::size_t> all; ///< kernel indices
-    DenseOperator weights;        ///< G W G^T
+    std::vector<std::size_t> all;    ///< kernel indices
+    std::vector<double> row_weights; ///< W_i
+    DenseOperator weights;           ///< G W G^T
   };
 } // namespace taut
 

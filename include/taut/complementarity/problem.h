@@ -71,7 +71,11 @@ namespace taut
    * The size s_i of the terms that the gap of a row is summed from, and hence of its rounding
    * error:
    *
-   *     s_i = |d_i| + gap_scale_i + sum_j |F_ij| |N_j| + sum_k |G_ki| |alpha_k|.
+   *     s_i = t_i + sum_k |G_ki| max(|alpha_k|, a_k),    t_i = |d_i| + gap_scale_i + sum_j |F_ij|
+   * |N_j|.
+   *
+   * alpha_k is found from all gaps that it moves, and rounds with them even where it ends near
+   * zero: a_k is the amplitude that would fit their terms, sum_i |G_ki| t_i / sum_i G_ki^2.
    */
   void gap_terms(const MixedComplementarityProblem &problem, const ComplementarityOperator &matrix,
                  const std::vector<double> &multiplier, const std::vector<double> &kernel_amplitude,
@@ -104,7 +108,8 @@ namespace taut
     /// |min(w_i N_i, D_i)| / s_i on unilateral rows, |D_i| / s_i on bilateral ones.
     std::vector<double> rows;
 
-    /// |G N + e|_k / (|e_k| + sum_i |G_ki| |N_i|).
+    /// |G N + e|_k / (|e_k| + sum_i |G_ki| (|N_i| + s_i / w_i)): multipliers are known to rounding
+    /// of s_i / w_i.
     std::vector<double> kernel;
 
     /// The largest of all entries.

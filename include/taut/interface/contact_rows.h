@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_contact_rows_h
+#define taut_contact_rows_h
+
+#include <taut/scene/scene.h>
+#include <taut/substructure/structure.h>
+
+#include <string>
+#include <vector>
+
+namespace taut
+{
+  /// One multiplier: a link of the scene as a linear form B_i on the displacements.
+  struct Row
+  {
+    std::string name;
+    std::size_t link = 0; ///< index in the scene
+    bool unilateral = false;
+    bool moving = false;
+    double stiffness = 0.;   ///< [N/m, N m/rad]; infinite: rigid
+    double damping = 0.;     ///< [N s/m, N m s/rad]
+    double gap = 0.;         ///< D at U = 0, N = 0 [m, rad]
+    std::vector<Term> terms; ///< B_i: D = terms . U + gap + S N
+  };
+
+  /// The rows of a scene: the fixed ones first, in the order of the links, then the moving ones.
+  class ContactRows
+  {
+  public:
+    /// @p scene is kept by reference; @p structure was made from it.
+    ContactRows(const Scene &scene, const Structure &structure);
+
+    std::size_t size() const { return rows.size(); }
+    std::size_t n_fixed() const { return fixed; }
+    const Row &operator[](std::size_t i) const { return rows[i]; }
+
+    /// Puts the moving rows where they are at time t [s]. Throws UserError when one leaves its wire.
+    void update(double t);
+
+    /// Position on its wire of a moving row at time t [m].
+    double position(std::size_t i, double t) const;
+
+    /// P += B N.
+    void add_forces(const std::vector<double> &N, BlockVector &P) const;
+
+    /// Index of the row of a link.
+    std::size_t row_of_link(std::size_t link) const { return row_index[link]; }
+
+    /// Names of rows for a message: "a, b and 3 more".
+    std::string names(const std::vector<std::size_t> &indices) const;
+
+  private:
+    void set_terms(Row &row, double t) const;
+
+    const Scene &scene;
+    const Structure &structure;
+    std::vector<Row> rows;
+    std::vector<std::size_t> row_index;
+    std::size_t fixed = 0;
+  };
+} // namespace taut
+
+#endif

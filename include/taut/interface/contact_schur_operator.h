@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_contact_schur_operator_h
+#define taut_contact_schur_operator_h
+
+#include <taut/interface/contact_rows.h>
+#include <taut/substructure/factored_structure.h>
+
+#include <Epetra_LocalMap.h>
+#include <Epetra_Operator.h>
+#include <Epetra_SerialComm.h>
+
+#include <vector>
+
+namespace taut
+{
+  /**
+   * The interface operator of FETI, F = sum_k B_k^T A_k^-1 B_k + S, applied through the factors of A_k without being
+   * formed. Restricted to an active set it acts as the identity on the other rows, so that it stays definite and an
+   * iterative solver sees vectors of one length.
+   */
+  class ContactSchurOperator : public Epetra_Operator
+  {
+  public:
+    /// The arguments are kept by reference.
+    ContactSchurOperator(const FactoredStructure &solvers, const ContactRows &rows);
+
+    /// Diagonal S [m/N, rad/(N m)].
+    void set_compliance(const std::vector<double> &S) { compliance = S; }
+
+    /// Rows on which F acts; the identity elsewhere.
+    void restrict_to(const std::vector<std::size_t> &set);
+    void unrestrict();
+
+    /// Adds shift * diagonal, one entry a row.
+    void set_shift(double factor, const std::vector<double> &diagonal);
+
+    /// Y = F X, for each column of the multivectors over the rows.
+    int Apply(const Epetra_MultiVector &X, Epetra_MultiVector &Y) const override;
+
+    /// y = F x; both have one entry a row.
+    void apply(const double *x, double *y) const;
+
+    int SetUseTranspose(bool) override { return 0; } // symmetric
+    int ApplyInverse(const Epetra_MultiVector &, Epetra_MultiVector &) const override { return -1; }
+    double NormInf() const override { return -1.; }
+    const char *Label() const override { return "contact Schur complement"; }
+    bool UseTranspose() const override { return false; }
+    bool HasNormInf() const override { return false; }
+    const Epetra_Comm &Comm() const override { return communicator; }
+    const Epetra_Map &OperatorDomainMap() const override { return map; }
+    const Epetra_Map &OperatorRangeMap() const override { return map; }
+
+  private:
+    const FactoredStructure &solvers;
+    const ContactRows &rows;
+    Epetra_SerialComm communicator;
+    Epetra_LocalMap map;
+    std::vector<double> compliance, shift;
+    std::vector<char> active;
+    mutable std::vector<double> multiplier;
+    mutable BlockVector work;
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_schur_complement_h
+#define taut_schur_complement_h
+
+#include <taut/complementarity/operator.h>
+#include <taut/interface/contact_rows.h>
+#include <taut/substructure/factored_structure.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace taut
+{
+  /**
+   * The contact Schur complement F = sum_k B_k^T A_k^-1 B_k + S of the rows, in one of two forms: assembled, with the
+   * columns A_k^-1 B_k of the fixed rows stored once, or matrix-free.
+   */
+  class SchurComplement
+  {
+  public:
+    virtual ~SchurComplement() = default;
+
+    /// After a change of A_k or of the compliances S (diagonal, [m/N, rad/(N m)]): everything anew.
+    virtual void setup(const std::vector<double> &S) = 0;
+
+    /// After ContactRows::update(): the moving rows anew.
+    virtual void update_moving() = 0;
+
+    /// d = B^T A^-1 P, the motion of the rows under forces P [m, rad].
+    virtual void free_motion(const BlockVector &P, std::vector<double> &d) const = 0;
+
+    /// F, for the complementarity solver.
+    virtual ComplementarityOperator &matrix() = 0;
+  };
+
+  /// @p form is "assembled" or "matrix-free". The arguments are kept by reference.
+  std::unique_ptr<SchurComplement> make_schur_complement(const std::string &form,
+                                                         const FactoredStructure &solvers,
+                                                         const ContactRows &rows);
+} // namespace taut
+
+#endif

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_observer_h
+#define taut_observer_h
+
+#include <taut/interface/contact_rows.h>
+#include <taut/time/certificate.h>
+#include <taut/time/state.h>
+
+#include <vector>
+
+namespace taut
+{
+  /// What an observer sees of an accepted step.
+  struct StepView
+  {
+    const Scene &scene;
+    const Structure &structure;
+    const ContactRows &rows;
+    const Reference &reference;
+    const State &state;
+    const Certificate &certificate;
+
+    /// Displacement of each probe from the equilibrium without sliding contacts, if the run starts from an equilibrium;
+    /// otherwise from the undeformed position [m, rad].
+    const std::vector<double> &probes;
+  };
+
+  /// Receives the start of a run and each accepted step, in order.
+  class Observer
+  {
+  public:
+    virtual ~Observer() = default;
+    virtual void record(const StepView &step) = 0;
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_statistics_h
+#define taut_statistics_h
+
+#include <taut/output/observer.h>
+
+#include <iosfwd>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace dealii
+{
+  class ParameterHandler;
+}
+
+namespace taut
+{
+  /// What is evaluated, and what is expected of it.
+  struct StatisticsParameters
+  {
+    std::vector<double> window;    ///< positions of a sliding contact [m]; empty: the whole run
+    double filter_frequency = 20.; ///< [Hz]
+
+    /// Lower and upper bound by figure; empty: none.
+    std::map<std::string, std::vector<double>> expected;
+
+    /// Declares the members in subsection "Statistics".
+    void declare_parameters(dealii::ParameterHandler &prm);
+  };
+
+  /// Mean, standard deviation and extremes of a record.
+  struct Moments
+  {
+    double mean = 0., deviation = 0., minimum = 0., maximum = 0.;
+    static Moments of(const std::vector<double> &record);
+  };
+
+  /**
+   * Statistics of a run: contact forces of sliding contacts, raw and low-passed, in a window; contact loss; uplift of the
+   * probes; open time, largest force and impulse of the fixed links; certificates.
+   */
+  class Statistics : public Observer
+  {
+  public:
+    Statistics(const StatisticsParameters &parameters, const Scene &scene, const ContactRows &rows);
+
+    void record(const StepView &step) override;
+
+    /// The table, with the expected ranges beside the figures.
+    void print(std::ostream &out) const;
+
+    /// The same as JSON. Throws UserError if the file cannot be written.
+    void write(const std::string &path) const;
+
+  private:
+    /// Record of one sliding contact.
+    struct Contact
+    {
+      std::string name;
+      std::size_t row;
+      std::vector<double> position, force;
+    };
+    struct ContactFigures
+    {
+      Moments raw, filtered;
+      double loss = 0.;
+      std::size_t n_samples = 0;
+      bool is_filtered = false;
+    };
+    /// What a fixed link did.
+    struct LinkFigures
+    {
+      double open_time = 0., largest_force = 0., impulse = 0.;
+    };
+
+    ContactFigures figures(const Contact &contact) const;
+
+    /// Rows of the table: figure, unit, value.
+    struct Figure
+    {
+      std::string name, unit;
+      double value;
+    };
+    std::vector<Figure> table(const ContactFigures &figures) const;
+
+    StatisticsParameters parameters;
+    std::vector<Contact> contacts;
+    std::vector<std::string> link_names, probe_names;
+    std::vector<char> link_unilateral;
+    std::vector<LinkFigures> link_figures;
+    std::vector<double> uplift, lowering;
+    std::vector<double> times;
+    Certificate worst;
+    double worst_complementarity_time = 0., worst_balance_time = 0.;
+    std::size_t n_steps = 0, n_iterations = 0, n_fallbacks = 0;
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_expression_h
+#define taut_expression_h
+
+#include <memory>
+#include <string>
+
+namespace taut
+{
+  /**
+   * A scalar function of the position s [m] along a wire and of the time t [s], written as a formula in the syntax of
+   * deal.II's FunctionParser; pi is known. Copies share the parsed formula.
+   */
+  class Expression
+  {
+  public:
+    /// The constant zero.
+    Expression();
+
+    /// @p entry names the parameter in error messages. A formula that cannot be parsed is a UserError.
+    Expression(const std::string &formula, const std::string &entry);
+
+    /// A constant.
+    explicit Expression(double constant);
+
+    /// Value at s [m], t [s]. A value that is not finite is a UserError that names entry, s and t.
+    double operator()(double s, double t) const;
+
+    const std::string &formula() const { return text; }
+
+    /// True for a formula that is a number equal to zero.
+    bool is_zero() const { return !parser && constant == 0.; }
+
+    /// True if the formula mentions t.
+    bool depends_on_time() const { return time_dependent; }
+
+  private:
+    struct Parser;
+    std::shared_ptr<const Parser> parser;
+    std::string text = "0";
+    std::string entry;
+    double constant = 0.;
+    bool time_dependent = false;
+  };
+} // namespace taut
+
+#endif

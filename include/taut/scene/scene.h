@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_scene_h
+#define taut_scene_h
+
+#include <taut/scene/expression.h>
+
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace taut
+{
+  /// A point or direction of the vertical plane; x along the line, y upwards [m].
+  struct Point
+  {
+    double x = 0., y = 0.;
+  };
+
+  /// A scalar motion a wire point can have: along the wire, normal to it (to the left of the way from a to b), slope.
+  enum class WireMotion
+  {
+    axial,
+    transverse,
+    slope
+  };
+
+  /// What a wire resists transverse motion with. A string has tension only (C0 elements), a beam bends (Hermite).
+  enum class TransverseKind
+  {
+    none,
+    string,
+    beam
+  };
+
+  /// C = mass * M + stiffness * K of a wire, without its supports and point masses.
+  struct RayleighDamping
+  {
+    double mass = 0.;      ///< [1/s]
+    double stiffness = 0.; ///< [s]
+  };
+
+  /// Motion at t = 0, expressions in s.
+  struct InitialMotion
+  {
+    Expression displacement; ///< [m]
+    Expression velocity;     ///< [m/s]
+  };
+
+  /// A straight wire from a to b. Each of its components is an independent scalar problem.
+  struct Wire
+  {
+    std::string name;
+    Point a, b;
+    double mass_per_length = 0.;   ///< [kg/m]
+    bool has_axial = false;        ///< an elastic bar along the wire
+    double axial_stiffness = 0.;   ///< EA [N]
+    TransverseKind transverse = TransverseKind::none;
+    double tension = 0.;           ///< T [N]
+    double bending_stiffness = 0.; ///< EI [N m^2]
+    unsigned int degree = 2;       ///< of the elements of bar and string
+    double element_size = 1.;      ///< largest element [m]
+    RayleighDamping damping;
+    bool weight = true; ///< gravity acts
+    InitialMotion axial_start, transverse_start;
+
+    double length() const;
+    Point tangent() const; ///< unit vector from a to b
+    Point normal() const;  ///< tangent turned by +90 degrees
+    Point at(double s) const;
+  };
+
+  /// One motion of one wire held, moved or sprung at given positions.
+  struct Support
+  {
+    std::string name;
+    std::size_t wire = 0;
+    std::vector<double> positions; ///< s [m]
+    WireMotion motion = WireMotion::transverse;
+    bool fixed = true;      ///< displacement prescribed; otherwise spring and damper to the ground
+    Expression prescribed;  ///< u(t) [m, rad], if fixed
+    double stiffness = 0.;  ///< [N/m, N m/rad], if not fixed
+    double damping = 0.;    ///< [N s/m, N m s/rad], if not fixed
+  };
+
+  /// Masses on a wire.
+  struct PointMass
+  {
+    std::string name;
+    std::size_t wire = 0;
+    std::vector<double> positions; ///< s [m]
+    double mass = 0.;              ///< [kg]
+    bool weight = true;            ///< false: inertia only, its weight is carried elsewhere
+  };
+
+  /// A lumped body: up to three scalar motions, in the order x, y, rotation.
+  struct Mass
+  {
+    std::string name;
+    Point position;
+    double mass = 0.;    ///< [kg]; 0: a massless node
+    double inertia = 0.; ///< about the plane's normal [kg m^2]
+    bool moves[3] = {false, true, false};
+    bool weight = true;
+    double displacement[3] = {0., 0., 0.}; ///< at t = 0 [m, m, rad]
+    double velocity[3] = {0., 0., 0.};     ///< at t = 0 [m/s, m/s, rad/s]
+  };
+
+  /// Index of the ground in a spring.
+  constexpr std::size_t ground = std::numeric_limits<std::size_t>::max();
+
+  /// A spring and damper between two masses, or a mass and the ground. Connected masses form one mechanism.
+  struct Spring
+  {
+    std::string name;
+    std::size_t from = ground, to = ground; ///< masses
+    bool rotational = false;                ///< about the plane's normal
+    Point direction = {0., 1.};             ///< unit vector, if not rotational
+    double stiffness = 0.;                  ///< [N/m, N m/rad]
+    double damping = 0.;                    ///< [N s/m, N m s/rad]
+  };
+
+  /// Where a link or a load acts.
+  struct Attachment
+  {
+    enum class Kind
+    {
+      ground,
+      wire,
+      mass
+    };
+    Kind kind = Kind::ground;
+    std::size_t index = 0; ///< of the wire or mass
+    double position = 0.;  ///< s on the wire [m], at t = 0 if it moves
+  };
+
+  enum class LinkKind
+  {
+    joint,          ///< gap = 0
+    stop,           ///< gap >= 0, pushes its ends apart
+    dropper,        ///< slack >= 0, pulls its ends together
+    sliding_contact ///< a stop whose `to` end moves along a wire
+  };
+
+  /**
+   * A link between two attachments. With n the unit direction and u the displacements, its gap is
+   *
+   *     D =  n . (u_to - u_from) + gap          joint, stop, sliding contact: N > 0 pushes `to` along +n
+   *     D = -n . (u_to - u_from) + gap          dropper: N > 0 is tension, n from `from` to `to`
+   *
+   * plus N over its stiffness; a rotational link has slopes and rotations instead of n . u.
+   */
+  struct Link
+  {
+    std::string name;
+    LinkKind kind = LinkKind::joint;
+    Attachment from, to;
+    bool rotational = false;
+    Point direction = {0., 1.};
+    double stiffness = std::numeric_limits<double>::infinity(); ///< [N/m, N m/rad]; infinite: rigid
+    double damping = 0.;                                        ///< [N s/m, N m s/rad]
+    double gap = 0.;      ///< D at U = 0, N = 0 [m, rad]
+    double speed = 0.;    ///< of the `to` end along its wire [m/s]
+    Expression profile;   ///< height r(s) of the wire under a sliding contact [m]: adds to the gap along n
+
+    /// A dropper whose length follows from a height that its `to` end shall have in the static state.
+    bool find_length = false;
+    double prescribed_displacement = 0.; ///< of the `to` end, along -n [m]
+    double axial_stiffness = 0.;         ///< EA [N]; if not 0, stiffness = EA / length
+    double mass_per_length = 0.;         ///< [kg/m]; half of the mass goes to each end
+    double length = 0.;                  ///< geometric length in the static state, once known [m]
+
+    bool unilateral() const { return kind != LinkKind::joint; }
+    bool moving() const { return kind == LinkKind::sliding_contact; }
+    bool rigid() const { return stiffness == std::numeric_limits<double>::infinity(); }
+  };
+
+  /// A force, or with `rotational` a moment.
+  struct Load
+  {
+    enum class Kind
+    {
+      point,
+      distributed,
+      moving
+    };
+    std::string name;
+    Kind kind = Kind::point;
+    Attachment target;
+    bool rotational = false;
+    Point direction = {0., 1.};
+    Expression magnitude; ///< [N, N m; N/m if distributed]
+    double speed = 0.;    ///< of a moving force [m/s]
+  };
+
+  /// A point whose displacement along a direction is recorded, and whose largest uplift is reported.
+  struct Probe
+  {
+    std::string name;
+    Attachment point;
+    bool rotational = false;
+    Point direction = {0., 1.};
+  };
+
+  /// How a run starts.
+  enum class Start
+  {
+    equilibrium, ///< static equilibrium under the loads at t = 0, at rest
+    undeformed,  ///< straight wires, at rest
+    given        ///< the initial displacements and velocities of the bodies
+  };
+
+  /// What is modelled, as plain values.
+  struct Scene
+  {
+    Point gravity = {0., -9.81}; ///< [m/s^2]
+    Start start = Start::equilibrium;
+    std::vector<Wire> wires;
+    std::vector<Support> supports;
+    std::vector<PointMass> point_masses;
+    std::vector<Mass> masses;
+    std::vector<Spring> springs;
+    std::vector<Link> links;
+    std::vector<Load> loads;
+    std::vector<Probe> probes;
+  };
+
+  /**
+   * Checks what a generator cannot express in types: positive masses and lengths, attachments inside their wires,
+   * motions that exist, a contact that stays on its wire until @p end_time [s]. Throws UserError.
+   */
+  void check(const Scene &scene, double end_time);
+
+  /**
+   * Node positions [m] of a wire's grid: sorted, 0 and length included, every support, point mass and fixed link end a
+   * node, elements not longer than the wire's element size and of equal length between two such points.
+   */
+  std::vector<double> grid(const Scene &scene, std::size_t wire);
+} // namespace taut
+
+#endif

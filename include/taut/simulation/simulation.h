@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_simulation_h
+#define taut_simulation_h
+
+#include <taut/interface/contact_rows.h>
+#include <taut/output/observer.h>
+#include <taut/simulation/parameters.h>
+#include <taut/time/time_stepper.h>
+
+#include <iosfwd>
+#include <vector>
+
+namespace taut
+{
+  /// A scene on its way through time: reads like the algorithm on paper.
+  class Simulation
+  {
+  public:
+    /// @p parameters is kept by reference; what is said goes to @p log.
+    Simulation(const Parameters &parameters, std::ostream &log);
+
+    /// Runs to the end and writes the results. Throws UserError.
+    void run();
+
+    const Scene &scene() const { return model; }
+    const Structure &structure() const { return bodies; }
+    const ContactRows &rows() const { return links; }
+
+    /// Seconds that the loop over the steps took, without output.
+    double stepping_seconds() const { return seconds; }
+
+  private:
+    void describe() const;
+    void find_start();
+    void find_rest_of_probes();
+    const TimeIntegrator &choose_integrator() const;
+    void write_start() const;
+    StepView view(const State &state, const Certificate &certificate) const;
+    void update_probes(const State &state);
+
+    const Parameters &parameters;
+    std::ostream &log;
+    const Scene model;
+    const Structure bodies;
+    ContactRows links;
+
+    Reference reference;
+    State start;
+    Certificate start_certificate;
+    std::vector<std::vector<Term>> probe_terms;
+    std::vector<double> probe_rest, probe_values;
+    double seconds = 0.;
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_mechanism_h
+#define taut_mechanism_h
+
+#include <taut/scene/scene.h>
+#include <taut/substructure/substructure.h>
+
+#include <vector>
+
+namespace taut
+{
+  /// Masses that springs and dampers connect: one DoF a motion of a mass.
+  class Mechanism : public Substructure
+  {
+  public:
+    /// @p members are indices of scene.masses.
+    Mechanism(const Scene &scene, const std::vector<std::size_t> &members);
+
+    unsigned int kind(unsigned int i) const override { return dofs[i].motion == 2 ? 1 : 0; }
+    void initial_state(std::vector<double> &U, std::vector<double> &V) const override;
+    Kernel kernel() const override;
+
+    /// Displacement along a direction, or the rotation, of a mass: result . U. Motions that the mass lacks are zero.
+    void motion(std::size_t mass, bool rotational, const Point &direction,
+                SparseVector &result) const;
+
+  private:
+    /// One scalar motion: 0 x, 1 y, 2 rotation of a mass.
+    struct Dof
+    {
+      std::size_t mass;
+      unsigned int motion;
+      double displacement, velocity; ///< at t = 0
+    };
+
+    void add_springs(const Scene &scene);
+    void add_loads(const Scene &scene);
+
+    std::vector<Dof> dofs;
+  };
+
+  /// Groups of masses that springs connect, each in ascending order.
+  std::vector<std::vector<std::size_t>> connected_masses(const Scene &scene);
+} // namespace taut
+
+#endif

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_substructure_h
+#define taut_substructure_h
+
+#include <taut/base/sparse_vector.h>
+#include <taut/scene/expression.h>
+#include <taut/substructure/symmetric_matrix.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace taut
+{
+  /// A force on a substructure that changes in time.
+  class TimeLoad
+  {
+  public:
+    virtual ~TimeLoad() = default;
+
+    /// P += the force at time t [s].
+    virtual void add(double t, std::vector<double> &P) const = 0;
+  };
+
+  /// A DoF whose displacement is given.
+  struct ConstrainedDof
+  {
+    unsigned int dof = 0;
+    Expression motion; ///< u(t) [m, rad]
+  };
+
+  /**
+   * One body between interfaces, discretised: M U" + C U' + K U = P + B N. Its DoFs are displacements [m] and slopes or
+   * rotations [rad], each of one kind: kind(i) numbers the kinds, because forces and moments are never compared.
+   */
+  class Substructure
+  {
+  public:
+    explicit Substructure(std::string name) : body_name(std::move(name)) {}
+    virtual ~Substructure() = default;
+
+    const std::string &name() const { return body_name; }
+    unsigned int n_dofs() const { return K->size(); }
+
+    const SymmetricMatrix &mass() const { return *M; }
+    const SymmetricMatrix &damping() const { return *C; }
+    const SymmetricMatrix &stiffness() const { return *K; }
+
+    /// Sorted by DoF.
+    const std::vector<ConstrainedDof> &constraints() const { return constrained; }
+    std::vector<unsigned int> constrained_dofs() const;
+
+    /// True if a support moves: an increment then has a given part.
+    bool has_moving_constraints() const { return moving_constraints; }
+
+    /// The whole external force at time t [s]; P is resized. [N, N m]
+    void external_force(double t, std::vector<double> &P) const;
+
+    /// Kind of DoF i: 0 a displacement, 1 a slope or rotation.
+    virtual unsigned int kind(unsigned int i) const = 0;
+
+    /// Displacement and velocity at t = 0 as given in the scene.
+    virtual void initial_state(std::vector<double> &U, std::vector<double> &V) const = 0;
+
+    /**
+     * A basis of the motions that cost no energy and that no support prevents, and for each of them a DoF to hold: with
+     * springs on these DoFs the stiffness is definite. Empty for a body that is held.
+     */
+    struct Kernel
+    {
+      std::vector<std::vector<double>> vectors;
+      std::vector<unsigned int> fixing_dofs;
+    };
+    virtual Kernel kernel() const = 0;
+
+  protected:
+    /// Sorts the constraints and notes whether one moves. Called at the end of a constructor.
+    void finish_constraints();
+
+    std::unique_ptr<SymmetricMatrix> M, C, K;
+    std::vector<double> constant_force;
+    std::vector<std::unique_ptr<TimeLoad>> time_loads;
+    std::vector<ConstrainedDof> constrained;
+
+  private:
+    std::string body_name;
+    bool moving_constraints = false;
+  };
+
+  /// P += magnitude(position, t) * shape.
+  class PointLoad : public TimeLoad
+  {
+  public:
+    PointLoad(SparseVector shape, Expression magnitude, double position)
+        : shape(std::move(shape)), magnitude(std::move(magnitude)), position(position)
+    {}
+    void add(double t, std::vector<double> &P) const override
+    {
+      shape.add_to(magnitude(position, t), P);
+    }
+
+  private:
+    SparseVector shape;
+    Expression magnitude;
+    double position;
+  };
+} // namespace taut
+
+#endif

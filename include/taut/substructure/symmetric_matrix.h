@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_symmetric_matrix_h
+#define taut_symmetric_matrix_h
+
+#include <array>
+#include <functional>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace taut
+{
+  /// A symmetric matrix of a substructure: mass, damping or stiffness.
+  class SymmetricMatrix
+  {
+  public:
+    /// Receives row i, column j <= i and the value.
+    using Visitor = std::function<void(unsigned int, unsigned int, double)>;
+
+    virtual ~SymmetricMatrix() = default;
+
+    virtual unsigned int size() const = 0;
+
+    /// DoFs that stand together at one node and couple only to those of the two neighbours; 0: no such structure.
+    virtual unsigned int block_size() const = 0;
+
+    /// Adds @p value to the entry (i, j) and, if i != j, to (j, i): call it once a pair.
+    virtual void add(unsigned int i, unsigned int j, double value) = 0;
+
+    /// y += factor * (this) x; vectors of length size().
+    virtual void vmult_add(double factor, const double *x, double *y) const = 0;
+
+    /// Calls the visitor once for each stored pair (i, j <= i).
+    virtual void visit(const Visitor &visitor) const = 0;
+
+    virtual std::unique_ptr<SymmetricMatrix> clone() const = 0;
+
+    /// this += factor * other, entry by entry.
+    void add(double factor, const SymmetricMatrix &other)
+    {
+      other.visit([&](unsigned int i, unsigned int j, double value) {
+        if (value != 0.)
+          add(i, j, factor * value);
+      });
+    }
+  };
+
+  /// Any pattern, entry by entry: the matrices of small lumped mechanisms.
+  class CoordinateMatrix : public SymmetricMatrix
+  {
+  public:
+    explicit CoordinateMatrix(unsigned int n) : n(n) {}
+
+    using SymmetricMatrix::add;
+    unsigned int size() const override { return n; }
+    unsigned int block_size() const override { return 0; }
+    void add(unsigned int i, unsigned int j, double value) override;
+    void vmult_add(double factor, const double *x, double *y) const override;
+    void visit(const Visitor &visitor) const override;
+    std::unique_ptr<SymmetricMatrix> clone() const override;
+
+  private:
+    unsigned int n;
+    std::map<std::pair<unsigned int, unsigned int>, double> entries;
+  };
+
+  /// Blocks of b x b on the diagonal and beside it: the matrices of a wire, b DoFs a node.
+  template <int b>
+  class BlockTridiagonalMatrix : public SymmetricMatrix
+  {
+  public:
+    /// A full block, row by row.
+    using Block = std::array<double, b * b>;
+
+    /// @p n is a multiple of b.
+    explicit BlockTridiagonalMatrix(unsigned int n);
+
+    using SymmetricMatrix::add;
+    unsigned int size() const override { return b * rows.size(); }
+    unsigned int block_size() const override { return b; }
+    void add(unsigned int i, unsigned int j, double value) override;
+    void vmult_add(double factor, const double *x, double *y) const override;
+    void visit(const Visitor &visitor) const override;
+    std::unique_ptr<SymmetricMatrix> clone() const override;
+
+  private:
+    /// Block row i: its diagonal block and the one to the left.
+    struct Row
+    {
+      Block diagonal{}, left{};
+    };
+    std::vector<Row> rows;
+  };
+
+  /// A zero block-tridiagonal matrix with @p n rows in blocks of @p block_size, 1 to 4.
+  std::unique_ptr<SymmetricMatrix> make_block_tridiagonal(unsigned int block_size, unsigned int n);
+} // namespace taut
+
+#endif

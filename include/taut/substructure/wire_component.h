@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_wire_component_h
+#define taut_wire_component_h
+
+#include <taut/scene/scene.h>
+#include <taut/substructure/substructure.h>
+
+#include <memory>
+#include <vector>
+
+namespace taut
+{
+  /**
+   * One scalar problem of a straight wire: a bar (axial), a string or a beam (transverse). DoFs are numbered along the
+   * wire, in blocks of one node: for a beam displacement w and slope dw/ds; for a bar or string of degree p the value
+   * at the node and at the p - 1 inner points of the element that follows. Positions s run from 0 to the length [m].
+   *
+   *     bar     M = rho,  K = EA u'v'
+   *     string  M = rho,  K = T w'v'
+   *     beam    M = rho,  K = T w'v' + EI w"v"
+   */
+  class WireComponent : public Substructure
+  {
+  public:
+    /// @p motion is axial or transverse.
+    WireComponent(const Scene &scene, std::size_t wire, WireMotion motion);
+    ~WireComponent() override;
+
+    double length() const { return nodes.back(); }
+
+    /// Values of the shape functions at s [m]: u(s) = result . U.
+    void value_at(double s, SparseVector &result) const;
+
+    /// Slopes of the shape functions at s: du/ds(s) = result . U [1/m]; at a node of a C0 element, the right one.
+    void slope_at(double s, SparseVector &result) const;
+
+    /// True if slopes are DoFs, so that moments and angular gaps make sense.
+    bool has_slopes() const { return beam; }
+
+    unsigned int kind(unsigned int i) const override { return beam ? i % 2 : 0; }
+    void initial_state(std::vector<double> &U, std::vector<double> &V) const override;
+    Kernel kernel() const override;
+
+  private:
+    struct Discretisation; ///< deal.II's triangulation, element and DoFs
+    class DistributedLoad;
+    class MovingLoad;
+
+    void assemble(const Wire &wire);
+    void add_supports(const Scene &scene, std::size_t wire);
+    void add_point_masses(const Scene &scene, std::size_t wire, double gravity);
+    void add_loads(const Scene &scene, std::size_t wire, double gravity);
+    void interpolate(const Expression &f, std::vector<double> &U) const;
+    void evaluate(double s, bool slope, SparseVector &result) const;
+    double component(const Point &direction) const;
+
+    std::vector<double> nodes;
+    Point axis;    ///< unit vector of the motion in the plane
+    WireMotion motion;
+    bool beam = false;
+    bool bends_freely = false; ///< no tension: a rigid rotation costs nothing
+    unsigned int degree = 1, dofs_per_node = 1;
+    InitialMotion start;
+    std::vector<unsigned int> sprung_dofs; ///< of elastic supports
+    std::unique_ptr<Discretisation> discretisation;
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_choose_scheme_h
+#define taut_choose_scheme_h
+
+#include <taut/interface/contact_rows.h>
+#include <taut/time/solver_parameters.h>
+
+#include <string>
+
+namespace taut
+{
+  /// A time integration scheme by name, and why.
+  struct SchemeChoice
+  {
+    std::string name;
+    std::string reason;
+  };
+
+  /**
+   * The scheme that suits the rows of a scene at a step [s]. A one-sided row behaves as compliant when its S_ii is at
+   * least its (B^T A^-1 B)_ii. Without rigid one-sided rows: generalised-alpha. With them, its multipliers fail, and the
+   * choice is BDF2 where waves cross at least a quarter of an element a step, and the source's scheme below that.
+   */
+  SchemeChoice choose_scheme(const Scene &scene, const Structure &structure, const ContactRows &rows,
+                             const SolverParameters &parameters, double step);
+} // namespace taut
+
+#endif

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_integrator_h
+#define taut_integrator_h
+
+#include <taut/base/registry.h>
+
+#include <memory>
+#include <string>
+
+namespace dealii
+{
+  class ParameterHandler;
+}
+
+namespace taut
+{
+  /**
+   * An implicit scheme as numbers. With dU the increment of the step, an index 0 for the last step and -1 for the one
+   * before,
+   *
+   *     V = velocity dU + v_V V0 + v_A A0 + v_dU dU0
+   *     A = acceleration dU + a_V V0 + a_A A0 + a_dU dU0 + a_V_old V_{-1}
+   *
+   * and with the force balance r = P + B N - C V - K U, the equation of motion of the step is
+   *
+   *     M [(1 - alpha_m) A + alpha_m A0] = (1 - alpha_f) r + alpha_f r0.
+   *
+   * The contact force so enters old and new with its own B, and gaps hold at the end of the step.
+   */
+  struct StepCoefficients
+  {
+    double velocity = 0.;     ///< [1/s]
+    double acceleration = 0.; ///< [1/s^2]
+    double v_V = 0., v_A = 0., v_dU = 0.;
+    double a_V = 0., a_A = 0., a_dU = 0., a_V_old = 0.;
+    double alpha_m = 0., alpha_f = 0.;
+
+    /// Factor of M in A, after division by 1 - alpha_f [1/s^2]; C has `velocity`, K has 1.
+    double mass_factor() const { return (1. - alpha_m) / (1. - alpha_f) * acceleration; }
+
+    bool operator==(const StepCoefficients &other) const;
+    bool operator!=(const StepCoefficients &other) const { return !(*this == other); }
+  };
+
+  /// A time integration scheme, chosen by name.
+  class TimeIntegrator
+  {
+  public:
+    virtual ~TimeIntegrator() = default;
+
+    /// Declares the scheme's own entries in the current subsection of the handler.
+    virtual void declare_parameters(dealii::ParameterHandler &) {}
+
+    /// Coefficients for a step [s]. Throws UserError if the scheme's parameters make no method.
+    virtual StepCoefficients coefficients(double step) const = 0;
+
+    /// Name with parameters, for the log.
+    virtual std::string description() const = 0;
+  };
+
+  /// The source's scheme: backward Euler for the velocity and for the acceleration; first order.
+  StepCoefficients backward_euler(double step);
+
+  /// The second-order backward difference formula for the velocity and for the acceleration.
+  StepCoefficients bdf2(double step);
+
+  /// Newmark's beta and gamma in the averaged balance of the generalised-alpha method.
+  StepCoefficients newmark(double step, double beta, double gamma, double alpha_m = 0.,
+                           double alpha_f = 0.);
+
+  /// Chung and Hulbert (1993), optimal dissipation with spectral radius rho in [0, 1] at infinite frequency.
+  StepCoefficients generalised_alpha(double step, double rho);
+} // namespace taut
+
+#endif

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_solver_parameters_h
+#define taut_solver_parameters_h
+
+#include <string>
+
+namespace dealii
+{
+  class ParameterHandler;
+}
+
+namespace taut
+{
+  /// Names and numbers of the solvers of one step.
+  struct SolverParameters
+  {
+    std::string local_solver = "block tridiagonal";
+    std::string interface_operator = "assembled";
+    std::string complementarity = "semismooth Newton";
+    double contact_tolerance = 1e-8;
+
+    /// Declares the members in subsection "Solver".
+    void declare_parameters(dealii::ParameterHandler &prm);
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
+#include <taut/output/csv_file.h>
+
+#include <charconv>
+
+namespace taut
+{
+  namespace
+  {
+    constexpr std::size_t buffer_size = 1 << 16;
+
+    /// A text cell, quoted if it has to be.
+    std::string quoted(const std::string &text)
+    {
+      if (text.find_first_of(",\"\n") == std::string::npos)
+        return text;
+      std::string result = "\"";
+      for (const char c : text)
+        result += c == '"' ? std::string("\"\"") : std::string(1, c);
+      return result + "\"";
+    }
+  } // namespace
+
+  CsvFile::CsvFile(const std::string &path, const std::vector<std::string> &columns)
+      : path(path), file(path)
+  {
+    if (!file)
+      throw UserError("cannot write '" + path + "': check that its folder exists and is writable");
+    for (const std::string &column : columns)
+      *this << column;
+    end_line();
+  }
+
+  CsvFile &CsvFile::operator<<(const double value)
+  {
+    if (!line_begins)
+      buffer += ',';
+    line_begins = false;
+    char digits[32];
+    const auto result = std::to_chars(digits, digits + sizeof digits, value);
+    buffer.append(digits, result.ptr);
+    return *this;
+  }
+
+  CsvFile &CsvFile::operator<<(const std::string &text)
+  {
+    if (!line_begins)
+      buffer += ',';
+    line_begins = false;
+    buffer += quoted(text);
+    return *this;
+  }
+
+  void CsvFile::end_line()
+  {
+    buffer += '\n';
+    line_begins = true;
+    if (buffer.size() > buffer_size)
+      write();
+  }
+
+  void CsvFile::write()
+  {
+    file << buffer;
+    buffer.clear();
+    if (!file)
+      throw UserError("cannot write to '" + path + "': the disk may be full");
+  }
+
+  void CsvFile::close()
+  {
+    write();
+    file.close();
+    if (!file)
+      throw UserError("cannot write to '" + path + "': the disk may be full");
+  }
+} // namespace taut

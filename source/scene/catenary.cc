@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "catenary.h"
+
+#include <taut/base/exceptions.h>
+#include <taut/scene/entries.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <cmath>
+#include <sstream>
+
+namespace taut
+{
+  namespace
+  {
+    using namespace dealii::Patterns;
+
+    const Double not_negative() { return Double(0., Double::max_double_value); }
+    const Anything any_text() { return Anything(); }
+
+    /// Index of the wires in the scene.
+    enum : std::size_t
+    {
+      messenger_wire,
+      contact_wire
+    };
+
+    std::string number(const double x)
+    {
+      std::ostringstream out;
+      out << x;
+      return out.str();
+    }
+  } // namespace
+
+  void Catenary::declare_names(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Catenary");
+    prm.add_parameter("Pantographs", pantographs,
+                      "Names, separated by commas; each has a section 'Pantograph <name>'. Empty: "
+                      "the line alone",
+                      List(Anything()));
+    prm.leave_subsection();
+  }
+
+  void Catenary::WireItem::declare(dealii::ParameterHandler &prm, const std::string &section)
+  {
+    prm.enter_subsection(section);
+    prm.add_parameter("Model", model, "'beam': tension and bending; 'string': tension only",
+                      Selection("beam|string"));
+    prm.add_parameter("Mass per length", mass_per_length, "[kg/m]", not_negative());
+    prm.add_parameter("Tension", tension, "[N]", not_negative());
+    prm.add_parameter("Bending stiffness", bending_stiffness, "EI; not used by a string [N m^2]",
+                      not_negative());
+    prm.add_parameter("Element size", element_size, "Largest length of an element [m]",
+                      not_negative());
+    prm.add_parameter("Degree", degree, "Polynomial degree of string elements [1]", Integer(1, 4));
+    prm.add_parameter("Mass damping", mass_damping, "Rayleigh damping, times the mass [1/s]",
+                      not_negative());
+    prm.add_parameter("Stiffness damping", stiffness_damping,
+                      "Rayleigh damping, times the stiffness [s]", not_negative());
+    prm.leave_subsection();
+  }
+
+  void Catenary::PantographItem::declare(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter("Masses", masses, "From the head down [kg]", List(not_negative(), 1));
+    prm.add_parameter("Stiffnesses", stiffnesses,
+                      "Of the spring below each mass, the last to the base [N/m]",
+                      List(not_negative(), 1));
+    prm.add_parameter("Dampings", dampings, "Of the damper beside each spring [N s/m]",
+                      List(not_negative(), 1));
+    prm.add_parameter("Static force", static_force,
+                      "Upwards on the lowest mass, net of the weight [N]", Double());
+    prm.add_parameter("Start", start, "x at t = 0 [m]", Double());
+    prm.add_parameter("Speed", speed, "[km/h]", Double());
+    prm.add_parameter("Contact stiffness", contact_stiffness,
+                      "Between head and contact wire; a number or 'rigid' [N/m]", any_text());
+    prm.add_parameter("Contact damping", contact_damping, "Beside the stiffness [N s/m]",
+                      not_negative());
+    prm.add_parameter("Height profile", profile,
+                      "Irregularity of the contact wire, a formula in s (= x) [m]", any_text());
+  }
+
+  void Catenary::declare_parameters(dealii::ParameterHandler &prm)
+  {
+    declare_names(prm);
+    prm.enter_subsection("Catenary");
+    prm.add_parameter("Number of spans", n_spans, "[1]", Integer(1, 100000));
+    prm.add_parameter("Span length", span_length, "[m]", not_negative());
+    prm.add_parameter("Encumbrance", encumbrance,
+                      "Height of the messenger wire over the contact wire at the supports [m]",
+                      not_negative());
+    contact.declare(prm, "Contact wire");
+    messenger.declare(prm, "Messenger wire");
+
+    prm.enter_subsection("Supports");
+    prm.add_parameter("Messenger stiffness", messenger_support_stiffness,
+                      "Of the messenger's supports at the inner masts; a number or 'rigid' [N/m]",
+                      any_text());
+    prm.add_parameter("Arm mass", arm_mass,
+                      "Point mass on the contact wire at each inner mast; its weight is carried by "
+                      "the arm [kg]",
+                      not_negative());
+    prm.add_parameter("Arm stiffness", arm_stiffness, "Vertical [N/m]", not_negative());
+    prm.add_parameter("Arm damping", arm_damping, "Vertical [N s/m]", not_negative());
+    prm.leave_subsection();
+
+    prm.enter_subsection("Droppers");
+    prm.add_parameter("Positions", dropper_positions, "In each span, from its first mast [m]",
+                      List(not_negative(), 0));
+    prm.add_parameter("Stiffness", dropper_stiffness,
+                      "In tension; none in compression; a number or 'rigid' [N/m]", any_text());
+    prm.add_parameter("Axial stiffness", dropper_axial_stiffness,
+                      "EA; if not 0, the stiffness is EA / length [N]", not_negative());
+    prm.add_parameter("Damping", dropper_damping, "[N s/m]", not_negative());
+    prm.add_parameter("Mass per length", dropper_mass_per_length,
+                      "Half of a dropper's mass goes to each wire [kg/m]", not_negative());
+    prm.add_parameter("Messenger clamp mass", messenger_clamp_mass, "[kg]", not_negative());
+    prm.add_parameter("Contact clamp mass", contact_clamp_mass, "[kg]", not_negative());
+    prm.add_parameter("Pre-sag", pre_sag,
+                      "Depth of the contact wire below its supports at each dropper of a span in the "
+                      "static state; empty: level [m]",
+                      List(Double(), 0));
+    prm.add_parameter("Lengths", dropper_lengths,
+                      "Unstressed length of each dropper of a span; empty: found from the pre-sag "
+                      "[m]",
+                      List(not_negative(), 0));
+    prm.leave_subsection();
+
+    prm.add_parameter("Uplift positions", uplift_positions,
+                      "x where the contact wire's motion is recorded; empty: all inner masts [m]",
+                      List(Double(), 0));
+    pantograph_items.resize(pantographs.size());
+    for (std::size_t i = 0; i < pantographs.size(); ++i)
+    {
+      prm.enter_subsection("Pantograph " + pantographs[i]);
+      pantograph_items[i].declare(prm);
+      prm.leave_subsection();
+    }
+    prm.leave_subsection();
+  }
+
+  Wire Catenary::WireItem::wire(const std::string &name, const double y, const double length) const
+  {
+    Wire wire;
+    wire.name = name;
+    wire.a = {0., y};
+    wire.b = {length, y};
+    wire.mass_per_length = mass_per_length;
+    wire.transverse = model == "beam" ? TransverseKind::beam : TransverseKind::string;
+    wire.tension = tension;
+    wire.bending_stiffness = model == "beam" ? bending_stiffness : 0.;
+    wire.degree = degree;
+    wire.element_size = element_size;
+    wire.damping = {mass_damping, stiffness_damping};
+    return wire;
+  }
+
+  void Catenary::add_wires(Scene &scene) const
+  {
+    const double length = n_spans * span_length;
+    scene.wires = {messenger.wire("messenger", encumbrance, length),
+                   contact.wire("contact", 0., length)};
+    std::vector<double> masts;
+    for (unsigned int i = 1; i < n_spans; ++i)
+      masts.push_back(i * span_length);
+
+    Support ends;
+    ends.name = "ends";
+    ends.positions = {0., length};
+    for (const std::size_t wire : {messenger_wire, contact_wire})
+    {
+      ends.wire = wire;
+      scene.supports.push_back(ends);
+    }
+    if (!masts.empty())
+    {
+      Support mast;
+      mast.name = "messenger at masts";
+      mast.wire = messenger_wire;
+      mast.positions = masts;
+      const double stiffness = parse_stiffness(messenger_support_stiffness,
+                                               "Catenary, Supports, Messenger stiffness");
+      mast.fixed = std::isinf(stiffness);
+      mast.stiffness = mast.fixed ? 0. : stiffness;
+      scene.supports.push_back(mast);
+      if (arm_mass > 0.)
+        scene.point_masses.push_back({"arm", contact_wire, masts, arm_mass, false});
+      if (arm_stiffness > 0. || arm_damping > 0.)
+      {
+        Support arm;
+        arm.name = "arm";
+        arm.wire = contact_wire;
+        arm.positions = masts;
+        arm.fixed = false;
+        arm.stiffness = arm_stiffness;
+        arm.damping = arm_damping;
+        scene.supports.push_back(arm);
+      }
+    }
+
+    for (const double x : uplift_positions.empty() ? masts : uplift_positions)
+    {
+      Probe probe;
+      probe.name = "contact wire at " + number(x) + " m";
+      probe.point = {Attachment::Kind::wire, contact_wire, x};
+      scene.probes.push_back(probe);
+    }
+  }
+
+  void Catenary::add_droppers(Scene &scene) const
+  {
+    const auto require = [&](const std::vector<double> &list, const std::string &name) {
+      if (!list.empty() && list.size() != dropper_positions.size())
+        throw UserError("Catenary, Droppers, " + name + ": " + std::to_string(list.size()) +
+                        " values for " + std::to_string(dropper_positions.size()) + " Positions");
+    };
+    require(pre_sag, "Pre-sag");
+    require(dropper_lengths, "Lengths");
+    if (dropper_axial_stiffness > 0. && !dropper_lengths.empty())
+      throw UserError("Catenary, Droppers, Axial stiffness: with given Lengths use Stiffness");
+
+    std::vector<double> clamps;
+    for (unsigned int span = 0; span < n_spans; ++span)
+      for (std::size_t i = 0; i < dropper_positions.size(); ++i)
+      {
+        if (!(dropper_positions[i] > 0. && dropper_positions[i] < span_length))
+          throw UserError("Catenary, Droppers, Positions: " + number(dropper_positions[i]) +
+                          " m is not inside its span of " + number(span_length) + " m");
+        Link link;
+        link.kind = LinkKind::dropper;
+        const double x = span * span_length + dropper_positions[i];
+        link.name = "dropper " + std::to_string(span + 1) + "." + std::to_string(i + 1);
+        link.from = {Attachment::Kind::wire, messenger_wire, x};
+        link.to = {Attachment::Kind::wire, contact_wire, x};
+        link.direction = {0., -1.};
+        link.stiffness = parse_stiffness(dropper_stiffness, "Catenary, Droppers, Stiffness");
+        link.damping = dropper_damping;
+        if (dropper_lengths.empty())
+        {
+          link.find_length = true;
+          link.prescribed_displacement = pre_sag.empty() ? 0. : -pre_sag[i];
+          link.axial_stiffness = dropper_axial_stiffness;
+          link.mass_per_length = dropper_mass_per_length;
+        }
+        else
+        {
+          link.length = dropper_lengths[i];
+          link.gap = dropper_lengths[i] - encumbrance;
+        }
+        scene.links.push_back(link);
+        clamps.push_back(x);
+      }
+    if (messenger_clamp_mass > 0. && !clamps.empty())
+      scene.point_masses.push_back(
+          {"messenger clamp", messenger_wire, clamps, messenger_clamp_mass, true});
+    if (contact_clamp_mass > 0. && !clamps.empty())
+      scene.point_masses.push_back(
+          {"contact clamp", contact_wire, clamps, contact_clamp_mass, true});
+  }
+
+  void Catenary::add_pantograph(const std::string &name, const PantographItem &item,
+                                Scene &scene) const
+  {
+    const std::string section = "Catenary, Pantograph " + name;
+    const std::size_t n = item.masses.size(), first = scene.masses.size();
+    if (item.stiffnesses.size() != n || item.dampings.size() != n)
+      throw UserError(section + ": Masses, Stiffnesses and Dampings are lists of one length; got " +
+                      std::to_string(n) + ", " + std::to_string(item.stiffnesses.size()) + ", " +
+                      std::to_string(item.dampings.size()));
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      Mass mass;
+      mass.name = name + (i == 0 ? " head" : " mass " + std::to_string(i + 1));
+      mass.position = {item.start, 0.};
+      mass.mass = item.masses[i];
+      mass.weight = false;
+      scene.masses.push_back(mass);
+      if (item.stiffnesses[i] == 0. && item.dampings[i] == 0.)
+        continue;
+      Spring spring;
+      spring.name = name + " spring " + std::to_string(i + 1);
+      spring.from = i + 1 < n ? first + i + 1 : ground;
+      spring.to = first + i;
+      spring.stiffness = item.stiffnesses[i];
+      spring.damping = item.dampings[i];
+      scene.springs.push_back(spring);
+    }
+    Load force;
+    force.name = name + " static force";
+    force.target = {Attachment::Kind::mass, first + n - 1, 0.};
+    force.magnitude = Expression(item.static_force);
+    scene.loads.push_back(force);
+
+    Link contact_link;
+    contact_link.name = name;
+    contact_link.kind = LinkKind::sliding_contact;
+    contact_link.from = {Attachment::Kind::mass, first, 0.};
+    contact_link.to = {Attachment::Kind::wire, contact_wire, item.start};
+    contact_link.stiffness = parse_stiffness(item.contact_stiffness, section + ", Contact stiffness");
+    contact_link.damping = item.contact_damping;
+    contact_link.speed = item.speed / 3.6;
+    contact_link.profile = Expression(item.profile, section + ", Height profile");
+    scene.links.push_back(contact_link);
+  }
+
+  Scene Catenary::generate() const
+  {
+    Scene scene;
+    add_wires(scene);
+    add_droppers(scene);
+    for (std::size_t i = 0; i < pantographs.size(); ++i)
+      add_pantograph(pantographs[i], pantograph_items[i], scene);
+    return scene;
+  }
+
+  namespace
+  {
+    const Register<SceneGenerator, Catenary>
+        registration("catenary", "a railway overhead line with droppers and pantographs");
+  }
+} // namespace taut

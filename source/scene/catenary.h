@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_catenary_h
+#define taut_catenary_h
+
+#include <taut/scene/scene_generator.h>
+
+#include <string>
+#include <vector>
+
+namespace taut
+{
+  /**
+   * Scene generator `catenary`: a tension length of a railway overhead line, equal spans, a contact wire under a messenger
+   * wire on droppers, and pantographs under it. x runs from the first mast; the contact wire lies at y = 0.
+   */
+  class Catenary : public SceneGenerator
+  {
+  public:
+    void declare_names(dealii::ParameterHandler &prm) override;
+    void declare_parameters(dealii::ParameterHandler &prm) override;
+    Scene generate() const override;
+
+  private:
+    struct WireItem
+    {
+      std::string model = "beam";
+      double mass_per_length, tension, bending_stiffness, element_size;
+      double mass_damping = 0.0125, stiffness_damping = 1e-4;
+      unsigned int degree = 2;
+      void declare(dealii::ParameterHandler &prm, const std::string &section);
+      Wire wire(const std::string &name, double y, double length) const;
+    };
+    struct PantographItem
+    {
+      std::vector<double> masses = {7.2, 15.}, stiffnesses = {4200., 50.}, dampings = {10., 90.};
+      double static_force = 120., start = 60., speed = 250.;
+      std::string contact_stiffness = "50000", profile = "0";
+      double contact_damping = 0.;
+      void declare(dealii::ParameterHandler &prm);
+    };
+
+    void add_wires(Scene &scene) const;
+    void add_droppers(Scene &scene) const;
+    void add_pantograph(const std::string &name, const PantographItem &item, Scene &scene) const;
+
+    unsigned int n_spans = 10;
+    double span_length = 60., encumbrance = 1.2;
+    WireItem contact{"beam", 1.35, 20000., 195., .5, .0125, 1e-4, 2},
+        messenger{"beam", 1.07, 16000., 131.7, .5, .0125, 1e-4, 2};
+    std::string messenger_support_stiffness = "rigid";
+    double arm_mass = 1., arm_stiffness = 0., arm_damping = 0.;
+    std::vector<double> dropper_positions = {5., 10.5, 17., 23.5, 30., 36.5, 43., 49.5, 55.};
+    std::string dropper_stiffness = "100000";
+    double dropper_damping = 0., dropper_axial_stiffness = 0., dropper_mass_per_length = 0.;
+    double messenger_clamp_mass = 0., contact_clamp_mass = 0.;
+    std::vector<double> pre_sag, dropper_lengths;
+    std::vector<double> uplift_positions;
+    std::vector<std::string> pantographs;
+    std::vector<PantographItem> pantograph_items;
+  };
+} // namespace taut
+
+#endif

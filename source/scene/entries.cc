@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
+#include <taut/scene/entries.h>
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace taut
+{
+  namespace
+  {
+    std::string trim(const std::string &text)
+    {
+      const std::size_t first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
+      return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+    }
+
+    std::vector<std::string> split(const std::string &text, const char separator)
+    {
+      std::vector<std::string> parts;
+      std::istringstream in(text);
+      for (std::string part; std::getline(in, part, separator);)
+        parts.push_back(trim(part));
+      return parts;
+    }
+
+    double parse_number(const std::string &text, const std::string &entry)
+    {
+      std::size_t used = 0;
+      double value = 0.;
+      try
+      {
+        value = std::stod(text, &used);
+      }
+      catch (const std::exception &)
+      {
+        used = 0;
+      }
+      if (used == 0 || used != text.size() || !std::isfinite(value))
+        throw UserError(entry + ": '" + text + "' is not a finite number");
+      return value;
+    }
+  } // namespace
+
+  std::vector<double> parse_positions(const std::string &text, const std::string &entry)
+  {
+    constexpr double most = 1e6;
+    std::vector<double> positions;
+    for (const std::string &part : split(text, ','))
+    {
+      const std::vector<std::string> range = split(part, ':');
+      if (range.size() == 1)
+        positions.push_back(parse_number(range[0], entry));
+      else if (range.size() == 3)
+      {
+        const double first = parse_number(range[0], entry), step = parse_number(range[1], entry),
+                     last = parse_number(range[2], entry);
+        if (!(step > 0.) || last < first || (last - first) / step > most)
+          throw UserError(entry + ": the range '" + part +
+                          "' is empty or endless; write first:step:last with a positive step");
+        const auto n = static_cast<long>(std::floor((last - first) / step * (1. + 1e-12) + 1e-9));
+        for (long k = 0; k <= n; ++k)
+          positions.push_back(first + k * step);
+      }
+      else
+        throw UserError(entry + ": '" + part + "' is neither a number nor a range first:step:last");
+    }
+    return positions;
+  }
+
+  double parse_stiffness(const std::string &text, const std::string &entry)
+  {
+    if (trim(text) == "rigid")
+      return std::numeric_limits<double>::infinity();
+    const double value = parse_number(trim(text), entry);
+    if (!(value > 0.))
+      throw UserError(entry + ": a stiffness is positive, or 'rigid'; got '" + text + "'");
+    return value;
+  }
+
+  Point parse_direction(const std::vector<double> &components, const std::string &entry)
+  {
+    if (components.size() != 2)
+      throw UserError(entry + ": a direction has two components, 'x, y'");
+    const double length = std::hypot(components[0], components[1]);
+    if (!(length > 0.) || !std::isfinite(length))
+      throw UserError(entry + ": a direction is not zero");
+    return {components[0] / length, components[1] / length};
+  }
+
+  std::vector<Attachment> parse_attachments(const std::string &text, const Scene &scene,
+                                            const std::string &entry)
+  {
+    const std::size_t at = text.find('@');
+    const std::string name = trim(text.substr(0, at));
+    Attachment attachment;
+    if (at == std::string::npos)
+    {
+      if (name == "ground")
+        return {attachment};
+      attachment.kind = Attachment::Kind::mass;
+      attachment.index = find_name(scene.masses, name);
+      if (attachment.index != ground)
+        return {attachment};
+      if (find_name(scene.wires, name) != ground)
+        throw UserError(entry + ": say where on the wire: '" + name + " @ position'");
+    }
+    else
+    {
+      attachment.kind = Attachment::Kind::wire;
+      attachment.index = find_name(scene.wires, name);
+      if (attachment.index != ground)
+      {
+        std::vector<Attachment> attachments;
+        for (const double s : parse_positions(text.substr(at + 1), entry))
+        {
+          attachment.position = s;
+          attachments.push_back(attachment);
+        }
+        if (attachments.empty())
+          throw UserError(entry + ": no position after '@'");
+        return attachments;
+      }
+    }
+    std::string known = "ground";
+    for (const Mass &mass : scene.masses)
+      known += ", " + mass.name;
+    for (const Wire &wire : scene.wires)
+      known += ", " + wire.name + " @ position";
+    throw UserError(entry + ": '" + text + "' is not known; known are: " + known);
+  }
+
+  Point place(const Scene &scene, const Attachment &point)
+  {
+    return point.kind == Attachment::Kind::wire ? scene.wires[point.index].at(point.position)
+                                                : scene.masses[point.index].position;
+  }
+} // namespace taut

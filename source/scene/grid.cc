@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/scene/scene.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace taut
+{
+  double Wire::length() const { return std::hypot(b.x - a.x, b.y - a.y); }
+
+  Point Wire::tangent() const { return {(b.x - a.x) / length(), (b.y - a.y) / length()}; }
+
+  Point Wire::normal() const { return {-tangent().y, tangent().x}; }
+
+  Point Wire::at(const double s) const
+  {
+    return {a.x + s * tangent().x, a.y + s * tangent().y};
+  }
+
+  std::vector<double> grid(const Scene &scene, const std::size_t wire)
+  {
+    const double length = scene.wires[wire].length();
+    std::vector<double> points = {0., length};
+    const auto add = [&](const Attachment &end) {
+      if (end.kind == Attachment::Kind::wire && end.index == wire)
+        points.push_back(end.position);
+    };
+    for (const Support &support : scene.supports)
+      if (support.wire == wire)
+        points.insert(points.end(), support.positions.begin(), support.positions.end());
+    for (const PointMass &mass : scene.point_masses)
+      if (mass.wire == wire)
+        points.insert(points.end(), mass.positions.begin(), mass.positions.end());
+    for (const Link &link : scene.links)
+    {
+      add(link.from);
+      if (!link.moving())
+        add(link.to);
+    }
+    for (const Load &load : scene.loads)
+      if (load.kind == Load::Kind::point)
+        add(load.target);
+
+    // Points closer than rounding are one node.
+    std::sort(points.begin(), points.end());
+    const double same = 1e-12 * length;
+    points.erase(std::unique(points.begin(), points.end(),
+                             [same](double p, double q) { return q - p <= same; }),
+                 points.end());
+    points.back() = length;
+
+    std::vector<double> nodes = {0.};
+    for (std::size_t i = 1; i < points.size(); ++i)
+    {
+      const double piece = points[i] - points[i - 1];
+      const auto n = static_cast<std::size_t>(
+          std::max(1., std::ceil(piece / scene.wires[wire].element_size * (1. - 1e-12))));
+      for (std::size_t k = 1; k < n; ++k)
+        nodes.push_back(points[i - 1] + piece * k / n);
+      nodes.push_back(points[i]);
+    }
+    return nodes;
+  }
+} // namespace taut

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_network_h
+#define taut_network_h
+
+#include <taut/scene/scene_generator.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace taut
+{
+  /// The items of one kind in a parameter file: their names, and a section for each.
+  template <typename Item>
+  class NamedItems
+  {
+  public:
+    /// @p list is the entry with the names, e.g. "Wires"; sections are called "<section> <name>".
+    NamedItems(std::string list, std::string section, std::string help)
+        : list(std::move(list)), section(std::move(section)), help(std::move(help))
+    {}
+
+    void declare_names(dealii::ParameterHandler &prm);
+    void declare_parameters(dealii::ParameterHandler &prm);
+
+    std::vector<std::string> names;
+    std::vector<Item> items; ///< in the order of the names, once declare_parameters() has run
+
+    /// Section of the i-th item, for messages.
+    std::string title(std::size_t i) const { return section + " " + names[i]; }
+
+  private:
+    std::string list, section, help;
+  };
+
+  /// Scene generator `network`: any named wires, masses, springs, links, loads.
+  class Network : public SceneGenerator
+  {
+  public:
+    void declare_names(dealii::ParameterHandler &prm) override;
+    void declare_parameters(dealii::ParameterHandler &prm) override;
+    Scene generate() const override;
+
+    struct WireItem
+    {
+      std::vector<double> from = {0., 0.}, to = {1., 0.};
+      std::vector<std::string> components;
+      double mass_per_length = 0., axial_stiffness = 0., tension = 0., bending_stiffness = 0.;
+      unsigned int degree = 2;
+      double element_size = 1., mass_damping = 0., stiffness_damping = 0.;
+      bool weight = true;
+      std::string axial_displacement = "0", axial_velocity = "0";
+      std::string transverse_displacement = "0", transverse_velocity = "0";
+      void declare(dealii::ParameterHandler &prm);
+    };
+    struct SupportItem
+    {
+      std::string wire, positions = "0", motion = "transverse", kind = "fixed", displacement = "0";
+      double stiffness = 0., damping = 0.;
+      void declare(dealii::ParameterHandler &prm);
+    };
+    struct PointMassItem
+    {
+      std::string wire, positions = "0";
+      double mass = 0.;
+      bool weight = true;
+      void declare(dealii::ParameterHandler &prm);
+    };
+    struct MassItem
+    {
+      std::vector<double> position = {0., 0.};
+      std::vector<std::string> motions = {"y"};
+      double mass = 0., inertia = 0.;
+      bool weight = true;
+      std::vector<double> displacement = {0., 0., 0.}, velocity = {0., 0., 0.};
+      void declare(dealii::ParameterHandler &prm);
+    };
+    struct SpringItem
+    {
+      std::string from = "ground", to = "ground";
+      std::vector<double> direction = {0., 1.};
+      bool rotational = false;
+      double stiffness = 0., damping = 0.;
+      void declare(dealii::ParameterHandler &prm);
+    };
+    struct LinkItem
+    {
+      std::string type = "joint", from = "ground", to, stiffness = "rigid", profile = "0";
+      std::vector<double> direction;
+      bool rotational = false, find_length = false;
+      double damping = 0., gap = 0., speed = 0.;
+      double prescribed_displacement = 0., axial_stiffness = 0., mass_per_length = 0.;
+      void declare(dealii::ParameterHandler &prm);
+    };
+    struct LoadItem
+    {
+      std::string type = "point", on, magnitude = "0";
+      std::vector<double> direction = {0., 1.};
+      bool rotational = false;
+      double speed = 0.;
+      void declare(dealii::ParameterHandler &prm);
+    };
+    struct ProbeItem
+    {
+      std::string point;
+      std::vector<double> direction = {0., 1.};
+      bool rotational = false;
+      void declare(dealii::ParameterHandler &prm);
+    };
+
+  private:
+    void add_wires(Scene &scene) const;
+    void add_masses(Scene &scene) const;
+    void add_links(Scene &scene) const;
+    void add_loads(Scene &scene) const;
+
+    NamedItems<WireItem> wires{"Wires", "Wire", "straight wires"};
+    NamedItems<SupportItem> supports{"Supports", "Support", "supports of wires"};
+    NamedItems<PointMassItem> point_masses{"Point masses", "Point mass", "masses on wires"};
+    NamedItems<MassItem> masses{"Masses", "Mass", "lumped masses"};
+    NamedItems<SpringItem> springs{"Springs", "Spring",
+                                   "springs and dampers between masses or a mass and the ground"};
+    NamedItems<LinkItem> links{"Links", "Link", "joints, stops, droppers and sliding contacts"};
+    NamedItems<LoadItem> loads{"Loads", "Load", "forces and moments"};
+    NamedItems<ProbeItem> probes{"Probes", "Probe", "points whose motion is recorded"};
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "network.h"
+
+#include <deal.II/base/parameter_handler.h>
+
+namespace taut
+{
+  namespace
+  {
+    using namespace dealii::Patterns;
+
+    const Double not_negative() { return Double(0., Double::max_double_value); }
+    const Double any_number() { return Double(); }
+    const List pair_of_numbers() { return List(Double(), 2, 2); }
+  } // namespace
+
+  template <typename Item>
+  void NamedItems<Item>::declare_names(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter(list, names,
+                      "Names of the " + help + ", separated by commas; each has a section '" +
+                          section + " <name>'",
+                      List(Anything()));
+  }
+
+  template <typename Item>
+  void NamedItems<Item>::declare_parameters(dealii::ParameterHandler &prm)
+  {
+    items.resize(names.size());
+    for (std::size_t i = 0; i < names.size(); ++i)
+    {
+      prm.enter_subsection(title(i));
+      items[i].declare(prm);
+      prm.leave_subsection();
+    }
+  }
+
+  void Network::declare_names(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Network");
+    wires.declare_names(prm);
+    supports.declare_names(prm);
+    point_masses.declare_names(prm);
+    masses.declare_names(prm);
+    springs.declare_names(prm);
+    links.declare_names(prm);
+    loads.declare_names(prm);
+    probes.declare_names(prm);
+    prm.leave_subsection();
+  }
+
+  void Network::declare_parameters(dealii::ParameterHandler &prm)
+  {
+    declare_names(prm);
+    prm.enter_subsection("Network");
+    wires.declare_parameters(prm);
+    supports.declare_parameters(prm);
+    point_masses.declare_parameters(prm);
+    masses.declare_parameters(prm);
+    springs.declare_parameters(prm);
+    links.declare_parameters(prm);
+    loads.declare_parameters(prm);
+    probes.declare_parameters(prm);
+    prm.leave_subsection();
+  }
+
+  void Network::WireItem::declare(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter("From", from, "First end 'x, y' [m]", pair_of_numbers());
+    prm.add_parameter("To", to, "Last end 'x, y'; positions on the wire count from the first [m]",
+                      pair_of_numbers());
+    prm.add_parameter("Components", components,
+                      "What the wire resists: 'bar' (along it), and 'string' (tension) or 'beam' "
+                      "(bending, with or without tension) across it",
+                      List(Selection("bar|string|beam"), 0, 2));
+    prm.add_parameter("Mass per length", mass_per_length, "[kg/m]", not_negative());
+    prm.add_parameter("Axial stiffness", axial_stiffness, "EA, for a bar [N]", not_negative());
+    prm.add_parameter("Tension", tension, "T, for a string or beam [N]", not_negative());
+    prm.add_parameter("Bending stiffness", bending_stiffness, "EI, for a beam [N m^2]",
+                      not_negative());
+    prm.add_parameter("Degree", degree, "Polynomial degree of bar and string elements [1]",
+                      Integer(1, 4));
+    prm.add_parameter("Element size", element_size, "Largest length of an element [m]",
+                      not_negative());
+    prm.add_parameter("Mass damping", mass_damping, "Rayleigh damping, times M [1/s]",
+                      not_negative());
+    prm.add_parameter("Stiffness damping", stiffness_damping, "Rayleigh damping, times K [s]",
+                      not_negative());
+    prm.add_parameter("Weight", weight, "Whether gravity acts on the wire");
+    prm.add_parameter("Initial axial displacement", axial_displacement,
+                      "At t = 0 if 'Start = given', a formula in s [m]");
+    prm.add_parameter("Initial axial velocity", axial_velocity, "[m/s]");
+    prm.add_parameter("Initial transverse displacement", transverse_displacement,
+                      "Positive to the left of the way from the first to the last end [m]");
+    prm.add_parameter("Initial transverse velocity", transverse_velocity, "[m/s]");
+  }
+
+  void Network::SupportItem::declare(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter("Wire", wire, "Name of the wire");
+    prm.add_parameter("Positions", positions,
+                      "Where on the wire: numbers and ranges first:step:last [m]");
+    prm.add_parameter("Motion", motion, "Which motion of the wire is supported",
+                      Selection("transverse|axial|slope"));
+    prm.add_parameter("Type", kind, "'fixed': displacement prescribed; 'elastic': spring and damper",
+                      Selection("fixed|elastic"));
+    prm.add_parameter("Displacement", displacement, "Of a fixed support, a formula in t [m, rad]");
+    prm.add_parameter("Stiffness", stiffness, "Of an elastic support [N/m, N m/rad]",
+                      not_negative());
+    prm.add_parameter("Damping", damping, "Of an elastic support [N s/m, N m s/rad]",
+                      not_negative());
+  }
+
+  void Network::PointMassItem::declare(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter("Wire", wire, "Name of the wire");
+    prm.add_parameter("Positions", positions,
+                      "Where on the wire: numbers and ranges first:step:last [m]");
+    prm.add_parameter("Mass", mass, "Of each [kg]", not_negative());
+    prm.add_parameter("Weight", weight, "Whether gravity acts on it");
+  }
+
+  void Network::MassItem::declare(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter("Position", position, "'x, y' [m]", pair_of_numbers());
+    prm.add_parameter("Motions", motions, "Free motions: x, y, rotation",
+                      List(Selection("x|y|rotation"), 1, 3));
+    prm.add_parameter("Mass", mass, "[kg]", not_negative());
+    prm.add_parameter("Inertia", inertia, "About the plane's normal [kg m^2]", not_negative());
+    prm.add_parameter("Weight", weight, "Whether gravity acts on it");
+    prm.add_parameter("Initial displacement", displacement,
+                      "x, y, rotation at t = 0 if 'Start = given' [m, m, rad]",
+                      List(Double(), 3, 3));
+    prm.add_parameter("Initial velocity", velocity, "x, y, rotation [m/s, m/s, rad/s]",
+                      List(Double(), 3, 3));
+  }
+
+  void Network::SpringItem::declare(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter("From", from, "A mass or 'ground'");
+    prm.add_parameter("To", to, "A mass or 'ground'");
+    prm.add_parameter("Direction", direction, "'x, y'; the length does not matter",
+                      pair_of_numbers());
+    prm.add_parameter("Rotational", rotational, "Acts between rotations instead");
+    prm.add_parameter("Stiffness", stiffness, "[N/m, N m/rad]", not_negative());
+    prm.add_parameter("Damping", damping, "[N s/m, N m s/rad]", not_negative());
+  }
+
+  void Network::LinkItem::declare(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter("Type", type,
+                      "'joint': holds its ends together. 'stop': pushes them apart. 'dropper': pulls "
+                      "them together. 'sliding contact': a stop whose second end moves on a wire",
+                      Selection("joint|stop|dropper|sliding contact"));
+    prm.add_parameter("From", from,
+                      "'ground', a mass, or 'wire @ position'; several positions (numbers and ranges "
+                      "first:step:last) make one link each");
+    prm.add_parameter("To", to, "As From; for a sliding contact 'wire @ start'");
+    prm.add_parameter("Direction", direction,
+                      "'x, y' from From to To; a stop or sliding contact pushes To along it. Empty: "
+                      "along the straight line between the ends",
+                      List(Double(), 0, 2));
+    prm.add_parameter("Rotational", rotational,
+                      "Acts between slopes or rotations: moments and angular gaps");
+    prm.add_parameter("Stiffness", stiffness, "A number or 'rigid' [N/m, N m/rad]");
+    prm.add_parameter("Damping", damping, "Beside the stiffness (Kelvin-Voigt) [N s/m, N m s/rad]",
+                      not_negative());
+    prm.add_parameter("Gap", gap,
+                      "Of the undeformed bodies: distance to contact of a stop, slack of a dropper; "
+                      "negative: prestressed [m, rad]",
+                      any_number());
+    prm.add_parameter("Speed", speed, "Of a sliding contact along its wire [m/s]", any_number());
+    prm.add_parameter("Height profile", profile,
+                      "Of the wire under a sliding contact along Direction, a formula in s [m]");
+    prm.add_parameter("Find length", find_length,
+                      "A dropper as long as its To end needs to stand at the prescribed displacement "
+                      "in the static state without sliding contacts");
+    prm.add_parameter("Prescribed displacement", prescribed_displacement,
+                      "Of the To end towards From, if the length is found [m]", any_number());
+    prm.add_parameter("Axial stiffness", axial_stiffness,
+                      "EA; if not 0, the stiffness of a found dropper is EA / length [N]",
+                      not_negative());
+    prm.add_parameter("Mass per length", mass_per_length,
+                      "Of a found dropper; half of its mass goes to each end [kg/m]",
+                      not_negative());
+  }
+
+  void Network::LoadItem::declare(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter("Type", type,
+                      "'point': at a mass or a point of a wire. 'distributed': along a wire. "
+                      "'moving': travels on a wire from its position with Speed",
+                      Selection("point|distributed|moving"));
+    prm.add_parameter("On", on,
+                      "A mass or 'wire @ position'; of a distributed load the position is not used");
+    prm.add_parameter("Direction", direction, "'x, y'; the length does not matter",
+                      pair_of_numbers());
+    prm.add_parameter("Rotational", rotational, "A moment instead of a force");
+    prm.add_parameter("Magnitude", magnitude, "A formula in s and t [N, N/m, N m]");
+    prm.add_parameter("Speed", speed, "Of a moving load [m/s]", any_number());
+  }
+
+  void Network::ProbeItem::declare(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter("Point", point, "A mass or 'wire @ position'");
+    prm.add_parameter("Direction", direction, "'x, y'; the length does not matter",
+                      pair_of_numbers());
+    prm.add_parameter("Rotational", rotational, "Slope or rotation instead of displacement");
+  }
+} // namespace taut

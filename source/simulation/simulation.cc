@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
+#include <taut/output/series.h>
+#include <taut/simulation/simulation.h>
+#include <taut/time/choose_scheme.h>
+#include <taut/time/form_finding.h>
+#include <taut/time/static_equilibrium.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <iomanip>
+#include <ostream>
+
+namespace taut
+{
+  Simulation::Simulation(const Parameters &parameters, std::ostream &log)
+      : parameters(parameters), log(log), model(find_lengths(parameters.scene(), parameters.solver)),
+        bodies(model), links(model, bodies)
+  {
+    for (const Probe &probe : model.probes)
+    {
+      probe_terms.emplace_back();
+      bodies.motion(probe.point, probe.rotational, probe.direction, 1., probe_terms.back());
+    }
+    probe_rest.assign(probe_terms.size(), 0.);
+    probe_values.assign(probe_terms.size(), 0.);
+  }
+
+  void Simulation::run()
+  {
+    std::error_code error;
+    std::filesystem::create_directories(parameters.folder, error);
+    if (error)
+      throw UserError("cannot make the folder '" + parameters.folder + "': " + error.message());
+
+    describe();
+    find_start();
+    find_rest_of_probes();
+    write_start();
+    if (parameters.end_time == 0.)
+    {
+      log << "Results in " << parameters.folder << '\n';
+      return;
+    }
+
+    const TimeIntegrator &integrator = choose_integrator();
+    TimeStepper stepper(bodies, links, parameters.solver, integrator, parameters.step, reference,
+                        start, model.start == Start::equilibrium);
+    Series series(parameters.folder, model, links, parameters.interval, parameters.link_interval);
+    Statistics statistics(parameters.statistics, model, links);
+
+    update_probes(start);
+    for (Observer *observer : std::initializer_list<Observer *>{&series, &statistics})
+      observer->record(view(start, start_certificate));
+
+    const auto n_steps = std::lround(parameters.end_time / parameters.step);
+    const auto begin = std::chrono::steady_clock::now();
+    for (long i = 1; i <= n_steps; ++i)
+    {
+      const auto before = std::chrono::steady_clock::now();
+      stepper.advance();
+      seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+
+      update_probes(stepper.state());
+      for (Observer *observer : std::initializer_list<Observer *>{&series, &statistics})
+        observer->record(view(stepper.state(), stepper.certificate()));
+      if (10 * i / n_steps != 10 * (i - 1) / n_steps)
+        log << "  t = " << stepper.state().time << " s (" << 100 * i / n_steps << " %)" << std::endl;
+    }
+    const double all =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    series.close();
+    statistics.write(parameters.folder + "/statistics.json");
+    statistics.print(log);
+    log << n_steps << " steps in " << all << " s: " << 1e6 * seconds / n_steps
+        << " us a step without output, " << parameters.end_time / all << " x real time\n"
+        << "Results in " << parameters.folder << '\n';
+  }
+
+  void Simulation::describe() const
+  {
+    std::size_t n_unilateral = 0, n_rigid = 0;
+    for (std::size_t i = 0; i < links.size(); ++i)
+    {
+      n_unilateral += links[i].unilateral;
+      n_rigid += std::isinf(links[i].stiffness);
+    }
+    log << "Scene '" << parameters.generator_name << "': " << model.wires.size() << " wires, "
+        << model.masses.size() << " masses, " << model.links.size() << " links\n"
+        << "  " << bodies.size() << " bodies:";
+    for (std::size_t k = 0; k < bodies.size(); ++k)
+      log << (k > 0 ? "," : "") << " '" << bodies[k].name() << "' " << bodies[k].n_dofs() << " DoFs";
+    log << "\n  " << links.size() << " multipliers: " << n_unilateral << " one-sided, "
+        << links.size() - n_unilateral << " bilateral; " << links.size() - links.n_fixed()
+        << " moving; " << n_rigid << " rigid\n";
+
+    const auto any_wire = [&](const auto &has) {
+      return std::any_of(model.wires.begin(), model.wires.end(), has);
+    };
+    if (!model.wires.empty() &&
+        !any_wire([](const Wire &w) { return w.transverse == TransverseKind::beam; }))
+      log << "  no bending: no slope DoFs\n";
+    if (!model.wires.empty() && !any_wire([](const Wire &w) { return w.has_axial; }))
+      log << "  no axial motion: one DoF per point of a wire across it\n";
+    if (links.size() == 0)
+      log << "  no links: the bodies move independently\n";
+    else if (n_unilateral == 0)
+      log << "  only bilateral links: one linear solve a step, no active set\n";
+    if (links.size() > 0 && links.n_fixed() == links.size())
+      log << "  no moving link: the interface operator is constant\n";
+  }
+
+  void Simulation::find_start()
+  {
+    links.update(0.);
+    start.U = start.V = start.A = start.dU = start.V_old = start.KU = start.balance = bodies.zero();
+    start.multiplier.assign(links.size(), 0.);
+    start.link_springs.resize(links.size());
+    reference.displacement = reference.force = bodies.zero();
+
+    if (model.start == Start::equilibrium)
+    {
+      StaticState state = static_equilibrium(bodies, links, parameters.solver, 0.);
+      reference.displacement = state.displacement;
+      for (std::size_t k = 0; k < bodies.size(); ++k)
+        bodies[k].stiffness().vmult_add(1., state.displacement[k].data(), reference.force[k].data());
+      start.multiplier = state.multiplier;
+      start_certificate = state.certificate;
+      log << "Static equilibrium: residual " << start_certificate.complementarity << " (links), "
+          << start_certificate.balance << " (balance), " << start_certificate.iterations
+          << " active-set iterations\n";
+    }
+    else if (model.start == Start::given)
+      for (std::size_t k = 0; k < bodies.size(); ++k)
+      {
+        bodies[k].initial_state(start.U[k], start.V[k]);
+        bodies[k].stiffness().vmult_add(1., start.U[k].data(), start.KU[k].data());
+        for (const ConstrainedDof &constraint : bodies[k].constraints())
+          start.U[k][constraint.dof] = constraint.motion(0., 0.);
+      }
+
+    start.geometric_gap.resize(links.size());
+    start.gap.resize(links.size());
+    for (std::size_t i = 0; i < links.size(); ++i)
+    {
+      const Row &row = links[i];
+      start.geometric_gap[i] =
+          row.gap + evaluate(row.terms, reference.displacement) + evaluate(row.terms, start.U);
+      // The spring of a link starts as compressed as its ends stand; a rigid one is not compressed.
+      double u = start.multiplier[i] / row.stiffness;
+      if (model.start != Start::equilibrium && !std::isinf(row.stiffness))
+      {
+        u = row.unilateral ? std::max(0., -start.geometric_gap[i]) : -start.geometric_gap[i];
+        start.multiplier[i] = u * row.stiffness;
+      }
+      start.link_springs[i].u = u;
+      start.gap[i] = start.geometric_gap[i] + u;
+      if (model.start != Start::equilibrium && start.gap[i] < 0. && row.unilateral)
+        throw UserError("link '" + row.name + "' starts with a gap of " +
+                        std::to_string(start.gap[i]) +
+                        ": a rigid one-sided link starts open or just touching. Change its Gap or the start.");
+    }
+  }
+
+  void Simulation::find_rest_of_probes()
+  {
+    if (model.start != Start::equilibrium || probe_terms.empty())
+      return;
+    BlockVector rest = reference.displacement;
+    if (links.n_fixed() < links.size())
+    {
+      Scene without = model;
+      without.links.erase(std::remove_if(without.links.begin(), without.links.end(),
+                                         [](const Link &link) { return link.moving(); }),
+                          without.links.end());
+      const ContactRows fixed_rows(without, bodies);
+      try
+      {
+        rest = static_equilibrium(bodies, fixed_rows, parameters.solver, 0.).displacement;
+      }
+      catch (const BodyNotHeld &)
+      {
+        log << "Probes: no equilibrium without the sliding contacts; displacements count from the "
+               "equilibrium with them\n";
+      }
+    }
+    for (std::size_t i = 0; i < probe_terms.size(); ++i)
+      probe_rest[i] = evaluate(probe_terms[i], rest);
+  }
+
+  const TimeIntegrator &Simulation::choose_integrator() const
+  {
+    std::string name = parameters.scheme;
+    if (name == "automatic")
+    {
+      const SchemeChoice choice =
+          choose_scheme(model, bodies, links, parameters.solver, parameters.step);
+      name = choice.name;
+      log << "Scheme (automatic): " << parameters.integrator(name).description() << ", because "
+          << choice.reason << '\n';
+    }
+    else
+      log << "Scheme: " << parameters.integrator(name).description() << '\n';
+    return parameters.integrator(name);
+  }
+
+  void Simulation::write_start() const
+  {
+    if (links.size() == 0)
+      return;
+    CsvFile file(parameters.folder + "/start.csv",
+                 {"link", "x [m]", "force [N, N m]", "gap [m, rad]", "length [m]"});
+    for (std::size_t i = 0; i < links.size(); ++i)
+    {
+      const Link &link = model.links[links[i].link];
+      const Attachment &end = link.to.kind == Attachment::Kind::ground ? link.from : link.to;
+      const double x = end.kind == Attachment::Kind::wire ? model.wires[end.index].at(end.position).x
+                                                          : model.masses[end.index].position.x;
+      file << links[i].name << x << start.multiplier[i] << start.geometric_gap[i]
+           << (link.length > 0. ? link.length : 0.);
+      file.end_line();
+    }
+    file.close();
+  }
+
+  StepView Simulation::view(const State &state, const Certificate &certificate) const
+  {
+    return {model, bodies, links, reference, state, certificate, probe_values};
+  }
+
+  void Simulation::update_probes(const State &state)
+  {
+    for (std::size_t i = 0; i < probe_terms.size(); ++i)
+      probe_values[i] = evaluate(probe_terms[i], reference.displacement) +
+                        evaluate(probe_terms[i], state.U) - probe_rest[i];
+  }
+} // namespace taut

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
+#include <taut/substructure/mechanism.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+extern "C" void dsyev_(const char *jobz, const char *uplo, const int *n, double *a, const int *lda,
+                       double *w, double *work, const int *lwork, int *info);
+
+namespace taut
+{
+  Mechanism::Mechanism(const Scene &scene, const std::vector<std::size_t> &members)
+      : Substructure(scene.masses[members.front()].name + (members.size() > 1 ? " and others" : ""))
+  {
+    for (const std::size_t m : members)
+      for (unsigned int motion = 0; motion < 3; ++motion)
+        if (scene.masses[m].moves[motion])
+          dofs.push_back(
+              {m, motion, scene.masses[m].displacement[motion], scene.masses[m].velocity[motion]});
+    const unsigned int n = dofs.size();
+    M = std::make_unique<CoordinateMatrix>(n);
+    C = std::make_unique<CoordinateMatrix>(n);
+    K = std::make_unique<CoordinateMatrix>(n);
+    constant_force.assign(n, 0.);
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      const Mass &mass = scene.masses[dofs[i].mass];
+      M->add(i, i, dofs[i].motion == 2 ? mass.inertia : mass.mass);
+      if (mass.weight && dofs[i].motion < 2)
+        constant_force[i] += mass.mass * (dofs[i].motion == 0 ? scene.gravity.x : scene.gravity.y);
+    }
+    add_springs(scene);
+    add_loads(scene);
+    finish_constraints();
+  }
+
+  void Mechanism::add_springs(const Scene &scene)
+  {
+    SparseVector row, other;
+    for (const Spring &spring : scene.springs)
+    {
+      row = {};
+      for (const std::size_t end : {spring.from, spring.to})
+        if (end != ground)
+        {
+          motion(end, spring.rotational, spring.direction, other);
+          for (std::size_t k = 0; k < other.index.size(); ++k)
+            row.add(other.index[k], (end == spring.to ? 1. : -1.) * other.value[k]);
+        }
+      for (std::size_t i = 0; i < row.index.size(); ++i)
+        for (std::size_t j = 0; j <= i; ++j)
+        {
+          const double product = row.value[i] * row.value[j];
+          K->add(row.index[i], row.index[j], spring.stiffness * product);
+          C->add(row.index[i], row.index[j], spring.damping * product);
+        }
+    }
+  }
+
+  void Mechanism::add_loads(const Scene &scene)
+  {
+    for (const Load &load : scene.loads)
+    {
+      if (load.target.kind != Attachment::Kind::mass)
+        continue;
+      SparseVector row;
+      motion(load.target.index, load.rotational, load.direction, row);
+      if (row.index.empty())
+        continue;
+      if (load.magnitude.depends_on_time())
+        time_loads.push_back(std::make_unique<PointLoad>(row, load.magnitude, 0.));
+      else
+        row.add_to(load.magnitude(0., 0.), constant_force);
+    }
+  }
+
+  void Mechanism::motion(const std::size_t mass, const bool rotational, const Point &direction,
+                         SparseVector &result) const
+  {
+    result = {};
+    const double factor[3] = {rotational ? 0. : direction.x, rotational ? 0. : direction.y,
+                              rotational ? 1. : 0.};
+    for (unsigned int i = 0; i < dofs.size(); ++i)
+      if (dofs[i].mass == mass && factor[dofs[i].motion] != 0.)
+        result.add(i, factor[dofs[i].motion]);
+  }
+
+  void Mechanism::initial_state(std::vector<double> &U, std::vector<double> &V) const
+  {
+    U.clear();
+    V.clear();
+    for (const Dof &dof : dofs)
+    {
+      U.push_back(dof.displacement);
+      V.push_back(dof.velocity);
+    }
+  }
+
+  Substructure::Kernel Mechanism::kernel() const
+  {
+    // Eigenvectors of zero eigenvalue of the stiffness scaled to a unit diagonal; a DoF without any stiffness is one.
+    const int n = dofs.size();
+    std::vector<double> a(n * n, 0.), scale(n, 1.), eigenvalues(n), work(8 * n + 64);
+    K->visit([&](unsigned int i, unsigned int j, double value) { a[i * n + j] = a[j * n + i] = value; });
+    for (int i = 0; i < n; ++i)
+      if (a[i * n + i] > 0.)
+        scale[i] = 1. / std::sqrt(a[i * n + i]);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j)
+        a[i * n + j] *= scale[i] * scale[j];
+    const int lwork = work.size();
+    int info = 0;
+    dsyev_("V", "L", &n, a.data(), &n, eigenvalues.data(), work.data(), &lwork, &info);
+    if (info != 0)
+      throw std::runtime_error("LAPACK dsyev failed on the stiffness of " + name());
+
+    Kernel kernel;
+    std::vector<std::vector<double>> reduced;
+    for (int k = 0; k < n && eigenvalues[k] < 1e-13 * n; ++k)
+    {
+      std::vector<double> R(n);
+      for (int i = 0; i < n; ++i)
+        R[i] = scale[i] * a[k * n + i];
+      kernel.vectors.push_back(R);
+      // Gaussian elimination with the largest entry as pivot gives independent DoFs to hold.
+      for (std::size_t p = 0; p < reduced.size(); ++p)
+      {
+        const unsigned int pivot = kernel.fixing_dofs[p];
+        const double factor = R[pivot] / reduced[p][pivot];
+        for (int i = 0; i < n; ++i)
+          R[i] -= factor * reduced[p][i];
+      }
+      const auto largest = std::max_element(R.begin(), R.end(), [](double p, double q) {
+        return std::fabs(p) < std::fabs(q);
+      });
+      kernel.fixing_dofs.push_back(largest - R.begin());
+      reduced.push_back(std::move(R));
+    }
+    return kernel;
+  }
+
+  std::vector<std::vector<std::size_t>> connected_masses(const Scene &scene)
+  {
+    std::vector<std::size_t> root(scene.masses.size());
+    std::iota(root.begin(), root.end(), 0);
+    const auto find = [&](std::size_t i) {
+      while (root[i] != i)
+        i = root[i];
+      return i;
+    };
+    for (const Spring &spring : scene.springs)
+      if (spring.from != ground && spring.to != ground)
+      {
+        const std::size_t a = find(spring.from), b = find(spring.to);
+        root[std::max(a, b)] = std::min(a, b);
+      }
+    std::vector<std::vector<std::size_t>> groups(scene.masses.size());
+    for (std::size_t i = 0; i < scene.masses.size(); ++i)
+      groups[find(i)].push_back(i);
+    groups.erase(std::remove_if(groups.begin(), groups.end(), [](const auto &g) { return g.empty(); }),
+                 groups.end());
+    return groups;
+  }
+} // namespace taut

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
+#include <taut/scene/entries.h>
+#include <taut/time/form_finding.h>
+#include <taut/time/static_equilibrium.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace taut
+{
+  namespace
+  {
+    /// Distance of the ends of an undeformed link along its direction [m].
+    double distance(const Scene &scene, const Link &link)
+    {
+      const Point a = place(scene, link.from), b = place(scene, link.to);
+      return (b.x - a.x) * link.direction.x + (b.y - a.y) * link.direction.y;
+    }
+
+    /// Half of a dropper's mass on each of its ends.
+    void add_mass(const Link &link, Scene &scene)
+    {
+      if (link.mass_per_length == 0.)
+        return;
+      const double half = .5 * link.mass_per_length * link.length;
+      for (const Attachment *end : {&link.from, &link.to})
+        if (end->kind == Attachment::Kind::wire)
+          scene.point_masses.push_back({link.name, end->index, {end->position}, half, true});
+        else
+          scene.masses[end->index].mass += half;
+    }
+
+    Load force(const Link &link, const Attachment &end, const double magnitude)
+    {
+      Load load;
+      load.name = link.name;
+      load.target = end;
+      load.direction = link.direction;
+      load.magnitude = Expression(magnitude);
+      return load;
+    }
+
+    /// Bilateral rows that hold the `to` ends: their multipliers are minus the tensions.
+    std::vector<double> tensions(const Scene &base, const std::vector<Link> &droppers,
+                                 const SolverParameters &parameters)
+    {
+      Scene scene = base;
+      for (const Link &dropper : droppers)
+      {
+        add_mass(dropper, scene);
+        Link hold;
+        hold.name = dropper.name;
+        hold.kind = LinkKind::joint;
+        hold.to = dropper.to;
+        hold.direction = dropper.direction;
+        hold.gap = dropper.prescribed_displacement;
+        scene.links.push_back(hold);
+      }
+      const Structure structure(scene);
+      const ContactRows rows(scene, structure);
+      const StaticState state = static_equilibrium(structure, rows, parameters, 0.);
+      std::vector<double> result;
+      for (std::size_t i = 0; i < droppers.size(); ++i)
+      {
+        const double tension = -state.multiplier[rows.row_of_link(base.links.size() + i)];
+        if (tension < 0.)
+        {
+          std::ostringstream out;
+          out << "dropper '" << droppers[i].name << "' would have to push with " << -tension
+              << " N to hold its wire at the prescribed height. Move or remove it, or prescribe "
+                 "another height.";
+          throw UserError(out.str());
+        }
+        result.push_back(tension);
+      }
+      return result;
+    }
+
+    /// Distances of the ends of the droppers under their tensions.
+    std::vector<double> lengths(const Scene &base, const std::vector<Link> &droppers,
+                                const std::vector<double> &tension,
+                                const SolverParameters &parameters)
+    {
+      Scene scene = base;
+      for (std::size_t i = 0; i < droppers.size(); ++i)
+      {
+        add_mass(droppers[i], scene);
+        scene.loads.push_back(force(droppers[i], droppers[i].from, tension[i]));
+        scene.loads.push_back(force(droppers[i], droppers[i].to, -tension[i]));
+      }
+      const Structure structure(scene);
+      const ContactRows rows(scene, structure);
+      const StaticState state = static_equilibrium(structure, rows, parameters, 0.);
+      std::vector<double> result;
+      for (const Link &dropper : droppers)
+      {
+        std::vector<Term> terms;
+        structure.motion(dropper.to, false, dropper.direction, 1., terms);
+        structure.motion(dropper.from, false, dropper.direction, -1., terms);
+        result.push_back(distance(scene, dropper) + evaluate(terms, state.displacement));
+        if (result.back() <= 0.)
+          throw UserError("dropper '" + dropper.name +
+                          "' would have no length: its wires touch in the static state. Increase the "
+                          "encumbrance or the tension of the upper wire.");
+      }
+      return result;
+    }
+  } // namespace
+
+  Scene find_lengths(Scene scene, const SolverParameters &parameters)
+  {
+    Scene base = scene;
+    std::vector<Link> droppers;
+    for (const Link &link : scene.links)
+      if (link.find_length)
+      {
+        droppers.push_back(link);
+        droppers.back().length = distance(scene, link);
+      }
+    if (droppers.empty())
+      return scene;
+    base.links.erase(std::remove_if(base.links.begin(), base.links.end(),
+                                    [](const Link &l) { return l.find_length || l.moving(); }),
+                     base.links.end());
+
+    std::vector<double> tension, length;
+    constexpr int max_iterations = 30;
+    for (int iteration = 0; iteration < max_iterations; ++iteration)
+    {
+      tension = tensions(base, droppers, parameters);
+      length = lengths(base, droppers, tension, parameters);
+      double change = 0.;
+      for (std::size_t i = 0; i < droppers.size(); ++i)
+      {
+        if (droppers[i].mass_per_length > 0.)
+          change = std::max(change, std::fabs(length[i] - droppers[i].length) / length[i]);
+        droppers[i].length = length[i];
+      }
+      if (change < 1e-12)
+        break;
+      if (iteration + 1 == max_iterations)
+        throw UserError("the dropper lengths do not settle: their weight decides the shape of the wires. Check "
+                        "the mass per length of the droppers.");
+    }
+
+    std::size_t i = 0;
+    for (Link &link : scene.links)
+      if (link.find_length)
+      {
+        link.find_length = false;
+        link.length = length[i];
+        if (link.axial_stiffness > 0.)
+          link.stiffness = link.axial_stiffness / length[i];
+        // D = -n . (u_to - u_from) + gap + N / stiffness = 0 under the tension
+        link.gap = length[i] - distance(scene, link) - tension[i] / link.stiffness;
+        add_mass(link, scene);
+        ++i;
+      }
+    return scene;
+  }
+} // namespace taut

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
+#include <taut/time/integrator.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <sstream>
+#include <tuple>
+
+namespace taut
+{
+  bool StepCoefficients::operator==(const StepCoefficients &o) const
+  {
+    return std::tie(velocity, acceleration, v_V, v_A, v_dU, a_V, a_A, a_dU, a_V_old, alpha_m,
+                    alpha_f) == std::tie(o.velocity, o.acceleration, o.v_V, o.v_A, o.v_dU, o.a_V,
+                                         o.a_A, o.a_dU, o.a_V_old, o.alpha_m, o.alpha_f);
+  }
+
+  StepCoefficients backward_euler(const double step)
+  {
+    StepCoefficients c;
+    c.velocity = 1. / step;
+    c.acceleration = 1. / (step * step);
+    c.a_V = -1. / step;
+    return c;
+  }
+
+  StepCoefficients bdf2(const double step)
+  {
+    // V = (3 dU - dU0) / (2 step), A = (3 V - 4 V0 + V_{-1}) / (2 step)
+    StepCoefficients c;
+    c.velocity = 1.5 / step;
+    c.v_dU = -.5 / step;
+    c.acceleration = 2.25 / (step * step);
+    c.a_dU = -.75 / (step * step);
+    c.a_V = -2. / step;
+    c.a_V_old = .5 / step;
+    return c;
+  }
+
+  StepCoefficients newmark(const double step, const double beta, const double gamma,
+                           const double alpha_m, const double alpha_f)
+  {
+    if (!(beta > 0.) || !(gamma >= .5))
+      throw UserError("Newmark needs beta > 0 (it is solved for the displacement) and gamma >= 1/2 "
+                      "(or it is unstable)");
+    StepCoefficients c;
+    c.velocity = gamma / (beta * step);
+    c.v_V = 1. - gamma / beta;
+    c.v_A = step * (1. - gamma / (2. * beta));
+    c.acceleration = 1. / (beta * step * step);
+    c.a_V = -1. / (beta * step);
+    c.a_A = 1. - 1. / (2. * beta);
+    c.alpha_m = alpha_m;
+    c.alpha_f = alpha_f;
+    return c;
+  }
+
+  StepCoefficients generalised_alpha(const double step, const double rho)
+  {
+    if (!(rho >= 0.) || !(rho <= 1.))
+      throw UserError("the spectral radius of generalised-alpha lies in [0, 1]");
+    const double alpha_m = (2. * rho - 1.) / (rho + 1.), alpha_f = rho / (rho + 1.);
+    const double gamma = .5 - alpha_m + alpha_f,
+                 beta = .25 * (1. - alpha_m + alpha_f) * (1. - alpha_m + alpha_f);
+    return newmark(step, beta, gamma, alpha_m, alpha_f);
+  }
+
+  namespace
+  {
+    class BackwardEuler : public TimeIntegrator
+    {
+    public:
+      StepCoefficients coefficients(const double step) const override
+      {
+        return backward_euler(step);
+      }
+      std::string description() const override { return "backward Euler"; }
+    };
+
+    class BDF2 : public TimeIntegrator
+    {
+    public:
+      StepCoefficients coefficients(const double step) const override { return bdf2(step); }
+      std::string description() const override { return "BDF2"; }
+    };
+
+    class Newmark : public TimeIntegrator
+    {
+    public:
+      void declare_parameters(dealii::ParameterHandler &prm) override
+      {
+        prm.enter_subsection("Newmark");
+        prm.add_parameter("Beta", beta, "Weight of the new acceleration in the displacement [1]",
+                          dealii::Patterns::Double(0., 1.));
+        prm.add_parameter("Gamma", gamma,
+                          "Weight of the new acceleration in the velocity; 1/2 is second order, more "
+                          "dissipates and is first order [1]",
+                          dealii::Patterns::Double(.5, 2.));
+        prm.leave_subsection();
+      }
+      StepCoefficients coefficients(const double step) const override
+      {
+        return newmark(step, beta, gamma);
+      }
+      std::string description() const override
+      {
+        std::ostringstream out;
+        out << "Newmark (beta " << beta << ", gamma " << gamma << ")";
+        return out.str();
+      }
+
+    private:
+      double beta = .25, gamma = .5;
+    };
+
+    class GeneralisedAlpha : public TimeIntegrator
+    {
+    public:
+      void declare_parameters(dealii::ParameterHandler &prm) override
+      {
+        prm.enter_subsection("Generalised-alpha");
+        prm.add_parameter("Spectral radius", rho,
+                          "Spectral radius at infinite frequency: 1 keeps all energy, 0 removes the "
+                          "highest frequencies in one step [1]",
+                          dealii::Patterns::Double(0., 1.));
+        prm.leave_subsection();
+      }
+      StepCoefficients coefficients(const double step) const override
+      {
+        return generalised_alpha(step, rho);
+      }
+      std::string description() const override
+      {
+        std::ostringstream out;
+        out << "generalised-alpha (spectral radius " << rho << ")";
+        return out.str();
+      }
+
+    private:
+      double rho = .8;
+    };
+
+    const Register<TimeIntegrator, BackwardEuler>
+        register_backward_euler("backward Euler", "first order, never chatters, dissipates");
+    const Register<TimeIntegrator, BDF2>
+        register_bdf2("BDF2", "second order, dissipates high frequencies; for rigid one-sided links");
+    const Register<TimeIntegrator, Newmark>
+        register_newmark("Newmark", "second order at gamma 1/2; for smooth problems");
+    const Register<TimeIntegrator, GeneralisedAlpha> register_generalised_alpha(
+        "generalised-alpha", "second order, dissipation chosen by the spectral radius");
+  } // namespace
+} // namespace taut

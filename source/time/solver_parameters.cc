@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/time/solver_parameters.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+namespace taut
+{
+  void SolverParameters::declare_parameters(dealii::ParameterHandler &prm)
+  {
+    using namespace dealii;
+    prm.enter_subsection("Solver");
+    prm.add_parameter("Local solver", local_solver,
+                      "Factorisation of the matrix of each body. 'block tridiagonal': LDL^T along a "
+                      "wire, fastest. 'sparse direct': CHOLMOD. Mechanisms always use CHOLMOD.",
+                      Patterns::Selection("block tridiagonal|sparse direct"));
+    prm.add_parameter("Interface operator", interface_operator,
+                      "Contact Schur complement F. 'assembled': a dense matrix, fastest up to some "
+                      "hundred links. 'matrix-free': applied through the factors of the bodies, "
+                      "solved by conjugate gradients.",
+                      Patterns::Selection("assembled|matrix-free"));
+    prm.add_parameter("Complementarity", complementarity,
+                      "Search for the closed links. 'semismooth Newton': starts from the last step "
+                      "and hands over to the other if it cycles. 'energy-ordered': one link at a "
+                      "time, the energy falls at each change; finite, slower.",
+                      Patterns::Selection("semismooth Newton|energy-ordered"));
+    prm.add_parameter("Contact tolerance", contact_tolerance,
+                      "A step whose certificate, the relative residual of its equations, is larger "
+                      "than this ends the run with an error [1]",
+                      Patterns::Double(1e-15, 1.));
+    prm.leave_subsection();
+  }
+} // namespace taut
