@@ -12,7 +12,8 @@ namespace taut
   AssembledSchurComplement::AssembledSchurComplement(const FactoredStructure &solvers,
                                                      const ContactRows &rows)
       : solvers(solvers), rows(rows), F(rows.size()), columns(rows.size())
-  {}
+  {
+  }
 
   void AssembledSchurComplement::compute_column(const std::size_t i)
   {
@@ -25,8 +26,8 @@ namespace taut
       if (column.part.size() <= used)
         column.part.emplace_back();
       // Both ends of a row on one substructure: their columns add, as full vectors.
-      const auto known = std::find(column.substructure.begin(), column.substructure.end(),
-                                   terms[a].substructure);
+      const auto known =
+          std::find(column.substructure.begin(), column.substructure.end(), terms[a].substructure);
       if (known == column.substructure.end())
       {
         solvers[terms[a].substructure].column(terms[a].form, column.part[used]);
@@ -69,7 +70,8 @@ namespace taut
         F.set(i, j, entry(i, rows[j].terms) + (i == j ? S[i] : 0.));
     }
 
-    // Work of a solve: 4 products of b x b blocks a node, b of order 2; of a column: one product an entry.
+    // Work of a solve: 4 products of b x b blocks a node, b of order 2; of a column: one product an
+    // entry.
     std::size_t in_columns = 0;
     for (std::size_t i = 0; i < rows.n_fixed(); ++i)
       for (const WindowedVector &part : columns[i].part)

@@ -12,7 +12,8 @@ namespace taut
       : solvers(solvers), rows(rows), map(static_cast<int>(rows.size()), 0, communicator),
         compliance(rows.size(), 0.), shift(rows.size(), 0.), active(rows.size(), 1),
         multiplier(rows.size()), work(solvers.structure().zero())
-  {}
+  {
+  }
 
   void ContactSchurOperator::restrict_to(const std::vector<std::size_t> &set)
   {
@@ -21,7 +22,10 @@ namespace taut
       active[i] = 1;
   }
 
-  void ContactSchurOperator::unrestrict() { std::fill(active.begin(), active.end(), 1); }
+  void ContactSchurOperator::unrestrict()
+  {
+    std::fill(active.begin(), active.end(), 1);
+  }
 
   void ContactSchurOperator::set_shift(const double factor, const std::vector<double> &diagonal)
   {

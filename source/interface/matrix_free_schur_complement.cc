@@ -12,7 +12,8 @@ namespace taut
 {
   namespace
   {
-    /// Relative residual at which conjugate gradients stop, and the one that still counts as solved.
+    /// Relative residual at which conjugate gradients stop, and the one that still counts as
+    /// solved.
     constexpr double wanted_residual = 1e-15, accepted_residual = 1e-11;
 
     /// Division by the diagonal, as a preconditioner.
@@ -21,7 +22,8 @@ namespace taut
     public:
       DiagonalPreconditioner(const Epetra_Operator &F, const std::vector<double> &diagonal)
           : F(F), diagonal(diagonal)
-      {}
+      {
+      }
       int ApplyInverse(const Epetra_MultiVector &X, Epetra_MultiVector &Y) const override
       {
         for (int v = 0; v < X.NumVectors(); ++v)
@@ -49,7 +51,8 @@ namespace taut
                                                        const ContactRows &rows)
       : solvers(solvers), rows(rows), F(solvers, rows), diagonal_entries(rows.size(), 0.),
         work(solvers.structure().zero())
-  {}
+  {
+  }
 
   void MatrixFreeSchurComplement::compute_diagonal(const std::size_t i)
   {
@@ -128,7 +131,8 @@ namespace taut
     const int bound = 100 + 10 * static_cast<int>(set.size());
     solver.Iterate(bound, wanted_residual);
 
-    // What counts is the true residual, not the one of the recursion; rows are compared by their own scale.
+    // What counts is the true residual, not the one of the recursion; rows are compared by their
+    // own scale.
     std::vector<double> Fx(rows.size());
     F.apply(x.data(), Fx.data());
     F.unrestrict();
@@ -137,7 +141,8 @@ namespace taut
     for (const std::size_t i : set)
     {
       error = std::max(error, std::fabs(Fx[i] - b[i]) / std::sqrt(scale[i]));
-      size = std::max({size, std::fabs(b[i]) / std::sqrt(scale[i]), std::sqrt(scale[i]) * std::fabs(x[i])});
+      size = std::max(
+          {size, std::fabs(b[i]) / std::sqrt(scale[i]), std::sqrt(scale[i]) * std::fabs(x[i])});
     }
     return std::isfinite(error) && error <= accepted_residual * size;
   }

@@ -8,7 +8,8 @@ namespace taut
 {
   namespace
   {
-    /// y_n = sum_k b_k x_{n-k} - sum_{k>0} a_k y_{n-k}, of second order, started as if x had always been x_0.
+    /// y_n = sum_k b_k x_{n-k} - sum_{k>0} a_k y_{n-k}, of second order, started as if x had always
+    /// been x_0.
     struct Section
     {
       double b[3], a[3];

@@ -44,7 +44,8 @@ namespace taut
     const double tolerance = 1e-9 * interval;
     const bool due = state.time >= next - tolerance;
     const bool links_due = state.time >= next_link - 1e-9 * link_interval;
-    const auto write = [&](CsvFile &file, const bool moving) {
+    const auto write = [&](CsvFile &file, const bool moving)
+    {
       file << state.time;
       for (std::size_t i = 0; i < step.rows.size(); ++i)
         if (step.rows[i].moving == moving)

@@ -18,9 +18,14 @@ namespace taut
 {
   namespace
   {
-    const char *const expected_figures[] = {
-        "Mean",    "Standard deviation", "Mean + 3 standard deviations", "Mean - 3 standard deviations",
-        "Maximum", "Minimum",            "Contact loss",                 "Uplift"};
+    const char *const expected_figures[] = {"Mean",
+                                            "Standard deviation",
+                                            "Mean + 3 standard deviations",
+                                            "Mean - 3 standard deviations",
+                                            "Maximum",
+                                            "Minimum",
+                                            "Contact loss",
+                                            "Uplift"};
   }
 
   void StatisticsParameters::declare_parameters(dealii::ParameterHandler &prm)
@@ -127,7 +132,8 @@ namespace taut
   Statistics::ContactFigures Statistics::figures(const Contact &contact) const
   {
     ContactFigures result;
-    const auto in_window = [&](const std::vector<double> &record) {
+    const auto in_window = [&](const std::vector<double> &record)
+    {
       if (parameters.window.size() < 2)
         return record;
       const double slack = 1e-9 * (1. + std::fabs(parameters.window[1]));
@@ -143,13 +149,13 @@ namespace taut
     result.raw = result.filtered = Moments::of(raw);
     if (!raw.empty())
       result.loss = static_cast<double>(std::count(raw.begin(), raw.end(), 0.)) / raw.size();
-    const double step =
-        times.size() > 1 ? (times.back() - times.front()) / (times.size() - 1) : 0.;
+    const double step = times.size() > 1 ? (times.back() - times.front()) / (times.size() - 1) : 0.;
     // The filter needs some samples a period.
-    if (step > 0. && parameters.filter_frequency > 0. && 4. * parameters.filter_frequency * step < 1.)
+    if (step > 0. && parameters.filter_frequency > 0. &&
+        4. * parameters.filter_frequency * step < 1.)
     {
-      result.filtered = Moments::of(
-          in_window(low_pass(contact.force, step, parameters.filter_frequency)));
+      result.filtered =
+          Moments::of(in_window(low_pass(contact.force, step, parameters.filter_frequency)));
       result.is_filtered = true;
     }
     return result;
@@ -172,9 +178,10 @@ namespace taut
     const auto flags = out.flags();
     out << std::fixed << std::setprecision(2);
     const auto line = [&](const std::string &name, const std::string &unit, const double value,
-                          const std::string &raw) {
-      out << "  " << std::left << std::setw(36) << name << std::right << std::setw(10) << value << ' '
-          << std::left << std::setw(3) << unit << std::right << std::setw(12) << raw;
+                          const std::string &raw)
+    {
+      out << "  " << std::left << std::setw(36) << name << std::right << std::setw(10) << value
+          << ' ' << std::left << std::setw(3) << unit << std::right << std::setw(12) << raw;
       const auto range = parameters.expected.find(name);
       if (range != parameters.expected.end() && range->second.size() == 2)
       {
@@ -191,7 +198,8 @@ namespace taut
       if (parameters.window.size() == 2)
         out << ", " << parameters.window[0] << " to " << parameters.window[1] << " m";
       out << " (" << f.n_samples << " samples, "
-          << (f.is_filtered ? "low-passed; unfiltered beside it" : "not filtered: the step is too long")
+          << (f.is_filtered ? "low-passed; unfiltered beside it"
+                            : "not filtered: the step is too long")
           << ")\n";
       if (f.n_samples == 0)
       {
@@ -236,8 +244,7 @@ namespace taut
           longest_name = link_names[i];
         }
       }
-    const std::size_t n_unilateral =
-        std::count(link_unilateral.begin(), link_unilateral.end(), 1);
+    const std::size_t n_unilateral = std::count(link_unilateral.begin(), link_unilateral.end(), 1);
     if (n_unilateral > 0)
     {
       out << "One-sided links that opened: " << n_opened << " of " << n_unilateral;
@@ -259,7 +266,8 @@ namespace taut
   void Statistics::write(const std::string &path) const
   {
     using nlohmann::json;
-    const auto moments = [](const Moments &m) {
+    const auto moments = [](const Moments &m)
+    {
       return json{{"mean [N]", m.mean},
                   {"standard deviation [N]", m.deviation},
                   {"mean + 3 standard deviations [N]", m.mean + 3. * m.deviation},
@@ -313,6 +321,7 @@ namespace taut
     file << root.dump(2) << '\n';
     file.close();
     if (!file)
-      throw UserError("cannot write '" + path + "': check that its folder is writable and the disk not full");
+      throw UserError("cannot write '" + path +
+                      "': check that its folder is writable and the disk not full");
   }
 } // namespace taut

@@ -15,8 +15,14 @@ namespace taut
   {
     using namespace dealii::Patterns;
 
-    const Double not_negative() { return Double(0., Double::max_double_value); }
-    const Anything any_text() { return Anything(); }
+    const Double not_negative()
+    {
+      return Double(0., Double::max_double_value);
+    }
+    const Anything any_text()
+    {
+      return Anything();
+    }
 
     /// Index of the wires in the scene.
     enum : std::size_t
@@ -118,10 +124,11 @@ namespace taut
                       "Half of a dropper's mass goes to each wire [kg/m]", not_negative());
     prm.add_parameter("Messenger clamp mass", messenger_clamp_mass, "[kg]", not_negative());
     prm.add_parameter("Contact clamp mass", contact_clamp_mass, "[kg]", not_negative());
-    prm.add_parameter("Pre-sag", pre_sag,
-                      "Depth of the contact wire below its supports at each dropper of a span in the "
-                      "static state; empty: level [m]",
-                      List(Double(), 0));
+    prm.add_parameter(
+        "Pre-sag", pre_sag,
+        "Depth of the contact wire below its supports at each dropper of a span in the "
+        "static state; empty: level [m]",
+        List(Double(), 0));
     prm.add_parameter("Lengths", dropper_lengths,
                       "Unstressed length of each dropper of a span; empty: found from the pre-sag "
                       "[m]",
@@ -180,8 +187,8 @@ namespace taut
       mast.name = "messenger at masts";
       mast.wire = messenger_wire;
       mast.positions = masts;
-      const double stiffness = parse_stiffness(messenger_support_stiffness,
-                                               "Catenary, Supports, Messenger stiffness");
+      const double stiffness =
+          parse_stiffness(messenger_support_stiffness, "Catenary, Supports, Messenger stiffness");
       mast.fixed = std::isinf(stiffness);
       mast.stiffness = mast.fixed ? 0. : stiffness;
       scene.supports.push_back(mast);
@@ -211,7 +218,8 @@ namespace taut
 
   void Catenary::add_droppers(Scene &scene) const
   {
-    const auto require = [&](const std::vector<double> &list, const std::string &name) {
+    const auto require = [&](const std::vector<double> &list, const std::string &name)
+    {
       if (!list.empty() && list.size() != dropper_positions.size())
         throw UserError("Catenary, Droppers, " + name + ": " + std::to_string(list.size()) +
                         " values for " + std::to_string(dropper_positions.size()) + " Positions");
@@ -298,7 +306,8 @@ namespace taut
     contact_link.kind = LinkKind::sliding_contact;
     contact_link.from = {Attachment::Kind::mass, first, 0.};
     contact_link.to = {Attachment::Kind::wire, contact_wire, item.start};
-    contact_link.stiffness = parse_stiffness(item.contact_stiffness, section + ", Contact stiffness");
+    contact_link.stiffness =
+        parse_stiffness(item.contact_stiffness, section + ", Contact stiffness");
     contact_link.damping = item.contact_damping;
     contact_link.speed = item.speed / 3.6;
     contact_link.profile = Expression(item.profile, section + ", Height profile");

@@ -10,8 +10,9 @@
 namespace taut
 {
   /**
-   * Scene generator `catenary`: a tension length of a railway overhead line, equal spans, a contact wire under a messenger
-   * wire on droppers, and pantographs under it. x runs from the first mast; the contact wire lies at y = 0.
+   * Scene generator `catenary`: a tension length of a railway overhead line, equal spans, a contact
+   * wire under a messenger wire on droppers, and pantographs under it. x runs from the first mast;
+   * the contact wire lies at y = 0.
    */
   class Catenary : public SceneGenerator
   {

@@ -26,8 +26,8 @@ namespace taut
       if (!wire.has_axial && wire.transverse == TransverseKind::none)
         fail("wire '", wire.name, "': no Components; name at least one of bar, string, beam");
       if (!(wire.mass_per_length > 0.))
-        fail("wire '", wire.name, "': Mass per length must be positive, got ",
-             wire.mass_per_length, " kg/m");
+        fail("wire '", wire.name, "': Mass per length must be positive, got ", wire.mass_per_length,
+             " kg/m");
       if (!(wire.element_size > 0.))
         fail("wire '", wire.name, "': Element size must be positive");
       constexpr double most_elements = 2e7;

@@ -38,10 +38,12 @@ namespace taut
     if (is_number && std::isfinite(constant))
       return;
 
-    const auto bad = [&](const std::string &reason) {
-      return UserError(entry + ": cannot evaluate '" + text + "': " + reason +
-                       ". Write a formula in s (position along the wire [m]) and t (time [s]), e.g. "
-                       "'120*sin(2*pi*t)'.");
+    const auto bad = [&](const std::string &reason)
+    {
+      return UserError(
+          entry + ": cannot evaluate '" + text + "': " + reason +
+          ". Write a formula in s (position along the wire [m]) and t (time [s]), e.g. "
+          "'120*sin(2*pi*t)'.");
     };
     auto fresh = std::make_shared<Parser>();
     try

@@ -6,11 +6,20 @@
 
 namespace taut
 {
-  double Wire::length() const { return std::hypot(b.x - a.x, b.y - a.y); }
+  double Wire::length() const
+  {
+    return std::hypot(b.x - a.x, b.y - a.y);
+  }
 
-  Point Wire::tangent() const { return {(b.x - a.x) / length(), (b.y - a.y) / length()}; }
+  Point Wire::tangent() const
+  {
+    return {(b.x - a.x) / length(), (b.y - a.y) / length()};
+  }
 
-  Point Wire::normal() const { return {-tangent().y, tangent().x}; }
+  Point Wire::normal() const
+  {
+    return {-tangent().y, tangent().x};
+  }
 
   Point Wire::at(const double s) const
   {
@@ -21,7 +30,8 @@ namespace taut
   {
     const double length = scene.wires[wire].length();
     std::vector<double> points = {0., length};
-    const auto add = [&](const Attachment &end) {
+    const auto add = [&](const Attachment &end)
+    {
       if (end.kind == Attachment::Kind::wire && end.index == wire)
         points.push_back(end.position);
     };

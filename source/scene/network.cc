@@ -33,8 +33,8 @@ namespace taut
     {
       const Attachment end = parse_attachments(name, scene, entry).front();
       if (end.kind == Attachment::Kind::wire)
-        throw UserError(entry +
-                        ": a spring acts between masses; between wires use a link with a stiffness");
+        throw UserError(
+            entry + ": a spring acts between masses; between wires use a link with a stiffness");
       return end.kind == Attachment::Kind::ground ? ground : end.index;
     }
   } // namespace
@@ -185,7 +185,8 @@ namespace taut
           link.direction = parse_direction(item.direction, title + ", Direction");
         else if (!link.rotational)
         {
-          if (link.from.kind == Attachment::Kind::ground || link.to.kind == Attachment::Kind::ground)
+          if (link.from.kind == Attachment::Kind::ground ||
+              link.to.kind == Attachment::Kind::ground)
             throw UserError(title + ", Direction: give 'x, y', the ground has no place of its own");
           const Point a = place(scene, link.from), b = place(scene, link.to);
           link.direction = parse_direction({b.x - a.x, b.y - a.y},

@@ -18,7 +18,8 @@ namespace taut
     /// @p list is the entry with the names, e.g. "Wires"; sections are called "<section> <name>".
     NamedItems(std::string list, std::string section, std::string help)
         : list(std::move(list)), section(std::move(section)), help(std::move(help))
-    {}
+    {
+    }
 
     void declare_names(dealii::ParameterHandler &prm);
     void declare_parameters(dealii::ParameterHandler &prm);

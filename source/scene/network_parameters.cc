@@ -9,9 +9,18 @@ namespace taut
   {
     using namespace dealii::Patterns;
 
-    const Double not_negative() { return Double(0., Double::max_double_value); }
-    const Double any_number() { return Double(); }
-    const List pair_of_numbers() { return List(Double(), 2, 2); }
+    const Double not_negative()
+    {
+      return Double(0., Double::max_double_value);
+    }
+    const Double any_number()
+    {
+      return Double();
+    }
+    const List pair_of_numbers()
+    {
+      return List(Double(), 2, 2);
+    }
   } // namespace
 
   template <typename Item>
@@ -102,7 +111,8 @@ namespace taut
                       "Where on the wire: numbers and ranges first:step:last [m]");
     prm.add_parameter("Motion", motion, "Which motion of the wire is supported",
                       Selection("transverse|axial|slope"));
-    prm.add_parameter("Type", kind, "'fixed': displacement prescribed; 'elastic': spring and damper",
+    prm.add_parameter("Type", kind,
+                      "'fixed': displacement prescribed; 'elastic': spring and damper",
                       Selection("fixed|elastic"));
     prm.add_parameter("Displacement", displacement, "Of a fixed support, a formula in t [m, rad]");
     prm.add_parameter("Stiffness", stiffness, "Of an elastic support [N/m, N m/rad]",
@@ -148,33 +158,38 @@ namespace taut
 
   void Network::LinkItem::declare(dealii::ParameterHandler &prm)
   {
-    prm.add_parameter("Type", type,
-                      "'joint': holds its ends together. 'stop': pushes them apart. 'dropper': pulls "
-                      "them together. 'sliding contact': a stop whose second end moves on a wire",
-                      Selection("joint|stop|dropper|sliding contact"));
-    prm.add_parameter("From", from,
-                      "'ground', a mass, or 'wire @ position'; several positions (numbers and ranges "
-                      "first:step:last) make one link each");
+    prm.add_parameter(
+        "Type", type,
+        "'joint': holds its ends together. 'stop': pushes them apart. 'dropper': pulls "
+        "them together. 'sliding contact': a stop whose second end moves on a wire",
+        Selection("joint|stop|dropper|sliding contact"));
+    prm.add_parameter(
+        "From", from,
+        "'ground', a mass, or 'wire @ position'; several positions (numbers and ranges "
+        "first:step:last) make one link each");
     prm.add_parameter("To", to, "As From; for a sliding contact 'wire @ start'");
-    prm.add_parameter("Direction", direction,
-                      "'x, y' from From to To; a stop or sliding contact pushes To along it. Empty: "
-                      "along the straight line between the ends",
-                      List(Double(), 0, 2));
+    prm.add_parameter(
+        "Direction", direction,
+        "'x, y' from From to To; a stop or sliding contact pushes To along it. Empty: "
+        "along the straight line between the ends",
+        List(Double(), 0, 2));
     prm.add_parameter("Rotational", rotational,
                       "Acts between slopes or rotations: moments and angular gaps");
     prm.add_parameter("Stiffness", stiffness, "A number or 'rigid' [N/m, N m/rad]");
     prm.add_parameter("Damping", damping, "Beside the stiffness (Kelvin-Voigt) [N s/m, N m s/rad]",
                       not_negative());
-    prm.add_parameter("Gap", gap,
-                      "Of the undeformed bodies: distance to contact of a stop, slack of a dropper; "
-                      "negative: prestressed [m, rad]",
-                      any_number());
+    prm.add_parameter(
+        "Gap", gap,
+        "Of the undeformed bodies: distance to contact of a stop, slack of a dropper; "
+        "negative: prestressed [m, rad]",
+        any_number());
     prm.add_parameter("Speed", speed, "Of a sliding contact along its wire [m/s]", any_number());
     prm.add_parameter("Height profile", profile,
                       "Of the wire under a sliding contact along Direction, a formula in s [m]");
-    prm.add_parameter("Find length", find_length,
-                      "A dropper as long as its To end needs to stand at the prescribed displacement "
-                      "in the static state without sliding contacts");
+    prm.add_parameter(
+        "Find length", find_length,
+        "A dropper as long as its To end needs to stand at the prescribed displacement "
+        "in the static state without sliding contacts");
     prm.add_parameter("Prescribed displacement", prescribed_displacement,
                       "Of the To end towards From, if the length is found [m]", any_number());
     prm.add_parameter("Axial stiffness", axial_stiffness,
@@ -191,8 +206,8 @@ namespace taut
                       "'point': at a mass or a point of a wire. 'distributed': along a wire. "
                       "'moving': travels on a wire from its position with Speed",
                       Selection("point|distributed|moving"));
-    prm.add_parameter("On", on,
-                      "A mass or 'wire @ position'; of a distributed load the position is not used");
+    prm.add_parameter(
+        "On", on, "A mass or 'wire @ position'; of a distributed load the position is not used");
     prm.add_parameter("Direction", direction, "'x, y'; the length does not matter",
                       pair_of_numbers());
     prm.add_parameter("Rotational", rotational, "A moment instead of a force");

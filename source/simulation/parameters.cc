@@ -56,13 +56,15 @@ namespace taut
   {
     using namespace dealii::Patterns;
     prm.add_parameter("Generator", generator_name,
-                      "What fills the scene. " + Registry<SceneGenerator>::instance().descriptions(),
+                      "What fills the scene. " +
+                          Registry<SceneGenerator>::instance().descriptions(),
                       Selection(Registry<SceneGenerator>::instance().names()));
     prm.add_parameter("Gravity", gravity, "'x, y' [m/s^2]", List(Double(), 2, 2));
-    prm.add_parameter("Start", start,
-                      "'equilibrium': at rest under the loads at t = 0. 'undeformed': straight wires, "
-                      "at rest. 'given': initial displacements and velocities of the bodies",
-                      Selection("equilibrium|undeformed|given"));
+    prm.add_parameter(
+        "Start", start,
+        "'equilibrium': at rest under the loads at t = 0. 'undeformed': straight wires, "
+        "at rest. 'given': initial displacements and velocities of the bodies",
+        Selection("equilibrium|undeformed|given"));
 
     prm.enter_subsection("Time");
     prm.add_parameter("Scheme", scheme,
@@ -81,10 +83,11 @@ namespace taut
     prm.enter_subsection("Output");
     prm.add_parameter("Folder", folder, "Where the results go; made if it does not exist",
                       Anything());
-    prm.add_parameter("Interval", interval,
-                      "Least time between two lines of sliding.csv, probes.csv, certificate.csv; 0: "
-                      "every step [s]",
-                      Double(0., Double::max_double_value));
+    prm.add_parameter(
+        "Interval", interval,
+        "Least time between two lines of sliding.csv, probes.csv, certificate.csv; 0: "
+        "every step [s]",
+        Double(0., Double::max_double_value));
     prm.add_parameter("Link interval", link_interval,
                       "Least time between two lines of links.csv; 0: every step [s]",
                       Double(0., Double::max_double_value));
@@ -102,6 +105,7 @@ namespace taut
     for (const std::string &o : overrides)
       text << as_parameter_text(o);
 
+    dealii::deal_II_exceptions::suppress_stacktrace_in_exceptions();
     const std::string names = Registry<TimeIntegrator>::instance().names();
     std::istringstream list(names);
     for (std::string name; std::getline(list, name, '|');)
@@ -109,12 +113,13 @@ namespace taut
 
     try
     {
-      // The generator's name, then the names of its items, then everything: each pass knows what to declare for the
-      // next one, and only the last is strict.
+      // The generator's name, then the names of its items, then everything: each pass knows what to
+      // declare for the next one, and only the last is strict.
       {
         dealii::ParameterHandler prm;
-        prm.add_parameter("Generator", generator_name, "",
-                          dealii::Patterns::Selection(Registry<SceneGenerator>::instance().names()));
+        prm.add_parameter(
+            "Generator", generator_name, "",
+            dealii::Patterns::Selection(Registry<SceneGenerator>::instance().names()));
         prm.parse_input_from_string(text.str(), "", true);
       }
       generator = Registry<SceneGenerator>::instance().create(generator_name);

@@ -16,8 +16,9 @@
 namespace taut
 {
   Simulation::Simulation(const Parameters &parameters, std::ostream &log)
-      : parameters(parameters), log(log), model(find_lengths(parameters.scene(), parameters.solver)),
-        bodies(model), links(model, bodies)
+      : parameters(parameters), log(log),
+        model(find_lengths(parameters.scene(), parameters.solver)), bodies(model),
+        links(model, bodies)
   {
     for (const Probe &probe : model.probes)
     {
@@ -51,32 +52,41 @@ namespace taut
     Series series(parameters.folder, model, links, parameters.interval, parameters.link_interval);
     Statistics statistics(parameters.statistics, model, links);
 
-    update_probes(start);
-    for (Observer *observer : std::initializer_list<Observer *>{&series, &statistics})
-      observer->record(view(start, start_certificate));
-
-    const auto n_steps = std::lround(parameters.end_time / parameters.step);
+    std::vector<Observer *> observers = {&series, &statistics};
+    observers.insert(observers.end(), guests.begin(), guests.end());
     const auto begin = std::chrono::steady_clock::now();
-    for (long i = 1; i <= n_steps; ++i)
-    {
-      const auto before = std::chrono::steady_clock::now();
-      stepper.advance();
-      seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
-
-      update_probes(stepper.state());
-      for (Observer *observer : std::initializer_list<Observer *>{&series, &statistics})
-        observer->record(view(stepper.state(), stepper.certificate()));
-      if (10 * i / n_steps != 10 * (i - 1) / n_steps)
-        log << "  t = " << stepper.state().time << " s (" << 100 * i / n_steps << " %)" << std::endl;
-    }
+    advance(stepper, observers);
     const double all =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     series.close();
     statistics.write(parameters.folder + "/statistics.json");
     statistics.print(log);
+    const long n_steps = stepper.n_steps_done();
     log << n_steps << " steps in " << all << " s: " << 1e6 * seconds / n_steps
         << " us a step without output, " << parameters.end_time / all << " x real time\n"
         << "Results in " << parameters.folder << '\n';
+  }
+
+  void Simulation::advance(TimeStepper &stepper, const std::vector<Observer *> &observers)
+  {
+    const auto show = [&](const State &state, const Certificate &certificate)
+    {
+      update_probes(state);
+      for (Observer *observer : observers)
+        observer->record(view(state, certificate));
+    };
+    show(start, start_certificate);
+    const auto n_steps = std::lround(parameters.end_time / parameters.step);
+    for (long i = 1; i <= n_steps; ++i)
+    {
+      const auto before = std::chrono::steady_clock::now();
+      stepper.advance();
+      seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+      show(stepper.state(), stepper.certificate());
+      if (10 * i / n_steps != 10 * (i - 1) / n_steps)
+        log << "  t = " << stepper.state().time << " s (" << 100 * i / n_steps << " %)"
+            << std::endl;
+    }
   }
 
   void Simulation::describe() const
@@ -91,14 +101,14 @@ namespace taut
         << model.masses.size() << " masses, " << model.links.size() << " links\n"
         << "  " << bodies.size() << " bodies:";
     for (std::size_t k = 0; k < bodies.size(); ++k)
-      log << (k > 0 ? "," : "") << " '" << bodies[k].name() << "' " << bodies[k].n_dofs() << " DoFs";
+      log << (k > 0 ? "," : "") << " '" << bodies[k].name() << "' " << bodies[k].n_dofs()
+          << " DoFs";
     log << "\n  " << links.size() << " multipliers: " << n_unilateral << " one-sided, "
         << links.size() - n_unilateral << " bilateral; " << links.size() - links.n_fixed()
         << " moving; " << n_rigid << " rigid\n";
 
-    const auto any_wire = [&](const auto &has) {
-      return std::any_of(model.wires.begin(), model.wires.end(), has);
-    };
+    const auto any_wire = [&](const auto &has)
+    { return std::any_of(model.wires.begin(), model.wires.end(), has); };
     if (!model.wires.empty() &&
         !any_wire([](const Wire &w) { return w.transverse == TransverseKind::beam; }))
       log << "  no bending: no slope DoFs\n";
@@ -125,7 +135,8 @@ namespace taut
       StaticState state = static_equilibrium(bodies, links, parameters.solver, 0.);
       reference.displacement = state.displacement;
       for (std::size_t k = 0; k < bodies.size(); ++k)
-        bodies[k].stiffness().vmult_add(1., state.displacement[k].data(), reference.force[k].data());
+        bodies[k].stiffness().vmult_add(1., state.displacement[k].data(),
+                                        reference.force[k].data());
       start.multiplier = state.multiplier;
       start_certificate = state.certificate;
       log << "Static equilibrium: residual " << start_certificate.complementarity << " (links), "
@@ -158,9 +169,9 @@ namespace taut
       start.link_springs[i].u = u;
       start.gap[i] = start.geometric_gap[i] + u;
       if (model.start != Start::equilibrium && start.gap[i] < 0. && row.unilateral)
-        throw UserError("link '" + row.name + "' starts with a gap of " +
-                        std::to_string(start.gap[i]) +
-                        ": a rigid one-sided link starts open or just touching. Change its Gap or the start.");
+        throw UserError(
+            "link '" + row.name + "' starts with a gap of " + std::to_string(start.gap[i]) +
+            ": a rigid one-sided link starts open or just touching. Change its Gap or the start.");
     }
   }
 
@@ -216,8 +227,9 @@ namespace taut
     {
       const Link &link = model.links[links[i].link];
       const Attachment &end = link.to.kind == Attachment::Kind::ground ? link.from : link.to;
-      const double x = end.kind == Attachment::Kind::wire ? model.wires[end.index].at(end.position).x
-                                                          : model.masses[end.index].position.x;
+      const double x = end.kind == Attachment::Kind::wire
+                           ? model.wires[end.index].at(end.position).x
+                           : model.masses[end.index].position.x;
       file << links[i].name << x << start.multiplier[i] << start.geometric_gap[i]
            << (link.length > 0. ? link.length : 0.);
       file.end_line();

@@ -80,12 +80,12 @@ namespace taut
       Block<b> C;
       for (int r = 0; r < b; ++r)
         for (int c = 0; c < b; ++c)
-          C[r * b + c] =
-              .5 * ((A[r * b + c] - B[r * b + c]) + (A[c * b + r] - B[c * b + r]));
+          C[r * b + c] = .5 * ((A[r * b + c] - B[r * b + c]) + (A[c * b + r] - B[c * b + r]));
       return C;
     }
 
-    /// Inverse of a definite block through its Cholesky factor. @p original has the diagonal before elimination.
+    /// Inverse of a definite block through its Cholesky factor. @p original has the diagonal before
+    /// elimination.
     template <int b>
     Block<b> invert(const Block<b> &A, const Block<b> &original, const std::size_t node)
     {
@@ -128,9 +128,10 @@ namespace taut
     }
 
     /**
-     * With D_i and L_i the blocks of A (L_i couples node i to i - 1), the elimination from the left has pivots
-     * Dl_i = D_i - L_i Dl_{i-1}^-1 L_i^T and multipliers G_i = L_i Dl_{i-1}^-1; the one from the right
-     * Dr_i = D_i - L_{i+1}^T Dr_{i+1}^-1 L_{i+1} and H_i = L_{i+1}^T Dr_{i+1}^-1. A solve runs both to the middle node.
+     * With D_i and L_i the blocks of A (L_i couples node i to i - 1), the elimination from the left
+     * has pivots Dl_i = D_i - L_i Dl_{i-1}^-1 L_i^T and multipliers G_i = L_i Dl_{i-1}^-1; the one
+     * from the right Dr_i = D_i - L_{i+1}^T Dr_{i+1}^-1 L_{i+1} and H_i = L_{i+1}^T Dr_{i+1}^-1. A
+     * solve runs both to the middle node.
      */
     template <int b>
     class BlockTridiagonalSolver : public LocalSolver
@@ -142,8 +143,7 @@ namespace taut
       void column(const SparseVector &rhs, WindowedVector &x) const override;
 
     private:
-      void solve_element(unsigned int node, const std::array<double, 2 * b> &rhs,
-                         double *x) const;
+      void solve_element(unsigned int node, const std::array<double, 2 * b> &rhs, double *x) const;
 
       std::size_t n = 0, middle = 0;
       std::vector<Block<b>> D, L;
@@ -168,18 +168,20 @@ namespace taut
       D.assign(n, {});
       L.assign(n, {});
       for (const auto &[factor, matrix] : summands)
-        matrix->visit([&, factor = factor](unsigned int i, unsigned int j, double value) {
-          if (is_constrained[i] || is_constrained[j])
-            return;
-          if (i / b != j / b)
-            L[i / b][(i % b) * b + j % b] += factor * value;
-          else
-          {
-            D[i / b][(i % b) * b + j % b] += factor * value;
-            if (i != j)
-              D[i / b][(j % b) * b + i % b] += factor * value;
-          }
-        });
+        matrix->visit(
+            [&, factor = factor](unsigned int i, unsigned int j, double value)
+            {
+              if (is_constrained[i] || is_constrained[j])
+                return;
+              if (i / b != j / b)
+                L[i / b][(i % b) * b + j % b] += factor * value;
+              else
+              {
+                D[i / b][(i % b) * b + j % b] += factor * value;
+                if (i != j)
+                  D[i / b][(j % b) * b + i % b] += factor * value;
+              }
+            });
       for (const unsigned int dof : constrained)
         D[dof / b][(dof % b) * (b + 1)] = 1.;
 
@@ -239,12 +241,14 @@ namespace taut
       std::copy(y, y + b, m);
 
       // And back outwards.
-      const auto leftwards = [&](const std::size_t k) {
+      const auto leftwards = [&](const std::size_t k)
+      {
         multiply<b>(left_inverse[k], p + b * k, y);
         subtract_transposed<b>(G[k + 1], p + b * (k + 1), y);
         std::copy(y, y + b, p + b * k);
       };
-      const auto rightwards = [&](const std::size_t k) {
+      const auto rightwards = [&](const std::size_t k)
+      {
         multiply<b>(right_inverse[k], p + b * k, y);
         subtract_transposed<b>(H[k - 1], p + b * (k - 1), y);
         std::copy(y, y + b, p + b * k);
@@ -299,7 +303,8 @@ namespace taut
         return;
       }
 
-      unsigned int node = rhs.index.empty() ? 0 : *std::min_element(rhs.index.begin(), rhs.index.end()) / b;
+      unsigned int node =
+          rhs.index.empty() ? 0 : *std::min_element(rhs.index.begin(), rhs.index.end()) / b;
       node = std::min<unsigned int>(node, n - 2);
       std::array<double, 2 * b> r{};
       for (std::size_t k = 0; k < rhs.index.size(); ++k)
@@ -314,8 +319,10 @@ namespace taut
 
       double limit[b];
       for (int c = 0; c < b; ++c)
-        limit[c] = negligible * std::max(std::fabs(p[b * node + c]), std::fabs(p[b * node + b + c]));
-      const auto small = [&](const std::size_t k) {
+        limit[c] =
+            negligible * std::max(std::fabs(p[b * node + c]), std::fabs(p[b * node + b + c]));
+      const auto small = [&](const std::size_t k)
+      {
         bool all = true;
         for (int c = 0; c < b; ++c)
         {
@@ -346,16 +353,16 @@ namespace taut
   {
     switch (block_size)
     {
-      case 1:
-        return std::make_unique<BlockTridiagonalSolver<1>>();
-      case 2:
-        return std::make_unique<BlockTridiagonalSolver<2>>();
-      case 3:
-        return std::make_unique<BlockTridiagonalSolver<3>>();
-      case 4:
-        return std::make_unique<BlockTridiagonalSolver<4>>();
-      default:
-        throw std::logic_error("block size of a block-tridiagonal solver outside 1..4");
+    case 1:
+      return std::make_unique<BlockTridiagonalSolver<1>>();
+    case 2:
+      return std::make_unique<BlockTridiagonalSolver<2>>();
+    case 3:
+      return std::make_unique<BlockTridiagonalSolver<3>>();
+    case 4:
+      return std::make_unique<BlockTridiagonalSolver<4>>();
+    default:
+      throw std::logic_error("block size of a block-tridiagonal solver outside 1..4");
     }
   }
 

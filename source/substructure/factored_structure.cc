@@ -43,10 +43,12 @@ namespace taut
       {
         std::vector<double> diagonal(bodies[k].n_dofs(), 0.);
         double largest = 0.;
-        held->visit([&](unsigned int i, unsigned int j, double value) {
-          if (i == j)
-            largest = std::max(largest, diagonal[i] = value);
-        });
+        held->visit(
+            [&](unsigned int i, unsigned int j, double value)
+            {
+              if (i == j)
+                largest = std::max(largest, diagonal[i] = value);
+            });
         for (const unsigned int dof : kernels[k].fixing_dofs)
           held->add(dof, dof, diagonal[dof] > 0. ? diagonal[dof] : largest > 0. ? largest : 1.);
       }

@@ -163,14 +163,12 @@ namespace taut
       const MappingOutput &mapping_data, const ElementInternal &fe_internal,
       ElementOutput &output_data) const
   {
-    // On faces, which have no subfaces here, the base class writes everything anew for each cell,
-    // values too.
+    // On faces (vertices, without subfaces) the base class writes everything anew for each cell;
+    // the values of the slope functions are zero there.
     dealii::FE_Poly<dim, spacedim>::fill_fe_face_values(cell, face_no, quadrature, mapping,
                                                         mapping_internal, mapping_data, fe_internal,
                                                         output_data);
-    const double h = signed_length(cell);
-    scale_slope_rows(h, output_data.shape_values);
-    scale_slope_derivatives(h, output_data);
+    scale_slope_derivatives(signed_length(cell), output_data);
   }
 
   template class FE_Hermite<1, 1>;

@@ -100,10 +100,12 @@ namespace taut
 
   Substructure::Kernel Mechanism::kernel() const
   {
-    // Eigenvectors of zero eigenvalue of the stiffness scaled to a unit diagonal; a DoF without any stiffness is one.
+    // Eigenvectors of zero eigenvalue of the stiffness scaled to a unit diagonal; a DoF without any
+    // stiffness is one.
     const int n = dofs.size();
     std::vector<double> a(n * n, 0.), scale(n, 1.), eigenvalues(n), work(8 * n + 64);
-    K->visit([&](unsigned int i, unsigned int j, double value) { a[i * n + j] = a[j * n + i] = value; });
+    K->visit([&](unsigned int i, unsigned int j, double value)
+             { a[i * n + j] = a[j * n + i] = value; });
     for (int i = 0; i < n; ++i)
       if (a[i * n + i] > 0.)
         scale[i] = 1. / std::sqrt(a[i * n + i]);
@@ -132,9 +134,8 @@ namespace taut
         for (int i = 0; i < n; ++i)
           R[i] -= factor * reduced[p][i];
       }
-      const auto largest = std::max_element(R.begin(), R.end(), [](double p, double q) {
-        return std::fabs(p) < std::fabs(q);
-      });
+      const auto largest = std::max_element(
+          R.begin(), R.end(), [](double p, double q) { return std::fabs(p) < std::fabs(q); });
       kernel.fixing_dofs.push_back(largest - R.begin());
       reduced.push_back(std::move(R));
     }
@@ -145,7 +146,8 @@ namespace taut
   {
     std::vector<std::size_t> root(scene.masses.size());
     std::iota(root.begin(), root.end(), 0);
-    const auto find = [&](std::size_t i) {
+    const auto find = [&](std::size_t i)
+    {
       while (root[i] != i)
         i = root[i];
       return i;
@@ -159,8 +161,9 @@ namespace taut
     std::vector<std::vector<std::size_t>> groups(scene.masses.size());
     for (std::size_t i = 0; i < scene.masses.size(); ++i)
       groups[find(i)].push_back(i);
-    groups.erase(std::remove_if(groups.begin(), groups.end(), [](const auto &g) { return g.empty(); }),
-                 groups.end());
+    groups.erase(
+        std::remove_if(groups.begin(), groups.end(), [](const auto &g) { return g.empty(); }),
+        groups.end());
     return groups;
   }
 } // namespace taut

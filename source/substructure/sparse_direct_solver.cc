@@ -61,7 +61,8 @@ namespace taut
 
       std::vector<int> rows, columns;
       std::vector<double> values, diagonal(n, 0.);
-      const auto add = [&](unsigned int i, unsigned int j, double value) {
+      const auto add = [&](unsigned int i, unsigned int j, double value)
+      {
         rows.push_back(i);
         columns.push_back(j);
         values.push_back(value);
@@ -69,10 +70,12 @@ namespace taut
           diagonal[i] += value;
       };
       for (const auto &[factor, matrix] : summands)
-        matrix->visit([&, factor = factor](unsigned int i, unsigned int j, double value) {
-          if (!is_constrained[i] && !is_constrained[j])
-            add(i, j, factor * value);
-        });
+        matrix->visit(
+            [&, factor = factor](unsigned int i, unsigned int j, double value)
+            {
+              if (!is_constrained[i] && !is_constrained[j])
+                add(i, j, factor * value);
+            });
       for (const unsigned int dof : constrained)
         add(dof, dof, 1.);
 

@@ -49,7 +49,8 @@ namespace taut
   void Structure::motion(const Attachment &point, const bool rotational, const Point &direction,
                          const double factor, std::vector<Term> &terms) const
   {
-    const auto append = [&](const std::size_t k, const double f, SparseVector form) {
+    const auto append = [&](const std::size_t k, const double f, SparseVector form)
+    {
       for (double &v : form.value)
         v *= f;
       if (!form.index.empty())
@@ -69,9 +70,8 @@ namespace taut
       const Point &t = tangents[point.index], &n = normals[point.index];
       const double along = direction.x * t.x + direction.y * t.y,
                    across = direction.x * n.x + direction.y * n.y;
-      const auto wire = [&](const std::size_t k) -> const WireComponent & {
-        return static_cast<const WireComponent &>(*substructures[k]);
-      };
+      const auto wire = [&](const std::size_t k) -> const WireComponent &
+      { return static_cast<const WireComponent &>(*substructures[k]); };
       if (rotational)
       {
         wire(parts.transverse).slope_at(point.position, form);

@@ -28,7 +28,8 @@ namespace taut
     for (std::size_t i = 0; i < constrained.size(); ++i)
     {
       if (i > 0 && constrained[i].dof == constrained[i - 1].dof)
-        throw UserError(name() + ": two supports hold the same motion of the same point; remove one");
+        throw UserError(name() +
+                        ": two supports hold the same motion of the same point; remove one");
       moving_constraints = moving_constraints || !constrained[i].motion.is_zero();
     }
   }

@@ -37,11 +37,13 @@ namespace taut
   BlockTridiagonalMatrix<b>::BlockTridiagonalMatrix(const unsigned int n) : rows(n / b)
   {
     if (n % b != 0)
-      throw std::logic_error("the size of a block-tridiagonal matrix is a multiple of its block size");
+      throw std::logic_error(
+          "the size of a block-tridiagonal matrix is a multiple of its block size");
   }
 
   template <int b>
-  void BlockTridiagonalMatrix<b>::add(const unsigned int i, const unsigned int j, const double value)
+  void BlockTridiagonalMatrix<b>::add(const unsigned int i, const unsigned int j,
+                                      const double value)
   {
     const unsigned int r = std::max(i, j), c = std::min(i, j);
     if (r / b == c / b)
@@ -61,7 +63,8 @@ namespace taut
   void BlockTridiagonalMatrix<b>::vmult_add(const double factor, const double *x, double *y) const
   {
     const std::size_t n = rows.size();
-    // Row by row: D_i x_i + L_i x_{i-1} into y_i, and L_i^T x_i into y_{i-1}, which is complete after it.
+    // Row by row: D_i x_i + L_i x_{i-1} into y_i, and L_i^T x_i into y_{i-1}, which is complete
+    // after it.
     for (std::size_t i = 0; i < n; ++i)
     {
       const Row &row = rows[i];
@@ -119,16 +122,16 @@ namespace taut
   {
     switch (block_size)
     {
-      case 1:
-        return std::make_unique<BlockTridiagonalMatrix<1>>(n);
-      case 2:
-        return std::make_unique<BlockTridiagonalMatrix<2>>(n);
-      case 3:
-        return std::make_unique<BlockTridiagonalMatrix<3>>(n);
-      case 4:
-        return std::make_unique<BlockTridiagonalMatrix<4>>(n);
-      default:
-        throw std::logic_error("block size of a wire outside 1..4");
+    case 1:
+      return std::make_unique<BlockTridiagonalMatrix<1>>(n);
+    case 2:
+      return std::make_unique<BlockTridiagonalMatrix<2>>(n);
+    case 3:
+      return std::make_unique<BlockTridiagonalMatrix<3>>(n);
+    case 4:
+      return std::make_unique<BlockTridiagonalMatrix<4>>(n);
+    default:
+      throw std::logic_error("block size of a wire outside 1..4");
     }
   }
 } // namespace taut

@@ -147,10 +147,9 @@ namespace taut
       const unsigned int offset = support.motion == WireMotion::slope ? 1 : 0;
       for (const double s : support.positions)
       {
-        const auto node =
-            std::min_element(nodes.begin(), nodes.end(), [s](const double p, const double q) {
-              return std::fabs(p - s) < std::fabs(q - s);
-            });
+        const auto node = std::min_element(nodes.begin(), nodes.end(),
+                                           [s](const double p, const double q)
+                                           { return std::fabs(p - s) < std::fabs(q - s); });
         const unsigned int dof = dofs_per_node * (node - nodes.begin()) + offset;
         if (support.fixed)
           constrained.push_back({dof, support.prescribed});
@@ -231,7 +230,8 @@ namespace taut
   public:
     MovingLoad(const WireComponent &wire, const Load &load, const double factor)
         : wire(wire), load(load), factor(factor)
-    {}
+    {
+    }
 
     void add(const double t, std::vector<double> &P) const override
     {
@@ -343,7 +343,8 @@ namespace taut
         if (left == 0. && s == 0.)
           U[2 * i + 1] = (-3. * f(0., 0.) + 4. * f(delta, 0.) - f(2. * delta, 0.)) / (2. * delta);
         if (right == length() && s == length())
-          U[2 * i + 1] = (3. * f(s, 0.) - 4. * f(s - delta, 0.) + f(s - 2. * delta, 0.)) / (2. * delta);
+          U[2 * i + 1] =
+              (3. * f(s, 0.) - 4. * f(s - delta, 0.) + f(s - 2. * delta, 0.)) / (2. * delta);
       }
       else if (i + 1 < nodes.size())
         for (unsigned int k = 1; k < degree; ++k)
@@ -362,12 +363,13 @@ namespace taut
 
   Substructure::Kernel WireComponent::kernel() const
   {
-    // Rigid motions q0 + q1 (s - L/2)/(L/2) that cost nothing: q1 only for a beam without tension. Each held DoF of
-    // the supports is one condition on (q0, q1).
+    // Rigid motions q0 + q1 (s - L/2)/(L/2) that cost nothing: q1 only for a beam without tension.
+    // Each held DoF of the supports is one condition on (q0, q1).
     const double half = .5 * length();
     const unsigned int n_rigid = bends_freely ? 2 : 1;
     std::vector<std::pair<double, double>> conditions;
-    const auto hold = [&](const unsigned int dof) {
+    const auto hold = [&](const unsigned int dof)
+    {
       const double s = nodes[dof / dofs_per_node];
       if (beam && dof % 2 == 1)
         conditions.emplace_back(0., 1.);
@@ -382,7 +384,8 @@ namespace taut
 
     Kernel kernel;
     const unsigned int last = dofs_per_node * (nodes.size() - 1);
-    const auto add = [&](const double q0, const double q1, const unsigned int dof) {
+    const auto add = [&](const double q0, const double q1, const unsigned int dof)
+    {
       std::vector<double> R(n_dofs(), 0.);
       for (std::size_t i = 0; i < nodes.size(); ++i)
       {
@@ -413,9 +416,9 @@ namespace taut
     }
     // One independent condition leaves the motion orthogonal to it; a second one leaves none.
     const auto [c0, c1] = conditions.front();
-    const bool held = std::any_of(conditions.begin(), conditions.end(), [&](const auto &c) {
-      return std::fabs(c0 * c.second - c1 * c.first) > 1e-12;
-    });
+    const bool held =
+        std::any_of(conditions.begin(), conditions.end(),
+                    [&](const auto &c) { return std::fabs(c0 * c.second - c1 * c.first) > 1e-12; });
     if (!held)
       add(-c1, c0, std::fabs(-c1 - c0) > std::fabs(-c1 + c0) ? 0 : last);
     return kernel;

@@ -15,7 +15,8 @@ namespace taut
     /// Courant number below which BDF2's multipliers oscillate.
     constexpr double least_courant_number = .25;
 
-    /// Wave speed times step over element size, of the wire that an attachment is on, for motion along a direction.
+    /// Wave speed times step over element size, of the wire that an attachment is on, for motion
+    /// along a direction.
     double courant_number(const Scene &scene, const Attachment &end, const Point &direction,
                           const double step)
     {
@@ -30,15 +31,16 @@ namespace taut
           std::fabs(direction.x * n.x + direction.y * n.y) > 1e-12)
       {
         const double wave_number = std::acos(-1.) / wire.element_size;
-        squared = std::min(squared,
-                           wire.tension + wire.bending_stiffness * wave_number * wave_number);
+        squared =
+            std::min(squared, wire.tension + wire.bending_stiffness * wave_number * wave_number);
       }
       return std::sqrt(squared / wire.mass_per_length) * step / wire.element_size;
     }
   } // namespace
 
-  SchemeChoice choose_scheme(const Scene &scene, const Structure &structure, const ContactRows &rows,
-                             const SolverParameters &parameters, const double step)
+  SchemeChoice choose_scheme(const Scene &scene, const Structure &structure,
+                             const ContactRows &rows, const SolverParameters &parameters,
+                             const double step)
   {
     bool one_sided = false;
     for (std::size_t i = 0; i < rows.size(); ++i)
@@ -72,7 +74,8 @@ namespace taut
                           courant_number(scene, link.to, link.direction, step)});
     }
     if (rigid.empty())
-      return {"generalised-alpha", "all one-sided links are more compliant than the bodies in one step"};
+      return {"generalised-alpha",
+              "all one-sided links are more compliant than the bodies in one step"};
     std::ostringstream reason;
     reason << "one-sided link '" << rigid << "' acts as rigid; waves cross " << courant
            << " elements a step";

@@ -102,9 +102,10 @@ namespace taut
         structure.motion(dropper.from, false, dropper.direction, -1., terms);
         result.push_back(distance(scene, dropper) + evaluate(terms, state.displacement));
         if (result.back() <= 0.)
-          throw UserError("dropper '" + dropper.name +
-                          "' would have no length: its wires touch in the static state. Increase the "
-                          "encumbrance or the tension of the upper wire.");
+          throw UserError(
+              "dropper '" + dropper.name +
+              "' would have no length: its wires touch in the static state. Increase the "
+              "encumbrance or the tension of the upper wire.");
       }
       return result;
     }
@@ -142,8 +143,9 @@ namespace taut
       if (change < 1e-12)
         break;
       if (iteration + 1 == max_iterations)
-        throw UserError("the dropper lengths do not settle: their weight decides the shape of the wires. Check "
-                        "the mass per length of the droppers.");
+        throw UserError(
+            "the dropper lengths do not settle: their weight decides the shape of the wires. Check "
+            "the mass per length of the droppers.");
     }
 
     std::size_t i = 0;

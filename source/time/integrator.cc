@@ -93,10 +93,11 @@ namespace taut
         prm.enter_subsection("Newmark");
         prm.add_parameter("Beta", beta, "Weight of the new acceleration in the displacement [1]",
                           dealii::Patterns::Double(0., 1.));
-        prm.add_parameter("Gamma", gamma,
-                          "Weight of the new acceleration in the velocity; 1/2 is second order, more "
-                          "dissipates and is first order [1]",
-                          dealii::Patterns::Double(.5, 2.));
+        prm.add_parameter(
+            "Gamma", gamma,
+            "Weight of the new acceleration in the velocity; 1/2 is second order, more "
+            "dissipates and is first order [1]",
+            dealii::Patterns::Double(.5, 2.));
         prm.leave_subsection();
       }
       StepCoefficients coefficients(const double step) const override
@@ -120,10 +121,11 @@ namespace taut
       void declare_parameters(dealii::ParameterHandler &prm) override
       {
         prm.enter_subsection("Generalised-alpha");
-        prm.add_parameter("Spectral radius", rho,
-                          "Spectral radius at infinite frequency: 1 keeps all energy, 0 removes the "
-                          "highest frequencies in one step [1]",
-                          dealii::Patterns::Double(0., 1.));
+        prm.add_parameter(
+            "Spectral radius", rho,
+            "Spectral radius at infinite frequency: 1 keeps all energy, 0 removes the "
+            "highest frequencies in one step [1]",
+            dealii::Patterns::Double(0., 1.));
         prm.leave_subsection();
       }
       StepCoefficients coefficients(const double step) const override
@@ -144,10 +146,12 @@ namespace taut
     const Register<TimeIntegrator, BackwardEuler>
         register_backward_euler("backward Euler", "first order, never chatters, dissipates");
     const Register<TimeIntegrator, BDF2>
-        register_bdf2("BDF2", "second order, dissipates high frequencies; for rigid one-sided links");
+        register_bdf2("BDF2",
+                      "second order, dissipates high frequencies; for rigid one-sided links");
     const Register<TimeIntegrator, Newmark>
         register_newmark("Newmark", "second order at gamma 1/2; for smooth problems");
-    const Register<TimeIntegrator, GeneralisedAlpha> register_generalised_alpha(
-        "generalised-alpha", "second order, dissipation chosen by the spectral radius");
+    const Register<TimeIntegrator, GeneralisedAlpha>
+        register_generalised_alpha("generalised-alpha",
+                                   "second order, dissipation chosen by the spectral radius");
   } // namespace
 } // namespace taut

@@ -20,11 +20,13 @@ namespace taut
   KindNorm::KindNorm(const Substructure &body, const SymmetricMatrix &matrix)
   {
     std::vector<PerKind> rows(body.n_dofs(), PerKind{0., 0.});
-    matrix.visit([&](unsigned int i, unsigned int j, double value) {
-      rows[i][body.kind(j)] += std::fabs(value);
-      if (i != j)
-        rows[j][body.kind(i)] += std::fabs(value);
-    });
+    matrix.visit(
+        [&](unsigned int i, unsigned int j, double value)
+        {
+          rows[i][body.kind(j)] += std::fabs(value);
+          if (i != j)
+            rows[j][body.kind(i)] += std::fabs(value);
+        });
     for (const ConstrainedDof &constraint : body.constraints())
       rows[constraint.dof] = {0., 0.};
     sums = {};

@@ -9,10 +9,11 @@ namespace taut
   {
     using namespace dealii;
     prm.enter_subsection("Solver");
-    prm.add_parameter("Local solver", local_solver,
-                      "Factorisation of the matrix of each body. 'block tridiagonal': LDL^T along a "
-                      "wire, fastest. 'sparse direct': CHOLMOD. Mechanisms always use CHOLMOD.",
-                      Patterns::Selection("block tridiagonal|sparse direct"));
+    prm.add_parameter(
+        "Local solver", local_solver,
+        "Factorisation of the matrix of each body. 'block tridiagonal': LDL^T along a "
+        "wire, fastest. 'sparse direct': CHOLMOD. Mechanisms always use CHOLMOD.",
+        Patterns::Selection("block tridiagonal|sparse direct"));
     prm.add_parameter("Interface operator", interface_operator,
                       "Contact Schur complement F. 'assembled': a dense matrix, fastest up to some "
                       "hundred links. 'matrix-free': applied through the factors of the bodies, "

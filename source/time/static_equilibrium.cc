@@ -45,8 +45,7 @@ namespace taut
                 g += term.form.dot(R);
             problem.kernel.push_back(g);
           }
-          problem.kernel_load.push_back(
-              std::inner_product(R.begin(), R.end(), P[k].begin(), 0.));
+          problem.kernel_load.push_back(std::inner_product(R.begin(), R.end(), P[k].begin(), 0.));
         }
     }
 
@@ -63,7 +62,8 @@ namespace taut
       return "";
     }
 
-    /// Recomputes the balance K U = P + B N of each body, relative to the terms of each kind of DoF.
+    /// Recomputes the balance K U = P + B N of each body, relative to the terms of each kind of
+    /// DoF.
     void certify_balance(const Structure &structure, const ContactRows &rows, const double t,
                          StaticState &state)
     {
@@ -141,13 +141,15 @@ namespace taut
     catch (const ContradictoryRows &e)
     {
       throw UserError("static equilibrium: the links " + rows.names(e.rows()) +
-                      " contradict each other. Remove one of them, give one a finite stiffness, or check the gaps.");
+                      " contradict each other. Remove one of them, give one a finite stiffness, or "
+                      "check the gaps.");
     }
     catch (const BodyNotHeld &e)
     {
       throw BodyNotHeld("static equilibrium: body '" +
                         body_of_kernel(kernels, structure, e.kernel().front()) +
-                        "' is not held: no admissible contact force balances its loads. Add a support or a link, or "
+                        "' is not held: no admissible contact force balances its loads. Add a "
+                        "support or a link, or "
                         "start with 'Start = undeformed'.");
     }
     state.multiplier = solution.multiplier;

@@ -12,9 +12,10 @@ namespace taut
   TimeStepper::TimeStepper(const Structure &structure, ContactRows &rows,
                            const SolverParameters &parameters, const TimeIntegrator &integrator,
                            const double step, Reference reference, State start, const bool at_rest)
-      : structure(structure), rows(rows), parameters(parameters), integrator(integrator), step(step),
-        origin(std::move(reference)), current(std::move(start)), first_step_by_source(!at_rest),
-        start_time(current.time), solvers(structure, parameters.local_solver),
+      : structure(structure), rows(rows), parameters(parameters), integrator(integrator),
+        step(step), origin(std::move(reference)), current(std::move(start)),
+        first_step_by_source(!at_rest), start_time(current.time),
+        solvers(structure, parameters.local_solver),
         schur(make_schur_complement(parameters.interface_operator, solvers, rows)),
         complementarity(parameters.complementarity)
   {
@@ -76,7 +77,8 @@ namespace taut
     certify();
   }
 
-  /// P^_k = P - K U - C v* - M a*, with v* and a* the parts of velocity and acceleration that are known.
+  /// P^_k = P - K U - C v* - M a*, with v* and a* the parts of velocity and acceleration that are
+  /// known.
   void TimeStepper::set_history(const std::size_t k)
   {
     const Substructure &body = structure[k];
@@ -134,8 +136,7 @@ namespace taut
       if (row.damping > 0.)
       {
         const double known = c.v_V * spring.v + c.v_A * spring.a + c.v_dU * spring.du;
-        link_history[i] =
-            compliance[i] * row.damping * (c.velocity * spring.u - known);
+        link_history[i] = compliance[i] * row.damping * (c.velocity * spring.u - known);
       }
 
       double before = current.geometric_gap[i], scale = std::fabs(before);
@@ -174,7 +175,8 @@ namespace taut
     catch (const ContradictoryRows &e)
     {
       fail("the links " + rows.names(e.rows()) +
-           " contradict each other: no contact forces satisfy them all. Remove one of them, give one a finite "
+           " contradict each other: no contact forces satisfy them all. Remove one of them, give "
+           "one a finite "
            "stiffness, or check the initial gaps");
     }
   }
@@ -264,7 +266,10 @@ namespace taut
       for (const ConstrainedDof &constraint : body.constraints())
         residual[constraint.dof] = 0.;
 
-      const PerKind error = largest(body, work), inertia = norms[k][0].times(largest(body, increment[k])),
+      PerKind increments = largest(body, current.dU[k]);
+      for (double &d : increments)
+        d *= c.mass_factor();
+      const PerKind error = largest(body, work), inertia = norms[k][0].times(increments),
                     damping = norms[k][1].times(largest(body, current.V[k])),
                     stiffness = norms[k][2].times(largest(body, current.U[k]));
       for (int kind = 0; kind < 2; ++kind)
@@ -293,7 +298,8 @@ namespace taut
             current.link_springs[i].u;
       const ComplementarityResidual result = residual(problem, schur->matrix(), recomputed);
       last.complementarity = result.max;
-      last.worst_row = std::max_element(result.rows.begin(), result.rows.end()) - result.rows.begin();
+      last.worst_row =
+          std::max_element(result.rows.begin(), result.rows.end()) - result.rows.begin();
     }
 
     if (!(last.complementarity <= parameters.contact_tolerance))

@@ -414,6 +414,21 @@ namespace
     expect_cubic_reproduced(triangulation);
   }
 
+  // Refinement does not turn the wire around, even where it makes another cell the first active
+  // one.
+  TEST(FEHermite, refinement_keeps_the_direction_of_the_wire)
+  {
+    Triangulation<1, 3> triangulation;
+    make_wire(unequal_nodes, triangulation, {0});
+    triangulation.begin_active()->set_refine_flag();
+    triangulation.execute_coarsening_and_refinement();
+    const auto first_active = triangulation.begin_active();
+    ASSERT_EQ(first_active->level(), 0);
+    EXPECT_NEAR((FE_Hermite<1, 3>::signed_length(first_active)), -0.5, 1e-15);
+    EXPECT_NEAR((FE_Hermite<1, 3>::signed_length(triangulation.last_active())), 0.15, 1e-15);
+    expect_cubic_reproduced(triangulation);
+  }
+
   // No sign can be given to the slopes of a cell that stands across its wire.
   TEST(FEHermite, sharp_bends_are_refused)
   {

@@ -13,10 +13,11 @@
 namespace taut
 {
   /**
-   * Named implementations of one interface. An implementation, in this library or in a shared library of the user's,
-   * registers itself with one static object:
+   * Named implementations of one interface. An implementation, in this library or in a shared
+   * library of the user's, registers itself with one static object:
    *
-   *     static const taut::Register<SceneGenerator, MyGenerator> entry("my name", "one line for the help");
+   *     static const taut::Register<SceneGenerator, MyGenerator> entry("my name", "one line for the
+   * help");
    */
   template <typename Interface>
   class Registry
@@ -38,7 +39,8 @@ namespace taut
         throw std::logic_error("'" + name + "' is registered twice");
     }
 
-    /// A new object of the named implementation; an unknown name is a UserError that lists the known ones.
+    /// A new object of the named implementation; an unknown name is a UserError that lists the
+    /// known ones.
     std::unique_ptr<Interface> create(const std::string &name) const
     {
       const auto entry = entries.find(name);

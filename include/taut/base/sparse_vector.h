@@ -36,7 +36,8 @@ namespace taut
     }
   };
 
-  /// Consecutive entries first, first + 1, ... of a long vector that is zero (to working precision) elsewhere.
+  /// Consecutive entries first, first + 1, ... of a long vector that is zero (to working precision)
+  /// elsewhere.
   struct WindowedVector
   {
     unsigned int first = 0;

@@ -34,7 +34,8 @@ namespace taut
     std::size_t n_fixed() const { return fixed; }
     const Row &operator[](std::size_t i) const { return rows[i]; }
 
-    /// Puts the moving rows where they are at time t [s]. Throws UserError when one leaves its wire.
+    /// Puts the moving rows where they are at time t [s]. Throws UserError when one leaves its
+    /// wire.
     void update(double t);
 
     /// Position on its wire of a moving row at time t [m].

@@ -14,9 +14,9 @@
 namespace taut
 {
   /**
-   * The interface operator of FETI, F = sum_k B_k^T A_k^-1 B_k + S, applied through the factors of A_k without being
-   * formed. Restricted to an active set it acts as the identity on the other rows, so that it stays definite and an
-   * iterative solver sees vectors of one length.
+   * The interface operator of FETI, F = sum_k B_k^T A_k^-1 B_k + S, applied through the factors of
+   * A_k without being formed. Restricted to an active set it acts as the identity on the other
+   * rows, so that it stays definite and an iterative solver sees vectors of one length.
    */
   class ContactSchurOperator : public Epetra_Operator
   {

@@ -13,8 +13,8 @@
 namespace taut
 {
   /**
-   * The contact Schur complement F = sum_k B_k^T A_k^-1 B_k + S of the rows, in one of two forms: assembled, with the
-   * columns A_k^-1 B_k of the fixed rows stored once, or matrix-free.
+   * The contact Schur complement F = sum_k B_k^T A_k^-1 B_k + S of the rows, in one of two forms:
+   * assembled, with the columns A_k^-1 B_k of the fixed rows stored once, or matrix-free.
    */
   class SchurComplement
   {

@@ -20,8 +20,8 @@ namespace taut
     const State &state;
     const Certificate &certificate;
 
-    /// Displacement of each probe from the equilibrium without sliding contacts, if the run starts from an equilibrium;
-    /// otherwise from the undeformed position [m, rad].
+    /// Displacement of each probe from the equilibrium without sliding contacts, if the run starts
+    /// from an equilibrium; otherwise from the undeformed position [m, rad].
     const std::vector<double> &probes;
   };
 

@@ -12,8 +12,8 @@
 namespace taut
 {
   /**
-   * Time series as CSV: sliding.csv (each sliding contact: position, force, gap), links.csv (force and gap of every fixed
-   * link), probes.csv, certificate.csv. A file without content is not made.
+   * Time series as CSV: sliding.csv (each sliding contact: position, force, gap), links.csv (force
+   * and gap of every fixed link), probes.csv, certificate.csv. A file without content is not made.
    */
   class Series : public Observer
   {

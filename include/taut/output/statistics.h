@@ -37,8 +37,9 @@ namespace taut
   };
 
   /**
-   * Statistics of a run: contact forces of sliding contacts, raw and low-passed, in a window; contact loss; uplift of the
-   * probes; open time, largest force and impulse of the fixed links; certificates.
+   * Statistics of a run: contact forces of sliding contacts, raw and low-passed, in a window;
+   * contact loss; uplift of the probes; open time, largest force and impulse of the fixed links;
+   * certificates.
    */
   class Statistics : public Observer
   {
@@ -46,6 +47,22 @@ namespace taut
     Statistics(const StatisticsParameters &parameters, const Scene &scene, const ContactRows &rows);
 
     void record(const StepView &step) override;
+
+    /// Contact force of one sliding contact in the window.
+    struct ContactFigures
+    {
+      Moments raw, filtered;
+      double loss = 0.;
+      std::size_t n_samples = 0;
+      bool is_filtered = false;
+    };
+    std::size_t n_contacts() const { return contacts.size(); }
+
+    /// @p contact counts the sliding contacts in the order of the scene.
+    ContactFigures contact_figures(std::size_t contact) const { return figures(contacts[contact]); }
+
+    /// Largest displacement of a probe [m, rad].
+    double largest_displacement(std::size_t probe) const { return uplift[probe]; }
 
     /// The table, with the expected ranges beside the figures.
     void print(std::ostream &out) const;
@@ -60,13 +77,6 @@ namespace taut
       std::string name;
       std::size_t row;
       std::vector<double> position, force;
-    };
-    struct ContactFigures
-    {
-      Moments raw, filtered;
-      double loss = 0.;
-      std::size_t n_samples = 0;
-      bool is_filtered = false;
     };
     /// What a fixed link did.
     struct LinkFigures

@@ -9,7 +9,8 @@
 
 namespace taut
 {
-  /// Positions from "0, 1.5, 3" or from ranges first:step:last, "0:0.5:10, 12". @p entry is named in errors.
+  /// Positions from "0, 1.5, 3" or from ranges first:step:last, "0:0.5:10, 12". @p entry is named
+  /// in errors.
   std::vector<double> parse_positions(const std::string &text, const std::string &entry);
 
   /// A stiffness: a positive number, or "rigid" for infinity.
@@ -29,8 +30,8 @@ namespace taut
   }
 
   /**
-   * Attachments from "ground", "mass", "wire @ 12.5", or several on one wire, "wire @ 0:5:60". Unknown names are
-   * UserErrors that list the known ones.
+   * Attachments from "ground", "mass", "wire @ 12.5", or several on one wire, "wire @ 0:5:60".
+   * Unknown names are UserErrors that list the known ones.
    */
   std::vector<Attachment> parse_attachments(const std::string &text, const Scene &scene,
                                             const std::string &entry);

@@ -8,8 +8,9 @@
 namespace taut
 {
   /**
-   * A scalar function of the position s [m] along a wire and of the time t [s], written as a formula in the syntax of
-   * deal.II's FunctionParser; pi is known. Copies share the parsed formula.
+   * A scalar function of the position s [m] along a wire and of the time t [s], written as a
+   * formula in the syntax of deal.II's FunctionParser; pi is known. Copies share the parsed
+   * formula.
    */
   class Expression
   {
@@ -17,7 +18,8 @@ namespace taut
     /// The constant zero.
     Expression();
 
-    /// @p entry names the parameter in error messages. A formula that cannot be parsed is a UserError.
+    /// @p entry names the parameter in error messages. A formula that cannot be parsed is a
+    /// UserError.
     Expression(const std::string &formula, const std::string &entry);
 
     /// A constant.

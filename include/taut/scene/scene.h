@@ -17,7 +17,8 @@ namespace taut
     double x = 0., y = 0.;
   };
 
-  /// A scalar motion a wire point can have: along the wire, normal to it (to the left of the way from a to b), slope.
+  /// A scalar motion a wire point can have: along the wire, normal to it (to the left of the way
+  /// from a to b), slope.
   enum class WireMotion
   {
     axial,
@@ -25,7 +26,8 @@ namespace taut
     slope
   };
 
-  /// What a wire resists transverse motion with. A string has tension only (C0 elements), a beam bends (Hermite).
+  /// What a wire resists transverse motion with. A string has tension only (C0 elements), a beam
+  /// bends (Hermite).
   enum class TransverseKind
   {
     none,
@@ -52,9 +54,9 @@ namespace taut
   {
     std::string name;
     Point a, b;
-    double mass_per_length = 0.;   ///< [kg/m]
-    bool has_axial = false;        ///< an elastic bar along the wire
-    double axial_stiffness = 0.;   ///< EA [N]
+    double mass_per_length = 0.; ///< [kg/m]
+    bool has_axial = false;      ///< an elastic bar along the wire
+    double axial_stiffness = 0.; ///< EA [N]
     TransverseKind transverse = TransverseKind::none;
     double tension = 0.;           ///< T [N]
     double bending_stiffness = 0.; ///< EI [N m^2]
@@ -77,10 +79,10 @@ namespace taut
     std::size_t wire = 0;
     std::vector<double> positions; ///< s [m]
     WireMotion motion = WireMotion::transverse;
-    bool fixed = true;      ///< displacement prescribed; otherwise spring and damper to the ground
-    Expression prescribed;  ///< u(t) [m, rad], if fixed
-    double stiffness = 0.;  ///< [N/m, N m/rad], if not fixed
-    double damping = 0.;    ///< [N s/m, N m s/rad], if not fixed
+    bool fixed = true;     ///< displacement prescribed; otherwise spring and damper to the ground
+    Expression prescribed; ///< u(t) [m, rad], if fixed
+    double stiffness = 0.; ///< [N/m, N m/rad], if not fixed
+    double damping = 0.;   ///< [N s/m, N m s/rad], if not fixed
   };
 
   /// Masses on a wire.
@@ -109,7 +111,8 @@ namespace taut
   /// Index of the ground in a spring.
   constexpr std::size_t ground = std::numeric_limits<std::size_t>::max();
 
-  /// A spring and damper between two masses, or a mass and the ground. Connected masses form one mechanism.
+  /// A spring and damper between two masses, or a mass and the ground. Connected masses form one
+  /// mechanism.
   struct Spring
   {
     std::string name;
@@ -145,8 +148,9 @@ namespace taut
   /**
    * A link between two attachments. With n the unit direction and u the displacements, its gap is
    *
-   *     D =  n . (u_to - u_from) + gap          joint, stop, sliding contact: N > 0 pushes `to` along +n
-   *     D = -n . (u_to - u_from) + gap          dropper: N > 0 is tension, n from `from` to `to`
+   *     D =  n . (u_to - u_from) + gap          joint, stop, sliding contact: N > 0 pushes `to`
+   * along +n D = -n . (u_to - u_from) + gap          dropper: N > 0 is tension, n from `from` to
+   * `to`
    *
    * plus N over its stiffness; a rotational link has slopes and rotations instead of n . u.
    */
@@ -159,11 +163,13 @@ namespace taut
     Point direction = {0., 1.};
     double stiffness = std::numeric_limits<double>::infinity(); ///< [N/m, N m/rad]; infinite: rigid
     double damping = 0.;                                        ///< [N s/m, N m s/rad]
-    double gap = 0.;      ///< D at U = 0, N = 0 [m, rad]
-    double speed = 0.;    ///< of the `to` end along its wire [m/s]
-    Expression profile;   ///< height r(s) of the wire under a sliding contact [m]: adds to the gap along n
+    double gap = 0.;                                            ///< D at U = 0, N = 0 [m, rad]
+    double speed = 0.; ///< of the `to` end along its wire [m/s]
+    Expression
+        profile; ///< height r(s) of the wire under a sliding contact [m]: adds to the gap along n
 
-    /// A dropper whose length follows from a height that its `to` end shall have in the static state.
+    /// A dropper whose length follows from a height that its `to` end shall have in the static
+    /// state.
     bool find_length = false;
     double prescribed_displacement = 0.; ///< of the `to` end, along -n [m]
     double axial_stiffness = 0.;         ///< EA [N]; if not 0, stiffness = EA / length
@@ -193,7 +199,8 @@ namespace taut
     double speed = 0.;    ///< of a moving force [m/s]
   };
 
-  /// A point whose displacement along a direction is recorded, and whose largest uplift is reported.
+  /// A point whose displacement along a direction is recorded, and whose largest uplift is
+  /// reported.
   struct Probe
   {
     std::string name;
@@ -226,14 +233,16 @@ namespace taut
   };
 
   /**
-   * Checks what a generator cannot express in types: positive masses and lengths, attachments inside their wires,
-   * motions that exist, a contact that stays on its wire until @p end_time [s]. Throws UserError.
+   * Checks what a generator cannot express in types: positive masses and lengths, attachments
+   * inside their wires, motions that exist, a contact that stays on its wire until @p end_time [s].
+   * Throws UserError.
    */
   void check(const Scene &scene, double end_time);
 
   /**
-   * Node positions [m] of a wire's grid: sorted, 0 and length included, every support, point mass and fixed link end a
-   * node, elements not longer than the wire's element size and of equal length between two such points.
+   * Node positions [m] of a wire's grid: sorted, 0 and length included, every support, point mass
+   * and fixed link end a node, elements not longer than the wire's element size and of equal length
+   * between two such points.
    */
   std::vector<double> grid(const Scene &scene, std::size_t wire);
 } // namespace taut

@@ -13,8 +13,8 @@ namespace dealii
 namespace taut
 {
   /**
-   * Fills a scene from a parameter file. Chosen by name, from this library or from a plugin; the calls come in the
-   * order of the functions below. Gravity and start are set by the caller.
+   * Fills a scene from a parameter file. Chosen by name, from this library or from a plugin; the
+   * calls come in the order of the functions below. Gravity and start are set by the caller.
    */
   class SceneGenerator
   {

@@ -19,8 +19,8 @@ namespace taut
   {
   public:
     /**
-     * Reads a .prm file; @p overrides are "Section.Entry=value" and come last. Unknown entries are errors. Throws
-     * UserError with file and line.
+     * Reads a .prm file; @p overrides are "Section.Entry=value" and come last. Unknown entries are
+     * errors. Throws UserError with file and line.
      */
     void read(const std::string &file, const std::vector<std::string> &overrides);
 
@@ -41,7 +41,10 @@ namespace taut
     StatisticsParameters statistics;
 
     /// The scheme of this name with its parameters.
-    const TimeIntegrator &integrator(const std::string &name) const { return *integrators.at(name); }
+    const TimeIntegrator &integrator(const std::string &name) const
+    {
+      return *integrators.at(name);
+    }
 
   private:
     void declare_general(dealii::ParameterHandler &prm);

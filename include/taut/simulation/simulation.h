@@ -19,6 +19,10 @@ namespace taut
     /// @p parameters is kept by reference; what is said goes to @p log.
     Simulation(const Parameters &parameters, std::ostream &log);
 
+    /// Adds an observer of the start and of each step, called after those that write the results;
+    /// kept by reference.
+    void observe(Observer &observer) { guests.push_back(&observer); }
+
     /// Runs to the end and writes the results. Throws UserError.
     void run();
 
@@ -37,6 +41,7 @@ namespace taut
     void write_start() const;
     StepView view(const State &state, const Certificate &certificate) const;
     void update_probes(const State &state);
+    void advance(TimeStepper &stepper, const std::vector<Observer *> &observers);
 
     const Parameters &parameters;
     std::ostream &log;
@@ -49,6 +54,7 @@ namespace taut
     Certificate start_certificate;
     std::vector<std::vector<Term>> probe_terms;
     std::vector<double> probe_rest, probe_values;
+    std::vector<Observer *> guests;
     double seconds = 0.;
   };
 } // namespace taut

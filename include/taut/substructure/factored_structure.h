@@ -18,12 +18,14 @@ namespace taut
     /// @p solver_name as for make_local_solver().
     FactoredStructure(const Structure &structure, const std::string &solver_name);
 
-    /// A_k = mass M_k + damping C_k + K_k, mass in 1/s^2, damping in 1/s. BodyNotHeld names the body.
+    /// A_k = mass M_k + damping C_k + K_k, mass in 1/s^2, damping in 1/s. BodyNotHeld names the
+    /// body.
     void factor(double mass, double damping);
 
     /**
-     * A_k = K_k, with a spring as stiff as the diagonal on each DoF that holds a kernel vector: its inverse is a
-     * generalised inverse of K_k, exact for forces that are balanced on the kernel (the springs then carry nothing).
+     * A_k = K_k, with a spring as stiff as the diagonal on each DoF that holds a kernel vector: its
+     * inverse is a generalised inverse of K_k, exact for forces that are balanced on the kernel
+     * (the springs then carry nothing).
      */
     void factor_stiffness(const std::vector<Substructure::Kernel> &kernels);
 

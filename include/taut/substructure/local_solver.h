@@ -16,8 +16,9 @@ namespace taut
   using ScaledMatrix = std::pair<double, const SymmetricMatrix *>;
 
   /**
-   * Factorisation of the symmetric positive definite matrix A of one substructure. Constrained DoFs have an identity
-   * row: their entry of a right-hand side is ignored and their entry of a solution is zero.
+   * Factorisation of the symmetric positive definite matrix A of one substructure. Constrained DoFs
+   * have an identity row: their entry of a right-hand side is ignored and their entry of a solution
+   * is zero.
    */
   class LocalSolver
   {
@@ -25,8 +26,8 @@ namespace taut
     virtual ~LocalSolver() = default;
 
     /**
-     * Factors A = sum of the summands, which share one size and pattern. Throws BodyNotHeld, naming the DoF, at a pivot
-     * that is not positive to working precision.
+     * Factors A = sum of the summands, which share one size and pattern. Throws BodyNotHeld, naming
+     * the DoF, at a pivot that is not positive to working precision.
      */
     virtual void factor(const std::vector<ScaledMatrix> &summands,
                         const std::vector<unsigned int> &constrained) = 0;
@@ -35,15 +36,16 @@ namespace taut
     virtual void solve(std::vector<double> &x) const = 0;
 
     /**
-     * x = A^-1 rhs without the tails where it has decayed below 1e-18 of its largest entry of the same kind. @p rhs
-     * lives on the DoFs of one element.
+     * x = A^-1 rhs without the tails where it has decayed below 1e-18 of its largest entry of the
+     * same kind. @p rhs lives on the DoFs of one element.
      */
     virtual void column(const SparseVector &rhs, WindowedVector &x) const = 0;
   };
 
   /**
-   * Block-tridiagonal LDL^T, eliminated from both ends at once, for matrices with a block size of 1 to 4. The factors
-   * of both directions are kept whole, so that a column of A^-1 follows from a local recurrence.
+   * Block-tridiagonal LDL^T, eliminated from both ends at once, for matrices with a block size of 1
+   * to 4. The factors of both directions are kept whole, so that a column of A^-1 follows from a
+   * local recurrence.
    */
   std::unique_ptr<LocalSolver> make_block_tridiagonal_solver(unsigned int block_size);
 
@@ -51,8 +53,8 @@ namespace taut
   std::unique_ptr<LocalSolver> make_sparse_direct_solver();
 
   /**
-   * The solver @p name, "block tridiagonal" or "sparse direct", for a matrix; a matrix without blocks always gets the
-   * sparse one.
+   * The solver @p name, "block tridiagonal" or "sparse direct", for a matrix; a matrix without
+   * blocks always gets the sparse one.
    */
   std::unique_ptr<LocalSolver> make_local_solver(const std::string &name,
                                                  const SymmetricMatrix &matrix);

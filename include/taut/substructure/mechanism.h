@@ -20,7 +20,8 @@ namespace taut
     void initial_state(std::vector<double> &U, std::vector<double> &V) const override;
     Kernel kernel() const override;
 
-    /// Displacement along a direction, or the rotation, of a mass: result . U. Motions that the mass lacks are zero.
+    /// Displacement along a direction, or the rotation, of a mass: result . U. Motions that the
+    /// mass lacks are zero.
     void motion(std::size_t mass, bool rotational, const Point &direction,
                 SparseVector &result) const;
 

@@ -32,8 +32,9 @@ namespace taut
     std::size_t n_dofs() const;
 
     /**
-     * The displacement along @p direction, or the slope or rotation, of an attachment as linear forms: appends
-     * factor * form, nothing for the ground. A wire counts only the components it has.
+     * The displacement along @p direction, or the slope or rotation, of an attachment as linear
+     * forms: appends factor * form, nothing for the ground. A wire counts only the components it
+     * has.
      */
     void motion(const Attachment &point, bool rotational, const Point &direction, double factor,
                 std::vector<Term> &terms) const;

@@ -30,8 +30,9 @@ namespace taut
   };
 
   /**
-   * One body between interfaces, discretised: M U" + C U' + K U = P + B N. Its DoFs are displacements [m] and slopes or
-   * rotations [rad], each of one kind: kind(i) numbers the kinds, because forces and moments are never compared.
+   * One body between interfaces, discretised: M U" + C U' + K U = P + B N. Its DoFs are
+   * displacements [m] and slopes or rotations [rad], each of one kind: kind(i) numbers the kinds,
+   * because forces and moments are never compared.
    */
   class Substructure
   {
@@ -63,8 +64,9 @@ namespace taut
     virtual void initial_state(std::vector<double> &U, std::vector<double> &V) const = 0;
 
     /**
-     * A basis of the motions that cost no energy and that no support prevents, and for each of them a DoF to hold: with
-     * springs on these DoFs the stiffness is definite. Empty for a body that is held.
+     * A basis of the motions that cost no energy and that no support prevents, and for each of them
+     * a DoF to hold: with springs on these DoFs the stiffness is definite. Empty for a body that is
+     * held.
      */
     struct Kernel
     {
@@ -93,7 +95,8 @@ namespace taut
   public:
     PointLoad(SparseVector shape, Expression magnitude, double position)
         : shape(std::move(shape)), magnitude(std::move(magnitude)), position(position)
-    {}
+    {
+    }
     void add(double t, std::vector<double> &P) const override
     {
       shape.add_to(magnitude(position, t), P);

@@ -22,7 +22,8 @@ namespace taut
 
     virtual unsigned int size() const = 0;
 
-    /// DoFs that stand together at one node and couple only to those of the two neighbours; 0: no such structure.
+    /// DoFs that stand together at one node and couple only to those of the two neighbours; 0: no
+    /// such structure.
     virtual unsigned int block_size() const = 0;
 
     /// Adds @p value to the entry (i, j) and, if i != j, to (j, i): call it once a pair.
@@ -39,10 +40,12 @@ namespace taut
     /// this += factor * other, entry by entry.
     void add(double factor, const SymmetricMatrix &other)
     {
-      other.visit([&](unsigned int i, unsigned int j, double value) {
-        if (value != 0.)
-          add(i, j, factor * value);
-      });
+      other.visit(
+          [&](unsigned int i, unsigned int j, double value)
+          {
+            if (value != 0.)
+              add(i, j, factor * value);
+          });
     }
   };
 

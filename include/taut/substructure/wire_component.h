@@ -11,9 +11,10 @@
 namespace taut
 {
   /**
-   * One scalar problem of a straight wire: a bar (axial), a string or a beam (transverse). DoFs are numbered along the
-   * wire, in blocks of one node: for a beam displacement w and slope dw/ds; for a bar or string of degree p the value
-   * at the node and at the p - 1 inner points of the element that follows. Positions s run from 0 to the length [m].
+   * One scalar problem of a straight wire: a bar (axial), a string or a beam (transverse). DoFs are
+   * numbered along the wire, in blocks of one node: for a beam displacement w and slope dw/ds; for
+   * a bar or string of degree p the value at the node and at the p - 1 inner points of the element
+   * that follows. Positions s run from 0 to the length [m].
    *
    *     bar     M = rho,  K = EA u'v'
    *     string  M = rho,  K = T w'v'
@@ -31,7 +32,8 @@ namespace taut
     /// Values of the shape functions at s [m]: u(s) = result . U.
     void value_at(double s, SparseVector &result) const;
 
-    /// Slopes of the shape functions at s: du/ds(s) = result . U [1/m]; at a node of a C0 element, the right one.
+    /// Slopes of the shape functions at s: du/ds(s) = result . U [1/m]; at a node of a C0 element,
+    /// the right one.
     void slope_at(double s, SparseVector &result) const;
 
     /// True if slopes are DoFs, so that moments and angular gaps make sense.
@@ -55,7 +57,7 @@ namespace taut
     double component(const Point &direction) const;
 
     std::vector<double> nodes;
-    Point axis;    ///< unit vector of the motion in the plane
+    Point axis; ///< unit vector of the motion in the plane
     WireMotion motion;
     bool beam = false;
     bool bends_freely = false; ///< no tension: a rigid rotation costs nothing

@@ -7,21 +7,24 @@
 namespace taut
 {
   /**
-   * How well an accepted step satisfies its own equations. Recomputed from M, C, K, the states and the definition of the
-   * step; the factors of A are not used. All numbers are relative: rounding level is 1e-16 to 1e-11, 1 is wrong.
+   * How well an accepted step satisfies its own equations. Recomputed from M, C, K, the states and
+   * the definition of the step; the factors of A are not used. All numbers are relative: rounding
+   * level is 1e-16 to 1e-11, 1 is wrong.
    */
   struct Certificate
   {
-    /// Largest residual of a row: |min(F_ii N_i, D_i)|, or |D_i| if bilateral, over the terms of its gap.
+    /// Largest residual of a row: |min(F_ii N_i, D_i)|, or |D_i| if bilateral, over the terms of
+    /// its gap.
     double complementarity = 0.;
     std::size_t worst_row = 0;
 
-    /// Largest residual of the equation of motion of a body, over |P| + |K||U| + |C||V| + |M||A| + |B||N|.
+    /// Largest residual of the equation of motion of a body, over |P + B N| + |K||U| + |C||V| +
+    /// |M||dU|/step^2.
     double balance = 0.;
     std::size_t worst_body = 0;
 
-    unsigned int iterations = 0;  ///< of the complementarity solver
-    bool fallback = false;        ///< the energy-ordered active set finished the step
+    unsigned int iterations = 0; ///< of the complementarity solver
+    bool fallback = false;       ///< the energy-ordered active set finished the step
 
     double max() const { return complementarity > balance ? complementarity : balance; }
   };

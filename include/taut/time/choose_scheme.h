@@ -17,12 +17,14 @@ namespace taut
   };
 
   /**
-   * The scheme that suits the rows of a scene at a step [s]. A one-sided row behaves as compliant when its S_ii is at
-   * least its (B^T A^-1 B)_ii. Without rigid one-sided rows: generalised-alpha. With them, its multipliers fail, and the
-   * choice is BDF2 where waves cross at least a quarter of an element a step, and the source's scheme below that.
+   * The scheme that suits the rows of a scene at a step [s]. A one-sided row behaves as compliant
+   * when its S_ii is at least its (B^T A^-1 B)_ii. Without rigid one-sided rows: generalised-alpha.
+   * With them, its multipliers fail, and the choice is BDF2 where waves cross at least a quarter of
+   * an element a step, and the source's scheme below that.
    */
-  SchemeChoice choose_scheme(const Scene &scene, const Structure &structure, const ContactRows &rows,
-                             const SolverParameters &parameters, double step);
+  SchemeChoice choose_scheme(const Scene &scene, const Structure &structure,
+                             const ContactRows &rows, const SolverParameters &parameters,
+                             double step);
 } // namespace taut
 
 #endif

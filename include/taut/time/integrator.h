@@ -15,8 +15,8 @@ namespace dealii
 namespace taut
 {
   /**
-   * An implicit scheme as numbers. With dU the increment of the step, an index 0 for the last step and -1 for the one
-   * before,
+   * An implicit scheme as numbers. With dU the increment of the step, an index 0 for the last step
+   * and -1 for the one before,
    *
    *     V = velocity dU + v_V V0 + v_A A0 + v_dU dU0
    *     A = acceleration dU + a_V V0 + a_A A0 + a_dU dU0 + a_V_old V_{-1}
@@ -68,7 +68,8 @@ namespace taut
   StepCoefficients newmark(double step, double beta, double gamma, double alpha_m = 0.,
                            double alpha_f = 0.);
 
-  /// Chung and Hulbert (1993), optimal dissipation with spectral radius rho in [0, 1] at infinite frequency.
+  /// Chung and Hulbert (1993), optimal dissipation with spectral radius rho in [0, 1] at infinite
+  /// frequency.
   StepCoefficients generalised_alpha(double step, double rho);
 } // namespace taut
 

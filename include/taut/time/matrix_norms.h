@@ -16,8 +16,8 @@ namespace taut
   PerKind largest(const Substructure &body, const std::vector<double> &x);
 
   /**
-   * Largest absolute row sums of a matrix by kind of row and column, free DoFs only: bounds |A| |x| from the largest
-   * entries of x.
+   * Largest absolute row sums of a matrix by kind of row and column, free DoFs only: bounds |A| |x|
+   * from the largest entries of x.
    */
   class KindNorm
   {

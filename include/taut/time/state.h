@@ -9,14 +9,14 @@
 namespace taut
 {
   /**
-   * The state that motions are measured from: a static equilibrium, or the undeformed structure. Small motions then are
-   * not drowned in large coordinates.
+   * The state that motions are measured from: a static equilibrium, or the undeformed structure.
+   * Small motions then are not drowned in large coordinates.
    */
   struct Reference
   {
-    BlockVector displacement;             ///< U_ref [m, rad]
-    BlockVector force;                    ///< K U_ref [N, N m]
-    std::vector<double> multiplier;       ///< N [N, N m]
+    BlockVector displacement;       ///< U_ref [m, rad]
+    BlockVector force;              ///< K U_ref [N, N m]
+    std::vector<double> multiplier; ///< N [N, N m]
   };
 
   /// Motion of the bodies and of the links' springs at one time.
@@ -24,19 +24,21 @@ namespace taut
   {
     double time = 0.; ///< [s]
 
-    BlockVector U;     ///< displacement from the reference [m, rad]
-    BlockVector V;     ///< velocity
-    BlockVector A;     ///< acceleration
-    BlockVector dU;    ///< increment of the last step
-    BlockVector V_old; ///< velocity before the last step
-    BlockVector KU;    ///< K U [N, N m]
+    BlockVector U;       ///< displacement from the reference [m, rad]
+    BlockVector V;       ///< velocity
+    BlockVector A;       ///< acceleration
+    BlockVector dU;      ///< increment of the last step
+    BlockVector V_old;   ///< velocity before the last step
+    BlockVector KU;      ///< K U [N, N m]
     BlockVector balance; ///< P + B N - C V - K (U_ref + U) [N, N m]
 
-    std::vector<double> multiplier;   ///< N [N, N m]
-    std::vector<double> gap;          ///< D, what complementarity is about [m, rad]
-    std::vector<double> geometric_gap; ///< B^T (U_ref + U) + gap at U = 0; negative: a compressed link [m, rad]
+    std::vector<double> multiplier; ///< N [N, N m]
+    std::vector<double> gap;        ///< D, what complementarity is about [m, rad]
+    std::vector<double>
+        geometric_gap; ///< B^T (U_ref + U) + gap at U = 0; negative: a compressed link [m, rad]
 
-    /// Compression of each link's spring and its rates, as one more body with the same time integration [m, rad].
+    /// Compression of each link's spring and its rates, as one more body with the same time
+    /// integration [m, rad].
     struct LinkSpring
     {
       double u = 0., v = 0., a = 0., du = 0.;

@@ -13,17 +13,17 @@ namespace taut
   /// Displacements, contact forces and gaps at rest.
   struct StaticState
   {
-    BlockVector displacement;           ///< U [m, rad]
-    std::vector<double> multiplier;     ///< N [N, N m]
-    std::vector<double> gap;            ///< D [m, rad]
-    std::vector<double> geometric_gap;  ///< D - S N [m, rad]
+    BlockVector displacement;          ///< U [m, rad]
+    std::vector<double> multiplier;    ///< N [N, N m]
+    std::vector<double> gap;           ///< D [m, rad]
+    std::vector<double> geometric_gap; ///< D - S N [m, rad]
     Certificate certificate;
   };
 
   /**
-   * Solves K U = P(t) + B N with the links' complementarity, without inertia. Bodies that only links hold keep the
-   * amplitudes of their free motions as unknowns. Throws BodyNotHeld, ContradictoryRows, or UserError if the
-   * certificate misses the contact tolerance.
+   * Solves K U = P(t) + B N with the links' complementarity, without inertia. Bodies that only
+   * links hold keep the amplitudes of their free motions as unknowns. Throws BodyNotHeld,
+   * ContradictoryRows, or UserError if the certificate misses the contact tolerance.
    */
   StaticState static_equilibrium(const Structure &structure, const ContactRows &rows,
                                  const SolverParameters &parameters, double t);

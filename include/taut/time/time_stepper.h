@@ -20,26 +20,30 @@ namespace taut
    *
    *     moving rows -> history P^_k -> free motion of the rows -> N -> U_k -> certificate.
    *
-   * Everything is in increments, A dU = P^ + B N, and gaps of fixed rows are carried as increments too, because the gap
-   * rounds at eps times its size and F^-1 = O(1/step^2) makes force noise of that.
+   * Everything is in increments, A dU = P^ + B N, and gaps of fixed rows are carried as increments
+   * too, because the gap rounds at eps times its size and F^-1 = O(1/step^2) makes force noise of
+   * that.
    */
   class TimeStepper
   {
   public:
     /**
-     * @p structure and @p rows are kept by reference. @p at_rest says that the start is an equilibrium, so that
-     * accelerations are zero; otherwise the first step is the source's, which needs no initial acceleration.
+     * @p structure and @p rows are kept by reference. @p at_rest says that the start is an
+     * equilibrium, so that accelerations are zero; otherwise the first step is the source's, which
+     * needs no initial acceleration.
      */
     TimeStepper(const Structure &structure, ContactRows &rows, const SolverParameters &parameters,
                 const TimeIntegrator &integrator, double step, Reference reference, State start,
                 bool at_rest);
 
-    /// One step. Throws UserError, naming time and row, if the certificate misses the contact tolerance.
+    /// One step. Throws UserError, naming time and row, if the certificate misses the contact
+    /// tolerance.
     void advance();
 
     const State &state() const { return current; }
     const Reference &reference() const { return origin; }
     const Certificate &certificate() const { return last; }
+    long n_steps_done() const { return n_steps; }
 
   private:
     void prepare(const StepCoefficients &c);
@@ -69,16 +73,17 @@ namespace taut
     std::unique_ptr<SchurComplement> schur;
     ComplementaritySolver complementarity;
     MixedComplementarityProblem problem;
-    std::vector<double> compliance;     ///< S
-    std::vector<double> link_history;   ///< part of a link spring's compression that does not depend on N
-    std::vector<double> reference_gap;  ///< gap of the fixed rows at the reference
-    std::vector<double> motion;         ///< B^T dU
+    std::vector<double> compliance; ///< S
+    std::vector<double>
+        link_history; ///< part of a link spring's compression that does not depend on N
+    std::vector<double> reference_gap; ///< gap of the fixed rows at the reference
+    std::vector<double> motion;        ///< B^T dU
     std::vector<double> old_multiplier;
     std::vector<std::vector<KindNorm>> norms; ///< of M, C, K of each body
 
-    BlockVector P;          ///< external force minus the reference's [N]
+    BlockVector P; ///< external force minus the reference's [N]
     BlockVector right_hand_side;
-    BlockVector lift;       ///< increments of moving supports
+    BlockVector lift; ///< increments of moving supports
     BlockVector predictor_v, predictor_a, old_A, old_balance, increment;
     std::vector<double> work;
   };

@@ -1,0 +1,787 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claims about the complementarity solvers on small problems whose answers are exact and found by
+// hand.
+#include <taut/base/exceptions.h>
+#include <taut/complementarity/solver.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <new>
+#include <numeric>
+#include <random>
+
+namespace
+{
+  std::size_t n_allocations = 0;
+}
+
+[[gnu::noinline]] void *operator new(std::size_t size)
+{
+  ++n_allocations;
+  if (void *const memory = std::malloc(size == 0 ? 1 : size))
+    return memory;
+  throw std::bad_alloc();
+}
+
+[[gnu::noinline]] void operator delete(void *memory) noexcept
+{
+  std::free(memory);
+}
+[[gnu::noinline]] void operator delete(void *memory, std::size_t) noexcept
+{
+  std::free(memory);
+}
+
+namespace
+{
+  using namespace taut;
+  using Vector = std::vector<double>;
+
+  const std::vector<std::string> both_methods = {"semismooth Newton", "energy-ordered"};
+
+  DenseOperator dense(const std::vector<Vector> &rows)
+  {
+    DenseOperator matrix(rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      for (std::size_t j = 0; j <= i; ++j)
+        matrix.set(i, j, rows[i][j]);
+    return matrix;
+  }
+
+  MixedComplementarityProblem problem(const std::vector<char> &unilateral, const Vector &free_gap)
+  {
+    MixedComplementarityProblem result;
+    result.unilateral = unilateral;
+    result.free_gap = free_gap;
+    return result;
+  }
+
+  void expect_near(const Vector &a, const Vector &b, double tolerance = 1e-12)
+  {
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i)
+      EXPECT_NEAR(a[i], b[i], tolerance) << "entry " << i;
+  }
+
+  /// F that is not a DenseOperator, and that counts.
+  class CountingOperator : public ComplementarityOperator
+  {
+  public:
+    explicit CountingOperator(DenseOperator matrix) : matrix(std::move(matrix)) {}
+
+    std::size_t size() const override { return matrix.size(); }
+    double diagonal(std::size_t i) const override { return matrix.diagonal(i); }
+    void apply(const Vector &x, Vector &y) const override
+    {
+      ++n_products;
+      matrix.apply(x, y);
+    }
+    void apply_absolute(const Vector &x, Vector &y) const override
+    {
+      ++n_absolute_products;
+      matrix.apply_absolute(x, y);
+    }
+    bool solve(const std::vector<std::size_t> &set, const Vector &rhs, double shift,
+               Vector &x) override
+    {
+      ++n_solves;
+      return matrix.solve(set, rhs, shift, x);
+    }
+
+    DenseOperator matrix;
+    unsigned int n_solves = 0;
+    mutable unsigned int n_products = 0, n_absolute_products = 0;
+  };
+
+  /// -u'' with unit load at the nodes of a string that is held at both ends, inverted: min(x,y) (1
+  /// - max(x,y)).
+  DenseOperator string_compliance(std::size_t n)
+  {
+    DenseOperator matrix(n);
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j <= i; ++j)
+        matrix.set(i, j, (j + 1.) / (n + 1.) * (1. - (i + 1.) / (n + 1.)));
+    return matrix;
+  }
+
+  const std::vector<Vector> cycling_matrix = {{4, 5, -5}, {5, 9, -5}, {-5, -5, 7}};
+
+  // ---- one row: the gap of a spring of compliance 2 m/N
+
+  TEST(complementarity, open_gap_carries_nothing)
+  {
+    for (const std::string &method : both_methods)
+    {
+      DenseOperator F = dense({{2.}});
+      ComplementaritySolver solver(method);
+      const auto &result = solver.solve(problem({1}, {3.}), F);
+      EXPECT_EQ(result.solution.multiplier[0], 0.);
+      EXPECT_EQ(result.solution.gap[0], 3.);
+      EXPECT_FALSE(result.solution.closed[0]);
+    }
+  }
+
+  TEST(complementarity, violated_gap_is_pushed_shut)
+  {
+    for (const std::string &method : both_methods)
+    {
+      DenseOperator F = dense({{2.}});
+      ComplementaritySolver solver(method);
+      const auto &result = solver.solve(problem({1}, {-3.}), F);
+      EXPECT_DOUBLE_EQ(result.solution.multiplier[0], 1.5);
+      EXPECT_EQ(result.solution.gap[0], 0.);
+      EXPECT_TRUE(result.solution.closed[0]);
+    }
+  }
+
+  TEST(complementarity, bilateral_row_pulls_as_well)
+  {
+    for (const std::string &method : both_methods)
+    {
+      DenseOperator F = dense({{2.}});
+      ComplementaritySolver solver(method);
+      EXPECT_DOUBLE_EQ(solver.solve(problem({0}, {3.}), F).solution.multiplier[0], -1.5);
+    }
+  }
+
+  TEST(complementarity, no_rows_are_a_solved_problem)
+  {
+    for (const std::string &method : both_methods)
+    {
+      DenseOperator F(0);
+      ComplementaritySolver solver(method);
+      EXPECT_EQ(solver.solve(problem({}, {}), F).residual.max, 0.);
+    }
+  }
+
+  // ---- mixes. F = [2 1; 1 2]: both rows closed N = -F^-1 d = -(2 d0 - d1, 2 d1 - d0) / 3
+
+  TEST(complementarity, a_neighbour_opens_a_row_whose_free_gap_is_violated)
+  {
+    // Row 0 alone takes N = 2 and lifts row 1 from -1 to +1.
+    for (const std::string &method : both_methods)
+    {
+      DenseOperator F = dense({{2., 1.}, {1., 2.}});
+      ComplementaritySolver solver(method);
+      const auto &result = solver.solve(problem({1, 1}, {-4., -1.}), F);
+      expect_near(result.solution.multiplier, {2., 0.});
+      expect_near(result.solution.gap, {0., 1.});
+      EXPECT_FALSE(result.used_fallback);
+    }
+  }
+
+  TEST(complementarity, bilateral_and_unilateral_rows_mix)
+  {
+    // Bilateral row 0 pulls with -2 and draws row 1 from 1 to -1, which has to close: N = -(2*4 -
+    // 1, 2*1 - 4) / 3.
+    for (const std::string &method : both_methods)
+    {
+      DenseOperator F = dense({{2., 1.}, {1., 2.}});
+      ComplementaritySolver solver(method);
+      const auto &result = solver.solve(problem({0, 1}, {4., 1.}), F);
+      expect_near(result.solution.multiplier, {-7. / 3., 2. / 3.});
+      expect_near(result.solution.gap, {0., 0.});
+    }
+  }
+
+  TEST(complementarity, exact_touch_keeps_the_row_as_it_was)
+  {
+    // N = D = 0 in row 1: N_0 = 2, D_1 = 2 - 2. Both sets are solutions.
+    for (const char start : {0, 1})
+    {
+      DenseOperator F = dense({{2., 1.}, {1., 2.}});
+      ComplementaritySolver solver;
+      solver.start_from({1, start});
+      const auto &result = solver.solve(problem({1, 1}, {-4., -2.}), F);
+      expect_near(result.solution.multiplier, {2., 0.});
+      EXPECT_EQ(result.solution.closed[1], start);
+      EXPECT_EQ(result.iterations, 1u);
+    }
+  }
+
+  TEST(complementarity, dead_band_holds_a_row_that_is_off_by_rounding)
+  {
+    // The touch of the last test with D_1 = -4e-16 in it.
+    DenseOperator F = dense({{2., 1.}, {1., 2.}});
+    const auto touching = problem({1, 1}, {-4., std::nextafter(-2., -3.)});
+    for (const double dead_band : {1e-12, 0.})
+    {
+      ComplementarityOptions options;
+      options.dead_band = dead_band;
+      MixedComplementaritySolution solution;
+      solution.closed = {1, 0};
+      SemismoothNewton newton(options);
+      newton.solve(touching, F, solution);
+      EXPECT_EQ(newton.n_iterations() == 1, dead_band > 0.);
+    }
+  }
+
+  TEST(complementarity, gap_scale_widens_the_dead_band)
+  {
+    // d = 1000.0 - 1000.0 + noise: a gap of -1e-11 m between coordinates of 1000 m is no gap at
+    // all.
+    DenseOperator F = dense({{1.}});
+    auto noise = problem({1}, {-1e-11});
+    ComplementaritySolver solver;
+    EXPECT_GT(solver.solve(noise, F).solution.multiplier[0], 0.);
+    noise.gap_scale = {1000.};
+    solver.start_from({});
+    EXPECT_EQ(solver.solve(noise, F).solution.multiplier[0], 0.);
+  }
+
+  // ---- cycling
+
+  TEST(complementarity, cycling_3x3_is_solved)
+  {
+    // d = (2,1,-3): rows 0 and 2 closed, F_aa = [4 -5; -5 7], det 3, N = (1/3, 0, 2/3), D_1 = 1 +
+    // 5/3 - 10/3 = -2/3. That opens nothing but closes 1, and so on round; the one set that holds
+    // is {1, 2}: [9 -5; -5 7], det 38, N = (0, 8, 22) / 38, D_0 = 2 + 40/38 - 110/38 = 6/38. d =
+    // -(2,1,-3): {0}, N_0 = 1/2, D = (0, 3/2, 1/2).
+    const std::vector<Vector> multipliers = {{0., 8. / 38., 22. / 38.}, {.5, 0., 0.}};
+    const std::vector<Vector> gaps = {{6. / 38., 0., 0.}, {0., 1.5, .5}};
+    for (const std::string &method : both_methods)
+      for (int start = 0; start < 8; ++start)
+        for (const int sign : {1, -1})
+        {
+          DenseOperator F = dense(cycling_matrix);
+          ComplementaritySolver solver(method);
+          solver.start_from({char(start & 1), char(start & 2), char(start & 4)});
+          const auto &result =
+              solver.solve(problem({1, 1, 1}, {2. * sign, 1. * sign, -3. * sign}), F);
+          expect_near(result.solution.multiplier, multipliers[sign == 1 ? 0 : 1]);
+          expect_near(result.solution.gap, gaps[sign == 1 ? 0 : 1]);
+        }
+  }
+
+  TEST(complementarity, a_cycle_is_seen_at_its_first_return)
+  {
+    // Newton's method alone cycles from 6 of the 8 starts; without the guard it goes on to the
+    // iteration bound.
+    unsigned int n_cycles = 0;
+    for (int start = 0; start < 8; ++start)
+    {
+      DenseOperator F = dense(cycling_matrix);
+      const auto cycling = problem({1, 1, 1}, {2., 1., -3.});
+      MixedComplementaritySolution solution;
+      const std::vector<char> closed = {char(start & 1), char(start & 2), char(start & 4)};
+
+      ComplementarityOptions options;
+      SemismoothNewton guarded(options);
+      solution.closed = closed;
+      const auto outcome = guarded.solve(cycling, F, solution);
+      if (outcome == SemismoothNewton::Outcome::solved)
+        continue;
+      ++n_cycles;
+      EXPECT_EQ(outcome, SemismoothNewton::Outcome::cycle);
+      EXPECT_LT(guarded.n_iterations(), 8u);
+
+      options.detect_cycles = false;
+      SemismoothNewton unguarded(options);
+      solution.closed = closed;
+      EXPECT_EQ(unguarded.solve(cycling, F, solution), SemismoothNewton::Outcome::max_iterations);
+    }
+    EXPECT_EQ(n_cycles, 6u);
+  }
+
+  // ---- dependent rows
+
+  TEST(complementarity, duplicate_rows_share_the_force_evenly)
+  {
+    for (const char unilateral : {0, 1})
+    {
+      DenseOperator F = dense({{2., 2., 1.}, {2., 2., 1.}, {1., 1., 3.}});
+      ComplementaritySolver solver;
+      const auto &result = solver.solve(problem({unilateral, unilateral, 1}, {-4., -4., 5.}), F);
+      expect_near(result.solution.multiplier, {1., 1., 0.}, 1e-7);
+      expect_near(result.solution.gap, {0., 0., 7.});
+      EXPECT_FALSE(result.used_fallback);
+    }
+  }
+
+  TEST(complementarity, energy_ordered_solves_duplicate_rows)
+  {
+    // Any split is a solution; the gaps are unique.
+    for (const char unilateral : {0, 1})
+    {
+      DenseOperator F = dense({{2., 2., 1.}, {2., 2., 1.}, {1., 1., 3.}});
+      ComplementaritySolver solver("energy-ordered");
+      const auto &result = solver.solve(problem({unilateral, unilateral, 1}, {-4., -4., 5.}), F);
+      EXPECT_NEAR(result.solution.multiplier[0] + result.solution.multiplier[1], 2., 1e-14);
+      expect_near(result.solution.gap, {0., 0., 7.});
+    }
+  }
+
+  TEST(complementarity, the_tighter_of_two_parallel_stops_carries)
+  {
+    // The same motion, gaps -1 and -2: only the second touches, N = 2, and the first is open by 1.
+    for (const std::string &method : both_methods)
+    {
+      DenseOperator F = dense({{1., 1.}, {1., 1.}});
+      ComplementaritySolver solver(method);
+      const auto &result = solver.solve(problem({1, 1}, {-1., -2.}), F);
+      expect_near(result.solution.multiplier, {0., 2.});
+      expect_near(result.solution.gap, {1., 0.});
+    }
+  }
+
+  TEST(complementarity, a_dependent_row_is_exchanged_along_the_null_direction)
+  {
+    // F = B^T B with columns (1,0), (0,1), (.6,.6). By energy row 0 closes, then row 1: N = (10, 3,
+    // 0), which leaves D_2 = -.2. z = (-.6, -.6, 1) is a null vector; N_1 gets to zero first. {0,
+    // 2}: det .36, N = (2.4, 0, 2) / .36.
+    for (const std::string &method : both_methods)
+    {
+      DenseOperator F = dense({{1., 0., .6}, {0., 1., .6}, {.6, .6, .72}});
+      ComplementaritySolver solver(method);
+      const auto &result = solver.solve(problem({1, 1, 1}, {-10., -3., -8.}), F);
+      expect_near(result.solution.multiplier, {20. / 3., 0., 50. / 9.});
+      expect_near(result.solution.gap, {0., 1. / 3., 0.});
+    }
+  }
+
+  TEST(complementarity, contradictory_bilateral_rows_are_named)
+  {
+    for (const std::string &method : both_methods)
+    {
+      DenseOperator F = dense({{3., 0., 0.}, {0., 1., 1.}, {0., 1., 1.}});
+      ComplementaritySolver solver(method);
+      try
+      {
+        solver.solve(problem({0, 0, 0}, {1., -1., -1.001}), F);
+        ADD_FAILURE() << "no exception";
+      }
+      catch (const ContradictoryRows &error)
+      {
+        EXPECT_EQ(error.rows(), (std::vector<std::size_t>{1, 2}));
+      }
+    }
+  }
+
+  TEST(complementarity, a_wedge_between_opposite_stops_is_contradictory)
+  {
+    // Rows +1 and -1 of one motion u, u - 1 >= 0 and -u - 1 >= 0; row 0 has nothing to do with it.
+    for (const std::string &method : both_methods)
+    {
+      DenseOperator F = dense({{3., 0., 0.}, {0., 1., -1.}, {0., -1., 1.}});
+      ComplementaritySolver solver(method);
+      try
+      {
+        solver.solve(problem({1, 1, 1}, {-1., -1., -1.}), F);
+        ADD_FAILURE() << "no exception";
+      }
+      catch (const ContradictoryRows &error)
+      {
+        EXPECT_EQ(error.rows(), (std::vector<std::size_t>{1, 2}));
+      }
+    }
+  }
+
+  TEST(complementarity, contradictory_rows_are_not_hidden_by_a_coarse_tolerance_of_the_solves)
+  {
+    // Multipliers of 1e9 make any gap small compared with F N: growth must be seen, not the
+    // relative gap alone.
+    ComplementarityOptions options;
+    options.dead_band = options.linear_tolerance = options.tolerance = 1e-6;
+    DenseOperator F = dense({{1., 1.}, {1., 1.}});
+    ComplementaritySolver solver("semismooth Newton", options);
+    EXPECT_THROW(solver.solve(problem({0, 0}, {-1., -1.01}), F), ContradictoryRows);
+  }
+
+  // ---- rows that nothing moves
+
+  TEST(complementarity, a_row_without_stiffness_is_dropped)
+  {
+    for (const std::string &method : both_methods)
+    {
+      DenseOperator F = dense({{2., 0., 0.}, {0., 0., 0.}, {0., 0., 0.}});
+      ComplementaritySolver solver(method);
+      solver.start_from({1, 1, 1});
+      const auto &result = solver.solve(problem({1, 1, 0}, {-4., 7., 0.}), F);
+      expect_near(result.solution.multiplier, {2., 0., 0.});
+      expect_near(result.solution.gap, {0., 7., 0.});
+      EXPECT_FALSE(result.solution.closed[1]);
+    }
+  }
+
+  TEST(complementarity, a_violated_row_without_stiffness_is_named)
+  {
+    for (const std::string &method : both_methods)
+      for (const char unilateral : {0, 1})
+      {
+        DenseOperator F = dense({{2., 0.}, {0., 0.}});
+        ComplementaritySolver solver(method);
+        try
+        {
+          solver.solve(problem({1, unilateral}, {-4., -7.}), F);
+          ADD_FAILURE() << "no exception";
+        }
+        catch (const ContradictoryRows &error)
+        {
+          EXPECT_EQ(error.rows(), (std::vector<std::size_t>{1}));
+        }
+      }
+  }
+
+  // ---- floating bodies: a beam on stops at x = 0, 1, 2 that moves by alpha_0 + alpha_1 x
+
+  MixedComplementarityProblem beam_on_stops(double load, double position, const Vector &gaps)
+  {
+    auto result = problem({1, 1, 1}, gaps);
+    result.kernel = {1., 1., 1., 0., 1., 2.};
+    result.kernel_load = {-load, -load * position};
+    return result;
+  }
+
+  TEST(complementarity, rigid_beam_spreads_its_load_over_elastic_stops)
+  {
+    // Springs of 1 m/kN: N_i = P/3 + P (x - 1) (x_i - 1) / 2 as long as none pulls; beyond, the
+    // lever of two stops.
+    for (const std::string &method : both_methods)
+    {
+      DenseOperator F = dense({{1e-3, 0., 0.}, {0., 1e-3, 0.}, {0., 0., 1e-3}});
+      ComplementaritySolver solver(method);
+      const auto &all = solver.solve(beam_on_stops(12., 1.25, {0., 0., 0.}), F);
+      expect_near(all.solution.multiplier, {2.5, 4., 5.5});
+      expect_near(all.solution.kernel_amplitude, {-2.5e-3, -1.5e-3}, 1e-15);
+      EXPECT_FALSE(all.used_fallback);
+
+      const auto &lifted = solver.solve(beam_on_stops(10., 1.7, {0., 0., 0.}), F);
+      expect_near(lifted.solution.multiplier, {0., 3., 7.});
+      expect_near(lifted.solution.gap, {1e-3, 0., 0.}, 1e-15);
+      EXPECT_FALSE(lifted.used_fallback);
+    }
+  }
+
+  TEST(complementarity, rigid_beam_finds_the_two_rigid_stops_that_hold_it)
+  {
+    // F = 0. Stop 0 is 1 mm lower: the beam tilts onto 0 and 1 and lifts off 2 by the lever 2 / 1.
+    for (const std::string &method : both_methods)
+    {
+      DenseOperator F(3);
+      ComplementaritySolver solver(method);
+      const auto &result = solver.solve(beam_on_stops(10., .3, {1e-3, 0., 0.}), F);
+      expect_near(result.solution.multiplier, {7., 3., 0.});
+      expect_near(result.solution.gap, {0., 0., 1e-3}, 1e-15);
+      expect_near(result.solution.kernel_amplitude, {-1e-3, 1e-3}, 1e-15);
+    }
+  }
+
+  TEST(complementarity, rigid_beam_rests_on_stops_without_any_gap)
+  {
+    // d = F = 0: nothing gives rounding a scale. N is not unique, its balance is; the load on one
+    // stop is a case apart.
+    for (const std::string &method : both_methods)
+      for (const double position : {0., .3, 1., 2.})
+      {
+        DenseOperator F(3);
+        ComplementaritySolver solver(method);
+        const auto &result = solver.solve(beam_on_stops(10., position, {0., 0., 0.}), F);
+        const Vector &N = result.solution.multiplier;
+        EXPECT_NEAR(N[0] + N[1] + N[2], 10., 1e-12);
+        EXPECT_NEAR(N[1] + 2. * N[2], 10. * position, 1e-12);
+        expect_near(result.solution.gap, {0., 0., 0.}, 1e-15);
+      }
+  }
+
+  TEST(complementarity, a_beam_loaded_beyond_its_stops_is_not_held)
+  {
+    for (const std::string &method : both_methods)
+      for (const double compliance : {0., 1e-3})
+      {
+        DenseOperator F(3);
+        for (std::size_t i = 0; i < 3; ++i)
+          F.set(i, i, compliance);
+        ComplementaritySolver solver(method);
+        try
+        {
+          solver.solve(beam_on_stops(10., 2.5, {0., 0., 0.}), F);
+          ADD_FAILURE() << "no exception";
+        }
+        catch (const BodyNotHeld &error)
+        {
+          EXPECT_FALSE(error.kernel().empty());
+        }
+      }
+  }
+
+  TEST(complementarity, the_body_that_is_not_held_is_named)
+  {
+    // Two masses on a stop each; the second is pulled off.
+    for (const std::string &method : both_methods)
+    {
+      DenseOperator F(2);
+      auto two = problem({1, 1}, {0., 0.});
+      two.kernel = {1., 0., 0., 1.};
+      two.kernel_load = {-5., 5.};
+      ComplementaritySolver solver(method);
+      try
+      {
+        solver.solve(two, F);
+        ADD_FAILURE() << "no exception";
+      }
+      catch (const BodyNotHeld &error)
+      {
+        EXPECT_EQ(error.kernel(), (std::vector<std::size_t>{1}));
+      }
+    }
+  }
+
+  TEST(complementarity, a_singular_pseudo_inverse_does_no_harm)
+  {
+    // A free rod of stiffness 1 with both ends on stops, loads -1 and -2, pseudo-inverse with end 0
+    // held: F = diag(0,1), d = (0, -2), G = (1 1), e = -3. Each end carries its own load and
+    // nothing moves.
+    for (const std::string &method : both_methods)
+      for (const char unilateral : {0, 1})
+      {
+        DenseOperator F = dense({{0., 0.}, {0., 1.}});
+        auto rod = problem({unilateral, unilateral}, {0., -2.});
+        rod.kernel = {1., 1.};
+        rod.kernel_load = {-3.};
+        ComplementaritySolver solver(method);
+        const auto &result = solver.solve(rod, F);
+        expect_near(result.solution.multiplier, {1., 2.});
+        expect_near(result.solution.gap, {0., 0.}, 1e-14);
+      }
+  }
+
+  TEST(complementarity, contradictory_rows_of_a_floating_body_are_named)
+  {
+    // A mass tied to two places at once; the third row is its neighbour's.
+    for (const std::string &method : both_methods)
+    {
+      DenseOperator F = dense({{0., 0., 0.}, {0., 0., 0.}, {0., 0., 1.}});
+      auto torn = problem({0, 0, 1}, {-1., -2., -1.});
+      torn.kernel = {1., 1., 0.};
+      torn.kernel_load = {-3.};
+      ComplementaritySolver solver(method);
+      try
+      {
+        solver.solve(torn, F);
+        ADD_FAILURE() << "no exception";
+      }
+      catch (const ContradictoryRows &error)
+      {
+        EXPECT_EQ(error.rows(), (std::vector<std::size_t>{0, 1}));
+      }
+    }
+  }
+
+  // ---- cost
+
+  TEST(complementarity, bilateral_rows_alone_take_one_linear_solve)
+  {
+    CountingOperator F(string_compliance(20));
+    ComplementaritySolver solver;
+    const auto &result = solver.solve(problem(std::vector<char>(20, 0), Vector(20, 1.)), F);
+    EXPECT_EQ(F.n_solves, 1u);
+    EXPECT_EQ(result.iterations, 1u);
+    EXPECT_LT(result.residual.max, 1e-13);
+  }
+
+  TEST(complementarity, a_set_that_is_still_right_takes_one_solve_and_two_products)
+  {
+    CountingOperator F(string_compliance(20));
+    auto touching = problem(std::vector<char>(20, 1), Vector(20, 1.));
+    for (std::size_t i = 8; i < 12; ++i)
+      touching.free_gap[i] = -1.;
+    ComplementaritySolver solver;
+    solver.solve(touching, F);
+    F.n_solves = F.n_products = F.n_absolute_products = 0;
+    touching.free_gap[9] = -1.01;
+    EXPECT_EQ(solver.solve(touching, F).iterations, 1u);
+    EXPECT_EQ(F.n_solves, 1u);
+    EXPECT_EQ(F.n_products, 1u);
+    EXPECT_EQ(F.n_absolute_products, 1u);
+  }
+
+  TEST(complementarity, a_warm_step_allocates_nothing)
+  {
+    const std::size_t n = 30;
+    DenseOperator F = string_compliance(n);
+    auto step = problem(std::vector<char>(n, 1), Vector(n, -1.));
+    step.unilateral[0] = 0;
+    ComplementaritySolver solver;
+    solver.solve(step, F);
+    const std::size_t before = n_allocations;
+    for (int i = 0; i < 10; ++i)
+    {
+      for (std::size_t j = 0; j < n; ++j)
+        F.set(n - 1, j, F(n - 1, j) * (j == n - 1 ? 1.01 : .99));
+      step.free_gap[3] -= .001;
+      solver.solve(step, F);
+    }
+    EXPECT_EQ(n_allocations, before);
+  }
+
+  // ---- the dense operator
+
+  TEST(complementarity, kept_factor_equals_a_fresh_one)
+  {
+    // Random sets, orders, shifts and entries; the answer of an operator that has seen nothing else
+    // is the reference.
+    std::mt19937 random(7);
+    const std::size_t n = 12;
+    DenseOperator kept(n);
+    for (std::size_t i = 0; i < n; ++i)
+      kept.set(i, i, 10.);
+    std::vector<std::size_t> order(n);
+    std::iota(order.begin(), order.end(), 0);
+    for (int step = 0; step < 500; ++step)
+    {
+      if (step % 5 == 0)
+        std::shuffle(order.begin() + random() % n, order.end(), random);
+      for (int change = random() % 3; change > 0; --change)
+        kept.set(random() % n, random() % n, 0.);
+      for (int change = random() % 3; change > 0; --change)
+      {
+        const std::size_t i = random() % n, j = random() % n;
+        kept.set(i, j, i == j ? 10. + random() % 5 : .1 * (random() % 11) - .5);
+      }
+      for (std::size_t i = 0; i < n; ++i)
+        if (kept(i, i) == 0.)
+          kept.set(i, i, 10.);
+      const std::vector<std::size_t> set(order.begin(), order.begin() + random() % (n + 1));
+      const double shift = random() % 3 == 0 ? .1 * (1 + random() % 2) : 0.;
+      Vector rhs(n), x, y;
+      for (double &value : rhs)
+        value = random() % 10;
+
+      DenseOperator fresh(n);
+      for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j <= i; ++j)
+          fresh.set(i, j, kept(i, j));
+      ASSERT_TRUE(kept.solve(set, rhs, shift, x));
+      ASSERT_TRUE(fresh.solve(set, rhs, shift, y));
+      expect_near(x, y, 1e-14);
+
+      kept.apply(x, y);
+      for (const std::size_t i : set)
+        ASSERT_NEAR(y[i] + shift * kept(i, i) * x[i], rhs[i], 1e-12);
+    }
+  }
+
+  TEST(complementarity, products_are_those_of_the_full_matrix)
+  {
+    const DenseOperator F = dense({{2., 0., 0.}, {0., 3., 0.}, {-4., 5., 6.}});
+    Vector y;
+    F.apply({1., -1., 2.}, y);
+    expect_near(y, {-6., 7., 3.});
+    F.apply_absolute({1., -1., 2.}, y);
+    expect_near(y, {10., 13., 21.});
+  }
+
+  TEST(complementarity, dependent_rows_are_refused_at_every_scale)
+  {
+    for (const double scale : {1e-16, 1., 1e16})
+    {
+      DenseOperator F =
+          dense({{scale, 0., scale / 3.}, {0., 1., 1. / 3.}, {scale / 3., 1. / 3., 1.}});
+      const double left =
+          1. / 9. + scale / 9.; // Schur complement of the first two rows on the third
+      Vector x;
+      F.set(2, 2, left);
+      EXPECT_FALSE(F.solve({0, 1, 2}, {1., 1., 1.}, 0., x));
+      EXPECT_TRUE(F.solve({0, 1, 2}, {1., 1., 1.}, 1e-9, x));
+      F.set(2, 2, left * (1. + 1e-10));
+      EXPECT_TRUE(F.solve({0, 1, 2}, {1., 1., 1.}, 0., x));
+      F.set(2, 2, 0.);
+      EXPECT_FALSE(F.solve({2}, {1., 1., 1.}, 0., x));
+    }
+  }
+
+  // ---- the residual, and what is refused
+
+  TEST(complementarity, residual_tells_each_kind_of_error)
+  {
+    // d = -4, F = 2: N = 2. All numbers relative to |d| + F N.
+    const DenseOperator F = dense({{2.}});
+    const auto row = [&](char unilateral, double multiplier, double gap)
+    {
+      MixedComplementaritySolution guess;
+      guess.multiplier = {multiplier};
+      guess.gap = {gap};
+      return residual(problem({unilateral}, {-4.}), F, guess).rows[0];
+    };
+    EXPECT_EQ(row(1, 2., 0.), 0.);
+    EXPECT_EQ(row(1, 0., 3.), 0.);
+    EXPECT_DOUBLE_EQ(row(1, 2., -.8), .1);      // overlaps
+    EXPECT_DOUBLE_EQ(row(1, -1., 3.), 2. / 6.); // pulls
+    EXPECT_DOUBLE_EQ(row(1, 2., .8), .1);       // pushes from afar
+    EXPECT_DOUBLE_EQ(row(0, 2., .8), .1);
+    EXPECT_DOUBLE_EQ(row(0, -2., 0.), 0.);
+  }
+
+  TEST(complementarity, residual_sees_unbalanced_bodies)
+  {
+    MixedComplementaritySolution guess;
+    guess.multiplier = {3., 0., 5.};
+    guess.gap = {0., 0., 0.};
+    guess.kernel_amplitude = {0., 0.};
+    const auto result = residual(beam_on_stops(10., 1., {0., 0., 0.}), DenseOperator(3), guess);
+    EXPECT_GT(result.kernel[0], .05);
+    EXPECT_LT(result.kernel[1], 1e-15);
+    EXPECT_EQ(result.max, result.kernel[0]);
+  }
+
+  TEST(complementarity, residual_without_terms_is_zero_or_infinite)
+  {
+    MixedComplementaritySolution guess;
+    guess.multiplier = {0.};
+    guess.gap = {0.};
+    EXPECT_EQ(residual(problem({1}, {0.}), DenseOperator(1), guess).max, 0.);
+    guess.gap = {-1e-20};
+    EXPECT_EQ(residual(problem({1}, {0.}), DenseOperator(1), guess).max,
+              std::numeric_limits<double>::infinity());
+  }
+
+  TEST(complementarity, not_a_number_is_never_solved)
+  {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const std::string &method : both_methods)
+    {
+      DenseOperator F = dense({{2., 1.}, {1., 2.}});
+      ComplementaritySolver solver(method);
+      EXPECT_THROW(solver.solve(problem({1, 1}, {nan, 1.}), F), NotSolved);
+      EXPECT_THROW(solver.solve(problem({0, 1}, {1., nan}), F), NotSolved);
+      F.set(0, 1, nan);
+      EXPECT_THROW(solver.solve(problem({1, 1}, {-1., -1.}), F), UserError);
+    }
+  }
+
+  TEST(complementarity, after_an_exception_the_solver_starts_anew)
+  {
+    DenseOperator F = dense({{1., -1.}, {-1., 1.}});
+    ComplementaritySolver solver;
+    EXPECT_THROW(solver.solve(problem({1, 1}, {-1., -1.}), F), ContradictoryRows);
+    expect_near(solver.solve(problem({1, 1}, {-1., 3.}), F).solution.multiplier, {1., 0.});
+  }
+
+  TEST(complementarity, mistakes_are_refused)
+  {
+    EXPECT_THROW(ComplementaritySolver("Lemke"), UserError);
+    DenseOperator F(2);
+    ComplementaritySolver solver;
+    EXPECT_THROW(solver.solve(problem({1, 1}, {1.}), F), std::invalid_argument);
+    EXPECT_THROW(solver.solve(problem({1}, {1.}), F), std::invalid_argument);
+    auto three = problem({1, 1}, {1., 1.});
+    three.gap_scale = {1.};
+    EXPECT_THROW(solver.solve(three, F), std::invalid_argument);
+    three.gap_scale.clear();
+    three.kernel_load = {1.};
+    EXPECT_THROW(solver.solve(three, F), std::invalid_argument);
+  }
+
+  TEST(complementarity, any_operator_serves_the_fallback)
+  {
+    // Not a DenseOperator: the energy-ordered set has to assemble F from products.
+    CountingOperator F(dense(cycling_matrix));
+    ComplementaritySolver solver;
+    const auto &result = solver.solve(problem({1, 1, 1}, {2., 1., -3.}), F);
+    EXPECT_TRUE(result.used_fallback);
+    expect_near(result.solution.multiplier, {0., 8. / 38., 22. / 38.});
+  }
+} // namespace
