@@ -28,8 +28,9 @@ namespace taut
                                                     MixedComplementaritySolution &solution)
   {
     solution.closed.resize(problem.size());
-    for (iterations = 1; iterations <= options.max_iterations; ++iterations)
+    for (iterations = 0; iterations < options.max_iterations;)
     {
+      ++iterations;
       collect_set(problem, matrix, solution);
       if (options.detect_cycles && comes_back())
         return Outcome::cycle;

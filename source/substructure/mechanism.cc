@@ -20,6 +20,9 @@ namespace taut
           dofs.push_back(
               {m, motion, scene.masses[m].displacement[motion], scene.masses[m].velocity[motion]});
     const unsigned int n = dofs.size();
+    kinds.clear();
+    for (const Dof &dof : dofs)
+      kinds.push_back(dof.motion == 2 ? 1 : 0);
     M = std::make_unique<CoordinateMatrix>(n);
     C = std::make_unique<CoordinateMatrix>(n);
     K = std::make_unique<CoordinateMatrix>(n);

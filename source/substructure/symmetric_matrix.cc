@@ -34,11 +34,15 @@ namespace taut
   }
 
   template <int b>
-  BlockTridiagonalMatrix<b>::BlockTridiagonalMatrix(const unsigned int n) : rows(n / b)
+  BlockTridiagonalMatrix<b>::BlockTridiagonalMatrix(const unsigned int n) : n_nodes(n / b)
   {
     if (n % b != 0)
       throw std::logic_error(
           "the size of a block-tridiagonal matrix is a multiple of its block size");
+    for (auto &entries : diagonal)
+      entries.assign(n_nodes, 0.);
+    for (auto &entries : left)
+      entries.assign(n_nodes + 1, 0.);
   }
 
   template <int b>
@@ -48,13 +52,12 @@ namespace taut
     const unsigned int r = std::max(i, j), c = std::min(i, j);
     if (r / b == c / b)
     {
-      Block &block = rows[r / b].diagonal;
-      block[(r % b) * b + c % b] += value;
+      diagonal[(r % b) * b + c % b][r / b] += value;
       if (r != c)
-        block[(c % b) * b + r % b] += value;
+        diagonal[(c % b) * b + r % b][r / b] += value;
     }
     else if (r / b == c / b + 1)
-      rows[r / b].left[(r % b) * b + c % b] += value;
+      left[(r % b) * b + c % b][r / b] += value;
     else
       throw std::logic_error("entry outside the band of a block-tridiagonal matrix");
   }
@@ -62,47 +65,58 @@ namespace taut
   template <int b>
   void BlockTridiagonalMatrix<b>::vmult_add(const double factor, const double *x, double *y) const
   {
-    const std::size_t n = rows.size();
-    // Row by row: D_i x_i + L_i x_{i-1} into y_i, and L_i^T x_i into y_{i-1}, which is complete
-    // after it.
-    for (std::size_t i = 0; i < n; ++i)
+    const std::size_t n = n_nodes;
+    const double *d[b * b], *l[b * b];
+    for (int k = 0; k < b * b; ++k)
     {
-      const Row &row = rows[i];
-      const double *xi = x + b * i;
-      double *yi = y + b * i;
+      d[k] = diagonal[k].data();
+      l[k] = left[k].data();
+    }
+    // y_i += D_i x_i, + L_i x_{i-1} + L_{i+1}^T x_{i+1} where these exist.
+    const auto end_node = [&](const std::size_t i) {
       for (int r = 0; r < b; ++r)
       {
         double sum = 0.;
         for (int c = 0; c < b; ++c)
-          sum += row.diagonal[r * b + c] * xi[c];
-        if (i > 0)
-          for (int c = 0; c < b; ++c)
-            sum += row.left[r * b + c] * xi[c - b];
-        yi[r] += factor * sum;
-      }
-      if (i > 0)
-        for (int c = 0; c < b; ++c)
         {
-          double sum = 0.;
-          for (int r = 0; r < b; ++r)
-            sum += row.left[r * b + c] * xi[r];
-          yi[c - b] += factor * sum;
+          sum += d[r * b + c][i] * x[b * i + c];
+          if (i > 0)
+            sum += l[r * b + c][i] * x[b * (i - 1) + c];
+          if (i + 1 < n)
+            sum += l[c * b + r][i + 1] * x[b * (i + 1) + c];
         }
-    }
+        y[b * i + r] += factor * sum;
+      }
+    };
+    if (n == 0)
+      return;
+    end_node(0);
+#pragma omp simd
+    for (std::size_t i = 1; i < n - 1; ++i)
+      for (int r = 0; r < b; ++r)
+      {
+        double sum = 0.;
+        for (int c = 0; c < b; ++c)
+          sum += d[r * b + c][i] * x[b * i + c] + l[r * b + c][i] * x[b * (i - 1) + c] +
+                 l[c * b + r][i + 1] * x[b * (i + 1) + c];
+        y[b * i + r] += factor * sum;
+      }
+    if (n > 1)
+      end_node(n - 1);
   }
 
   template <int b>
   void BlockTridiagonalMatrix<b>::visit(const Visitor &visitor) const
   {
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t i = 0; i < n_nodes; ++i)
     {
       if (i > 0)
         for (int r = 0; r < b; ++r)
           for (int c = 0; c < b; ++c)
-            visitor(b * i + r, b * (i - 1) + c, rows[i].left[r * b + c]);
+            visitor(b * i + r, b * (i - 1) + c, left[r * b + c][i]);
       for (int r = 0; r < b; ++r)
         for (int c = 0; c <= r; ++c)
-          visitor(b * i + r, b * i + c, rows[i].diagonal[r * b + c]);
+          visitor(b * i + r, b * i + c, diagonal[r * b + c][i]);
     }
   }
 

@@ -74,6 +74,8 @@ namespace taut
     nodes = grid(scene, wire_index);
     axis = motion == WireMotion::axial ? wire.tangent() : wire.normal();
     beam = motion == WireMotion::transverse && wire.transverse == TransverseKind::beam;
+    if (beam)
+      kinds = {0, 1};
     bends_freely = beam && wire.tension == 0.;
     degree = beam ? 3 : wire.degree;
     dofs_per_node = beam ? 2 : degree;

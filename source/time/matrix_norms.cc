@@ -6,14 +6,58 @@
 
 namespace taut
 {
+  namespace
+  {
+    /// Largest absolute entries at the positions of a pattern of p DoFs; not-a-number stays.
+    template <int p>
+    void largest_in_pattern(const std::vector<double> &x, double (&result)[p])
+    {
+      // Several accumulators a position, so that the comparisons do not wait for each other.
+      constexpr int lanes = 8;
+      double m[lanes * p] = {};
+      const std::size_t n = x.size(), n_full = n - n % (lanes * p);
+      for (std::size_t i = 0; i < n_full; i += lanes * p)
+#pragma omp simd
+        for (int k = 0; k < lanes * p; ++k)
+        {
+          const double a = std::fabs(x[i + k]);
+          m[k] = a > m[k] || a != a ? a : m[k];
+        }
+      for (std::size_t i = n_full; i < n; ++i)
+      {
+        const double a = std::fabs(x[i]);
+        double &largest = m[i % p];
+        largest = a > largest || a != a ? a : largest;
+      }
+      for (int k = 0; k < lanes * p; ++k)
+        result[k % p] = m[k] > result[k % p] || m[k] != m[k] ? m[k] : result[k % p];
+    }
+  } // namespace
+
   PerKind largest(const Substructure &body, const std::vector<double> &x)
   {
     PerKind result = {0., 0.};
-    for (std::size_t i = 0; i < x.size(); ++i)
+    const std::vector<unsigned char> &kinds = body.kind_pattern();
+    if (kinds.size() == 1)
     {
-      double &m = result[body.kind(i)];
-      m = std::max(m, std::fabs(x[i]));
+      double m[1] = {};
+      largest_in_pattern<1>(x, m);
+      result[kinds[0]] = m[0];
     }
+    else if (kinds.size() == 2)
+    {
+      double m[2] = {};
+      largest_in_pattern<2>(x, m);
+      for (int k = 0; k < 2; ++k)
+        result[kinds[k]] = std::max(result[kinds[k]], m[k]);
+    }
+    else
+      for (std::size_t i = 0; i < x.size(); ++i)
+      {
+        double &largest = result[body.kind(i)];
+        const double a = std::fabs(x[i]);
+        largest = a > largest || a != a ? a : largest;
+      }
     return result;
   }
 

@@ -16,7 +16,6 @@ namespace taut
     /// @p members are indices of scene.masses.
     Mechanism(const Scene &scene, const std::vector<std::size_t> &members);
 
-    unsigned int kind(unsigned int i) const override { return dofs[i].motion == 2 ? 1 : 0; }
     void initial_state(std::vector<double> &U, std::vector<double> &V) const override;
     Kernel kernel() const override;
 

@@ -58,7 +58,10 @@ namespace taut
     void external_force(double t, std::vector<double> &P) const;
 
     /// Kind of DoF i: 0 a displacement, 1 a slope or rotation.
-    virtual unsigned int kind(unsigned int i) const = 0;
+    unsigned int kind(unsigned int i) const { return kinds[i % kinds.size()]; }
+
+    /// The kinds of the first DoFs, repeated over all: {0, 1} for a beam.
+    const std::vector<unsigned char> &kind_pattern() const { return kinds; }
 
     /// Displacement and velocity at t = 0 as given in the scene.
     virtual void initial_state(std::vector<double> &U, std::vector<double> &V) const = 0;
@@ -80,6 +83,7 @@ namespace taut
     void finish_constraints();
 
     std::unique_ptr<SymmetricMatrix> M, C, K;
+    std::vector<unsigned char> kinds = {0};
     std::vector<double> constant_force;
     std::vector<std::unique_ptr<TimeLoad>> time_loads;
     std::vector<ConstrainedDof> constrained;

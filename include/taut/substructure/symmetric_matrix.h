@@ -3,6 +3,7 @@
 #define taut_symmetric_matrix_h
 
 #include <array>
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <memory>
@@ -68,19 +69,19 @@ namespace taut
     std::map<std::pair<unsigned int, unsigned int>, double> entries;
   };
 
-  /// Blocks of b x b on the diagonal and beside it: the matrices of a wire, b DoFs a node.
+  /**
+   * Blocks of b x b on the diagonal and beside it: the matrices of a wire, b DoFs a node. Each of the b^2 positions in a
+   * block has its own array over the nodes, so that products run over many nodes at once.
+   */
   template <int b>
   class BlockTridiagonalMatrix : public SymmetricMatrix
   {
   public:
-    /// A full block, row by row.
-    using Block = std::array<double, b * b>;
-
     /// @p n is a multiple of b.
     explicit BlockTridiagonalMatrix(unsigned int n);
 
     using SymmetricMatrix::add;
-    unsigned int size() const override { return b * rows.size(); }
+    unsigned int size() const override { return b * n_nodes; }
     unsigned int block_size() const override { return b; }
     void add(unsigned int i, unsigned int j, double value) override;
     void vmult_add(double factor, const double *x, double *y) const override;
@@ -88,12 +89,9 @@ namespace taut
     std::unique_ptr<SymmetricMatrix> clone() const override;
 
   private:
-    /// Block row i: its diagonal block and the one to the left.
-    struct Row
-    {
-      Block diagonal{}, left{};
-    };
-    std::vector<Row> rows;
+    std::size_t n_nodes;
+    std::array<std::vector<double>, b * b> diagonal; ///< block (i, i)
+    std::array<std::vector<double>, b * b> left;     ///< block (i, i - 1); one node more, zero at both ends
   };
 
   /// A zero block-tridiagonal matrix with @p n rows in blocks of @p block_size, 1 to 4.

@@ -39,7 +39,6 @@ namespace taut
     /// True if slopes are DoFs, so that moments and angular gaps make sense.
     bool has_slopes() const { return beam; }
 
-    unsigned int kind(unsigned int i) const override { return beam ? i % 2 : 0; }
     void initial_state(std::vector<double> &U, std::vector<double> &V) const override;
     Kernel kernel() const override;
 

@@ -1,0 +1,22 @@
+# cmake --install: program, library, headers, parameter files and the CMake package `taut` with the target taut::taut.
+include(CMakePackageConfigHelpers)
+
+# The installed program finds the installed library wherever the two are moved to together; the folders of the
+# libraries below deal.II that the loader does not search by itself are added.
+file(RELATIVE_PATH library_from_program ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
+set_target_properties(taut taut-program PROPERTIES INSTALL_RPATH_USE_LINK_PATH TRUE)
+set_target_properties(taut-program PROPERTIES INSTALL_RPATH "$ORIGIN/${library_from_program}")
+
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/taut)
+configure_package_config_file(${CMAKE_CURRENT_SOURCE_DIR}/source/cmake/tautConfig.cmake.in
+  ${CMAKE_CURRENT_BINARY_DIR}/package/tautConfig.cmake INSTALL_DESTINATION ${package_folder})
+write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/package/tautConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+
+install(TARGETS taut-program)
+install(TARGETS taut EXPORT taut)
+install(EXPORT taut NAMESPACE taut:: FILE tautTargets.cmake DESTINATION ${package_folder})
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/package/tautConfig.cmake
+  ${CMAKE_CURRENT_BINARY_DIR}/package/tautConfigVersion.cmake DESTINATION ${package_folder})
+install(DIRECTORY include/taut DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY prm DESTINATION ${CMAKE_INSTALL_DATADIR}/taut FILES_MATCHING PATTERN "*.prm")
