@@ -62,6 +62,9 @@ namespace taut
       if (!close(row))
         return false;
     }
+    for (const std::size_t i : closed_rows)
+      if (matrix->diagonal(i) * std::abs(multipliers[i]) <= options.dead_band * terms[i])
+        multipliers[i] = 0.;
     return true;
   }
 

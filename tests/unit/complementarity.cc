@@ -132,7 +132,7 @@ namespace
       ComplementaritySolver solver(method);
       const auto &result = solver.solve(problem({1}, {-3.}), F);
       EXPECT_DOUBLE_EQ(result.solution.multiplier[0], 1.5);
-      EXPECT_EQ(result.solution.gap[0], 0.);
+      EXPECT_NEAR(result.solution.gap[0], 0., 1e-15);
       EXPECT_TRUE(result.solution.closed[0]);
     }
   }
@@ -544,7 +544,7 @@ namespace
         ComplementaritySolver solver(method);
         const auto &result = solver.solve(rod, F);
         expect_near(result.solution.multiplier, {1., 2.});
-        expect_near(result.solution.gap, {0., 0.}, 1e-14);
+        expect_near(result.solution.gap, {0., 0.});
       }
   }
 
@@ -586,12 +586,11 @@ namespace
   {
     CountingOperator F(string_compliance(20));
     auto touching = problem(std::vector<char>(20, 1), Vector(20, 1.));
-    for (std::size_t i = 8; i < 12; ++i)
-      touching.free_gap[i] = -1.;
+    touching.free_gap[5] = touching.free_gap[14] = -1.;
     ComplementaritySolver solver;
     solver.solve(touching, F);
     F.n_solves = F.n_products = F.n_absolute_products = 0;
-    touching.free_gap[9] = -1.01;
+    touching.free_gap[5] = -1.01;
     EXPECT_EQ(solver.solve(touching, F).iterations, 1u);
     EXPECT_EQ(F.n_solves, 1u);
     EXPECT_EQ(F.n_products, 1u);

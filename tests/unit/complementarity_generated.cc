@@ -1,0 +1,619 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claims about the complementarity solvers on 10 000 generated problems. The seed is printed;
+// TAUT_SEED sets another one. Whether a problem is solved is computed here, from the raw matrix and
+// in long double.
+#include "complementarity_reference.h"
+
+#include <taut/base/exceptions.h>
+#include <taut/complementarity/solver.h>
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <iostream>
+#include <numeric>
+#include <random>
+
+namespace
+{
+  using namespace taut;
+  using Vector = std::vector<double>;
+
+  constexpr unsigned int n_problems = 10000;
+
+  unsigned int seed()
+  {
+    static const unsigned int value = []
+    {
+      const char *const text = std::getenv("TAUT_SEED");
+      const unsigned int number = text ? std::strtoul(text, nullptr, 10) : 2026;
+      std::cout << "TAUT_SEED=" << number << std::endl;
+      return number;
+    }();
+    return value;
+  }
+
+  enum class Kind
+  {
+    random,       ///< F = V^T V with small integers, random gaps
+    random_touch, ///< the same with a known solution, N_i = D_i = 0 in some rows, exactly
+    string_touch, ///< contacts on a string, the same
+    redundant,    ///< V has fewer rows than columns, or equal columns
+    string,       ///< contacts on a string, random gaps
+    beam,         ///< contacts within 0.4 m of a beam of 50 m, and some further away
+    cycling       ///< 3x3 blocks on which a plain active set cycles, among random rows
+  };
+
+  struct Problem
+  {
+    Kind kind = Kind::random;
+    std::size_t n = 0;
+    Vector F; ///< n x n
+    Vector V; ///< m x n with F = V^T V, or empty
+    MixedComplementarityProblem values;
+
+    bool touches = false;      ///< N_i = D_i = 0 in some row
+    bool is_redundant = false; ///< columns of V depend on each other
+
+    DenseOperator matrix() const
+    {
+      DenseOperator result(n);
+      for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j <= i; ++j)
+          result.set(i, j, F[i * n + j]);
+      return result;
+    }
+  };
+
+  class Generator
+  {
+  public:
+    explicit Generator(unsigned int index) : random(1000003ull * seed() + index)
+    {
+      static const Kind kinds[] = {Kind::random,       Kind::random,    Kind::random_touch,
+                                   Kind::string_touch, Kind::redundant, Kind::redundant,
+                                   Kind::string,       Kind::beam,      Kind::cycling,
+                                   Kind::random_touch};
+      problem.kind = kinds[index % 10];
+    }
+
+    Problem generate()
+    {
+      const double size = uniform();
+      problem.n = 1 + std::size_t(200 * size * size * size);
+      choose_matrix();
+      if (problem.kind != Kind::cycling)
+        add_inert_rows();
+      choose_gaps();
+      if (integer(2))
+        scale_rows();
+      return problem;
+    }
+
+    double uniform() { return std::uniform_real_distribution<double>(0., 1.)(random); }
+    int integer(int n) { return random() % n; }
+
+  private:
+    void choose_matrix()
+    {
+      const double fractions[] = {0., 0., uniform(), uniform(), 1.};
+      const double bilateral = fractions[integer(5)];
+      switch (problem.kind)
+      {
+      case Kind::string:
+      case Kind::string_touch:
+        set_string();
+        break;
+      case Kind::beam:
+        set_beam();
+        break;
+      default:
+        set_product();
+      }
+      problem.values.unilateral.resize(problem.n);
+      for (char &unilateral : problem.values.unilateral)
+        unilateral = uniform() >= bilateral;
+      if (problem.kind == Kind::cycling)
+        set_cycling_blocks();
+    }
+
+    /// F = V^T V with entries -3..3, half of them 0; and a unit matrix below them if F is to be
+    /// definite.
+    void set_product()
+    {
+      const std::size_t n = problem.n;
+      const bool is_redundant = problem.kind == Kind::redundant;
+      const bool has_few_rows = is_redundant && integer(2);
+      const std::size_t m = has_few_rows ? 1 + std::size_t(.8 * n * uniform()) : n + 2 + integer(n);
+      problem.V.resize(m * n);
+      problem.is_redundant = m < n;
+      for (double &entry : problem.V)
+        entry = integer(2) ? integer(7) - 3 : 0;
+      if (!is_redundant)
+        for (std::size_t i = 0; i < n; ++i)
+        {
+          problem.V.resize(problem.V.size() + n, 0.);
+          problem.V[problem.V.size() - n + i] = 1.;
+        }
+      if (is_redundant && !has_few_rows)
+        for (std::size_t copies = 1 + integer(n); copies > 0; --copies)
+        {
+          const std::size_t from = integer(n), to = integer(n);
+          const int factor = integer(2) ? 1 : 2 * (integer(2) - 2);
+          problem.is_redundant |= from != to;
+          for (std::size_t k = 0; k < m; ++k)
+            problem.V[k * n + to] = factor * problem.V[k * n + from];
+        }
+      multiply();
+    }
+
+    void multiply()
+    {
+      const std::size_t n = problem.n, m = problem.V.size() / n;
+      problem.F.assign(n * n, 0.);
+      for (std::size_t k = 0; k < m; ++k)
+      {
+        const double *const row = &problem.V[k * n];
+        for (std::size_t i = 0; i < n; ++i)
+          if (row[i] != 0.)
+            for (std::size_t j = 0; j < n; ++j)
+              problem.F[i * n + j] += row[i] * row[j];
+      }
+    }
+
+    /// Compliance of a string with held ends: x (1 - y) for x <= y, at different multiples of
+    /// 1/1024.
+    void set_string()
+    {
+      const std::size_t n = problem.n;
+      std::vector<int> places(1023);
+      std::iota(places.begin(), places.end(), 1);
+      std::shuffle(places.begin(), places.end(), random);
+      problem.F.resize(n * n);
+      for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j < n; ++j)
+        {
+          const double x = std::min(places[i], places[j]) / 1024.;
+          const double y = std::max(places[i], places[j]) / 1024.;
+          problem.F[i * n + j] = x * (1. - y);
+        }
+    }
+
+    /// Compliance of a simply supported beam, (1 - y) x (2 y - x^2 - y^2) / 6 for x <= y and unit
+    /// length.
+    void set_beam()
+    {
+      const std::size_t n_near = 2 + integer(7);
+      const std::size_t n = problem.n = n_near + integer(12);
+      Vector places(n);
+      for (std::size_t i = 0; i < n; ++i)
+        places[i] = i < n_near ? .5 + .4 / 50. * (i + uniform() / 2.) / n_near : uniform();
+      problem.F.resize(n * n);
+      for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j < n; ++j)
+        {
+          const double x = std::min(places[i], places[j]), y = std::max(places[i], places[j]);
+          problem.F[i * n + j] = (1. - y) * x * (2. * y - x * x - y * y) / 6.;
+        }
+    }
+
+    /// The first rows become 3x3 blocks; then all rows change places.
+    void set_cycling_blocks()
+    {
+      static const double block[3][3] = {{4, 5, -5}, {5, 9, -5}, {-5, -5, 7}};
+      const std::size_t n_blocks = 1 + integer(3);
+      const std::size_t n = problem.n = std::max(problem.n, 3 * n_blocks);
+      set_product();
+      problem.V.clear();
+      problem.values.unilateral.resize(n, 1);
+      for (std::size_t i = 0; i < 3 * n_blocks; ++i)
+      {
+        problem.values.unilateral[i] = 1;
+        for (std::size_t j = 0; j < n; ++j)
+          problem.F[i * n + j] = problem.F[j * n + i] = j / 3 == i / 3 ? block[i % 3][j % 3] : 0.;
+      }
+      n_block_rows = 3 * n_blocks;
+    }
+
+    void choose_gaps()
+    {
+      const std::size_t n = problem.n;
+      Vector &d = problem.values.free_gap;
+      d.resize(n);
+      for (std::size_t i = 0; i < n; ++i)
+        d[i] = integer(201) - 100 + uniform();
+      if (problem.kind == Kind::random_touch || problem.kind == Kind::string_touch ||
+          problem.kind == Kind::redundant)
+        set_known_gaps(problem.kind != Kind::redundant || integer(2));
+      if (problem.kind == Kind::beam)
+        for (double &gap : d)
+          gap = uniform() - .5;
+      for (std::size_t i = 0; i < n; ++i)
+        if (problem.F[i * n + i] == 0.)
+          d[i] = problem.values.unilateral[i] ? std::abs(d[i]) : 0.;
+
+      static const double cycling[] = {2., 1., -3.};
+      const int sign = integer(2) ? 1 : -1;
+      for (std::size_t i = 0; i < n_block_rows; ++i)
+        d[i] = sign * cycling[i % 3];
+      if (problem.kind == Kind::cycling)
+        permute();
+    }
+
+    /// d = D - F N for small integers N and D: no rounding at all.
+    void set_known_gaps(bool touches)
+    {
+      const std::size_t n = problem.n;
+      Vector N(n);
+      for (std::size_t i = 0; i < n; ++i)
+      {
+        const int state = integer(touches ? 3 : 2);
+        const bool unilateral = problem.values.unilateral[i];
+        N[i] = unilateral ? (state == 0 ? 1 + integer(8) : 0) : integer(15) - 7;
+        problem.values.free_gap[i] = unilateral && state == 1 ? 1 + integer(8) : 0.;
+        problem.touches |= unilateral && state == 2 && problem.F[i * n + i] > 0.;
+      }
+      for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j < n; ++j)
+          problem.values.free_gap[i] -= problem.F[i * n + j] * N[j];
+    }
+
+    void permute()
+    {
+      const std::size_t n = problem.n;
+      std::vector<std::size_t> order(n);
+      std::iota(order.begin(), order.end(), 0);
+      std::shuffle(order.begin(), order.end(), random);
+      const Problem old = problem;
+      for (std::size_t i = 0; i < n; ++i)
+      {
+        problem.values.free_gap[i] = old.values.free_gap[order[i]];
+        problem.values.unilateral[i] = old.values.unilateral[order[i]];
+        for (std::size_t j = 0; j < n; ++j)
+          problem.F[i * n + j] = old.F[order[i] * n + order[j]];
+      }
+    }
+
+    /// Every fifth problem gets rows that nothing moves.
+    void add_inert_rows()
+    {
+      if (integer(5) != 0)
+        return;
+      const std::size_t n = problem.n;
+      for (int count = 1 + integer(3); count > 0; --count)
+      {
+        const std::size_t i = integer(n);
+        for (std::size_t k = 0; k * n < problem.V.size(); ++k)
+          problem.V[k * n + i] = 0.;
+        for (std::size_t j = 0; j < n; ++j)
+          problem.F[i * n + j] = problem.F[j * n + i] = 0.;
+      }
+    }
+
+    /// Rows by 1e-8 to 1e8, as powers of 2: exact.
+    void scale_rows()
+    {
+      const std::size_t n = problem.n;
+      for (std::size_t i = 0; i < n; ++i)
+      {
+        const double factor = std::ldexp(1., integer(53) - 26);
+        problem.values.free_gap[i] *= factor;
+        for (std::size_t k = 0; k * n < problem.V.size(); ++k)
+          problem.V[k * n + i] *= factor;
+        for (std::size_t j = 0; j < n; ++j)
+        {
+          problem.F[i * n + j] *= factor;
+          problem.F[j * n + i] *= factor;
+        }
+      }
+    }
+
+    std::mt19937_64 random;
+    Problem problem;
+    std::size_t n_block_rows = 0;
+  };
+
+  /// Largest residual of a row as the library defines it, but computed from the entries of F and in
+  /// long double.
+  double raw_residual(const Problem &problem, const MixedComplementaritySolution &solution)
+  {
+    const std::size_t n = problem.n;
+    double largest = 0.;
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      long double gap = problem.values.free_gap[i], terms = std::abs(gap);
+      for (std::size_t j = 0; j < n; ++j)
+      {
+        const long double term = (long double)(problem.F[i * n + j]) * solution.multiplier[j];
+        gap += term;
+        terms += std::abs(term);
+      }
+      const long double force = problem.F[i * n + i] * solution.multiplier[i];
+      const long double violation = problem.values.unilateral[i] ? std::min(force, gap) : gap;
+      const long double error = std::max(std::abs(violation), std::abs(gap - solution.gap[i]));
+      if (!(error <= largest * terms))
+        largest = error / terms;
+    }
+    return largest;
+  }
+
+  std::string describe(unsigned int index, const Problem &problem)
+  {
+    return "problem " + std::to_string(index) + ", kind " + std::to_string(int(problem.kind)) +
+           ", " + std::to_string(problem.n) + " rows";
+  }
+
+  SemismoothNewton::Outcome run_newton(const Problem &problem,
+                                       const ComplementarityOptions &options)
+  {
+    DenseOperator F = problem.matrix();
+    MixedComplementaritySolution solution;
+    return SemismoothNewton(options).solve(problem.values, F, solution);
+  }
+
+  TEST(complementarity_generated, all_problems_are_solved)
+  {
+    unsigned int n_touching = 0, n_redundant = 0, n_fallbacks = 0, n_iterations = 0, n_repeats = 0;
+    double largest = 0.;
+    for (unsigned int index = 0; index < n_problems; ++index)
+    {
+      const Problem problem = Generator(index).generate();
+      DenseOperator F = problem.matrix();
+      ComplementaritySolver solver;
+      try
+      {
+        const ComplementarityResult &result = solver.solve(problem.values, F);
+        const double residual = raw_residual(problem, result.solution);
+        EXPECT_LE(residual, 1e-10) << describe(index, problem);
+        largest = std::max(largest, residual);
+        n_fallbacks += result.used_fallback;
+        n_iterations += result.iterations;
+        n_repeats += solver.solve(problem.values, F).iterations > 1;
+      }
+      catch (const std::exception &error)
+      {
+        ADD_FAILURE() << describe(index, problem) << ": " << error.what();
+      }
+      n_touching += problem.touches;
+      n_redundant += problem.is_redundant;
+    }
+    std::cout << n_touching << " touch, " << n_redundant << " redundant, " << n_fallbacks
+              << " fallbacks, " << n_iterations << " iterations, residual " << largest << "; "
+              << n_repeats << " take more than one iteration from their own solution" << std::endl;
+    EXPECT_GE(n_touching, n_problems / 10);
+    EXPECT_GE(n_redundant, n_problems / 10);
+    EXPECT_LE(n_repeats, n_problems / 100);
+  }
+
+  TEST(complementarity_generated, energy_ordered_active_set_solves_them_alone)
+  {
+    for (unsigned int index = 0; index < n_problems; ++index)
+    {
+      const Problem problem = Generator(index).generate();
+      DenseOperator F = problem.matrix();
+      EnergyOrderedActiveSet solver{ComplementarityOptions()};
+      MixedComplementaritySolution solution;
+      EXPECT_EQ(solver.solve(problem.values, F, solution),
+                EnergyOrderedActiveSet::Outcome::finished)
+          << describe(index, problem);
+      EXPECT_LE(raw_residual(problem, solution), 1e-10) << describe(index, problem);
+      EXPECT_LE(solver.n_changes(), 6 * problem.n) << describe(index, problem);
+    }
+  }
+
+  /// Gaps are unique, multipliers where the rows without gap are independent, V N always.
+  void expect_same(const Problem &problem, const MixedComplementaritySolution &solution,
+                   const reference::Solution &expected)
+  {
+    // Each row in its own unit, the root of F_ii; relative to the largest gap and multiplier.
+    const std::size_t n = problem.n;
+    std::vector<long double> root(n, 1.);
+    long double size = 0.;
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      if (problem.F[i * n + i] > 0.)
+        root[i] = std::sqrt((long double)(problem.F[i * n + i]));
+      size = std::max({size, std::abs(problem.values.free_gap[i]) / root[i],
+                       std::abs(expected.N[i]) * root[i]});
+    }
+    std::vector<std::size_t> shut;
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      EXPECT_LE(std::abs(solution.gap[i] - expected.D[i]) / root[i], 1e-9 * size) << "gap " << i;
+      if (problem.F[i * n + i] > 0. && expected.D[i] / root[i] <= 1e-8 * size)
+        shut.push_back(i);
+    }
+    const bool is_unique = reference::smallest_pivot(problem.F, n, shut) > 1e-5;
+    for (const std::size_t i : shut)
+      if (is_unique)
+      {
+        EXPECT_LE(std::abs(solution.multiplier[i] - expected.N[i]) * root[i], 1e-8 * size)
+            << "multiplier " << i;
+      }
+    long double difference = 0., terms = 0.;
+    for (std::size_t k = 0; k * n < problem.V.size(); ++k)
+    {
+      long double sum = 0.;
+      for (std::size_t i = 0; i < n; ++i)
+      {
+        sum += problem.V[k * n + i] * (solution.multiplier[i] - expected.N[i]);
+        terms = std::max(terms, std::abs(problem.V[k * n + i] * expected.N[i]));
+      }
+      difference = std::max(difference, std::abs(sum));
+    }
+    EXPECT_LE(difference, 1e-7 * terms) << "V N";
+  }
+
+  TEST(complementarity_generated, independent_methods_agree)
+  {
+    unsigned int n_compared = 0;
+    for (unsigned int index = 0; index < n_problems; ++index)
+    {
+      const Problem problem = Generator(index).generate();
+      if (problem.n > 60)
+        continue;
+      SCOPED_TRACE(describe(index, problem));
+      const reference::Solution expected = reference::solve(problem.values, problem.F);
+      EXPECT_TRUE(expected.found);
+      DenseOperator F = problem.matrix();
+      ComplementaritySolver solver;
+      expect_same(problem, solver.solve(problem.values, F).solution, expected);
+      ++n_compared;
+    }
+    std::cout << n_compared << " compared" << std::endl;
+  }
+
+  TEST(complementarity_generated, cycling_problems_need_the_guard)
+  {
+    // Without the guard they go round to the iteration bound; with it, the fallback takes over at
+    // once.
+    ComplementarityOptions unguarded;
+    unguarded.detect_cycles = false;
+    unsigned int n_guarded = 0, n_unguarded = 0, n = 0;
+    for (unsigned int index = 0; index < n_problems; ++index)
+    {
+      const Problem problem = Generator(index).generate();
+      if (problem.kind != Kind::cycling || problem.n > 50)
+        continue;
+      ++n;
+      n_guarded +=
+          run_newton(problem, ComplementarityOptions()) == SemismoothNewton::Outcome::cycle;
+      n_unguarded += run_newton(problem, unguarded) == SemismoothNewton::Outcome::max_iterations;
+    }
+    std::cout << n_guarded << " of " << n << " cycle" << std::endl;
+    EXPECT_GE(n, 100u);
+    EXPECT_EQ(n_guarded, n);
+    EXPECT_EQ(n_unguarded, n);
+  }
+
+  TEST(complementarity_generated, exact_touch_needs_the_dead_band)
+  {
+    ComplementarityOptions no_band;
+    no_band.dead_band = 0.;
+    unsigned int n = 0, n_failures = 0, n_failures_without = 0;
+    for (unsigned int index = 0; index < n_problems; ++index)
+    {
+      const Problem problem = Generator(index).generate();
+      if (!problem.touches || problem.is_redundant)
+        continue;
+      ++n;
+      n_failures +=
+          run_newton(problem, ComplementarityOptions()) != SemismoothNewton::Outcome::solved;
+      n_failures_without += run_newton(problem, no_band) != SemismoothNewton::Outcome::solved;
+    }
+    std::cout << n << " touch: Newton fails in " << n_failures << " with dead band, in "
+              << n_failures_without << " without" << std::endl;
+    EXPECT_GE(n, n_problems / 10);
+    EXPECT_LE(n_failures, n / 500);
+    EXPECT_GE(n_failures_without, n / 10);
+  }
+
+  TEST(complementarity_generated, contradictory_pairs_are_named)
+  {
+    // Two rows of the same motion, d_j = f d_i +- 1: bilateral, or opposite stops that leave no
+    // room.
+    for (unsigned int index = 0; index < 500; ++index)
+    {
+      Generator generator(n_problems + index);
+      const std::size_t n = 2 + generator.integer(20);
+      const std::size_t i = generator.integer(n - 1), j = i + 1 + generator.integer(n - 1 - i);
+      const bool bilateral = generator.integer(2);
+      const double factor = bilateral ? 2. : -2.;
+      DenseOperator F(n);
+      const auto source = [&](std::size_t row) { return row == j ? i : row; };
+      const auto scale = [&](std::size_t row) { return row == j ? factor : 1.; };
+      for (std::size_t a = 0; a < n; ++a)
+        for (std::size_t b = 0; b <= a; ++b)
+          F.set(a, b,
+                scale(a) * scale(b) *
+                    (source(a) == source(b) ? 2. : 1. / (1. + source(a) + source(b))));
+      MixedComplementarityProblem problem;
+      for (std::size_t row = 0; row < n; ++row)
+      {
+        problem.unilateral.push_back(row == i || row == j ? !bilateral : generator.integer(2));
+        problem.free_gap.push_back(generator.integer(9) - 4);
+      }
+      problem.free_gap[j] = factor * problem.free_gap[i] - 1.;
+      for (const char *const method : {"semismooth Newton", "energy-ordered"})
+        try
+        {
+          ComplementaritySolver(method).solve(problem, F);
+          ADD_FAILURE() << "no exception in problem " << index;
+        }
+        catch (const ContradictoryRows &error)
+        {
+          EXPECT_EQ(error.rows(), (std::vector<std::size_t>{i, j})) << "problem " << index;
+        }
+    }
+  }
+
+  /// A floating problem with a known solution: d = D - F N - G^T alpha, e = -G N, in small
+  /// integers.
+  Problem generate_floating(unsigned int index)
+  {
+    Generator generator(2 * n_problems + index);
+    Problem problem;
+    const std::size_t n = problem.n = 1 + generator.integer(40);
+    const std::size_t m = generator.integer(2 * n), n_kernel = 1 + generator.integer(3);
+    problem.V.resize(m * n);
+    for (double &entry : problem.V)
+      entry = generator.integer(7) - 3;
+    problem.F.assign(n * n, 0.);
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j)
+        for (std::size_t k = 0; k < m; ++k)
+          problem.F[i * n + j] += problem.V[k * n + i] * problem.V[k * n + j];
+
+    MixedComplementarityProblem &values = problem.values;
+    values.kernel.resize(n_kernel * n);
+    for (double &entry : values.kernel)
+      entry = generator.integer(5) - 2;
+    values.kernel_load.assign(n_kernel, 0.);
+    Vector N(n), alpha(n_kernel);
+    for (double &amplitude : alpha)
+      amplitude = generator.integer(9) - 4;
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      const int state = generator.integer(3);
+      values.unilateral.push_back(generator.integer(4) > 0);
+      N[i] = values.unilateral[i] ? (state == 0 ? 1 + generator.integer(8) : 0)
+                                  : generator.integer(15) - 7;
+      values.free_gap.push_back(values.unilateral[i] && state == 1 ? 1 + generator.integer(8) : 0.);
+    }
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      for (std::size_t j = 0; j < n; ++j)
+        values.free_gap[i] -= problem.F[i * n + j] * N[j];
+      for (std::size_t k = 0; k < n_kernel; ++k)
+      {
+        values.free_gap[i] -= values.kernel[k * n + i] * alpha[k];
+        values.kernel_load[k] -= values.kernel[k * n + i] * N[i];
+      }
+    }
+    return problem;
+  }
+
+  TEST(complementarity_generated, floating_bodies_are_balanced)
+  {
+    unsigned int n_fallbacks = 0;
+    double largest = 0.;
+    for (unsigned int index = 0; index < 1000; ++index)
+      for (const char *const method : {"semismooth Newton", "energy-ordered"})
+      {
+        const Problem problem = generate_floating(index);
+        DenseOperator F = problem.matrix();
+        ComplementaritySolver solver(method);
+        try
+        {
+          const ComplementarityResult &result = solver.solve(problem.values, F);
+          n_fallbacks += result.used_fallback;
+          largest = std::max(largest, result.residual.max);
+        }
+        catch (const std::exception &error)
+        {
+          ADD_FAILURE() << method << ", " << describe(index, problem) << ": " << error.what();
+        }
+      }
+    std::cout << n_fallbacks << " fallbacks, residual " << largest << std::endl;
+  }
+} // namespace

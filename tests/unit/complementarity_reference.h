@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_complementarity_reference_h
+#define taut_complementarity_reference_h
+
+#include <taut/complementarity/problem.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+/**
+ * Methods that share nothing with the library, for tests: all sets by enumeration up to 12
+ * unilateral rows, Lemke's method with lexicographic pivots beyond. Everything in long double and
+ * scaled to a unit diagonal.
+ */
+namespace reference
+{
+  using Real = long double;
+  using Vector = std::vector<Real>;
+
+  /// y = T x + q, where rows and columns can change sides.
+  struct Tableau
+  {
+    std::size_t n;
+    Vector T, q;
+
+    Real &at(std::size_t i, std::size_t j) { return T[i * n + j]; }
+
+    /// Principal pivot: y_k and x_k change sides.
+    void pivot(std::size_t k)
+    {
+      const Real p = at(k, k);
+      for (std::size_t j = 0; j < n; ++j)
+        if (j != k)
+          at(k, j) /= -p;
+      q[k] /= -p;
+      for (std::size_t i = 0; i < n; ++i)
+        if (i != k)
+        {
+          const Real f = at(i, k);
+          if (f == 0)
+            continue;
+          for (std::size_t j = 0; j < n; ++j)
+            if (j != k)
+              at(i, j) += f * at(k, j);
+          q[i] += f * q[k];
+          at(i, k) = f / p;
+        }
+      at(k, k) = 1 / p;
+    }
+  };
+
+  struct Solution
+  {
+    Vector N, D;
+    bool found = false;
+  };
+
+  /// Depth first through all sets of @p rows, without dependent ones; keeps the one with the least
+  /// violation.
+  inline void enumerate(Tableau tableau, const std::vector<std::size_t> &rows, std::size_t depth,
+                        std::vector<char> &closed, Real &least, std::vector<char> &best)
+  {
+    if (depth == rows.size())
+    {
+      Real violation = 0;
+      for (const std::size_t i : rows)
+        violation = std::max(violation, -tableau.q[i]);
+      if (violation < least)
+      {
+        least = violation;
+        best = closed;
+      }
+      return;
+    }
+    const std::size_t k = rows[depth];
+    enumerate(tableau, rows, depth + 1, closed, least, best);
+    if (least == 0 || tableau.at(k, k) < 1e-15L)
+      return;
+    tableau.pivot(k);
+    closed[k] = 1;
+    enumerate(std::move(tableau), rows, depth + 1, closed, least, best);
+    closed[k] = 0;
+  }
+
+  /**
+   * Lemke's method for w = M z + q, w, z >= 0, w^T z = 0 with positive semidefinite M. Columns of
+   * the table: w (m), z (m), the artificial variable, q. Returns the z_i that are basic at the end,
+   * or false on a ray.
+   */
+  inline bool lemke(const Vector &M, const Vector &q, std::size_t m, std::vector<char> &basic_z)
+  {
+    const std::size_t width = 2 * m + 2;
+    std::vector<Vector> table(m, Vector(width, 0));
+    std::vector<std::size_t> basis(m);
+    for (std::size_t i = 0; i < m; ++i)
+    {
+      table[i][i] = 1;
+      for (std::size_t j = 0; j < m; ++j)
+        table[i][m + j] = -M[i * m + j];
+      table[i][2 * m] = -1;
+      table[i][2 * m + 1] = q[i];
+      basis[i] = i;
+    }
+    const auto pivot = [&](std::size_t row, std::size_t column)
+    {
+      const Real p = table[row][column];
+      for (Real &entry : table[row])
+        entry /= p;
+      for (std::size_t i = 0; i < m; ++i)
+        if (i != row && table[i][column] != 0)
+        {
+          const Real f = table[i][column];
+          for (std::size_t j = 0; j < width; ++j)
+            table[i][j] -= f * table[row][j];
+        }
+      basis[row] = column;
+    };
+    // Row a before row b in the lexicographic order of (q, w columns) / entry.
+    const auto is_before = [&](std::size_t a, std::size_t b, Real f_a, Real f_b)
+    {
+      const auto less = [&](std::size_t j) { return table[a][j] / f_a - table[b][j] / f_b; };
+      if (std::abs(less(2 * m + 1)) > 1e-15L)
+        return less(2 * m + 1) < 0;
+      for (std::size_t j = 0; j < m; ++j)
+        if (std::abs(less(j)) > 1e-15L)
+          return less(j) < 0;
+      return a < b;
+    };
+
+    basic_z.assign(m, 0);
+    if (std::all_of(q.begin(), q.end(), [](Real value) { return value >= -1e-15L; }))
+      return true;
+    std::size_t row = 0;
+    for (std::size_t i = 1; i < m; ++i)
+      if (is_before(i, row, 1, 1))
+        row = i;
+    std::size_t leaving = basis[row];
+    pivot(row, 2 * m);
+    for (std::size_t step = 0; step < 50 * m + 100; ++step)
+    {
+      const std::size_t entering = leaving < m ? leaving + m : leaving - m;
+      row = m;
+      for (std::size_t i = 0; i < m; ++i)
+        if (table[i][entering] > 1e-13L)
+          if (row == m || is_before(i, row, table[i][entering], table[row][entering]))
+            row = i;
+      if (row == m)
+        return false;
+      for (std::size_t i = 0; i < m; ++i) // the artificial variable wins ties
+        if (basis[i] == 2 * m && table[i][entering] > 1e-13L &&
+            table[i][2 * m + 1] / table[i][entering] <=
+                table[row][2 * m + 1] / table[row][entering] + 1e-15L)
+          row = i;
+      leaving = basis[row];
+      pivot(row, entering);
+      if (leaving == 2 * m)
+      {
+        for (const std::size_t variable : basis)
+          if (variable >= m && variable < 2 * m)
+            basic_z[variable - m] = 1;
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// Pivots on rows, largest first, as long as they are independent; returns those that are.
+  inline std::vector<std::size_t> pivot_all(Tableau &tableau, std::vector<std::size_t> rows)
+  {
+    std::vector<std::size_t> done;
+    while (!rows.empty())
+    {
+      const auto largest = std::max_element(rows.begin(), rows.end(),
+                                            [&](std::size_t a, std::size_t b)
+                                            { return tableau.at(a, a) < tableau.at(b, b); });
+      if (tableau.at(*largest, *largest) < 1e-14L)
+        break;
+      tableau.pivot(*largest);
+      done.push_back(*largest);
+      rows.erase(largest);
+    }
+    return done;
+  }
+
+  /// Solves a problem without kernel; F is n x n.
+  inline Solution solve(const taut::MixedComplementarityProblem &problem,
+                        const std::vector<double> &F)
+  {
+    const std::size_t n = problem.size();
+    Vector scale(n, 1);
+    Tableau scaled{n, Vector(n * n, 0), Vector(n, 0)};
+    for (std::size_t i = 0; i < n; ++i)
+      if (F[i * n + i] > 0)
+        scale[i] = std::sqrt(Real(F[i * n + i]));
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      for (std::size_t j = 0; j < n; ++j)
+        scaled.at(i, j) = Real(F[i * n + j]) / (scale[i] * scale[j]);
+      scaled.q[i] = problem.free_gap[i] / scale[i];
+    }
+
+    std::vector<std::size_t> bilateral, unilateral;
+    for (std::size_t i = 0; i < n; ++i)
+      if (F[i * n + i] > 0)
+        (problem.unilateral[i] ? unilateral : bilateral).push_back(i);
+    Tableau reduced = scaled;
+    std::vector<std::size_t> closed = pivot_all(reduced, bilateral);
+
+    Solution solution;
+    if (unilateral.size() <= 12)
+    {
+      std::vector<char> current(n, 0), best(n, 0);
+      Real least = 1e30L;
+      enumerate(reduced, unilateral, 0, current, least, best);
+      solution.found = true;
+      for (const std::size_t i : unilateral)
+        if (best[i])
+          closed.push_back(i);
+    }
+    else
+    {
+      const std::size_t m = unilateral.size();
+      Vector M(m * m), q(m);
+      for (std::size_t i = 0; i < m; ++i)
+      {
+        q[i] = reduced.q[unilateral[i]];
+        for (std::size_t j = 0; j < m; ++j)
+          M[i * m + j] = reduced.at(unilateral[i], unilateral[j]);
+      }
+      std::vector<char> basic;
+      solution.found = lemke(M, q, m, basic);
+      for (std::size_t i = 0; i < m; ++i)
+        if (basic[i])
+          closed.push_back(unilateral[i]);
+    }
+
+    Tableau final = scaled;
+    const auto pivoted = pivot_all(final, closed);
+    solution.N.assign(n, 0);
+    for (const std::size_t i : pivoted)
+      solution.N[i] = final.q[i] / scale[i];
+    solution.D.assign(n, 0);
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      solution.D[i] = problem.free_gap[i];
+      for (std::size_t j = 0; j < n; ++j)
+        solution.D[i] += F[i * n + j] * solution.N[j];
+    }
+    return solution;
+  }
+
+  /// Smallest pivot of F on the given rows, scaled to a unit diagonal: how unique their multipliers
+  /// are.
+  inline Real smallest_pivot(const std::vector<double> &F, std::size_t n,
+                             std::vector<std::size_t> rows)
+  {
+    const std::size_t m = rows.size();
+    Tableau tableau{m, Vector(m * m, 0), Vector(m, 0)};
+    for (std::size_t i = 0; i < m; ++i)
+      for (std::size_t j = 0; j < m; ++j)
+        tableau.at(i, j) = F[rows[i] * n + rows[j]] / std::sqrt(Real(F[rows[i] * n + rows[i]]) *
+                                                                Real(F[rows[j] * n + rows[j]]));
+    Real smallest = 1;
+    std::vector<char> done(m, 0);
+    for (std::size_t step = 0; step < m; ++step)
+    {
+      std::size_t k = m;
+      for (std::size_t i = 0; i < m; ++i)
+        if (!done[i] && (k == m || tableau.at(i, i) > tableau.at(k, k)))
+          k = i;
+      smallest = std::min(smallest, tableau.at(k, k));
+      if (smallest < 1e-14L)
+        return 0;
+      tableau.pivot(k);
+      done[k] = 1;
+    }
+    return smallest;
+  }
+} // namespace reference
+
+#endif
