@@ -54,17 +54,21 @@ namespace taut
     blocked.assign(problem->size(), 0);
     update_gaps();
     minimize();
+    bool is_purged = false;
     for (std::size_t closings = 0; closings < 20 * (problem->size() + 5); ++closings)
     {
-      const std::size_t row = most_violated();
+      std::size_t row = most_violated();
+      if (row == problem->size() && !is_purged)
+      {
+        purge();
+        is_purged = true;
+        row = most_violated();
+      }
       if (row == problem->size())
         break;
       if (!close(row))
         return false;
     }
-    for (const std::size_t i : closed_rows)
-      if (matrix->diagonal(i) * std::abs(multipliers[i]) <= options.dead_band * terms[i])
-        multipliers[i] = 0.;
     return true;
   }
 
@@ -185,6 +189,28 @@ namespace taut
     if (is_motion)
       std::fill(blocked.begin(), blocked.end(), 0);
     return is_motion;
+  }
+
+  /// Opens rows that carry nothing but rounding, of their own terms or of the largest multiplier.
+  void EnergyDescent::purge()
+  {
+    double largest = 0.;
+    for (const std::size_t i : closed_rows)
+      largest = std::max(largest, std::sqrt(matrix->diagonal(i)) * std::abs(multipliers[i]));
+    for (std::size_t p = closed_rows.size(); p-- > 0;)
+    {
+      const std::size_t i = closed_rows[p];
+      const double force = std::sqrt(matrix->diagonal(i)) * std::abs(multipliers[i]);
+      if (force > options.dead_band * largest &&
+          force * std::sqrt(matrix->diagonal(i)) > options.dead_band * terms[i])
+        continue;
+      if (problem->unilateral[i])
+        open(p);
+      else
+        multipliers[i] = 0.;
+    }
+    update_gaps();
+    minimize();
   }
 
   void EnergyDescent::open(std::size_t position)

@@ -152,6 +152,7 @@ namespace taut
   {
     Wire wire;
     wire.name = name;
+    wire.origin = name == "contact" ? "Catenary/Contact wire" : "Catenary/Messenger wire";
     wire.a = {0., y};
     wire.b = {length, y};
     wire.mass_per_length = mass_per_length;
@@ -175,6 +176,7 @@ namespace taut
 
     Support ends;
     ends.name = "ends";
+    ends.origin = "Catenary";
     ends.positions = {0., length};
     for (const std::size_t wire : {messenger_wire, contact_wire})
     {
@@ -185,19 +187,22 @@ namespace taut
     {
       Support mast;
       mast.name = "messenger at masts";
+      mast.origin = "Catenary/Supports";
       mast.wire = messenger_wire;
       mast.positions = masts;
       const double stiffness =
-          parse_stiffness(messenger_support_stiffness, "Catenary, Supports, Messenger stiffness");
+          parse_stiffness(messenger_support_stiffness, "Catenary/Supports/Messenger stiffness");
       mast.fixed = std::isinf(stiffness);
       mast.stiffness = mast.fixed ? 0. : stiffness;
       scene.supports.push_back(mast);
       if (arm_mass > 0.)
-        scene.point_masses.push_back({"arm", contact_wire, masts, arm_mass, false});
+        scene.point_masses.push_back(
+            {"arm", "Catenary/Supports", contact_wire, masts, arm_mass, false});
       if (arm_stiffness > 0. || arm_damping > 0.)
       {
         Support arm;
         arm.name = "arm";
+        arm.origin = "Catenary/Supports";
         arm.wire = contact_wire;
         arm.positions = masts;
         arm.fixed = false;
@@ -210,6 +215,7 @@ namespace taut
     for (const double x : uplift_positions.empty() ? masts : uplift_positions)
     {
       Probe probe;
+      probe.origin = "Catenary/Uplift positions";
       probe.name = "contact wire at " + number(x) + " m";
       probe.point = {Attachment::Kind::wire, contact_wire, x};
       scene.probes.push_back(probe);
@@ -221,29 +227,32 @@ namespace taut
     const auto require = [&](const std::vector<double> &list, const std::string &name)
     {
       if (!list.empty() && list.size() != dropper_positions.size())
-        throw UserError("Catenary, Droppers, " + name + ": " + std::to_string(list.size()) +
-                        " values for " + std::to_string(dropper_positions.size()) + " Positions");
+        throw EntryError("Catenary/Droppers/" + name, std::to_string(list.size()) + " values for " +
+                                                          std::to_string(dropper_positions.size()) +
+                                                          " Positions");
     };
     require(pre_sag, "Pre-sag");
     require(dropper_lengths, "Lengths");
     if (dropper_axial_stiffness > 0. && !dropper_lengths.empty())
-      throw UserError("Catenary, Droppers, Axial stiffness: with given Lengths use Stiffness");
+      throw EntryError("Catenary/Droppers/Axial stiffness", "with given Lengths use Stiffness");
 
     std::vector<double> clamps;
     for (unsigned int span = 0; span < n_spans; ++span)
       for (std::size_t i = 0; i < dropper_positions.size(); ++i)
       {
         if (!(dropper_positions[i] > 0. && dropper_positions[i] < span_length))
-          throw UserError("Catenary, Droppers, Positions: " + number(dropper_positions[i]) +
-                          " m is not inside its span of " + number(span_length) + " m");
+          throw EntryError("Catenary/Droppers/Positions", number(dropper_positions[i]) +
+                                                              " m is not inside its span of " +
+                                                              number(span_length) + " m");
         Link link;
         link.kind = LinkKind::dropper;
+        link.origin = "Catenary/Droppers";
         const double x = span * span_length + dropper_positions[i];
         link.name = "dropper " + std::to_string(span + 1) + "." + std::to_string(i + 1);
         link.from = {Attachment::Kind::wire, messenger_wire, x};
         link.to = {Attachment::Kind::wire, contact_wire, x};
         link.direction = {0., -1.};
-        link.stiffness = parse_stiffness(dropper_stiffness, "Catenary, Droppers, Stiffness");
+        link.stiffness = parse_stiffness(dropper_stiffness, "Catenary/Droppers/Stiffness");
         link.damping = dropper_damping;
         if (dropper_lengths.empty())
         {
@@ -261,26 +270,28 @@ namespace taut
         clamps.push_back(x);
       }
     if (messenger_clamp_mass > 0. && !clamps.empty())
-      scene.point_masses.push_back(
-          {"messenger clamp", messenger_wire, clamps, messenger_clamp_mass, true});
+      scene.point_masses.push_back({"messenger clamp", "Catenary/Droppers", messenger_wire, clamps,
+                                    messenger_clamp_mass, true});
     if (contact_clamp_mass > 0. && !clamps.empty())
       scene.point_masses.push_back(
-          {"contact clamp", contact_wire, clamps, contact_clamp_mass, true});
+          {"contact clamp", "Catenary/Droppers", contact_wire, clamps, contact_clamp_mass, true});
   }
 
   void Catenary::add_pantograph(const std::string &name, const PantographItem &item,
                                 Scene &scene) const
   {
-    const std::string section = "Catenary, Pantograph " + name;
+    const std::string section = "Catenary/Pantograph " + name;
     const std::size_t n = item.masses.size(), first = scene.masses.size();
     if (item.stiffnesses.size() != n || item.dampings.size() != n)
-      throw UserError(section + ": Masses, Stiffnesses and Dampings are lists of one length; got " +
-                      std::to_string(n) + ", " + std::to_string(item.stiffnesses.size()) + ", " +
-                      std::to_string(item.dampings.size()));
+      throw EntryError(section, "Masses, Stiffnesses and Dampings are lists of one length; got " +
+                                    std::to_string(n) + ", " +
+                                    std::to_string(item.stiffnesses.size()) + ", " +
+                                    std::to_string(item.dampings.size()));
     for (std::size_t i = 0; i < n; ++i)
     {
       Mass mass;
       mass.name = name + (i == 0 ? " head" : " mass " + std::to_string(i + 1));
+      mass.origin = section;
       mass.position = {item.start, 0.};
       mass.mass = item.masses[i];
       mass.weight = false;
@@ -289,6 +300,7 @@ namespace taut
         continue;
       Spring spring;
       spring.name = name + " spring " + std::to_string(i + 1);
+      spring.origin = section;
       spring.from = i + 1 < n ? first + i + 1 : ground;
       spring.to = first + i;
       spring.stiffness = item.stiffnesses[i];
@@ -297,20 +309,22 @@ namespace taut
     }
     Load force;
     force.name = name + " static force";
+    force.origin = section;
     force.target = {Attachment::Kind::mass, first + n - 1, 0.};
     force.magnitude = Expression(item.static_force);
     scene.loads.push_back(force);
 
     Link contact_link;
     contact_link.name = name;
+    contact_link.origin = section;
     contact_link.kind = LinkKind::sliding_contact;
     contact_link.from = {Attachment::Kind::mass, first, 0.};
     contact_link.to = {Attachment::Kind::wire, contact_wire, item.start};
     contact_link.stiffness =
-        parse_stiffness(item.contact_stiffness, section + ", Contact stiffness");
+        parse_stiffness(item.contact_stiffness, section + "/Contact stiffness");
     contact_link.damping = item.contact_damping;
     contact_link.speed = item.speed / 3.6;
-    contact_link.profile = Expression(item.profile, section + ", Height profile");
+    contact_link.profile = Expression(item.profile, section + "/Height profile");
     scene.links.push_back(contact_link);
   }
 

@@ -38,7 +38,7 @@ namespace taut
         used = 0;
       }
       if (used == 0 || used != text.size() || !std::isfinite(value))
-        throw UserError(entry + ": '" + text + "' is not a finite number");
+        throw EntryError(entry, "'" + text + "' is not a finite number");
       return value;
     }
   } // namespace
@@ -57,14 +57,15 @@ namespace taut
         const double first = parse_number(range[0], entry), step = parse_number(range[1], entry),
                      last = parse_number(range[2], entry);
         if (!(step > 0.) || last < first || (last - first) / step > most)
-          throw UserError(entry + ": the range '" + part +
-                          "' is empty or endless; write first:step:last with a positive step");
+          throw EntryError(entry,
+                           "the range '" + part +
+                               "' is empty or endless; write first:step:last with a positive step");
         const auto n = static_cast<long>(std::floor((last - first) / step * (1. + 1e-12) + 1e-9));
         for (long k = 0; k <= n; ++k)
           positions.push_back(first + k * step);
       }
       else
-        throw UserError(entry + ": '" + part + "' is neither a number nor a range first:step:last");
+        throw EntryError(entry, "'" + part + "' is neither a number nor a range first:step:last");
     }
     return positions;
   }
@@ -75,17 +76,17 @@ namespace taut
       return std::numeric_limits<double>::infinity();
     const double value = parse_number(trim(text), entry);
     if (!(value > 0.))
-      throw UserError(entry + ": a stiffness is positive, or 'rigid'; got '" + text + "'");
+      throw EntryError(entry, "a stiffness is positive, or 'rigid'; got '" + text + "'");
     return value;
   }
 
   Point parse_direction(const std::vector<double> &components, const std::string &entry)
   {
     if (components.size() != 2)
-      throw UserError(entry + ": a direction has two components, 'x, y'");
+      throw EntryError(entry, "a direction has two components, 'x, y'");
     const double length = std::hypot(components[0], components[1]);
     if (!(length > 0.) || !std::isfinite(length))
-      throw UserError(entry + ": a direction is not zero");
+      throw EntryError(entry, "a direction is not zero");
     return {components[0] / length, components[1] / length};
   }
 
@@ -104,7 +105,7 @@ namespace taut
       if (attachment.index != ground)
         return {attachment};
       if (find_name(scene.wires, name) != ground)
-        throw UserError(entry + ": say where on the wire: '" + name + " @ position'");
+        throw EntryError(entry, "say where on the wire: '" + name + " @ position'");
     }
     else
     {
@@ -119,7 +120,7 @@ namespace taut
           attachments.push_back(attachment);
         }
         if (attachments.empty())
-          throw UserError(entry + ": no position after '@'");
+          throw EntryError(entry, "no position after '@'");
         return attachments;
       }
     }
@@ -128,7 +129,7 @@ namespace taut
       known += ", " + mass.name;
     for (const Wire &wire : scene.wires)
       known += ", " + wire.name + " @ position";
-    throw UserError(entry + ": '" + text + "' is not known; known are: " + known);
+    throw EntryError(entry, "'" + text + "' is not known; known are: " + known);
   }
 
   Point place(const Scene &scene, const Attachment &point)

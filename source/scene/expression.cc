@@ -40,10 +40,10 @@ namespace taut
 
     const auto bad = [&](const std::string &reason)
     {
-      return UserError(
-          entry + ": cannot evaluate '" + text + "': " + reason +
-          ". Write a formula in s (position along the wire [m]) and t (time [s]), e.g. "
-          "'120*sin(2*pi*t)'.");
+      return EntryError(
+          entry, "cannot evaluate '" + text + "': " + reason +
+                     ". Write a formula in s (position along the wire [m]) and t (time [s]), e.g. "
+                     "'120*sin(2*pi*t)'.");
     };
     auto fresh = std::make_shared<Parser>();
     try
@@ -75,9 +75,9 @@ namespace taut
     if (!std::isfinite(value))
     {
       std::ostringstream out;
-      out << entry << ": '" << text << "' is not finite at s = " << s << " m, t = " << t
+      out << "'" << text << "' is not finite at s = " << s << " m, t = " << t
           << " s. Restrict the formula to where it is defined, e.g. with if(condition, a, b).";
-      throw UserError(out.str());
+      throw EntryError(entry, out.str());
     }
     return value;
   }

@@ -24,7 +24,7 @@ namespace taut
         std::string known;
         for (const Wire &wire : scene.wires)
           known += (known.empty() ? "" : ", ") + wire.name;
-        throw UserError(title + ", Wire: '" + name + "' is not a wire; known are: " + known);
+        throw EntryError(title + "/Wire", "'" + name + "' is not a wire; known are: " + known);
       }
       return index;
     }
@@ -33,8 +33,8 @@ namespace taut
     {
       const Attachment end = parse_attachments(name, scene, entry).front();
       if (end.kind == Attachment::Kind::wire)
-        throw UserError(
-            entry + ": a spring acts between masses; between wires use a link with a stiffness");
+        throw EntryError(entry,
+                         "a spring acts between masses; between wires use a link with a stiffness");
       return end.kind == Attachment::Kind::ground ? ground : end.index;
     }
   } // namespace
@@ -57,13 +57,14 @@ namespace taut
       const std::string title = wires.title(i);
       Wire wire;
       wire.name = wires.names[i];
+      wire.origin = title;
       wire.a = {item.from[0], item.from[1]};
       wire.b = {item.to[0], item.to[1]};
       wire.mass_per_length = item.mass_per_length;
       wire.has_axial = contains(item.components, "bar");
       wire.axial_stiffness = item.axial_stiffness;
       if (contains(item.components, "string") && contains(item.components, "beam"))
-        throw UserError(title + ", Components: 'string' and 'beam' exclude each other");
+        throw EntryError(title + "/Components", "'string' and 'beam' exclude each other");
       if (contains(item.components, "string"))
         wire.transverse = TransverseKind::string;
       if (contains(item.components, "beam"))
@@ -75,11 +76,11 @@ namespace taut
       wire.damping = {item.mass_damping, item.stiffness_damping};
       wire.weight = item.weight;
       wire.axial_start = {
-          Expression(item.axial_displacement, title + ", Initial axial displacement"),
-          Expression(item.axial_velocity, title + ", Initial axial velocity")};
+          Expression(item.axial_displacement, title + "/Initial axial displacement"),
+          Expression(item.axial_velocity, title + "/Initial axial velocity")};
       wire.transverse_start = {
-          Expression(item.transverse_displacement, title + ", Initial transverse displacement"),
-          Expression(item.transverse_velocity, title + ", Initial transverse velocity")};
+          Expression(item.transverse_displacement, title + "/Initial transverse displacement"),
+          Expression(item.transverse_velocity, title + "/Initial transverse velocity")};
       scene.wires.push_back(wire);
     }
     for (std::size_t i = 0; i < supports.items.size(); ++i)
@@ -88,13 +89,14 @@ namespace taut
       const std::string title = supports.title(i);
       Support support;
       support.name = supports.names[i];
+      support.origin = title;
       support.wire = wire_index(scene, item.wire, title);
-      support.positions = parse_positions(item.positions, title + ", Positions");
+      support.positions = parse_positions(item.positions, title + "/Positions");
       support.motion = item.motion == "axial"   ? WireMotion::axial
                        : item.motion == "slope" ? WireMotion::slope
                                                 : WireMotion::transverse;
       support.fixed = item.kind == "fixed";
-      support.prescribed = Expression(item.displacement, title + ", Displacement");
+      support.prescribed = Expression(item.displacement, title + "/Displacement");
       support.stiffness = item.stiffness;
       support.damping = item.damping;
       scene.supports.push_back(support);
@@ -103,9 +105,14 @@ namespace taut
     {
       const PointMassItem &item = point_masses.items[i];
       const std::string title = point_masses.title(i);
-      scene.point_masses.push_back({point_masses.names[i], wire_index(scene, item.wire, title),
-                                    parse_positions(item.positions, title + ", Positions"),
-                                    item.mass, item.weight});
+      PointMass mass;
+      mass.name = point_masses.names[i];
+      mass.origin = title;
+      mass.wire = wire_index(scene, item.wire, title);
+      mass.positions = parse_positions(item.positions, title + "/Positions");
+      mass.mass = item.mass;
+      mass.weight = item.weight;
+      scene.point_masses.push_back(mass);
     }
   }
 
@@ -116,8 +123,9 @@ namespace taut
       const MassItem &item = masses.items[i];
       Mass mass;
       mass.name = masses.names[i];
+      mass.origin = masses.title(i);
       if (find_name(scene.wires, mass.name) != ground || mass.name == "ground")
-        throw UserError(masses.title(i) + ": the name is taken by a wire or by the ground");
+        throw EntryError(masses.title(i), "the name is taken by a wire or by the ground");
       mass.position = {item.position[0], item.position[1]};
       mass.mass = item.mass;
       mass.inertia = item.inertia;
@@ -137,12 +145,13 @@ namespace taut
       const std::string title = springs.title(i);
       Spring spring;
       spring.name = springs.names[i];
-      spring.from = mass_index(scene, item.from, title + ", From");
-      spring.to = mass_index(scene, item.to, title + ", To");
+      spring.origin = title;
+      spring.from = mass_index(scene, item.from, title + "/From");
+      spring.to = mass_index(scene, item.to, title + "/To");
       if (spring.from == spring.to)
-        throw UserError(title + ": both ends are '" + item.from + "'");
+        throw EntryError(title, "both ends are '" + item.from + "'");
       spring.rotational = item.rotational;
-      spring.direction = parse_direction(item.direction, title + ", Direction");
+      spring.direction = parse_direction(item.direction, title + "/Direction");
       spring.stiffness = item.stiffness;
       spring.damping = item.damping;
       scene.springs.push_back(spring);
@@ -156,25 +165,27 @@ namespace taut
       const LinkItem &item = links.items[i];
       const std::string title = links.title(i);
       Link link;
+      link.origin = title;
       link.kind = item.type == "stop"              ? LinkKind::stop
                   : item.type == "dropper"         ? LinkKind::dropper
                   : item.type == "sliding contact" ? LinkKind::sliding_contact
                                                    : LinkKind::joint;
       link.rotational = item.rotational;
-      link.stiffness = parse_stiffness(item.stiffness, title + ", Stiffness");
+      link.stiffness = parse_stiffness(item.stiffness, title + "/Stiffness");
       link.damping = item.damping;
       link.gap = item.gap;
       link.speed = item.speed;
-      link.profile = Expression(item.profile, title + ", Height profile");
+      link.profile = Expression(item.profile, title + "/Height profile");
       link.find_length = item.find_length;
       link.prescribed_displacement = item.prescribed_displacement;
       link.axial_stiffness = item.axial_stiffness;
       link.mass_per_length = item.mass_per_length;
-      const auto from = parse_attachments(item.from, scene, title + ", From");
-      const auto to = parse_attachments(item.to, scene, title + ", To");
+      const auto from = parse_attachments(item.from, scene, title + "/From");
+      const auto to = parse_attachments(item.to, scene, title + "/To");
       if (from.size() != to.size() && from.size() != 1 && to.size() != 1)
-        throw UserError(title + ": From has " + std::to_string(from.size()) + " positions and To " +
-                        std::to_string(to.size()) + "; give equal numbers, or one of one");
+        throw EntryError(title, "From has " + std::to_string(from.size()) + " positions and To " +
+                                    std::to_string(to.size()) +
+                                    "; give equal numbers, or one of one");
       const std::size_t n = std::max(from.size(), to.size());
       for (std::size_t k = 0; k < n; ++k)
       {
@@ -182,15 +193,15 @@ namespace taut
         link.from = from[from.size() > 1 ? k : 0];
         link.to = to[to.size() > 1 ? k : 0];
         if (!item.direction.empty())
-          link.direction = parse_direction(item.direction, title + ", Direction");
+          link.direction = parse_direction(item.direction, title + "/Direction");
         else if (!link.rotational)
         {
           if (link.from.kind == Attachment::Kind::ground ||
               link.to.kind == Attachment::Kind::ground)
-            throw UserError(title + ", Direction: give 'x, y', the ground has no place of its own");
+            throw EntryError(title + "/Direction",
+                             "give 'x, y', the ground has no place of its own");
           const Point a = place(scene, link.from), b = place(scene, link.to);
-          link.direction = parse_direction({b.x - a.x, b.y - a.y},
-                                           title + ", Direction (both ends are at one place)");
+          link.direction = parse_direction({b.x - a.x, b.y - a.y}, title + "/Direction");
         }
         scene.links.push_back(link);
       }
@@ -204,35 +215,22 @@ namespace taut
       const LoadItem &item = loads.items[i];
       const std::string title = loads.title(i);
       Load load;
+      load.origin = title;
       load.kind = item.type == "distributed" ? Load::Kind::distributed
                   : item.type == "moving"    ? Load::Kind::moving
                                              : Load::Kind::point;
       load.rotational = item.rotational;
-      load.direction = parse_direction(item.direction, title + ", Direction");
-      load.magnitude = Expression(item.magnitude, title + ", Magnitude");
+      load.direction = parse_direction(item.direction, title + "/Direction");
+      load.magnitude = Expression(item.magnitude, title + "/Magnitude");
       load.speed = item.speed;
       std::string on = item.on;
       if (load.kind == Load::Kind::distributed && on.find('@') == std::string::npos)
         on += " @ 0";
-      for (const Attachment &target : parse_attachments(on, scene, title + ", On"))
+      for (const Attachment &target : parse_attachments(on, scene, title + "/On"))
       {
         load.name = loads.names[i];
         load.target = target;
         scene.loads.push_back(load);
-      }
-    }
-    for (std::size_t i = 0; i < probes.items.size(); ++i)
-    {
-      const ProbeItem &item = probes.items[i];
-      const std::string title = probes.title(i);
-      for (const Attachment &point : parse_attachments(item.point, scene, title + ", Point"))
-      {
-        Probe probe;
-        probe.name = probes.names[i];
-        probe.point = point;
-        probe.rotational = item.rotational;
-        probe.direction = parse_direction(item.direction, title + ", Direction");
-        scene.probes.push_back(probe);
       }
     }
   }

@@ -2,38 +2,14 @@
 #ifndef taut_network_h
 #define taut_network_h
 
+#include <taut/scene/named_items.h>
 #include <taut/scene/scene_generator.h>
 
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace taut
 {
-  /// The items of one kind in a parameter file: their names, and a section for each.
-  template <typename Item>
-  class NamedItems
-  {
-  public:
-    /// @p list is the entry with the names, e.g. "Wires"; sections are called "<section> <name>".
-    NamedItems(std::string list, std::string section, std::string help)
-        : list(std::move(list)), section(std::move(section)), help(std::move(help))
-    {
-    }
-
-    void declare_names(dealii::ParameterHandler &prm);
-    void declare_parameters(dealii::ParameterHandler &prm);
-
-    std::vector<std::string> names;
-    std::vector<Item> items; ///< in the order of the names, once declare_parameters() has run
-
-    /// Section of the i-th item, for messages.
-    std::string title(std::size_t i) const { return section + " " + names[i]; }
-
-  private:
-    std::string list, section, help;
-  };
-
   /// Scene generator `network`: any named wires, masses, springs, links, loads.
   class Network : public SceneGenerator
   {
@@ -101,13 +77,6 @@ namespace taut
       double speed = 0.;
       void declare(dealii::ParameterHandler &prm);
     };
-    struct ProbeItem
-    {
-      std::string point;
-      std::vector<double> direction = {0., 1.};
-      bool rotational = false;
-      void declare(dealii::ParameterHandler &prm);
-    };
 
   private:
     void add_wires(Scene &scene) const;
@@ -115,15 +84,16 @@ namespace taut
     void add_links(Scene &scene) const;
     void add_loads(Scene &scene) const;
 
-    NamedItems<WireItem> wires{"Wires", "Wire", "straight wires"};
-    NamedItems<SupportItem> supports{"Supports", "Support", "supports of wires"};
-    NamedItems<PointMassItem> point_masses{"Point masses", "Point mass", "masses on wires"};
-    NamedItems<MassItem> masses{"Masses", "Mass", "lumped masses"};
-    NamedItems<SpringItem> springs{"Springs", "Spring",
+    NamedItems<WireItem> wires{"Network", "Wires", "Wire", "straight wires"};
+    NamedItems<SupportItem> supports{"Network", "Supports", "Support", "supports of wires"};
+    NamedItems<PointMassItem> point_masses{"Network", "Point masses", "Point mass",
+                                           "masses on wires"};
+    NamedItems<MassItem> masses{"Network", "Masses", "Mass", "lumped masses"};
+    NamedItems<SpringItem> springs{"Network", "Springs", "Spring",
                                    "springs and dampers between masses or a mass and the ground"};
-    NamedItems<LinkItem> links{"Links", "Link", "joints, stops, droppers and sliding contacts"};
-    NamedItems<LoadItem> loads{"Loads", "Load", "forces and moments"};
-    NamedItems<ProbeItem> probes{"Probes", "Probe", "points whose motion is recorded"};
+    NamedItems<LinkItem> links{"Network", "Links", "Link",
+                               "joints, stops, droppers and sliding contacts"};
+    NamedItems<LoadItem> loads{"Network", "Loads", "Load", "forces and moments"};
   };
 } // namespace taut
 

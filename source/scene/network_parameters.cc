@@ -23,27 +23,6 @@ namespace taut
     }
   } // namespace
 
-  template <typename Item>
-  void NamedItems<Item>::declare_names(dealii::ParameterHandler &prm)
-  {
-    prm.add_parameter(list, names,
-                      "Names of the " + help + ", separated by commas; each has a section '" +
-                          section + " <name>'",
-                      List(Anything()));
-  }
-
-  template <typename Item>
-  void NamedItems<Item>::declare_parameters(dealii::ParameterHandler &prm)
-  {
-    items.resize(names.size());
-    for (std::size_t i = 0; i < names.size(); ++i)
-    {
-      prm.enter_subsection(title(i));
-      items[i].declare(prm);
-      prm.leave_subsection();
-    }
-  }
-
   void Network::declare_names(dealii::ParameterHandler &prm)
   {
     prm.enter_subsection("Network");
@@ -54,7 +33,6 @@ namespace taut
     springs.declare_names(prm);
     links.declare_names(prm);
     loads.declare_names(prm);
-    probes.declare_names(prm);
     prm.leave_subsection();
   }
 
@@ -69,7 +47,6 @@ namespace taut
     springs.declare_parameters(prm);
     links.declare_parameters(prm);
     loads.declare_parameters(prm);
-    probes.declare_parameters(prm);
     prm.leave_subsection();
   }
 
@@ -213,13 +190,5 @@ namespace taut
     prm.add_parameter("Rotational", rotational, "A moment instead of a force");
     prm.add_parameter("Magnitude", magnitude, "A formula in s and t [N, N/m, N m]");
     prm.add_parameter("Speed", speed, "Of a moving load [m/s]", any_number());
-  }
-
-  void Network::ProbeItem::declare(dealii::ParameterHandler &prm)
-  {
-    prm.add_parameter("Point", point, "A mass or 'wire @ position'");
-    prm.add_parameter("Direction", direction, "'x, y'; the length does not matter",
-                      pair_of_numbers());
-    prm.add_parameter("Rotational", rotational, "Slope or rotation instead of displacement");
   }
 } // namespace taut

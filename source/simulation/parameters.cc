@@ -1,34 +1,64 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/nearest_name.h>
+#include <taut/scene/entries.h>
 #include <taut/simulation/parameters.h>
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <nlohmann/json.hpp>
+
 #include <cmath>
-#include <fstream>
 #include <sstream>
 
 namespace taut
 {
   namespace
   {
-    /// "A.B.Entry=value" as the text of a parameter file.
-    std::string as_parameter_text(const std::string &override_text)
+    using namespace dealii::Patterns;
+
+    const Double not_negative()
     {
-      const std::size_t equals = override_text.find('=');
-      if (equals == std::string::npos || equals == 0)
-        throw UserError("--set '" + override_text + "': write Section.Entry=value");
-      std::istringstream path(override_text.substr(0, equals));
-      std::vector<std::string> parts;
-      for (std::string part; std::getline(path, part, '.');)
-        parts.push_back(part);
-      std::string text;
-      for (std::size_t i = 0; i + 1 < parts.size(); ++i)
-        text += "subsection " + parts[i] + "\n";
-      text += "set " + parts.back() + " = " + override_text.substr(equals + 1) + "\n";
-      for (std::size_t i = 0; i + 1 < parts.size(); ++i)
-        text += "end\n";
-      return text;
+      return Double(0., Double::max_double_value);
+    }
+
+    /// Names of the entries or sections of a node in deal.II's JSON listing.
+    std::vector<std::string> names_in(const nlohmann::json &node, const bool sections)
+    {
+      std::vector<std::string> names;
+      for (const auto &[name, child] : node.items())
+        if (child.is_object() && child.contains("pattern_description") != sections)
+          names.push_back(name);
+      return names;
+    }
+
+    std::string suggestion(const std::string &name, const std::vector<std::string> &known)
+    {
+      const std::string nearest = nearest_name(name, known);
+      if (!nearest.empty())
+        return "; did you mean '" + nearest + "'?";
+      std::string all;
+      for (const std::string &k : known)
+        all += (all.empty() ? "" : ", ") + k;
+      return all.empty() ? "; there is none here" : "; known here: " + all;
+    }
+
+    /// The node of a path, or an error about the first section that does not exist.
+    const nlohmann::json &find_section(const nlohmann::json &root,
+                                       const ParameterFile::Entry &entry,
+                                       const std::size_t n_sections)
+    {
+      const nlohmann::json *node = &root;
+      for (std::size_t i = 0; i < n_sections; ++i)
+      {
+        const std::string &name = entry.path[i];
+        if (!node->contains(name) || (*node)[name].contains("pattern_description"))
+          throw UserError(entry.place + ": there is no section '" + name + "'" +
+                          (i > 0 ? " in '" + entry.path[i - 1] + "'" : "") +
+                          suggestion(name, names_in(*node, true)));
+        node = &(*node)[name];
+      }
+      return *node;
     }
 
     /// The part of a deal.II exception that is for the user.
@@ -52,9 +82,55 @@ namespace taut
     }
   } // namespace
 
-  void Parameters::declare_general(dealii::ParameterHandler &prm)
+  void OutputParameters::ProbeItem::declare(dealii::ParameterHandler &prm)
   {
-    using namespace dealii::Patterns;
+    prm.add_parameter("Point", point, "A mass or 'wire @ position'", Anything());
+    prm.add_parameter("Direction", direction, "'x, y'; the length does not matter",
+                      List(Double(), 2, 2));
+    prm.add_parameter("Rotational", rotational, "Slope or rotation instead of displacement");
+  }
+
+  void OutputParameters::declare_names(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Output");
+    probes.declare_names(prm);
+    prm.leave_subsection();
+  }
+
+  void OutputParameters::declare_parameters(dealii::ParameterHandler &prm)
+  {
+    declare_names(prm);
+    prm.enter_subsection("Output");
+    prm.add_parameter("Folder", folder, "Where the results go; made if it does not exist",
+                      Anything());
+    prm.add_parameter(
+        "Interval", interval,
+        "Least time between two lines of sliding.csv, probes.csv, certificate.csv; 0: "
+        "every step [s]",
+        not_negative());
+    prm.add_parameter("Link interval", link_interval,
+                      "Least time between two lines of links.csv; 0: every step [s]",
+                      not_negative());
+    prm.add_parameter(
+        "Field interval", field_interval,
+        "Least time between two files of the motion of all wires for ParaView; 0: none "
+        "[s]",
+        not_negative());
+    prm.add_parameter("Subdivisions", subdivisions,
+                      "Pieces that each element is drawn with in these files [1]", Integer(1, 20));
+    probes.declare_parameters(prm);
+    prm.leave_subsection();
+  }
+
+  void Parameters::create_integrators()
+  {
+    std::istringstream list(Registry<TimeIntegrator>::instance().names());
+    for (std::string name; std::getline(list, name, '|');)
+      integrators[name] = Registry<TimeIntegrator>::instance().create(name);
+  }
+
+  void Parameters::declare(dealii::ParameterHandler &prm)
+  {
     prm.add_parameter("Generator", generator_name,
                       "What fills the scene. " +
                           Registry<SceneGenerator>::instance().descriptions(),
@@ -71,78 +147,103 @@ namespace taut
                       "Time integration. 'automatic' follows from the links of the scene. " +
                           Registry<TimeIntegrator>::instance().descriptions(),
                       Selection("automatic|" + Registry<TimeIntegrator>::instance().names()));
-    prm.add_parameter("Step", step, "[s]", Double(0., Double::max_double_value));
+    prm.add_parameter("Step", step, "[s]", not_negative());
     prm.add_parameter("End", end_time, "0: the start only, e.g. a static equilibrium [s]",
-                      Double(0., Double::max_double_value));
+                      not_negative());
     for (auto &[name, integrator] : integrators)
       integrator->declare_parameters(prm);
     prm.leave_subsection();
 
     solver.declare_parameters(prm);
-
-    prm.enter_subsection("Output");
-    prm.add_parameter("Folder", folder, "Where the results go; made if it does not exist",
-                      Anything());
-    prm.add_parameter(
-        "Interval", interval,
-        "Least time between two lines of sliding.csv, probes.csv, certificate.csv; 0: "
-        "every step [s]",
-        Double(0., Double::max_double_value));
-    prm.add_parameter("Link interval", link_interval,
-                      "Least time between two lines of links.csv; 0: every step [s]",
-                      Double(0., Double::max_double_value));
-    prm.leave_subsection();
+    output.declare_parameters(prm);
     statistics.declare_parameters(prm);
+    generator->declare_parameters(prm);
   }
 
-  void Parameters::read(const std::string &file, const std::vector<std::string> &overrides)
+  void Parameters::check_entries(dealii::ParameterHandler &prm) const
   {
-    std::ifstream in(file);
-    if (!in)
-      throw UserError("cannot read '" + file + "': no such file, or no permission");
-    std::stringstream text;
-    text << in.rdbuf() << '\n';
-    for (const std::string &o : overrides)
-      text << as_parameter_text(o);
+    std::stringstream listing;
+    prm.print_parameters(listing, dealii::ParameterHandler::JSON);
+    const nlohmann::json root = nlohmann::json::parse(listing);
+    for (const ParameterFile::Entry &section : file.sections())
+      find_section(root, section, section.path.size());
+    for (const ParameterFile::Entry &entry : file.entries())
+    {
+      const nlohmann::json &node = find_section(root, entry, entry.path.size() - 1);
+      const std::string &name = entry.path.back();
+      if (!node.contains(name) || !node[name].contains("pattern_description"))
+        throw UserError(
+            entry.place + ": there is no entry '" + name + "'" +
+            (entry.path.size() > 1 ? " in '" + entry.path[entry.path.size() - 2] + "'" : "") +
+            suggestion(name, names_in(node, false)));
+      const auto pattern = pattern_factory(node[name]["pattern_description"].get<std::string>());
+      if (!pattern->match(entry.value))
+        throw UserError(entry.place + ": " + entry.name() + " = '" + entry.value +
+                        "' is not allowed; expected " + pattern->description(PatternBase::Text));
+    }
+  }
 
+  void Parameters::read(const std::string &name, const std::vector<std::string> &overrides)
+  {
     dealii::deal_II_exceptions::suppress_stacktrace_in_exceptions();
-    const std::string names = Registry<TimeIntegrator>::instance().names();
-    std::istringstream list(names);
-    for (std::string name; std::getline(list, name, '|');)
-      integrators[name] = Registry<TimeIntegrator>::instance().create(name);
-
+    file.read(name);
+    for (const std::string &o : overrides)
+      file.set(o);
+    create_integrators();
+    const std::string text = file.text();
     try
     {
-      // The generator's name, then the names of its items, then everything: each pass knows what to
+      // The generator's name, then the names of items, then everything: each pass knows what to
       // declare for the next one, and only the last is strict.
       {
         dealii::ParameterHandler prm;
-        prm.add_parameter(
-            "Generator", generator_name, "",
-            dealii::Patterns::Selection(Registry<SceneGenerator>::instance().names()));
-        prm.parse_input_from_string(text.str(), "", true);
+        prm.add_parameter("Generator", generator_name);
+        prm.parse_input_from_string(text, "", true);
       }
-      generator = Registry<SceneGenerator>::instance().create(generator_name);
+      const auto &generators = Registry<SceneGenerator>::instance();
+      if (!generators.knows(generator_name))
+        throw EntryError("Generator",
+                         "there is no such generator; known are: " + generators.names(", "));
+      generator = generators.create(generator_name);
       {
         dealii::ParameterHandler prm;
         generator->declare_names(prm);
-        prm.parse_input_from_string(text.str(), "", true);
+        output.declare_names(prm);
+        prm.parse_input_from_string(text, "", true);
       }
       dealii::ParameterHandler prm;
-      declare_general(prm);
-      generator->declare_parameters(prm);
-      std::istringstream all(text.str());
-      prm.parse_input(all, file);
+      declare(prm);
+      check_entries(prm);
+      prm.parse_input_from_string(text);
+      if (end_time > 0. && !(step > 0.))
+        throw EntryError("Time/Step", "it must be positive");
+      constexpr double most_steps = 1e10;
+      if (end_time > 0. && end_time / step > most_steps)
+        throw EntryError("Time/Step", "Time/End takes too many such steps");
+      if (end_time > 0. && end_time < .5 * step)
+        throw EntryError("Time/End", "it is shorter than one step");
+    }
+    catch (const EntryError &e)
+    {
+      throw UserError(explain(e));
     }
     catch (const dealii::ExceptionBase &e)
     {
-      throw UserError(message(e));
+      throw UserError(name + ": " + message(e));
     }
-    if (end_time > 0. && !(step > 0.))
-      throw UserError(file + ": Time, Step must be positive");
-    constexpr double most_steps = 1e10;
-    if (end_time > 0. && end_time / step > most_steps)
-      throw UserError(file + ": Time, End / Step makes too many steps");
+  }
+
+  void Parameters::print(std::ostream &out)
+  {
+    if (!generator)
+    {
+      create_integrators();
+      generator = Registry<SceneGenerator>::instance().create(generator_name);
+    }
+    dealii::ParameterHandler prm;
+    declare(prm);
+    prm.print_parameters(out, dealii::ParameterHandler::PRM |
+                                  dealii::ParameterHandler::KeepDeclarationOrder);
   }
 
   Scene Parameters::scene() const
@@ -152,6 +253,23 @@ namespace taut
     scene.start = start == "equilibrium"  ? Start::equilibrium
                   : start == "undeformed" ? Start::undeformed
                                           : Start::given;
+    for (std::size_t i = 0; i < output.probes.items.size(); ++i)
+    {
+      const OutputParameters::ProbeItem &item = output.probes.items[i];
+      const std::string title = output.probes.title(i);
+      const auto points = parse_attachments(item.point, scene, title + "/Point");
+      for (std::size_t k = 0; k < points.size(); ++k)
+      {
+        Probe probe;
+        probe.name =
+            output.probes.names[i] + (points.size() > 1 ? " " + std::to_string(k + 1) : "");
+        probe.origin = title;
+        probe.point = points[k];
+        probe.rotational = item.rotational;
+        probe.direction = parse_direction(item.direction, title + "/Direction");
+        scene.probes.push_back(probe);
+      }
+    }
     check(scene, end_time);
     return scene;
   }

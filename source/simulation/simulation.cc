@@ -32,9 +32,10 @@ namespace taut
   void Simulation::run()
   {
     std::error_code error;
-    std::filesystem::create_directories(parameters.folder, error);
+    std::filesystem::create_directories(parameters.output.folder, error);
     if (error)
-      throw UserError("cannot make the folder '" + parameters.folder + "': " + error.message());
+      throw UserError("cannot make the folder '" + parameters.output.folder +
+                      "': " + error.message());
 
     describe();
     find_start();
@@ -42,14 +43,15 @@ namespace taut
     write_start();
     if (parameters.end_time == 0.)
     {
-      log << "Results in " << parameters.folder << '\n';
+      log << "Results in " << parameters.output.folder << '\n';
       return;
     }
 
     const TimeIntegrator &integrator = choose_integrator();
     TimeStepper stepper(bodies, links, parameters.solver, integrator, parameters.step, reference,
                         start, model.start == Start::equilibrium);
-    Series series(parameters.folder, model, links, parameters.interval, parameters.link_interval);
+    Series series(parameters.output.folder, model, links, parameters.output.interval,
+                  parameters.output.link_interval);
     Statistics statistics(parameters.statistics, model, links);
 
     std::vector<Observer *> observers = {&series, &statistics};
@@ -59,12 +61,12 @@ namespace taut
     const double all =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     series.close();
-    statistics.write(parameters.folder + "/statistics.json");
+    statistics.write(parameters.output.folder + "/statistics.json");
     statistics.print(log);
     const long n_steps = stepper.n_steps_done();
     log << n_steps << " steps in " << all << " s: " << 1e6 * seconds / n_steps
         << " us a step without output, " << parameters.end_time / all << " x real time\n"
-        << "Results in " << parameters.folder << '\n';
+        << "Results in " << parameters.output.folder << '\n';
   }
 
   void Simulation::advance(TimeStepper &stepper, const std::vector<Observer *> &observers)
@@ -221,7 +223,7 @@ namespace taut
   {
     if (links.size() == 0)
       return;
-    CsvFile file(parameters.folder + "/start.csv",
+    CsvFile file(parameters.output.folder + "/start.csv",
                  {"link", "x [m]", "force [N, N m]", "gap [m, rad]", "length [m]"});
     for (std::size_t i = 0; i < links.size(); ++i)
     {

@@ -21,6 +21,26 @@ namespace taut
     using std::runtime_error::runtime_error;
   };
 
+  /**
+   * A UserError about one entry of a parameter file. Whoever read the file can add file, line and
+   * value; entry() is the path of sections and entry, "Network/Link a/Stiffness", or that of a
+   * section.
+   */
+  class EntryError : public UserError
+  {
+  public:
+    EntryError(const std::string &entry, const std::string &message)
+        : UserError(entry.empty() ? message : entry + ": " + message), path(entry), text(message)
+    {
+    }
+
+    const std::string &entry() const { return path; }
+    const std::string &message() const { return text; }
+
+  private:
+    std::string path, text;
+  };
+
   /// A complementarity problem without a solution: the gaps of the named rows contradict each
   /// other.
   class ContradictoryRows : public UserError

@@ -39,6 +39,8 @@ namespace taut
         throw std::logic_error("'" + name + "' is registered twice");
     }
 
+    bool knows(const std::string &name) const { return entries.count(name) > 0; }
+
     /// A new object of the named implementation; an unknown name is a UserError that lists the
     /// known ones.
     std::unique_ptr<Interface> create(const std::string &name) const

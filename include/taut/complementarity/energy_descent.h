@@ -55,6 +55,7 @@ namespace taut
 
     std::size_t first_zero(double length) const;
     bool move(double length);
+    void purge();
     void open(std::size_t position);
     void update_gaps();
     bool is_settled() const;

@@ -53,6 +53,7 @@ namespace taut
   struct Wire
   {
     std::string name;
+    std::string origin; ///< path of its section in the parameter file, for messages; may be empty
     Point a, b;
     double mass_per_length = 0.; ///< [kg/m]
     bool has_axial = false;      ///< an elastic bar along the wire
@@ -76,6 +77,7 @@ namespace taut
   struct Support
   {
     std::string name;
+    std::string origin; ///< path of its section in the parameter file, for messages; may be empty
     std::size_t wire = 0;
     std::vector<double> positions; ///< s [m]
     WireMotion motion = WireMotion::transverse;
@@ -89,6 +91,7 @@ namespace taut
   struct PointMass
   {
     std::string name;
+    std::string origin; ///< path of its section in the parameter file, for messages; may be empty
     std::size_t wire = 0;
     std::vector<double> positions; ///< s [m]
     double mass = 0.;              ///< [kg]
@@ -99,6 +102,7 @@ namespace taut
   struct Mass
   {
     std::string name;
+    std::string origin; ///< path of its section in the parameter file, for messages; may be empty
     Point position;
     double mass = 0.;    ///< [kg]; 0: a massless node
     double inertia = 0.; ///< about the plane's normal [kg m^2]
@@ -116,6 +120,7 @@ namespace taut
   struct Spring
   {
     std::string name;
+    std::string origin; ///< path of its section in the parameter file, for messages; may be empty
     std::size_t from = ground, to = ground; ///< masses
     bool rotational = false;                ///< about the plane's normal
     Point direction = {0., 1.};             ///< unit vector, if not rotational
@@ -157,6 +162,7 @@ namespace taut
   struct Link
   {
     std::string name;
+    std::string origin; ///< path of its section in the parameter file, for messages; may be empty
     LinkKind kind = LinkKind::joint;
     Attachment from, to;
     bool rotational = false;
@@ -191,6 +197,7 @@ namespace taut
       moving
     };
     std::string name;
+    std::string origin; ///< path of its section in the parameter file, for messages; may be empty
     Kind kind = Kind::point;
     Attachment target;
     bool rotational = false;
@@ -204,6 +211,7 @@ namespace taut
   struct Probe
   {
     std::string name;
+    std::string origin; ///< path of its section in the parameter file, for messages; may be empty
     Attachment point;
     bool rotational = false;
     Point direction = {0., 1.};

@@ -2,11 +2,15 @@
 #ifndef taut_parameters_h
 #define taut_parameters_h
 
+#include <taut/base/exceptions.h>
 #include <taut/output/statistics.h>
+#include <taut/scene/named_items.h>
 #include <taut/scene/scene_generator.h>
+#include <taut/simulation/parameter_file.h>
 #include <taut/time/integrator.h>
 #include <taut/time/solver_parameters.h>
 
+#include <iosfwd>
 #include <map>
 #include <memory>
 #include <string>
@@ -14,30 +18,59 @@
 
 namespace taut
 {
+  /// Where results go, and how often.
+  struct OutputParameters
+  {
+    std::string folder = "results";
+    double interval = 0., link_interval = 0.01, field_interval = 0.02;
+    unsigned int subdivisions = 1;
+    bool overwrite = false; ///< from the command line, not from the file
+
+    /// A probe by name.
+    struct ProbeItem
+    {
+      std::string point;
+      std::vector<double> direction = {0., 1.};
+      bool rotational = false;
+      void declare(dealii::ParameterHandler &prm);
+    };
+    NamedItems<ProbeItem> probes{"Output", "Probes", "Probe", "points whose motion is recorded"};
+
+    void declare_names(dealii::ParameterHandler &prm);
+    void declare_parameters(dealii::ParameterHandler &prm);
+  };
+
   /// Everything a parameter file says. Members hold the defaults until read() has run.
   class Parameters
   {
   public:
     /**
-     * Reads a .prm file; @p overrides are "Section.Entry=value" and come last. Unknown entries are
-     * errors. Throws UserError with file and line.
+     * Reads a .prm or .json file; @p overrides are "Section.Entry=value" and replace entries of the
+     * file. Throws UserError with file, line, entry, value and what is allowed.
      */
-    void read(const std::string &file, const std::vector<std::string> &overrides);
+    void read(const std::string &file, const std::vector<std::string> &overrides = {});
 
-    /// The scene of the generator, checked.
+    /// Writes all entries with their present values and help, as a .prm file.
+    void print(std::ostream &out);
+
+    /// The scene of the generator with gravity, start and probes, checked.
     Scene scene() const;
 
-    std::string generator_name = "network";
+    /// The message of an error about an entry, with file, line and value.
+    std::string explain(const EntryError &error) const
+    {
+      return file.locate(error.entry()) + ": " + error.message();
+    }
+
+    std::string generator_name = "catenary";
     std::vector<double> gravity = {0., -9.81};
     std::string start = "equilibrium";
 
     std::string scheme = "automatic";
-    double step = 1e-3, end_time = 1.;
-
-    std::string folder = "results";
-    double interval = 0., link_interval = 0.;
+    double step = 1e-3, end_time = 6.912;
 
     SolverParameters solver;
+    OutputParameters output;
     StatisticsParameters statistics;
 
     /// The scheme of this name with its parameters.
@@ -47,8 +80,11 @@ namespace taut
     }
 
   private:
-    void declare_general(dealii::ParameterHandler &prm);
+    void create_integrators();
+    void declare(dealii::ParameterHandler &prm);
+    void check_entries(dealii::ParameterHandler &prm) const;
 
+    ParameterFile file;
     std::unique_ptr<SceneGenerator> generator;
     std::map<std::string, std::unique_ptr<TimeIntegrator>> integrators;
   };

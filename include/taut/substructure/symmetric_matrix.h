@@ -70,8 +70,9 @@ namespace taut
   };
 
   /**
-   * Blocks of b x b on the diagonal and beside it: the matrices of a wire, b DoFs a node. Each of the b^2 positions in a
-   * block has its own array over the nodes, so that products run over many nodes at once.
+   * Blocks of b x b on the diagonal and beside it: the matrices of a wire, b DoFs a node. Each of
+   * the b^2 positions in a block has its own array over the nodes, so that products run over many
+   * nodes at once.
    */
   template <int b>
   class BlockTridiagonalMatrix : public SymmetricMatrix
@@ -91,7 +92,8 @@ namespace taut
   private:
     std::size_t n_nodes;
     std::array<std::vector<double>, b * b> diagonal; ///< block (i, i)
-    std::array<std::vector<double>, b * b> left;     ///< block (i, i - 1); one node more, zero at both ends
+    std::array<std::vector<double>, b * b>
+        left; ///< block (i, i - 1); one node more, zero at both ends
   };
 
   /// A zero block-tridiagonal matrix with @p n rows in blocks of @p block_size, 1 to 4.

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_named_items_h
+#define taut_named_items_h
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dealii
+{
+  class ParameterHandler;
+}
+
+namespace taut
+{
+  /// Declares the entry with the names of a list of items.
+  void declare_item_names(dealii::ParameterHandler &prm, const std::string &list,
+                          const std::string &section, const std::string &help,
+                          std::vector<std::string> &names);
+
+  /// Enters or leaves the section of an item. An unusable or repeated name is an EntryError on @p
+  /// list_entry.
+  void enter_item(dealii::ParameterHandler &prm, const std::string &section,
+                  const std::vector<std::string> &names, std::size_t i,
+                  const std::string &list_entry);
+  void leave_item(dealii::ParameterHandler &prm);
+
+  /**
+   * The items of one kind in a parameter file: an entry with their names, and a section "<section>
+   * <name>" for each. An Item has a function declare(ParameterHandler &).
+   */
+  template <typename Item>
+  class NamedItems
+  {
+  public:
+    /// @p parent is the path of the section that all this stands in; @p list the entry with the
+    /// names, e.g. "Wires".
+    NamedItems(std::string parent, std::string list, std::string section, std::string help)
+        : parent(std::move(parent)), list(std::move(list)), section(std::move(section)),
+          help(std::move(help))
+    {
+    }
+
+    void declare_names(dealii::ParameterHandler &prm)
+    {
+      declare_item_names(prm, list, section, help, names);
+    }
+
+    void declare_parameters(dealii::ParameterHandler &prm)
+    {
+      items.resize(names.size());
+      for (std::size_t i = 0; i < names.size(); ++i)
+      {
+        enter_item(prm, section, names, i, parent + "/" + list);
+        items[i].declare(prm);
+        leave_item(prm);
+      }
+    }
+
+    std::vector<std::string> names;
+    std::vector<Item> items; ///< in the order of the names, once declare_parameters() has run
+
+    /// Path of the section of the i-th item.
+    std::string title(std::size_t i) const { return parent + "/" + section + " " + names[i]; }
+
+  private:
+    std::string parent, list, section, help;
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_parameter_file_h
+#define taut_parameter_file_h
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace taut
+{
+  /**
+   * The entries of a parameter file with the places where they stand, before anyone knows what they
+   * mean. Reads deal.II's .prm format (subsection, set, end, include, comments, continued lines; an
+   * include is sought beside the file that includes it) and .json (objects are sections, arrays
+   * become lists).
+   */
+  class ParameterFile
+  {
+  public:
+    struct Entry
+    {
+      std::vector<std::string> path; ///< sections, then the entry's own name
+      std::string value;
+      std::string place; ///< "file:line", "file" for JSON, "--set" on the command line
+
+      std::string name() const; ///< the path joined with '/'
+    };
+
+    /// Throws UserError with file and line if the text has no such structure or names an entry
+    /// twice.
+    void read(const std::string &file);
+
+    /// Adds "A.B.Entry=value" or "A/B/Entry=value" from the command line; replaces the entry if it
+    /// is there.
+    void set(const std::string &assignment);
+
+    const std::vector<Entry> &entries() const { return list; }
+
+    /// Sections that were opened, empty or not, with the place of their first line.
+    const std::vector<Entry> &sections() const { return section_list; }
+
+    /// All entries in .prm format.
+    std::string text() const;
+
+    /// "file:line: Section/Entry = 'value'", or as much of it as is known of a path joined with
+    /// '/'.
+    std::string locate(const std::string &name) const;
+
+  private:
+    void read_prm(const std::string &file, std::vector<std::string> &path, int depth);
+    void read_json(const std::string &file);
+    void add(Entry entry);
+    void add_section(const std::vector<std::string> &path, const std::string &place);
+
+    std::vector<Entry> list, section_list;
+    std::map<std::string, std::size_t> index, section_index; ///< by name, of the lists
+    std::string main_file;
+  };
+} // namespace taut
+
+#endif
