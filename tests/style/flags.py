@@ -1,0 +1,53 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The flags that count in compile_commands.json are Taut's, not those deal.II was built with; every source file is
+compiled."""
+import argparse
+import json
+import pathlib
+import shlex
+import sys
+
+parser = argparse.ArgumentParser(description=__doc__)
+parser.add_argument("--root", type=pathlib.Path, required=True)
+parser.add_argument("--build", type=pathlib.Path, required=True)
+parser.add_argument("--type", required=True, help="Debug or Release")
+parser.add_argument("--native", type=int, required=True)
+parser.add_argument("--werror", type=int, required=True)
+parser.add_argument("--own", default="", help="CMAKE_CXX_FLAGS: what the user asked for")
+arguments = parser.parse_args()
+
+own = shlex.split(arguments.own)
+optimisation = {"Release": "-O3", "Debug": "-O0"}[arguments.type]
+errors, compiled = [], set()
+for entry in json.loads((arguments.build / "compile_commands.json").read_text()):
+    file = pathlib.Path(entry["file"])
+    if arguments.root not in file.parents or arguments.build in file.parents:
+        continue
+    compiled.add(file)
+    flags = shlex.split(entry["command"])
+
+    def require(condition, what):
+        if not condition:
+            errors.append(f"{file}: {what}")
+
+    levels = [f for f in flags if f.startswith("-O")]
+    require(levels and levels[-1] == optimisation, f"the last of {levels} is not {optimisation}")
+    debug = [f for f in flags if f.startswith("-g") and f != "-g0" and f not in own]
+    require(bool(debug) == (arguments.type == "Debug"), f"debug flags {debug} in a {arguments.type} build")
+    machines = [f for f in flags if f.startswith("-march=") and f not in own]
+    require(machines == ["-march=native"] * arguments.native, f"machine flags {machines}")
+    require(("-Werror" in flags) == bool(arguments.werror), "-Werror is not as TAUT_WERROR says")
+    for flag in ("-Wall", "-Wextra", "-std=c++17"):
+        require(flag in flags, f"{flag} is missing")
+
+for folder in ("source", "tests"):
+    for file in (arguments.root / folder).rglob("*.cc"):
+        outside = arguments.root / "tests" / "install"  # a project of its own
+        if file not in compiled and outside not in file.parents:
+            errors.append(f"{file}: is not compiled; name it in a CMakeLists.txt")
+
+print(len(compiled), "files")
+if not compiled:
+    errors.append("no file of Taut in compile_commands.json")
+sys.exit("\n".join(errors) or None)
