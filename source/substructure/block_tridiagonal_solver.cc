@@ -344,6 +344,15 @@ namespace taut
         subtract_transposed<b>(H[last], p + b * last, p + b * (last + 1));
         quiet = small(last + 1) ? quiet + 1 : 0;
       }
+      if (first == 0 && last + 1 == n)
+      {
+        // Without decay the matrix may be as good as singular (statics): then the columns have to
+        // round like the displacements that solve() gives, or the contact forces pay for the
+        // difference.
+        std::fill(full.begin(), full.end(), 0.);
+        rhs.add_to(1., full);
+        solve(full);
+      }
       x.first = b * first;
       x.value.assign(p + b * first, p + b * (last + 1));
     }
