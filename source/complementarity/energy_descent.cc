@@ -54,21 +54,15 @@ namespace taut
     blocked.assign(problem->size(), 0);
     update_gaps();
     minimize();
-    bool is_purged = false;
     for (std::size_t closings = 0; closings < 20 * (problem->size() + 5); ++closings)
     {
-      std::size_t row = most_violated();
-      if (row == problem->size() && !is_purged)
-      {
-        purge();
-        is_purged = true;
-        row = most_violated();
-      }
+      const std::size_t row = most_violated();
       if (row == problem->size())
         break;
       if (!close(row))
         return false;
     }
+    round_off();
     return true;
   }
 
@@ -191,26 +185,40 @@ namespace taut
     return is_motion;
   }
 
-  /// Opens rows that carry nothing but rounding, of their own terms or of the largest multiplier.
-  void EnergyDescent::purge()
+  /**
+   * Multipliers that are nothing but rounding become zeros: they may be all there is in a row next
+   * to them, whose gap is then no better than this rounding. What the terms of a closed row leave
+   * unknown of its multiplier reaches other rows through F, twice. Kept unless some row gets worse
+   * by it.
+   */
+  void EnergyDescent::round_off()
   {
-    double largest = 0.;
-    for (const std::size_t i : closed_rows)
-      largest = std::max(largest, std::sqrt(matrix->diagonal(i)) * std::abs(multipliers[i]));
-    for (std::size_t p = closed_rows.size(); p-- > 0;)
+    std::vector<double> reach = terms, unknown(terms.size(), 0.);
+    for (int round = 0; round < 2; ++round)
     {
-      const std::size_t i = closed_rows[p];
-      const double force = std::sqrt(matrix->diagonal(i)) * std::abs(multipliers[i]);
-      if (force > options.dead_band * largest &&
-          force * std::sqrt(matrix->diagonal(i)) > options.dead_band * terms[i])
-        continue;
-      if (problem->unilateral[i])
-        open(p);
-      else
-        multipliers[i] = 0.;
+      for (const std::size_t i : closed_rows)
+        unknown[i] = reach[i] / matrix->diagonal(i);
+      matrix->apply_absolute(unknown, reach);
     }
+    const std::vector<double> exact = multipliers;
+    const double exact_residual = largest_residual();
+    for (const std::size_t i : closed_rows)
+      if (matrix->diagonal(i) * std::abs(multipliers[i]) <= options.dead_band * reach[i])
+        multipliers[i] = 0.;
     update_gaps();
-    minimize();
+    if (!(largest_residual() <= std::max(exact_residual, options.linear_tolerance)))
+    {
+      multipliers = exact;
+      update_gaps();
+    }
+  }
+
+  double EnergyDescent::largest_residual() const
+  {
+    MixedComplementaritySolution solution;
+    solution.multiplier = multipliers;
+    solution.gap = gap;
+    return residual(*problem, *matrix, solution).max;
   }
 
   void EnergyDescent::open(std::size_t position)

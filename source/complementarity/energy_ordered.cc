@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/complementarity/active_set_system.h>
 #include <taut/complementarity/energy_ordered.h>
 
 #include <algorithm>
@@ -64,6 +65,32 @@ namespace taut
           solution.kernel_amplitude[k] = 0.;
     }
 
+    /**
+     * Solves the set that was found as one system with alpha in it, which is exact wherever the set
+     * holds the bodies; kept if it is better. @p held has the same solutions with d + c G^T R e.
+     */
+    void polish(const MixedComplementarityProblem &problem, const DenseOperator &matrix,
+                KernelPenalty &penalty, double factor, DenseOperator &held,
+                const std::vector<std::size_t> &set, const ComplementarityOptions &options,
+                MixedComplementaritySolution &solution)
+    {
+      std::vector<double> load(problem.n_kernel(), 0.), terms;
+      add(load, factor, penalty.weigh(problem.kernel_load));
+      MixedComplementarityProblem held_problem = problem;
+      held_problem.free_gap = penalty.without_kernel(problem.free_gap, load).free_gap;
+
+      MixedComplementaritySolution candidate = solution;
+      if (ActiveSetSystem(options).solve(held_problem, held, set, candidate, terms) !=
+          ActiveSetSystem::Outcome::solved)
+        return;
+      add(candidate.kernel_amplitude, factor,
+          penalty.weigh(penalty.unbalance(candidate.multiplier)));
+      for (MixedComplementaritySolution *const either : {&solution, &candidate})
+        gaps(problem, matrix, either->multiplier, either->kernel_amplitude, either->gap);
+      if (residual(problem, matrix, candidate).max < residual(problem, matrix, solution).max)
+        solution = candidate;
+    }
+
     DenseOperator assemble(const ComplementarityOperator &matrix)
     {
       if (const auto *const dense = dynamic_cast<const DenseOperator *>(&matrix))
@@ -81,7 +108,6 @@ namespace taut
       }
       return result;
     }
-
   } // namespace
 
   EnergyOrderedActiveSet::Outcome
@@ -170,6 +196,7 @@ namespace taut
     }
 
     settle_amplitude(problem, matrix, penalty, factor, solution);
+    polish(problem, matrix, penalty, factor, held, descent.set(), options, solution);
     return true;
   }
 } // namespace taut

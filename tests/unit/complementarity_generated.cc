@@ -187,7 +187,10 @@ namespace
       const std::size_t n = problem.n = n_near + integer(12);
       Vector places(n);
       for (std::size_t i = 0; i < n; ++i)
-        places[i] = i < n_near ? .5 + .4 / 50. * (i + uniform() / 2.) / n_near : uniform();
+        if (i < n_near)
+          places[i] = .5 + .4 / 50. * (i + uniform() / 2.) / n_near;
+        else
+          places[i] = integer(2) ? .45 * uniform() : 1. - .45 * uniform();
       problem.F.resize(n * n);
       for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; j < n; ++j)

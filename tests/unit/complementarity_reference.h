@@ -129,7 +129,7 @@ namespace reference
     };
 
     basic_z.assign(m, 0);
-    if (std::all_of(q.begin(), q.end(), [](Real value) { return value >= -1e-15L; }))
+    if (std::all_of(q.begin(), q.end(), [](Real value) { return value >= -1e-12L; }))
       return true;
     std::size_t row = 0;
     for (std::size_t i = 1; i < m; ++i)

@@ -42,6 +42,9 @@ namespace taut
 
     const std::vector<double> &multiplier() const { return multipliers; }
 
+    /// Closed rows in the order in which they closed; they are independent.
+    const std::vector<std::size_t> &set() const { return closed_rows; }
+
     const std::vector<std::size_t> &contradictory_rows() const { return contradiction; }
 
     /// Changes of the set since start().
@@ -55,7 +58,8 @@ namespace taut
 
     std::size_t first_zero(double length) const;
     bool move(double length);
-    void purge();
+    void round_off();
+    double largest_residual() const;
     void open(std::size_t position);
     void update_gaps();
     bool is_settled() const;
