@@ -1,19 +1,82 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/version.h>
+#include <taut/output/progress.h>
+#include <taut/output/scene_report.h>
 #include <taut/simulation/simulation.h>
 
 #include <boost/program_options.hpp>
 
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <new>
+
+namespace
+{
+  namespace po = boost::program_options;
+
+  constexpr const char *default_file = "taut.prm";
+
+  /// Without a file: an annotated one with all defaults, which runs.
+  void write_default_file()
+  {
+    if (std::filesystem::exists(default_file))
+      throw taut::UserError(std::string("there is a '") + default_file +
+                            "' already: run 'taut taut.prm', or move it away to get a new one");
+    taut::Parameters parameters;
+    parameters.set_defaults();
+    std::ofstream file(default_file);
+    parameters.print(file);
+    file.close();
+    if (!file)
+      throw taut::UserError(std::string("cannot write '") + default_file +
+                            "': no permission, or the disk is full");
+    std::cout << "Wrote '" << default_file
+              << "' with all entries and their defaults: a railway line with a pantograph.\n"
+              << "Run it with 'taut " << default_file << "'; see 'taut --help'.\n";
+  }
+
+  void run(const po::variables_map &arguments)
+  {
+    taut::Parameters parameters;
+    parameters.read(arguments["file"].as<std::string>(),
+                    arguments.count("set") ? arguments["set"].as<std::vector<std::string>>()
+                                           : std::vector<std::string>());
+    parameters.output.overwrite = arguments.count("overwrite") > 0;
+    try
+    {
+      taut::Simulation simulation(parameters, std::cout);
+      if (arguments.count("check"))
+      {
+        simulation.check();
+        if (arguments.count("sketch"))
+          taut::write_sketch(simulation.scene(), arguments["sketch"].as<std::string>());
+        return;
+      }
+      taut::Progress progress(std::cout, isatty(STDOUT_FILENO), parameters.end_time);
+      simulation.observe(progress);
+      simulation.run();
+    }
+    catch (const taut::EntryError &e)
+    {
+      throw taut::UserError(parameters.explain(e));
+    }
+  }
+} // namespace
 
 int main(int argc, char **argv)
 {
-  namespace po = boost::program_options;
   po::options_description options("Options");
-  options.add_options()("help,h", "print this text")(
+  options.add_options()("check", "read the file, check the scene and print it, without a run")(
+      "sketch", po::value<std::string>(), "with --check: draw the undeformed scene, FILE.svg")(
       "set,s", po::value<std::vector<std::string>>()->composing(),
-      "change an entry of the file: Section.Entry=value; may be repeated")(
-      "file", po::value<std::string>(), "parameter file (.prm)");
+      "change an entry of the file: Section.Entry=value (or Section/Entry=value); may be repeated")(
+      "overwrite", "replace the results of an earlier run in the same folder")(
+      "version", "print the version")("help,h", "print this text")(
+      "file", po::value<std::string>(), "parameter file, .prm or .json");
   po::positional_options_description positional;
   positional.add("file", 1);
   try
@@ -22,25 +85,31 @@ int main(int argc, char **argv)
     po::store(po::command_line_parser(argc, argv).options(options).positional(positional).run(),
               arguments);
     po::notify(arguments);
-    if (arguments.count("help") || !arguments.count("file"))
-    {
-      std::cout << "Usage: taut FILE.prm [options]\n" << options;
-      return arguments.count("help") ? 0 : 1;
-    }
-    taut::Parameters parameters;
-    parameters.read(arguments["file"].as<std::string>(),
-                    arguments.count("set") ? arguments["set"].as<std::vector<std::string>>()
-                                           : std::vector<std::string>());
-    taut::Simulation(parameters, std::cout).run();
+    if (arguments.count("help"))
+      std::cout << "taut: mechanical systems whose parts touch through one-sided contacts\n\n"
+                << "Usage: taut FILE.prm [options]\n"
+                << "       taut              write an annotated parameter file, taut.prm\n\n"
+                << options;
+    else if (arguments.count("version"))
+      std::cout << "taut " << taut::version() << '\n';
+    else if (arguments.count("file"))
+      run(arguments);
+    else
+      write_default_file();
+    std::cout.flush();
     return 0;
   }
   catch (const po::error &e)
   {
-    std::cerr << "taut: " << e.what() << "; see taut --help\n";
+    std::cerr << "taut: " << e.what() << "; see 'taut --help'\n";
   }
   catch (const taut::UserError &e)
   {
     std::cerr << "taut: " << e.what() << '\n';
+  }
+  catch (const std::bad_alloc &)
+  {
+    std::cerr << "taut: the scene needs more memory than there is; take larger elements or fewer links\n";
   }
   catch (const std::exception &e)
   {

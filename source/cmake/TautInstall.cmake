@@ -19,4 +19,6 @@ install(EXPORT taut NAMESPACE taut:: FILE tautTargets.cmake DESTINATION ${packag
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/package/tautConfig.cmake
   ${CMAKE_CURRENT_BINARY_DIR}/package/tautConfigVersion.cmake DESTINATION ${package_folder})
 install(DIRECTORY include/taut DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/include/taut/base/version.h
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/taut/base)
 install(DIRECTORY prm DESTINATION ${CMAKE_INSTALL_DATADIR}/taut FILES_MATCHING PATTERN "*.prm")

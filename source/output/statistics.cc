@@ -226,7 +226,7 @@ namespace taut
       out << "Largest displacement of the probes\n";
       for (std::size_t i = 0; i < uplift.size(); ++i)
         out << "  " << std::left << std::setw(36) << probe_names[i] << std::right << std::setw(10)
-            << 1e3 * uplift[i] << " mm up, " << -1e3 * lowering[i] << " mm down\n";
+            << 1e3 * uplift[i] << " mm up, " << 1e3 * std::fabs(lowering[i]) << " mm down\n";
       const auto range = parameters.expected.find("Uplift");
       if (range != parameters.expected.end() && range->second.size() == 2)
         out << "  expected uplift " << range->second[0] << " to " << range->second[1] << " mm\n";

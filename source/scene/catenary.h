@@ -56,7 +56,7 @@ namespace taut
     double messenger_clamp_mass = 0., contact_clamp_mass = 0.;
     std::vector<double> pre_sag, dropper_lengths;
     std::vector<double> uplift_positions;
-    std::vector<std::string> pantographs;
+    std::vector<std::string> pantographs = {"pantograph"};
     std::vector<PantographItem> pantograph_items;
   };
 } // namespace taut

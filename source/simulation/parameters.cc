@@ -215,6 +215,7 @@ namespace taut
       declare(prm);
       check_entries(prm);
       prm.parse_input_from_string(text);
+      keep_listing(prm);
       if (end_time > 0. && !(step > 0.))
         throw EntryError("Time/Step", "it must be positive");
       constexpr double most_steps = 1e10;
@@ -233,18 +234,24 @@ namespace taut
     }
   }
 
-  void Parameters::print(std::ostream &out)
+  void Parameters::keep_listing(const dealii::ParameterHandler &prm)
   {
-    if (!generator)
-    {
-      create_integrators();
-      generator = Registry<SceneGenerator>::instance().create(generator_name);
-    }
+    std::ostringstream text;
+    prm.print_parameters(text, dealii::ParameterHandler::PRM |
+                                   dealii::ParameterHandler::KeepDeclarationOrder);
+    listing = text.str();
+  }
+
+  void Parameters::set_defaults()
+  {
+    create_integrators();
+    generator = Registry<SceneGenerator>::instance().create(generator_name);
     dealii::ParameterHandler prm;
     declare(prm);
-    prm.print_parameters(out, dealii::ParameterHandler::PRM |
-                                  dealii::ParameterHandler::KeepDeclarationOrder);
+    keep_listing(prm);
   }
+
+  void Parameters::print(std::ostream &out) const { out << listing; }
 
   Scene Parameters::scene() const
   {

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/version.h>
+#include <taut/output/fields.h>
+#include <taut/output/scene_report.h>
 #include <taut/output/series.h>
 #include <taut/simulation/simulation.h>
 #include <taut/time/choose_scheme.h>
@@ -10,11 +13,28 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <iomanip>
+#include <fstream>
 #include <ostream>
 
 namespace taut
 {
+  namespace
+  {
+    /// True for the name of a file that a run writes.
+    bool is_result(const std::string &name)
+    {
+      for (const char *fixed : {"used.prm", "start.csv", "sliding.csv", "links.csv", "probes.csv",
+                                "certificate.csv", "statistics.json", "wires.pvd", "links.pvd"})
+        if (name == fixed)
+          return true;
+      const auto is_numbered = [&](const std::string &stem) {
+        return name.size() == stem.size() + 10 && name.compare(0, stem.size(), stem) == 0 &&
+               name.compare(name.size() - 4, 4, ".vtu") == 0;
+      };
+      return is_numbered("wires") || is_numbered("links");
+    }
+  } // namespace
+
   Simulation::Simulation(const Parameters &parameters, std::ostream &log)
       : parameters(parameters), log(log),
         model(find_lengths(parameters.scene(), parameters.solver)), bodies(model),
@@ -31,31 +51,32 @@ namespace taut
 
   void Simulation::run()
   {
-    std::error_code error;
-    std::filesystem::create_directories(parameters.output.folder, error);
-    if (error)
-      throw UserError("cannot make the folder '" + parameters.output.folder +
-                      "': " + error.message());
-
     describe();
     find_start();
     find_rest_of_probes();
+    const TimeIntegrator *integrator = parameters.end_time > 0. ? &choose_integrator() : nullptr;
+
+    // Nothing on the disk was touched until here, where the scene is known to make sense.
+    prepare_folder();
     write_start();
-    if (parameters.end_time == 0.)
+    Fields fields(parameters.output.folder, model, bodies, parameters.output.field_interval,
+                  parameters.output.subdivisions);
+    if (!integrator)
     {
+      update_probes(start);
+      fields.record(view(start, start_certificate));
       log << "Results in " << parameters.output.folder << '\n';
       return;
     }
 
-    const TimeIntegrator &integrator = choose_integrator();
-    TimeStepper stepper(bodies, links, parameters.solver, integrator, parameters.step, reference,
+    TimeStepper stepper(bodies, links, parameters.solver, *integrator, parameters.step, reference,
                         start, model.start == Start::equilibrium);
     Series series(parameters.output.folder, model, links, parameters.output.interval,
                   parameters.output.link_interval);
     Statistics statistics(parameters.statistics, model, links);
-
-    std::vector<Observer *> observers = {&series, &statistics};
+    std::vector<Observer *> observers = {&series, &statistics, &fields};
     observers.insert(observers.end(), guests.begin(), guests.end());
+
     const auto begin = std::chrono::steady_clock::now();
     advance(stepper, observers);
     const double all =
@@ -64,15 +85,56 @@ namespace taut
     statistics.write(parameters.output.folder + "/statistics.json");
     statistics.print(log);
     const long n_steps = stepper.n_steps_done();
-    log << n_steps << " steps in " << all << " s: " << 1e6 * seconds / n_steps
-        << " us a step without output, " << parameters.end_time / all << " x real time\n"
+    log << n_steps << " steps in " << all << " s, " << parameters.end_time / all
+        << " x real time; without output " << 1e6 * seconds / n_steps << " us a step, "
+        << parameters.end_time / seconds << " x real time\n"
         << "Results in " << parameters.output.folder << '\n';
+  }
+
+  void Simulation::check()
+  {
+    print_scene(model, log);
+    describe();
+    find_start();
+    if (parameters.end_time > 0.)
+      choose_integrator();
+    log << "The scene is consistent\n";
+  }
+
+  void Simulation::prepare_folder() const
+  {
+    namespace fs = std::filesystem;
+    const fs::path folder = parameters.output.folder;
+    std::error_code error;
+    if (fs::exists(folder, error) && !fs::is_directory(folder, error))
+      throw EntryError("Output/Folder", "it is a file; name a folder");
+    if (fs::exists(folder / "used.prm", error))
+    {
+      if (!parameters.output.overwrite)
+        throw EntryError("Output/Folder",
+                         "'" + folder.string() +
+                             "' holds the results of a run; name another folder, or run with --overwrite");
+      // Files of a longer run would mix with those of this one.
+      for (const fs::directory_entry &entry : fs::directory_iterator(folder, error))
+        if (is_result(entry.path().filename().string()))
+          fs::remove(entry.path(), error);
+    }
+    fs::create_directories(folder, error);
+    if (error)
+      throw EntryError("Output/Folder",
+                       "cannot make '" + folder.string() + "': " + error.message());
+    std::ofstream used(folder / "used.prm");
+    used << "# Written by taut " << version() << "; the entries of the run whose results are beside this file.\n";
+    parameters.print(used);
+    used.close();
+    if (!used)
+      throw EntryError("Output/Folder",
+                       "cannot write into '" + folder.string() + "': no permission, or the disk is full");
   }
 
   void Simulation::advance(TimeStepper &stepper, const std::vector<Observer *> &observers)
   {
-    const auto show = [&](const State &state, const Certificate &certificate)
-    {
+    const auto show = [&](const State &state, const Certificate &certificate) {
       update_probes(state);
       for (Observer *observer : observers)
         observer->record(view(state, certificate));
@@ -85,9 +147,6 @@ namespace taut
       stepper.advance();
       seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
       show(stepper.state(), stepper.certificate());
-      if (10 * i / n_steps != 10 * (i - 1) / n_steps)
-        log << "  t = " << stepper.state().time << " s (" << 100 * i / n_steps << " %)"
-            << std::endl;
     }
   }
 

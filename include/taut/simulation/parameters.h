@@ -22,7 +22,7 @@ namespace taut
   struct OutputParameters
   {
     std::string folder = "results";
-    double interval = 0., link_interval = 0.01, field_interval = 0.02;
+    double interval = 0., link_interval = 0.01, field_interval = 0.05;
     unsigned int subdivisions = 1;
     bool overwrite = false; ///< from the command line, not from the file
 
@@ -50,8 +50,11 @@ namespace taut
      */
     void read(const std::string &file, const std::vector<std::string> &overrides = {});
 
-    /// Writes all entries with their present values and help, as a .prm file.
-    void print(std::ostream &out);
+    /// Leaves all entries at their defaults, for print().
+    void set_defaults();
+
+    /// Writes all entries with their present values and help, as a .prm file; after read() or set_defaults().
+    void print(std::ostream &out) const;
 
     /// The scene of the generator with gravity, start and probes, checked.
     Scene scene() const;
@@ -80,10 +83,13 @@ namespace taut
     }
 
   private:
+    void keep_listing(const dealii::ParameterHandler &prm);
     void create_integrators();
     void declare(dealii::ParameterHandler &prm);
     void check_entries(dealii::ParameterHandler &prm) const;
 
+    /// Entries and values for print(), as text.
+    std::string listing;
     ParameterFile file;
     std::unique_ptr<SceneGenerator> generator;
     std::map<std::string, std::unique_ptr<TimeIntegrator>> integrators;

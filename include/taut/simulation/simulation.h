@@ -26,6 +26,9 @@ namespace taut
     /// Runs to the end and writes the results. Throws UserError.
     void run();
 
+    /// Everything up to the first step, and the scene in tables; writes nothing. Throws UserError.
+    void check();
+
     const Scene &scene() const { return model; }
     const Structure &structure() const { return bodies; }
     const ContactRows &rows() const { return links; }
@@ -35,6 +38,7 @@ namespace taut
 
   private:
     void describe() const;
+    void prepare_folder() const;
     void find_start();
     void find_rest_of_probes();
     const TimeIntegrator &choose_integrator() const;

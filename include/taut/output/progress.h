@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_progress_h
+#define taut_progress_h
+
+#include <taut/output/observer.h>
+
+#include <chrono>
+#include <iosfwd>
+
+namespace taut
+{
+  /// How far a run is: a bar that redraws itself on a terminal, a line a tenth of the run otherwise.
+  class Progress : public Observer
+  {
+  public:
+    Progress(std::ostream &log, bool terminal, double end_time);
+    void record(const StepView &step) override;
+
+  private:
+    std::ostream &log;
+    bool terminal;
+    double end_time;
+    int shown = 0;
+    std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now(), drawn = begin;
+  };
+} // namespace taut
+
+#endif

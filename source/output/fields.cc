@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
+#include <taut/output/fields.h>
+#include <taut/scene/entries.h>
+
+#include <deal.II/base/data_out_base.h>
+#include <deal.II/grid/reference_cell.h>
+
+#include <cstdio>
+#include <fstream>
+#include <tuple>
+
+namespace taut
+{
+  namespace
+  {
+    using Ranges = std::vector<
+        std::tuple<unsigned int, unsigned int, std::string,
+                   dealii::DataComponentInterpretation::DataComponentInterpretation>>;
+
+    /// Patches made by hand, written by deal.II.
+    template <int dim>
+    class Patches : public dealii::DataOutInterface<dim, 3>
+    {
+    public:
+      std::vector<dealii::DataOutBase::Patch<dim, 3>> patches;
+      std::vector<std::string> names;
+      Ranges ranges;
+
+      void write(const std::string &path)
+      {
+        std::ofstream file(path);
+        dealii::DataOutBase::VtkFlags flags;
+        flags.compression_level = dealii::DataOutBase::VtkFlags::best_speed;
+        this->set_flags(flags);
+        if (!patches.empty())
+          this->write_vtu(file);
+        file.close();
+        if (!file)
+          throw UserError("cannot write '" + path + "': the disk may be full");
+      }
+
+    protected:
+      const std::vector<dealii::DataOutBase::Patch<dim, 3>> &get_patches() const override
+      {
+        return patches;
+      }
+      std::vector<std::string> get_dataset_names() const override { return names; }
+      Ranges get_nonscalar_data_ranges() const override { return ranges; }
+    };
+
+    std::string numbered(const std::string &name, const std::size_t number)
+    {
+      char text[32];
+      std::snprintf(text, sizeof text, "_%05zu.vtu", number);
+      return name + text;
+    }
+  } // namespace
+
+  Fields::Fields(const std::string &folder, const Scene &scene, const Structure &structure,
+                 const double interval, const unsigned int subdivisions)
+      : folder(folder), interval(interval), subdivisions(subdivisions)
+  {
+    for (std::size_t w = 0; w < scene.wires.size(); ++w)
+    {
+      const std::vector<double> nodes = grid(scene, w);
+      std::vector<Sample> samples;
+      for (std::size_t e = 0; e + 1 < nodes.size(); ++e)
+        for (unsigned int k = e == 0 ? 0 : 1; k <= subdivisions; ++k)
+        {
+          const double s = nodes[e] + (nodes[e + 1] - nodes[e]) * k / subdivisions;
+          samples.push_back(sample(scene, structure, {Attachment::Kind::wire, w, s}));
+        }
+      wires.push_back(std::move(samples));
+    }
+    for (const Link &link : scene.links)
+      if (!link.moving())
+        link_ends.push_back(sample(
+            scene, structure, link.to.kind == Attachment::Kind::ground ? link.from : link.to));
+  }
+
+  Fields::Sample Fields::sample(const Scene &scene, const Structure &structure,
+                                const Attachment &at) const
+  {
+    Sample result;
+    result.place = place(scene, at);
+    structure.motion(at, false, {1., 0.}, 1., result.x);
+    structure.motion(at, false, {0., 1.}, 1., result.y);
+    return result;
+  }
+
+  Point Fields::displacement(const Sample &sample, const StepView &step) const
+  {
+    const BlockVector &reference = step.reference.displacement, &U = step.state.U;
+    return {evaluate(sample.x, reference) + evaluate(sample.x, U),
+            evaluate(sample.y, reference) + evaluate(sample.y, U)};
+  }
+
+  void Fields::record(const StepView &step)
+  {
+    // A step counts as due if it is within rounding of its time.
+    if (interval == 0. || step.state.time < next - 1e-9 * interval)
+      return;
+    next = step.state.time + interval;
+    if (!wires.empty())
+    {
+      wire_files.emplace_back(step.state.time, numbered("wires", wire_files.size()));
+      write_wires(step, wire_files.back().second);
+      write_collection("wires.pvd", wire_files);
+    }
+    if (step.rows.size() > 0)
+    {
+      link_files.emplace_back(step.state.time, numbered("links", link_files.size()));
+      write_links(step, link_files.back().second);
+      write_collection("links.pvd", link_files);
+    }
+  }
+
+  void Fields::write_wires(const StepView &step, const std::string &name) const
+  {
+    Patches<1> out;
+    out.names = {"displacement", "displacement", "displacement", "wire"};
+    out.ranges = {{0, 2, "displacement",
+                   dealii::DataComponentInterpretation::component_is_part_of_vector}};
+    for (std::size_t w = 0; w < wires.size(); ++w)
+    {
+      // One patch a wire, with the coordinates of its points as the last rows of its data.
+      const std::size_t n = wires[w].size();
+      dealii::DataOutBase::Patch<1, 3> patch;
+      patch.reference_cell = dealii::ReferenceCells::Line;
+      patch.n_subdivisions = n - 1;
+      patch.patch_index = w;
+      patch.points_are_available = true;
+      patch.vertices[0] = dealii::Point<3>(wires[w].front().place.x, 0., wires[w].front().place.y);
+      patch.vertices[1] = dealii::Point<3>(wires[w].back().place.x, 0., wires[w].back().place.y);
+      patch.data.reinit(7, n);
+      for (std::size_t k = 0; k < n; ++k)
+      {
+        const Sample &at = wires[w][k];
+        const Point u = displacement(at, step);
+        const double values[] = {u.x, 0., u.y, static_cast<double>(w), at.place.x, 0., at.place.y};
+        for (unsigned int c = 0; c < 7; ++c)
+          patch.data(c, k) = values[c];
+      }
+      out.patches.push_back(std::move(patch));
+    }
+    out.write(folder + "/" + name);
+  }
+
+  void Fields::write_links(const StepView &step, const std::string &name) const
+  {
+    Patches<0> out;
+    out.names = {"displacement", "displacement", "displacement", "force", "gap", "open"};
+    out.ranges = {{0, 2, "displacement",
+                   dealii::DataComponentInterpretation::component_is_part_of_vector}};
+    for (std::size_t i = 0; i < step.rows.size(); ++i)
+    {
+      Sample moving;
+      if (step.rows[i].moving)
+        moving = sample(step.scene, step.structure,
+                        {Attachment::Kind::wire, step.scene.links[step.rows[i].link].to.index,
+                         step.rows.position(i, step.state.time)});
+      const Sample &end = step.rows[i].moving ? moving : link_ends[i];
+      const Point u = displacement(end, step);
+      dealii::DataOutBase::Patch<0, 3> patch;
+      patch.reference_cell = dealii::ReferenceCells::Vertex;
+      patch.patch_index = i;
+      patch.vertices[0] = dealii::Point<3>(end.place.x, 0., end.place.y);
+      patch.data.reinit(6, 1);
+      const double values[] = {u.x,
+                               0.,
+                               u.y,
+                               step.state.multiplier[i],
+                               step.state.geometric_gap[i],
+                               step.state.multiplier[i] == 0. ? 1. : 0.};
+      for (unsigned int k = 0; k < 6; ++k)
+        patch.data(k, 0) = values[k];
+      out.patches.push_back(std::move(patch));
+    }
+    out.write(folder + "/" + name);
+  }
+
+  void Fields::write_collection(const std::string &name,
+                                const std::vector<std::pair<double, std::string>> &files) const
+  {
+    std::ofstream file(folder + "/" + name);
+    dealii::DataOutBase::write_pvd_record(file, files);
+    file.close();
+    if (!file)
+      throw UserError("cannot write '" + folder + "/" + name + "': the disk may be full");
+  }
+} // namespace taut

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
+#include <taut/output/scene_report.h>
+#include <taut/scene/entries.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <ostream>
+#include <sstream>
+
+namespace taut
+{
+  namespace
+  {
+    /// Lines of cells, printed in columns.
+    class Table
+    {
+    public:
+      explicit Table(std::vector<std::string> header) { lines.push_back(std::move(header)); }
+
+      template <typename... Cells>
+      void add(const Cells &...cells)
+      {
+        lines.push_back({text(cells)...});
+      }
+
+      void print(const std::string &title, std::ostream &out) const
+      {
+        if (lines.size() < 2)
+          return;
+        std::vector<std::size_t> width(lines[0].size(), 0);
+        for (const auto &line : lines)
+          for (std::size_t c = 0; c < line.size(); ++c)
+            width[c] = std::max(width[c], line[c].size());
+        out << title << " (" << lines.size() - 1 << ")\n";
+        for (const auto &line : lines)
+        {
+          std::string row = " ";
+          for (std::size_t c = 0; c < line.size(); ++c)
+            row += " " + line[c] + std::string(width[c] - line[c].size() + 1, ' ');
+          out << row.substr(0, row.find_last_not_of(' ') + 1) << '\n';
+        }
+      }
+
+    private:
+      static std::string text(const std::string &value) { return value; }
+      static std::string text(const char *value) { return value; }
+      static std::string text(const double value)
+      {
+        std::ostringstream out;
+        out << value;
+        return out.str();
+      }
+
+      std::vector<std::vector<std::string>> lines;
+    };
+
+    std::string text(const Point &p)
+    {
+      std::ostringstream out;
+      out << p.x << ", " << p.y;
+      return out.str();
+    }
+
+    std::string text(const Scene &scene, const Attachment &end)
+    {
+      if (end.kind == Attachment::Kind::ground)
+        return "ground";
+      if (end.kind == Attachment::Kind::mass)
+        return scene.masses[end.index].name;
+      std::ostringstream out;
+      out << scene.wires[end.index].name << " @ " << end.position;
+      return out.str();
+    }
+
+    std::string positions(const std::vector<double> &list)
+    {
+      std::ostringstream out;
+      for (std::size_t i = 0; i < list.size() && i < 6; ++i)
+        out << (i > 0 ? ", " : "") << list[i];
+      if (list.size() > 6)
+        out << ", ... (" << list.size() << ")";
+      return out.str();
+    }
+
+    std::string components(const Wire &wire)
+    {
+      std::string list = wire.has_axial ? "bar" : "";
+      if (wire.transverse != TransverseKind::none)
+        list += (list.empty() ? "" : ", ") +
+                std::string(wire.transverse == TransverseKind::beam ? "beam" : "string");
+      return list;
+    }
+
+    std::string direction(const bool rotational, const Point &n)
+    {
+      return rotational ? "rotation" : text(n);
+    }
+
+    void print_bodies(const Scene &scene, std::ostream &out)
+    {
+      Table wires({"name", "from [m]", "to [m]", "components", "kg/m", "T [N]", "EA [N]",
+                   "EI [N m^2]", "elements"});
+      for (std::size_t i = 0; i < scene.wires.size(); ++i)
+      {
+        const Wire &w = scene.wires[i];
+        wires.add(w.name, text(w.a), text(w.b), components(w), w.mass_per_length, w.tension,
+                  w.axial_stiffness, w.bending_stiffness,
+                  static_cast<double>(grid(scene, i).size() - 1));
+      }
+      wires.print("Wires", out);
+
+      const char *motions[] = {"axial", "transverse", "slope"};
+      Table supports({"name", "wire", "s [m]", "motion", "held by"});
+      for (const Support &s : scene.supports)
+      {
+        std::ostringstream held;
+        if (s.fixed)
+          held << "u(t) = " << s.prescribed.formula();
+        else
+          held << s.stiffness << " N/m, " << s.damping << " N s/m";
+        supports.add(s.name, scene.wires[s.wire].name, positions(s.positions),
+                     motions[static_cast<int>(s.motion)], held.str());
+      }
+      supports.print("Supports", out);
+
+      Table point_masses({"name", "wire", "s [m]", "kg each", "weight"});
+      for (const PointMass &m : scene.point_masses)
+        point_masses.add(m.name, scene.wires[m.wire].name, positions(m.positions), m.mass,
+                         m.weight ? "yes" : "no");
+      point_masses.print("Point masses", out);
+
+      Table masses({"name", "at [m]", "motions", "kg", "kg m^2", "weight"});
+      for (const Mass &m : scene.masses)
+        masses.add(m.name, text(m.position),
+                   std::string(m.moves[0] ? "x " : "") + (m.moves[1] ? "y " : "") +
+                       (m.moves[2] ? "rotation" : ""),
+                   m.mass, m.inertia, m.weight ? "yes" : "no");
+      masses.print("Masses", out);
+
+      Table springs({"name", "from", "to", "direction", "N/m", "N s/m"});
+      const auto end = [&](const std::size_t i) {
+        return i == ground ? std::string("ground") : scene.masses[i].name;
+      };
+      for (const Spring &s : scene.springs)
+        springs.add(s.name, end(s.from), end(s.to), direction(s.rotational, s.direction),
+                    s.stiffness, s.damping);
+      springs.print("Springs", out);
+    }
+  } // namespace
+
+  void print_scene(const Scene &scene, std::ostream &out)
+  {
+    print_bodies(scene, out);
+
+    const char *kinds[] = {"joint", "stop", "dropper", "sliding contact"};
+    Table links({"name", "type", "from", "to", "direction", "stiffness [N/m]", "gap [m]",
+                 "length [m]", "speed [m/s]"});
+    for (const Link &l : scene.links)
+    {
+      std::ostringstream stiffness;
+      if (l.rigid())
+        stiffness << "rigid";
+      else
+        stiffness << l.stiffness;
+      links.add(l.name, kinds[static_cast<int>(l.kind)], text(scene, l.from), text(scene, l.to),
+                direction(l.rotational, l.direction), stiffness.str(), l.gap, l.length, l.speed);
+    }
+    links.print("Links", out);
+
+    const char *load_kinds[] = {"point", "distributed", "moving"};
+    Table loads({"name", "type", "on", "direction", "magnitude", "speed [m/s]"});
+    for (const Load &l : scene.loads)
+      loads.add(l.name, load_kinds[static_cast<int>(l.kind)], text(scene, l.target),
+                direction(l.rotational, l.direction), l.magnitude.formula(), l.speed);
+    loads.print("Loads", out);
+
+    Table probes({"name", "point", "direction"});
+    for (const Probe &p : scene.probes)
+      probes.add(p.name, text(scene, p.point), direction(p.rotational, p.direction));
+    probes.print("Probes", out);
+    out << "Gravity " << text(scene.gravity) << " m/s^2\n";
+  }
+
+  void write_sketch(const Scene &scene, const std::string &path)
+  {
+    double left = 1e300, right = -1e300, bottom = 1e300, top = -1e300;
+    const auto include = [&](const Point &p) {
+      left = std::min(left, p.x);
+      right = std::max(right, p.x);
+      bottom = std::min(bottom, p.y);
+      top = std::max(top, p.y);
+    };
+    for (const Wire &wire : scene.wires)
+    {
+      include(wire.a);
+      include(wire.b);
+    }
+    for (const Mass &mass : scene.masses)
+      include(mass.position);
+    constexpr double width = 1000., margin = 40., least_height = 120.;
+    const double span = std::max({right - left, top - bottom, 1e-12});
+    const double sx = width / std::max(right - left, .1 * span);
+    const double sy =
+        top > bottom ? std::max(sx, least_height / (top - bottom)) : sx;
+    const double height = std::max((top - bottom) * std::min(sy, 1e3 * sx), least_height);
+    const auto X = [&](const Point &p) { return margin + (p.x - left) * sx; };
+    const auto Y = [&](const Point &p) {
+      return margin + .5 * height - (p.y - .5 * (bottom + top)) * sy;
+    };
+
+    std::ofstream out(path);
+    out << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << width + 2. * margin
+        << "\" height=\"" << height + 2. * margin << "\" font-family=\"sans-serif\" font-size=\"11\">\n"
+        << "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
+    const auto line = [&](const Point &p, const Point &q, const std::string &style) {
+      out << "<line x1=\"" << X(p) << "\" y1=\"" << Y(p) << "\" x2=\"" << X(q) << "\" y2=\"" << Y(q)
+          << "\" " << style << "/>\n";
+    };
+    const auto dot = [&](const Point &p, const double radius, const std::string &style) {
+      out << "<circle cx=\"" << X(p) << "\" cy=\"" << Y(p) << "\" r=\"" << radius << "\" " << style
+          << "/>\n";
+    };
+    const auto label = [&](const Point &p, const std::string &name) {
+      std::string safe;
+      for (const char c : name)
+        safe += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
+      out << "<text x=\"" << X(p) + 6. << "\" y=\"" << Y(p) - 6. << "\">" << safe << "</text>\n";
+    };
+    for (const Link &link : scene.links)
+    {
+      if (link.from.kind != Attachment::Kind::ground && link.to.kind != Attachment::Kind::ground)
+        line(place(scene, link.from), place(scene, link.to), "stroke=\"#888\"");
+      const Attachment &end = link.to.kind == Attachment::Kind::ground ? link.from : link.to;
+      dot(place(scene, end), link.moving() ? 5. : 2.5,
+          link.unilateral() ? "fill=\"none\" stroke=\"#c33\"" : "fill=\"#c33\"");
+    }
+    for (const Wire &wire : scene.wires)
+    {
+      line(wire.a, wire.b, "stroke=\"black\" stroke-width=\"2\"");
+      label(wire.a, wire.name);
+    }
+    for (const Support &support : scene.supports)
+      for (const double s : support.positions)
+        dot(scene.wires[support.wire].at(s), 3.5, "fill=\"#36c\"");
+    for (const Mass &mass : scene.masses)
+    {
+      dot(mass.position, 5., "fill=\"#393\"");
+      label(mass.position, mass.name);
+    }
+    out << "<text x=\"8\" y=\"14\">black: wires, blue: supports, green: masses, red: links (hollow: "
+           "one-sided); heights x "
+        << sy / sx << "</text>\n</svg>\n";
+    out.close();
+    if (!out)
+      throw UserError("cannot write the sketch '" + path + "': check the folder");
+  }
+} // namespace taut
