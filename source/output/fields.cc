@@ -163,7 +163,6 @@ namespace taut
       const Sample &end = step.rows[i].moving ? moving : link_ends[i];
       const Point u = displacement(end, step);
       dealii::DataOutBase::Patch<0, 3> patch;
-      patch.reference_cell = dealii::ReferenceCells::Vertex;
       patch.patch_index = i;
       patch.vertices[0] = dealii::Point<3>(end.place.x, 0., end.place.y);
       patch.data.reinit(6, 1);

@@ -50,22 +50,22 @@ namespace
                          "en50318_2002_250.prm",
                          0,
                          {.3, .5, 1.8, 1.8, 2., 2., .5, .1},
-                         {116.86, 30.86, 209.5, 24.3, 192.7, 55.6, 54.4, 0.}},
+                         {116.86, 30.86, 209.45, 24.27, 192.6, 55.61, 54.36, 0.}},
                         {"300",
                          "en50318_2002_300.prm",
                          0,
                          {.3, .5, 1.8, 1.8, 2., 2., .5, .1},
-                         {115.85, 36.7, 226., 5.7, 206., 43.4, 62.6, 0.}},
+                         {115.84, 36.72, 226., 5.69, 206., 43.37, 62.56, 0.}},
                         {"leading",
                          "en50318_2002_250_two.prm",
                          0,
                          {.3, .5, 1.8, 1.8, 2., 2., .5, .1},
-                         {115.71, 30.4, 206.9, 24.5, 185.8, 58.2, 53.7, 0.}},
+                         {115.71, 30.42, 206.95, 24.46, 185.8, 58.23, 53.66, 0.}},
                         {"trailing",
                          "en50318_2002_250_two.prm",
                          1,
                          {.3, .5, 1.8, 1.8, 2., 2., .5, .2},
-                         {116.97, 54.4, 280., -46., 235.4, -10.5, 53.7, 2.95}}};
+                         {116.97, 54.2, 279.6, -45.64, 235.3, -10.2, 53.66, 2.89}}};
 
   struct Level
   {
@@ -153,9 +153,11 @@ namespace
 
   /**
    * The limit of a sequence whose parameters are halved from one entry to the next. If the last two
-   * changes have one sign and fall at least like order 1/2, Richardson's with an order in [1, 2]
-   * (lower observed orders are kept), and the error is the last change or the correction, whichever
-   * is larger. Otherwise the last value, and the error is the spread of the last three.
+   * changes have one sign and fall at least like order 1/2: Richardson's, with the observed order,
+   * at most 2. Its error is the largest of the correction, the last change, and what order 2 would
+   * have left of the change before it: a last change that is much smaller is two errors that
+   * cancel, that of the step and that of the elements. Otherwise the last value, and the error is
+   * the spread of the last three.
    */
   Estimate extrapolate(const std::vector<double> &f)
   {
@@ -171,7 +173,8 @@ namespace
     if (before * last > 0. && order >= .5)
     {
       const double correction = last / (std::exp2(std::min(order, 2.)) - 1.);
-      return {f.back() + correction, std::max(std::fabs(last), std::fabs(correction)), order};
+      return {f.back() + correction,
+              std::max({std::fabs(last), std::fabs(correction), std::fabs(before) / 4.}), order};
     }
     const auto range = std::minmax_element(f.end() - 3, f.end());
     e.error = *range.second - *range.first;
@@ -259,8 +262,8 @@ namespace
         f.push_back(figures[i]);
       ladder.limit[i] = extrapolate(f);
       orders.push_back(std::isnan(ladder.limit[i].order) ? "-" : number(ladder.limit[i].order, 1));
-      limits.push_back("**" + number(ladder.limit[i].value, 2) + "** +- " +
-                       number(ladder.limit[i].error, 2));
+      limits.push_back("**" + number(ladder.limit[i].value, 3) + "** +- " +
+                       number(ladder.limit[i].error, 3));
     }
     for (const auto &row :
          {std::make_pair("observed order", orders), std::make_pair("limit", limits)})
@@ -271,6 +274,36 @@ namespace
       std::cout << " | | |\n";
     }
     return ladder;
+  }
+
+  /// The limit of the first scheme, its error no less than the distance to the second's limit; how
+  /// far the levels of the others are from it.
+  void print_comparison(const std::map<std::string, Ladder> &ladders,
+                        const std::vector<Level> &levels)
+  {
+    const auto a = ladders.find("generalised-alpha"), b = ladders.find("BDF2"),
+               first = ladders.find("backward Euler");
+    if (a == ladders.end())
+      return;
+    if (b != ladders.end())
+    {
+      std::cout << "| converged";
+      for (std::size_t i = 0; i < n_figures; ++i)
+      {
+        const Estimate &x = a->second.limit[i], &y = b->second.limit[i];
+        std::cout << " | **" << number(x.value, 2) << "** +- "
+                  << number(std::max(x.error, std::fabs(x.value - y.value)), 2);
+      }
+      std::cout << " | | |\n";
+    }
+    if (first != ladders.end())
+      for (std::size_t l = 0; l < levels.size(); ++l)
+      {
+        std::cout << "| backward Euler's deviation, " << 1e3 * levels[l].step << " ms";
+        for (std::size_t i = 0; i < n_figures; ++i)
+          std::cout << " | " << number(first->second.figures[l][i] - a->second.limit[i].value, 2);
+        std::cout << " | | |\n";
+      }
   }
 
   void print_ranges(const std::map<std::string, std::vector<double>> &expected)
@@ -286,11 +319,16 @@ namespace
     std::cout << " | | |\n";
   }
 
-  /// Each change is smaller than the one before it, or below a tenth of the target.
+  /**
+   * Each change is smaller than the one before it, or below a tenth of the target. The BDF2 of the
+   * coarsest levels damps visibly, so its claim is for the last change only.
+   */
   void check_changes(const Case &c, const std::string &scheme, const Ladder &ladder, Claims &claims)
   {
+    const std::size_t n = ladder.figures.size();
     for (std::size_t i = 0; i < n_figures; ++i)
-      for (std::size_t l = 2; l < ladder.figures.size(); ++l)
+      for (std::size_t l = scheme == "generalised-alpha" ? 2 : std::max<std::size_t>(n - 1, 2);
+           l < n; ++l)
       {
         const double before = std::fabs(ladder.figures[l - 1][i] - ladder.figures[l - 2][i]),
                      last = std::fabs(ladder.figures[l][i] - ladder.figures[l - 1][i]);
@@ -406,6 +444,7 @@ int main(int argc, char **argv)
         ladders[scheme] = print_ladder(scheme, c.contact, levels, runs);
         std::cout << std::flush;
       }
+      print_comparison(ladders, levels);
       print_ranges(done[c.file + schemes.front()].front().expected);
       if (arguments.count("tables-only"))
         continue;
