@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: mass and stiffness of a wire as Structure assembles them give the natural frequencies of
+// beam, string and bar. Source: simply supported tensioned beam, omega_n^2 = (T q^2 + EI q^4)/m,
+// q = n pi/L; fixed bar or string, omega_n = n pi c/L.
+#include "run.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+extern "C" void dsygv_(const int *itype, const char *jobz, const char *uplo, const int *n,
+                       double *a, const int *lda, double *b, const int *ldb, double *w,
+                       double *work, const int *lwork, int *info);
+
+using namespace verification;
+
+namespace
+{
+  /// Squares of the natural frequencies of a body [1/s^2], ascending.
+  std::vector<double> eigenvalues(const taut::Substructure &body)
+  {
+    std::vector<int> number(body.n_dofs(), 0);
+    for (const unsigned int dof : body.constrained_dofs())
+      number[dof] = -1;
+    int n = 0;
+    for (int &i : number)
+      if (i == 0)
+        i = n++;
+    std::vector<double> K(n * n, 0.), M(n * n, 0.), w(n), work(40 * n);
+    const auto fill = [&](const taut::SymmetricMatrix &matrix, std::vector<double> &full)
+    {
+      matrix.visit(
+          [&](unsigned int i, unsigned int j, double value)
+          {
+            if (number[i] >= 0 && number[j] >= 0)
+              full[number[i] * n + number[j]] = full[number[j] * n + number[i]] = value;
+          });
+    };
+    fill(body.stiffness(), K);
+    fill(body.mass(), M);
+    const int type = 1, lwork = work.size();
+    int info = 0;
+    dsygv_(&type, "N", "L", &n, K.data(), &n, M.data(), &n, w.data(), work.data(), &lwork, &info);
+    EXPECT_EQ(info, 0);
+    return w;
+  }
+
+  taut::Scene wire_scene(const double element_size)
+  {
+    taut::Scene scene;
+    taut::Wire wire;
+    wire.name = "wire";
+    // An inclined wire: positions along it, not along x.
+    wire.a = {1., 2.};
+    wire.b = {1. + 4.8, 2. + 3.6}; // 6 m
+    wire.mass_per_length = 1.35;
+    wire.element_size = element_size;
+    scene.wires.push_back(wire);
+    return scene;
+  }
+
+  /// Relative errors of the first frequencies for several element sizes, and their orders.
+  void check_orders(const std::string &name, const std::vector<double> &sizes,
+                    const std::function<std::vector<double>(double)> &frequencies,
+                    const std::function<double(int)> &exact, const double order,
+                    const double tolerance)
+  {
+    for (int n = 1; n <= 4; ++n)
+    {
+      std::vector<double> errors;
+      for (const double h : sizes)
+        errors.push_back(std::fabs(frequencies(h)[n - 1] / exact(n) - 1.));
+      const double fitted = fitted_order(sizes, errors);
+      figure(name + ", order of frequency " + std::to_string(n), fitted);
+      figure(name + ", error of frequency " + std::to_string(n) + " on the finest grid",
+             errors.back());
+      EXPECT_NEAR(fitted, order, tolerance) << name << ", frequency " << n;
+    }
+  }
+
+  std::vector<double> roots(std::vector<double> values)
+  {
+    for (double &v : values)
+      v = std::sqrt(v);
+    return values;
+  }
+} // namespace
+
+TEST(Frequencies, tensioned_beam_converges_with_order_4)
+{
+  const double T = 2000., EI = 195., m = 1.35, L = 6., pi = std::acos(-1.);
+  check_orders(
+      "tensioned beam", {.75, .5, .375, .25, .1875},
+      [&](const double h)
+      {
+        taut::Scene scene = wire_scene(h);
+        scene.wires[0].transverse = taut::TransverseKind::beam;
+        scene.wires[0].tension = T;
+        scene.wires[0].bending_stiffness = EI;
+        scene.supports.resize(1);
+        scene.supports[0].positions = {0., 6.};
+        return roots(eigenvalues(taut::Structure(scene)[0]));
+      },
+      [&](const int n)
+      {
+        const double q = n * pi / L;
+        return std::sqrt((T * q * q + EI * q * q * q * q) / m);
+      },
+      4., .1);
+}
+
+TEST(Frequencies, string_and_bar_converge_with_twice_their_degree)
+{
+  const double L = 6., pi = std::acos(-1.), m = 1.35, stiffness = 2000.;
+  for (const bool bar : {false, true})
+    for (const unsigned int degree : {1, 2})
+    {
+      const std::string name =
+          std::string(bar ? "bar" : "string") + " of degree " + std::to_string(degree);
+      check_orders(
+          name, {.3, .15, .075, .0375},
+          [&](const double h)
+          {
+            taut::Scene scene = wire_scene(h);
+            taut::Wire &wire = scene.wires[0];
+            wire.degree = degree;
+            wire.has_axial = bar;
+            wire.axial_stiffness = bar ? stiffness : 0.;
+            wire.transverse = bar ? taut::TransverseKind::none : taut::TransverseKind::string;
+            wire.tension = bar ? 0. : stiffness;
+            scene.supports.resize(1);
+            scene.supports[0].positions = {0., 6.};
+            scene.supports[0].motion = bar ? taut::WireMotion::axial : taut::WireMotion::transverse;
+            return roots(eigenvalues(taut::Structure(scene)[0]));
+          },
+          [&](const int n) { return n * pi / L * std::sqrt(stiffness / m); }, 2. * degree, .1);
+    }
+}
+
+// A wire with a point mass M in its middle: antisymmetric modes do not feel it, symmetric ones
+// solve z tan(z) = m L/M with z = omega L/(2 c).
+TEST(Frequencies, point_mass_on_a_string)
+{
+  const double L = 6., m = 1.35, T = 2000., mass = 2.7, c = std::sqrt(T / m);
+  taut::Scene scene = wire_scene(.05);
+  scene.wires[0].transverse = taut::TransverseKind::string;
+  scene.wires[0].tension = T;
+  scene.supports.resize(1);
+  scene.supports[0].positions = {0., L};
+  scene.point_masses.resize(1);
+  scene.point_masses[0].positions = {.5 * L};
+  scene.point_masses[0].mass = mass;
+  const std::vector<double> w = roots(eigenvalues(taut::Structure(scene)[0]));
+  double low = 0., high = .5 * std::acos(-1.);
+  for (int i = 0; i < 100; ++i)
+  {
+    const double z = .5 * (low + high);
+    (z * std::tan(z) < m * L / mass ? low : high) = z;
+  }
+  const double exact = 2. * c * low / L;
+  figure("string with a point mass, error of the first frequency", w[0] / exact - 1.);
+  figure("string with a point mass, error of the second frequency",
+         w[1] / (2. * std::acos(-1.) * c / L) - 1.);
+  EXPECT_NEAR(w[0], exact, 1e-7 * exact);
+  EXPECT_NEAR(w[1], 2. * std::acos(-1.) * c / L, 1e-7 * w[1]);
+}

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: impacts on one-sided stops last as long, press as hard and rebound as fast as the exact
+// solutions say: d'Alembert's waves (bar on a wall: D. Doyen, A. Ern, S. Piperno, SIAM J. Sci.
+// Comput. 33 (2011), without gravity; string on a stop: point impedance 2 sqrt(T m)), half-waves of
+// an oscillator.
+#include "run.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+using namespace verification;
+
+namespace
+{
+  /// What the first link of a run did.
+  struct ContactRecord
+  {
+    std::vector<double> time, force;
+    double first = 0., last = 0.; ///< first and last time with a force [s]
+    double impulse = 0.;          ///< [N s]
+    double momentum_after = 0.;   ///< of the first body at the end [kg m/s]
+    double momentum_before = 0.;  ///< at the start
+    double energy_kept = 0.;      ///< kinetic and elastic, end over start
+    double least_gap = 0.;        ///< [m]
+    double least_force = 0.;      ///< [N]
+    double plateau(double from, double to) const
+    {
+      double sum = 0.;
+      int n = 0;
+      for (std::size_t i = 0; i < time.size(); ++i)
+        if (time[i] > from && time[i] < to)
+        {
+          sum += force[i];
+          ++n;
+        }
+      return sum / n;
+    }
+    double deviation(double from, double to) const
+    {
+      const double mean = plateau(from, to);
+      double sum = 0.;
+      int n = 0;
+      for (std::size_t i = 0; i < time.size(); ++i)
+        if (time[i] > from && time[i] < to)
+        {
+          sum += (force[i] - mean) * (force[i] - mean);
+          ++n;
+        }
+      return std::sqrt(sum / n);
+    }
+  };
+
+  double momentum(const taut::StepView &view)
+  {
+    const taut::Substructure &body = view.structure[0];
+    std::vector<double> MV(body.n_dofs(), 0.);
+    body.mass().vmult_add(1., view.state.V[0].data(), MV.data());
+    double sum = 0.;
+    for (const double p : MV)
+      sum += p;
+    return sum;
+  }
+
+  double energy(const taut::StepView &view)
+  {
+    const taut::Substructure &body = view.structure[0];
+    std::vector<double> MV(body.n_dofs(), 0.), KU(body.n_dofs(), 0.);
+    body.mass().vmult_add(1., view.state.V[0].data(), MV.data());
+    body.stiffness().vmult_add(1., view.state.U[0].data(), KU.data());
+    double sum = 0.;
+    for (std::size_t i = 0; i < MV.size(); ++i)
+      sum += .5 * (MV[i] * view.state.V[0][i] + KU[i] * view.state.U[0][i]);
+    return sum;
+  }
+
+  ContactRecord record(const std::string &scene, const Overrides &overrides)
+  {
+    ContactRecord r;
+    double energy_before = 0.;
+    run_scene(scene_file(scene), overrides,
+              [&](const taut::StepView &view)
+              {
+                const double N = view.state.multiplier[0], t = view.state.time;
+                if (r.time.empty())
+                {
+                  r.momentum_before = momentum(view);
+                  energy_before = energy(view);
+                }
+                const double dt = r.time.empty() ? 0. : t - r.time.back();
+                r.time.push_back(t);
+                r.force.push_back(N);
+                r.impulse += N * dt;
+                r.least_force = std::min(r.least_force, N);
+                r.least_gap = std::min(r.least_gap, view.state.gap[0]);
+                r.momentum_after = momentum(view);
+                r.energy_kept = energy(view) / energy_before;
+                if (N > 0. && r.first == 0.)
+                  r.first = t;
+                if (N > 0.)
+                  r.last = t;
+              });
+    return r;
+  }
+} // namespace
+
+// 400 linear elements, BDF2. Exact: contact on 0.5 .. 7/6 s, 300 N, impulse 200 N s, then the
+// undeformed bar at +10 m/s.
+TEST(BarOnWall, contact_time_force_impulse_and_rebound_are_exact_to_one_per_cent)
+{
+  const ContactRecord r = record("bar_on_wall", {"Time.Scheme=BDF2"});
+  const double duration = r.last - r.first;
+  figure("bar on wall, contact begins", r.first, "s");
+  figure("bar on wall, contact ends", r.last, "s");
+  figure("bar on wall, force, mean over 0.55..1.1 s", r.plateau(.55, 1.1), "N");
+  figure("bar on wall, force, standard deviation over 0.55..1.1 s", r.deviation(.55, 1.1), "N");
+  figure("bar on wall, impulse", r.impulse, "N s");
+  figure("bar on wall, rebound velocity of the centre of mass", r.momentum_after / 10., "m/s");
+  figure("bar on wall, energy kept", r.energy_kept);
+  EXPECT_NEAR(r.first, .5, .01 * .5);
+  EXPECT_NEAR(r.last, 7. / 6., .01 * 7. / 6.);
+  EXPECT_NEAR(duration, 2. / 3., .01 * 2. / 3.);
+  EXPECT_NEAR(r.plateau(.55, 1.1), 300., 3.);
+  EXPECT_LT(r.deviation(.55, 1.1), 3.);
+  EXPECT_NEAR(r.impulse, 200., 2.);
+  EXPECT_NEAR(r.momentum_before, -100., 1e-9);
+  EXPECT_NEAR(r.momentum_after, 100., 1.);
+  EXPECT_GT(r.energy_kept, .99);
+  EXPECT_LT(r.energy_kept, 1. + 1e-9) << "an impact must not create energy";
+  EXPECT_GE(r.least_force, 0.);
+  EXPECT_GE(r.least_gap, -1e-12);
+}
+
+// The impulse is the change of momentum: with one-sided forces of any size, for every scheme.
+TEST(BarOnWall, impulse_is_the_change_of_momentum)
+{
+  for (const std::string scheme : {"BDF2", "backward Euler"})
+  {
+    const ContactRecord r = record("bar_on_wall", {"Time.Scheme=" + scheme});
+    const double defect = (r.momentum_after - r.momentum_before) / r.impulse - 1.;
+    figure("bar on wall, " + scheme + ", change of momentum over impulse - 1", defect);
+    EXPECT_NEAR(defect, 0., 1e-9) << scheme;
+  }
+}
+
+// Linear elements of 25 mm. Exact: contact on 0.05 .. 1.05 s, 80 N, impulse 80 N s.
+TEST(StringOnStop, contact_time_force_and_impulse_are_exact_to_one_per_cent)
+{
+  const ContactRecord r = record("string_on_stop", {});
+  figure("string on stop, contact begins", r.first, "s");
+  figure("string on stop, contact ends", r.last, "s");
+  figure("string on stop, force, mean over 0.15..0.95 s", r.plateau(.15, .95), "N");
+  figure("string on stop, force, standard deviation over 0.15..0.95 s", r.deviation(.15, .95), "N");
+  figure("string on stop, impulse", r.impulse, "N s");
+  figure("string on stop, rebound velocity of the centre of mass", r.momentum_after / 20., "m/s");
+  EXPECT_NEAR(r.last - r.first, 1., .01);
+  EXPECT_NEAR(r.first, .05, .01 * 1.05);
+  EXPECT_NEAR(r.last, 1.05, .01 * 1.05);
+  EXPECT_NEAR(r.plateau(.15, .95), 80., .8);
+  EXPECT_LT(r.deviation(.15, .95), .8);
+  EXPECT_NEAR(r.impulse, 80., .8);
+  EXPECT_NEAR(r.momentum_after, 40., .4);
+  EXPECT_GE(r.least_force, 0.);
+  EXPECT_GE(r.least_gap, -1e-12);
+}
+
+namespace
+{
+  /// Exact motion of prm/oscillator_with_stop.prm.
+  struct Oscillator
+  {
+    const double a = .1, w1 = 20., w2 = std::sqrt(4000.), pi = std::acos(-1.);
+    const double period = pi / w1 + pi / w2;
+    double u(double t) const
+    {
+      // Quarter wave down, half wave on the stop, half wave up, ...: the phase counts from the
+      // first touch.
+      const double phase = std::fmod(t + .5 * pi / w1, period);
+      return phase < pi / w1 ? a * std::sin(w1 * phase)
+                             : -a * w1 / w2 * std::sin(w2 * (phase - pi / w1));
+    }
+  };
+} // namespace
+
+// Exact: period pi/20 + pi/63.2456 = 0.2067526 s, compression 31.6228 mm, force 227.684 N.
+TEST(OscillatorWithStop, period_compression_and_force_are_exact)
+{
+  std::vector<double> touches; // downward crossings of the rest position, interpolated
+  double before = 0., lowest = 0., largest_force = 0., t_before = 0.;
+  run_scene(scene_file("oscillator_with_stop"), {},
+            [&](const taut::StepView &view)
+            {
+              const double u = view.state.U[0][0], t = view.state.time;
+              if (before > 0. && u <= 0.)
+                touches.push_back(t_before + (t - t_before) * before / (before - u));
+              lowest = std::min(lowest, u);
+              largest_force = std::max(largest_force, view.state.multiplier[0]);
+              before = u;
+              t_before = t;
+            });
+  ASSERT_GE(touches.size(), 4u);
+  const double period = (touches.back() - touches.front()) / (touches.size() - 1);
+  const Oscillator exact;
+  figure("oscillator, period", period, "s");
+  figure("oscillator, largest compression", -1e3 * lowest, "mm");
+  figure("oscillator, largest force on the stop", largest_force, "N");
+  EXPECT_NEAR(exact.period, .2067526, 5e-8);
+  EXPECT_NEAR(period, exact.period, 1e-5 * exact.period);
+  EXPECT_NEAR(-lowest, .0316228, 2e-5 * .0316228);
+  EXPECT_NEAR(largest_force, 227.684, 2e-5 * 227.684);
+}
+
+TEST(OscillatorWithStop, schemes_keep_their_order_through_an_elastic_stop)
+{
+  const Oscillator exact;
+  const std::map<std::string, double> orders = {
+      {"Newmark", 2.}, {"BDF2", 2.}, {"generalised-alpha", 2.}, {"backward Euler", 1.}};
+  for (const auto &[scheme, order] : orders)
+  {
+    std::vector<double> steps, errors;
+    const double coarsest = order == 1. ? 5e-5 : 8e-4;
+    for (int i = 0; i < 5; ++i)
+    {
+      steps.push_back(coarsest / (1 << i));
+      std::ostringstream step;
+      step.precision(17);
+      step << "Time.Step=" << steps.back();
+      double error = 0.;
+      run_scene(scene_file("oscillator_with_stop"),
+                {"Time.Scheme=" + scheme, step.str(), "Time.End=0.5"},
+                [&](const taut::StepView &view) {
+                  error = std::max(error, std::fabs(view.state.U[0][0] - exact.u(view.state.time)));
+                });
+      errors.push_back(error);
+    }
+    const double fitted = fitted_order(steps, errors);
+    figure("oscillator, order of " + scheme, fitted);
+    figure("oscillator, error of " + scheme + " at the smallest step over the amplitude",
+           errors.back() / .1);
+    EXPECT_NEAR(fitted, order, .1) << scheme;
+    EXPECT_LT(errors.back() / .1, 2e-2) << scheme;
+  }
+}

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Runs scenes for the tests of this folder; see run.h.
+#include "run.h"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+namespace verification
+{
+  namespace
+  {
+    class Guest : public taut::Observer
+    {
+    public:
+      explicit Guest(const Callback &callback) : callback(callback) {}
+      void record(const taut::StepView &view) override { callback(view); }
+
+    private:
+      const Callback &callback;
+    };
+
+    std::string new_folder()
+    {
+      static int count = 0;
+      const std::string name =
+          "taut_verification_" + std::to_string(getpid()) + "_" + std::to_string(++count);
+      const std::filesystem::path path = std::filesystem::temp_directory_path() / name;
+      std::filesystem::create_directories(path);
+      return path.string();
+    }
+  } // namespace
+
+  std::string scene_file(const std::string &name)
+  {
+    return std::string(TAUT_PRM_FOLDER) + "/" + name + ".prm";
+  }
+
+  Session::Session(const std::string &file_or_text, const Overrides &overrides)
+      : scratch(new_folder())
+  {
+    std::string file = file_or_text;
+    if (file.find('\n') != std::string::npos)
+    {
+      file = scratch + "/scene.prm";
+      std::ofstream(file) << file_or_text;
+    }
+    Overrides all = {"Output.Folder=" + scratch + "/results", "Output.Interval=1e9",
+                     "Output.Link interval=1e9"};
+    all.insert(all.end(), overrides.begin(), overrides.end());
+    values.read(file, all);
+    runner = std::make_unique<taut::Simulation>(values, text);
+  }
+
+  Session::~Session()
+  {
+    std::error_code ignored;
+    std::filesystem::remove_all(scratch, ignored);
+  }
+
+  void Session::run(const Callback &callback)
+  {
+    Guest guest(callback);
+    runner->observe(guest);
+    runner->run();
+  }
+
+  void run_scene(const std::string &file_or_text, const Overrides &overrides,
+                 const Callback &callback)
+  {
+    Session(file_or_text, overrides).run(callback);
+  }
+
+  std::vector<taut::Term> point_on_wire(const taut::StepView &view, const std::size_t wire,
+                                        const double s, const taut::Point &direction,
+                                        const bool rotational)
+  {
+    std::vector<taut::Term> terms;
+    view.structure.motion({taut::Attachment::Kind::wire, wire, s}, rotational, direction, 1.,
+                          terms);
+    return terms;
+  }
+
+  double displacement(const taut::StepView &view, const std::vector<taut::Term> &terms)
+  {
+    return evaluate(terms, view.reference.displacement) + evaluate(terms, view.state.U);
+  }
+
+  double displacement(const taut::StepView &view, const std::size_t wire, const double s,
+                      const taut::Point &direction, const bool rotational)
+  {
+    return displacement(view, point_on_wire(view, wire, s, direction, rotational));
+  }
+
+  double fitted_order(const std::vector<double> &steps, const std::vector<double> &errors)
+  {
+    double sx = 0., sy = 0., sxx = 0., sxy = 0.;
+    const double n = steps.size();
+    for (std::size_t i = 0; i < steps.size(); ++i)
+    {
+      const double x = std::log(steps[i]), y = std::log(errors[i]);
+      sx += x;
+      sy += y;
+      sxx += x * x;
+      sxy += x * y;
+    }
+    return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+  }
+
+  void figure(const std::string &name, const double value, const std::string &unit)
+  {
+    std::printf("figure | %s | %.8g %s\n", name.c_str(), value, unit.c_str());
+  }
+} // namespace verification

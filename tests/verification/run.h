@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_verification_run_h
+#define taut_verification_run_h
+
+#include <taut/simulation/simulation.h>
+
+#include <functional>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace verification
+{
+  using Overrides = std::vector<std::string>;
+  using Callback = std::function<void(const taut::StepView &)>;
+
+  /// Path of a scene of the folder prm/, by its name without extension.
+  std::string scene_file(const std::string &name);
+
+  /**
+   * A scene read from a parameter file and ready to run, with its results in a folder that is
+   * removed again. Only the first and the last line of each table are written unless an override
+   * says otherwise.
+   */
+  class Session
+  {
+  public:
+    /// @p file_or_text is the path of a .prm file, or the text of one if it has more than one line.
+    explicit Session(const std::string &file_or_text, const Overrides &overrides = {});
+    ~Session();
+
+    /// Runs to the end; @p callback sees the start and each step.
+    void run(const Callback &callback);
+
+    taut::Simulation &simulation() { return *runner; }
+    const taut::Parameters &parameters() const { return values; }
+    const std::string &folder() const { return values.output.folder; }
+    std::string log() const { return text.str(); }
+
+  private:
+    std::string scratch;
+    taut::Parameters values;
+    std::ostringstream text;
+    std::unique_ptr<taut::Simulation> runner;
+  };
+
+  /// Runs a scene once.
+  void run_scene(const std::string &file_or_text, const Overrides &overrides,
+                 const Callback &callback);
+
+  /// Linear forms of the displacement, or slope, of a point of a wire or of a mass.
+  std::vector<taut::Term> point_on_wire(const taut::StepView &view, std::size_t wire, double s,
+                                        const taut::Point &direction = {0., 1.},
+                                        bool rotational = false);
+
+  /// Displacement from the undeformed structure.
+  double displacement(const taut::StepView &view, const std::vector<taut::Term> &terms);
+
+  /// The same of a point of a wire.
+  double displacement(const taut::StepView &view, std::size_t wire, double s,
+                      const taut::Point &direction = {0., 1.}, bool rotational = false);
+
+  /// Slope of the line that fits log(error) over log(step) best.
+  double fitted_order(const std::vector<double> &steps, const std::vector<double> &errors);
+
+  /// Prints a figure for the ledger: "figure | <name> | <value> <unit>".
+  void figure(const std::string &name, double value, const std::string &unit = "1");
+} // namespace verification
+
+#endif

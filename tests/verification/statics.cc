@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: static states are those of string and beam theory. Sources: sums of forces (strings), beam
+// theory (flexibilities L^3/(3 EI), F L^2/(16 EI), M L/(3 EI)), the heavy beam lifted from a floor:
+// lifted length (24 EI h/q)^(1/4), end force and point reaction q l/2.
+#include "run.h"
+
+#include <taut/time/static_equilibrium.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace verification;
+
+namespace
+{
+  constexpr double g = 9.81;
+
+  std::string text(const double x)
+  {
+    std::ostringstream out;
+    out.precision(17);
+    out << x;
+    return out.str();
+  }
+
+  /// One horizontal wire from x = 0, one step of a run that stays at rest.
+  std::string one_wire(const double length, const std::string &wire_entries,
+                       const std::string &items)
+  {
+    return "set Generator = network\nsubsection Network\n set Wires = wire\n" + items +
+           " subsection Wire wire\n  set To = " + text(length) + ", 0\n" + wire_entries +
+           " end\nend\n" +
+           "subsection Time\n set Scheme = backward Euler\n set Step = 1\n set End = 1\nend\n";
+  }
+
+  const std::string held_ends =
+      " set Supports = ends\n subsection Support ends\n  set Wire = wire\n  set Positions = 0, 30\n"
+      " end\n";
+} // namespace
+
+TEST(String, sags_by_weight_over_eight_tensions)
+{
+  const double m = 1.35, T = 20000., L = 30.;
+  double sag = 0.;
+  run_scene(one_wire(L,
+                     "  set Components = string\n  set Mass per length = 1.35\n"
+                     "  set Tension = 20000\n  set Element size = 0.7\n",
+                     held_ends),
+            {}, [&](const taut::StepView &view) { sag = -displacement(view, 0, .5 * L); });
+  const double exact = m * g * L * L / (8. * T);
+  figure("string, sag in the middle over m g L^2/(8 T) - 1", sag / exact - 1.);
+  EXPECT_NEAR(sag, exact, 1e-12 * exact);
+}
+
+// Free length on each side sqrt(2 T d/(m g)); the end's pull shows it: T w'(0) = m g l.
+TEST(String, lies_flat_on_a_floor_between_its_free_lengths)
+{
+  const double m = 1.35, T = 2000., L = 30., d = .1;
+  const double exact = std::sqrt(2. * T * d / (m * g)); // 5.496 m
+  double left = 0., right = 0., first = 0., last = 0., least = 0., resting = 0.;
+  run_scene(one_wire(L,
+                     "  set Components = string\n  set Mass per length = 1.35\n"
+                     "  set Tension = 2000\n  set Element size = 0.1\n",
+                     held_ends +
+                         " set Links = floor\n subsection Link floor\n  set Type = stop\n"
+                         "  set From = ground\n  set To = wire @ 0:0.1:30\n  set Direction = 0, 1\n"
+                         "  set Gap = 0.1\n end\n"),
+            {},
+            [&](const taut::StepView &view)
+            {
+              left = -T * displacement(view, 0, 0., {0., 1.}, true) / (m * g);
+              right = T * displacement(view, 0, L * (1. - 1e-12), {0., 1.}, true) / (m * g);
+              first = L;
+              resting = 0.;
+              for (std::size_t i = 0; i < view.rows.size(); ++i)
+              {
+                const double x = view.scene.links[view.rows[i].link].to.position;
+                const double N = view.state.multiplier[i];
+                least = std::min({least, N, view.state.gap[i]});
+                resting += N;
+                if (N > 0.)
+                {
+                  first = std::min(first, x);
+                  last = std::max(last, x);
+                }
+              }
+            });
+  figure("string over a floor, free length left, from the pull of its end", left, "m");
+  figure("string over a floor, free length, exact", exact, "m");
+  figure("string over a floor, first support that carries, spacing 0.1 m", first, "m");
+  EXPECT_NEAR(left, exact, 1e-3 * exact);
+  EXPECT_NEAR(right, exact, 1e-3 * exact);
+  EXPECT_NEAR(first, exact, .1);
+  EXPECT_NEAR(last, L - exact, .1);
+  EXPECT_NEAR(resting, m * g * (L - left - right), 1e-9 * m * g * L);
+  EXPECT_GE(least, -1e-12);
+}
+
+// A beam that only one-sided supports and one link at its end hold: its two rigid motions are
+// unknowns. EI = 2e5 N m^2, 20 kg/m, lifted by 0.1 m. With the distance xi from the lift-off point,
+// EI w = (q l/2) xi^3/6 - q xi^4/24.
+TEST(Beam, heavy_beam_lifts_off_a_floor)
+{
+  const double EI = 2e5, q = 20. * g, h = .1, L = 12., spacing = .05;
+  const double l = std::pow(24. * EI * h / q, .25), force = .5 * q * l;
+  Session session(one_wire(L,
+                           "  set Components = beam\n  set Mass per length = 20\n"
+                           "  set Bending stiffness = 2e5\n  set Element size = 0.05\n",
+                           " set Links = lift, floor\n subsection Link lift\n  set Type = joint\n"
+                           "  set From = ground\n  set To = wire @ 0\n  set Direction = 0, 1\n"
+                           "  set Gap = -0.1\n end\n subsection Link floor\n  set Type = stop\n"
+                           "  set From = ground\n  set To = wire @ 0:" +
+                               text(spacing) + ":12\n  set Direction = 0, 1\n end\n"));
+  const taut::Scene &scene = session.simulation().scene();
+  const taut::Structure &structure = session.simulation().structure();
+  const taut::ContactRows &rows = session.simulation().rows();
+  const taut::StaticState state =
+      static_equilibrium(structure, rows, session.parameters().solver, 0.);
+  EXPECT_EQ(structure[0].kernel().vectors.size(), 2u);
+
+  double end_force = 0., error = 0., first = L, point_reaction = 0., least = 0., sum = 0.,
+         unevenness = 0.;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+  {
+    const double x = scene.links[rows[i].link].to.position, N = state.multiplier[i];
+    sum += N;
+    if (rows[i].name == "lift")
+    {
+      end_force = N;
+      continue;
+    }
+    least = std::min({least, N, state.gap[i]});
+    if (N > 0.)
+      first = std::min(first, x);
+    // What the supports near the lift-off carry above their share of the weight.
+    const double reach = l + 10.5 * spacing;
+    if (x < reach)
+      point_reaction += N;
+    if (x < reach && x + spacing >= reach)
+      point_reaction -= q * (x + .5 * spacing - l);
+    if (x > l + 2. && x < L - 1.)
+      unevenness = std::max(unevenness, std::fabs(N / (q * spacing) - 1.));
+  }
+  for (double x = 0.; x < L; x += .01)
+  {
+    const double xi = std::max(0., l - x),
+                 w = force * xi * xi * xi / (6. * EI) - q * std::pow(xi, 4) / (24. * EI);
+    std::vector<taut::Term> terms;
+    structure.motion({taut::Attachment::Kind::wire, 0, x}, false, {0., 1.}, 1., terms);
+    error = std::max(error, std::fabs(evaluate(terms, state.displacement) - w));
+  }
+  figure("lifted beam, end force", end_force, "N");
+  figure("lifted beam, end force, exact q l/2", force, "N");
+  figure("lifted beam, lifted length from the end force", 2. * end_force / q, "m");
+  figure("lifted beam, lifted length, exact", l, "m");
+  figure("lifted beam, first support that carries, spacing 0.05 m", first, "m");
+  figure("lifted beam, point reaction at the lift-off", point_reaction, "N");
+  figure("lifted beam, largest error of the displacement over the lift", error / h);
+  figure("lifted beam, supports that lie flat, force over its share of the weight - 1", unevenness);
+  figure("lifted beam, residual of the links", state.certificate.complementarity);
+  EXPECT_NEAR(end_force, force, 1e-3 * force);
+  EXPECT_LT(error, 1e-3 * h);
+  EXPECT_NEAR(first, l, spacing);
+  EXPECT_NEAR(point_reaction, force, 1e-3 * force);
+  EXPECT_LT(unevenness, 1e-3) << "rigid supports 5 cm apart amplify the rounding of gaps";
+  EXPECT_NEAR(sum, q * L, 1e-8 * q * L);
+  EXPECT_GE(least, -1e-12);
+}
+
+// N = F s L^3/(3 EI)/(s^2 L^3/(3 EI) + c^2 L/EA + 1/k) = 0.48/0.0106036 = 45.2676 N; tip
+// -(F - N s) L^3/(3 EI) across and -N c L/EA along the beam.
+TEST(InclinedCable, force_and_tip_displacement_follow_from_flexibilities)
+{
+  const double s = .8, c = .6, F = 40., bend = 27. / 1800., stretch = 3. / 3e5, spring = 1e-3;
+  const double N = F * s * bend / (s * s * bend + c * c * stretch + spring);
+  EXPECT_NEAR(N, 45.2676, 5e-5);
+  double force = 0., down = 0., along = 0.;
+  run_scene(scene_file("inclined_cable"), {"Time.End=1e-3"},
+            [&](const taut::StepView &view)
+            {
+              if (view.state.time > 0.)
+                return;
+              force = view.state.multiplier[0];
+              down = displacement(view, 0, 3.);
+              along = displacement(view, 0, 3., {1., 0.});
+            });
+  figure("inclined cable, force", force, "N");
+  figure("inclined cable, tip displacement across the beam", 1e3 * down, "mm");
+  figure("inclined cable, tip displacement along the beam", 1e3 * along, "mm");
+  EXPECT_NEAR(force, N, 1e-6 * N);
+  EXPECT_NEAR(down, -(F - N * s) * bend, 1e-9 * F * bend);
+  EXPECT_NEAR(along, -N * c * stretch, 1e-9 * N * c * stretch);
+}
+
+// M = (F L^2/(16 EI) - 0.02) 3 EI/L = 22.5 N m, w = F L^3/(48 EI) - M L^2/(16 EI) = 44.1667 mm.
+TEST(AngularStop, moment_and_deflection_follow_from_beam_theory)
+{
+  double moment = 0., down = 0., slope = 0.;
+  run_scene(scene_file("beam_angular_stop"), {"Time.End=1e-3"},
+            [&](const taut::StepView &view)
+            {
+              if (view.state.time > 0.)
+                return;
+              moment = view.state.multiplier[0];
+              down = displacement(view, 0, 2.);
+              slope = displacement(view, 0, 0., {0., 1.}, true);
+            });
+  figure("angular stop, moment", moment, "N m");
+  figure("angular stop, deflection in the middle", -1e3 * down, "mm");
+  figure("angular stop, slope at the stop", slope, "rad");
+  EXPECT_NEAR(moment, 22.5, 1e-9);
+  EXPECT_NEAR(-down, .0441666666666667, 1e-12);
+  EXPECT_NEAR(slope, -.02, 1e-13);
+}
