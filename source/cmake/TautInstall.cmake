@@ -21,4 +21,5 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/package/tautConfig.cmake
 install(DIRECTORY include/taut DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/include/taut/base/version.h
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/taut/base)
+install(PROGRAMS source/plot/taut-plot source/plot/show_in_paraview.py DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY prm DESTINATION ${CMAKE_INSTALL_DATADIR}/taut FILES_MATCHING PATTERN "*.prm")
