@@ -13,6 +13,7 @@
 #include <fstream>
 #include <iostream>
 #include <new>
+#include <stdexcept>
 
 namespace
 {
@@ -108,6 +109,10 @@ int main(int argc, char **argv)
     std::cerr << "taut: " << e.what() << '\n';
   }
   catch (const std::bad_alloc &)
+  {
+    std::cerr << "taut: the scene needs more memory than there is; take larger elements or fewer links\n";
+  }
+  catch (const std::length_error &)
   {
     std::cerr << "taut: the scene needs more memory than there is; take larger elements or fewer links\n";
   }

@@ -55,7 +55,7 @@ namespace taut
         out << "sliding contact '" << link.name << "' leaves wire '" << scene.wires[to.index].name
             << "' at t = " << t << " s, position " << to.position << " m of " << length
             << " m. End the run earlier or lengthen the wire.";
-        throw UserError(out.str());
+        throw EntryError(link.origin, out.str());
       }
       row.gap += link.profile(to.position, t);
     }

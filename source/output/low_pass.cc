@@ -48,7 +48,7 @@ namespace taut
                          {1., 2. * (w * w - 1.) * second, (1. - w + w * w) * second}};
 
     const std::size_t n = record.size(),
-                      pad = std::min<std::size_t>(n - 1, std::ceil(3. / (frequency * step)));
+                      pad = std::min<double>(n - 1, std::ceil(3. / (frequency * step)));
     std::vector<double> x;
     x.reserve(n + 2 * pad);
     for (std::size_t k = pad; k > 0; --k)

@@ -2,9 +2,11 @@
 #include <taut/base/exceptions.h>
 #include <taut/scene/scene.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <sstream>
+#include <tuple>
 
 namespace taut
 {
@@ -26,8 +28,11 @@ namespace taut
     {
       const std::string what = "wire '" + wire.name + "': ";
       const double length = wire.length();
-      if (!(length > 0.) || !std::isfinite(length))
+      if (!(length > 0.))
         fail(wire, "To", what, "its two ends are at one place; give it a length");
+      constexpr double longest = 1e12;
+      if (!(length <= longest))
+        fail(wire, "To", what, "it is ", length, " m long; at most ", longest, " m are possible");
       if (!wire.has_axial && wire.transverse == TransverseKind::none)
         fail(wire, "Components", what, "it has none; name at least one of bar, string, beam");
       if (!(wire.mass_per_length > 0.))
@@ -35,9 +40,18 @@ namespace taut
       if (!(wire.element_size > 0.))
         fail(wire, "Element size", what, "it must be positive");
       constexpr double most_elements = 2e7;
-      if (length / wire.element_size > most_elements)
+      if (!(length / wire.element_size <= most_elements))
         fail(wire, "Element size", what, length / wire.element_size,
              " elements are too many; make them larger");
+      // The nodes are places in the plane: they have to be distinct there.
+      constexpr double least_ratio = 1e-10;
+      const double farthest = std::max(
+          {std::fabs(wire.a.x), std::fabs(wire.a.y), std::fabs(wire.b.x), std::fabs(wire.b.y)});
+      if (!(std::min(length, wire.element_size) >= least_ratio * farthest))
+        fail(wire, "From", what, "it is ", farthest,
+             " m from the origin, so far that its elements of ",
+             std::min(length, wire.element_size),
+             " m are lost in rounding; put the origin beside it");
       if (wire.has_axial && !(wire.axial_stiffness > 0.))
         fail(wire, "Axial stiffness", what, "a bar needs a positive one");
       if (wire.transverse == TransverseKind::string && !(wire.tension > 0.))
@@ -76,6 +90,38 @@ namespace taut
              "' has no slope to hold; a moment or an angular gap needs the component beam");
     }
 
+    /// A motion of a point that is held can be held once.
+    void check_held_once(const Scene &scene)
+    {
+      struct Held
+      {
+        std::size_t wire;
+        WireMotion motion;
+        double s;
+        const Support *support;
+      };
+      std::vector<Held> held;
+      for (const Support &support : scene.supports)
+        if (support.fixed)
+          for (const double s : support.positions)
+            held.push_back({support.wire, support.motion, s, &support});
+      std::sort(held.begin(), held.end(),
+                [](const Held &p, const Held &q)
+                {
+                  return std::tie(p.wire, p.motion, p.s, p.support) <
+                         std::tie(q.wire, q.motion, q.s, q.support);
+                });
+      for (std::size_t i = 1; i < held.size(); ++i)
+      {
+        const Held &p = held[i - 1], &q = held[i];
+        const Wire &wire = scene.wires[q.wire];
+        if (p.wire == q.wire && p.motion == q.motion && q.s - p.s <= 1e-12 * wire.length())
+          fail(*q.support, "Positions", "support '", q.support->name, "': wire '", wire.name,
+               "' is held there already, at ", p.s, " m by support '", p.support->name,
+               "'; two supports cannot hold the same motion of the same point, remove one");
+      }
+    }
+
     void check_supports(const Scene &scene)
     {
       for (const Support &support : scene.supports)
@@ -98,10 +144,15 @@ namespace taut
         if (!support.fixed && support.stiffness == 0. && support.damping == 0.)
           fail(support, "Stiffness", what, "an elastic support needs a Stiffness or a Damping");
       }
+      check_held_once(scene);
       for (const PointMass &mass : scene.point_masses)
+      {
+        const std::string what = "point mass '" + mass.name + "': ";
+        if (mass.positions.empty())
+          fail(mass, "Positions", what, "it has no position");
         for (const double s : mass.positions)
-          check_position(scene, mass.wire, s, mass, "Positions",
-                         "point mass '" + mass.name + "': ");
+          check_position(scene, mass.wire, s, mass, "Positions", what);
+      }
     }
 
     void check_masses(const Scene &scene)
@@ -129,6 +180,36 @@ namespace taut
       }
     }
 
+    /// Whether a point has a motion along a direction, or a slope or rotation.
+    bool can_move(const Scene &scene, const Attachment &end, const bool rotational,
+                  const Point &direction)
+    {
+      constexpr double tiny = 1e-12;
+      const auto along = [&](const Point &p)
+      { return std::fabs(direction.x * p.x + direction.y * p.y) > tiny; };
+      if (end.kind == Attachment::Kind::ground)
+        return false;
+      if (end.kind == Attachment::Kind::mass)
+      {
+        const Mass &mass = scene.masses[end.index];
+        return rotational
+                   ? mass.moves[2]
+                   : (mass.moves[0] && along({1., 0.})) || (mass.moves[1] && along({0., 1.}));
+      }
+      const Wire &wire = scene.wires[end.index];
+      return rotational ? wire.transverse == TransverseKind::beam
+                        : (wire.has_axial && along(wire.tangent())) ||
+                              (wire.transverse != TransverseKind::none && along(wire.normal()));
+    }
+
+    /// Fixed links that act on the same two points would have no effect at all.
+    bool same_point(const Attachment &a, const Attachment &b)
+    {
+      return a.kind == b.kind && (a.kind == Attachment::Kind::ground ||
+                                  (a.index == b.index &&
+                                   (a.kind == Attachment::Kind::mass || a.position == b.position)));
+    }
+
     void check_sliding(const Scene &scene, const Link &link, const std::string &what,
                        const double end_time)
     {
@@ -152,6 +233,12 @@ namespace taut
         check_attachment(scene, link.to, link.rotational, link, "To", what);
         if (link.from.kind == Attachment::Kind::ground && link.to.kind == Attachment::Kind::ground)
           fail(link, "To", what, "both ends are the ground");
+        if (!link.moving() && same_point(link.from, link.to))
+          fail(link, "To", what, "both ends are the same point; a link acts between two");
+        if (!can_move(scene, link.from, link.rotational, link.direction) &&
+            !can_move(scene, link.to, link.rotational, link.direction))
+          fail(link, "Direction", what,
+               "neither end can move along it; add motions or components, or change it");
         if (link.damping > 0. && link.rigid())
           fail(link, "Damping", what, "a rigid link has none; give it a finite Stiffness");
         if (link.find_length &&
@@ -196,6 +283,9 @@ namespace taut
       if (load.kind != Load::Kind::point && load.target.kind != Attachment::Kind::wire)
         fail(load, "On", what, "a distributed or moving load acts on a wire");
       check_attachment(scene, load.target, load.rotational, load, "On", what);
+      if (!can_move(scene, load.target, load.rotational, load.direction))
+        fail(load, "Direction", what,
+             "its target cannot move along it; add a motion or a component, or change it");
     }
     for (const Probe &probe : scene.probes)
     {
@@ -203,6 +293,9 @@ namespace taut
       if (probe.point.kind == Attachment::Kind::ground)
         fail(probe, "Point", what, "the ground does not move");
       check_attachment(scene, probe.point, probe.rotational, probe, "Point", what);
+      if (!can_move(scene, probe.point, probe.rotational, probe.direction))
+        fail(probe, "Direction", what,
+             "the point cannot move along it; add a motion or a component, or change it");
     }
   }
 } // namespace taut

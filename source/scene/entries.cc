@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/nearest_name.h>
 #include <taut/scene/entries.h>
 
 #include <cmath>
@@ -124,12 +125,21 @@ namespace taut
         return attachments;
       }
     }
+    std::vector<std::string> names = {"ground"};
     std::string known = "ground";
     for (const Mass &mass : scene.masses)
+    {
       known += ", " + mass.name;
+      names.push_back(mass.name);
+    }
     for (const Wire &wire : scene.wires)
+    {
       known += ", " + wire.name + " @ position";
-    throw EntryError(entry, "'" + text + "' is not known; known are: " + known);
+      names.push_back(wire.name);
+    }
+    const std::string near = nearest_name(name, names);
+    throw EntryError(entry, "'" + text + "' is not known; known are: " + known +
+                                (near.empty() ? "" : "; did you mean '" + near + "'?"));
   }
 
   Point place(const Scene &scene, const Attachment &point)

@@ -5,13 +5,45 @@
 #include <deal.II/base/function_parser.h>
 #include <deal.II/base/numbers.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <iostream>
 #include <regex>
 #include <sstream>
 
 namespace taut
 {
+  namespace
+  {
+    /// deal.II's parser says what is wrong on std::cerr, and only there: "Message:  <...>".
+    class CaughtErrorOutput
+    {
+    public:
+      CaughtErrorOutput() : before(std::cerr.rdbuf(text.rdbuf())) {}
+      ~CaughtErrorOutput() { std::cerr.rdbuf(before); }
+      CaughtErrorOutput(const CaughtErrorOutput &) = delete;
+      CaughtErrorOutput &operator=(const CaughtErrorOutput &) = delete;
+
+      std::string reason() const
+      {
+        const std::string mark = "Message:  <", all = text.str();
+        const std::size_t begin = all.find(mark);
+        if (begin == std::string::npos)
+          return "it is not one formula";
+        std::string line = all.substr(begin + mark.size());
+        line.erase(std::min(line.find('\n'), line.size()));
+        while (!line.empty() && (line.back() == '>' || line.back() == '.'))
+          line.pop_back();
+        return line;
+      }
+
+    private:
+      std::ostringstream text;
+      std::streambuf *before;
+    };
+  } // namespace
+
   struct Expression::Parser
   {
     // FunctionParser::value is const but parses lazily, one copy a thread.
@@ -46,6 +78,7 @@ namespace taut
                      "'120*sin(2*pi*t)'.");
     };
     auto fresh = std::make_shared<Parser>();
+    const CaughtErrorOutput said;
     try
     {
       fresh->function.initialize("s,t", text, {{"pi", dealii::numbers::PI}}, true);
@@ -55,7 +88,7 @@ namespace taut
     }
     catch (const dealii::ExceptionBase &)
     {
-      throw bad("it is not a formula");
+      throw bad(said.reason());
     }
     catch (const std::exception &e)
     {

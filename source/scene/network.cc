@@ -2,6 +2,7 @@
 #include "network.h"
 
 #include <taut/base/exceptions.h>
+#include <taut/base/nearest_name.h>
 #include <taut/scene/entries.h>
 
 #include <algorithm>
@@ -21,10 +22,10 @@ namespace taut
       const std::size_t index = find_name(scene.wires, name);
       if (index == ground)
       {
-        std::string known;
+        std::vector<std::string> known;
         for (const Wire &wire : scene.wires)
-          known += (known.empty() ? "" : ", ") + wire.name;
-        throw EntryError(title + "/Wire", "'" + name + "' is not a wire; known are: " + known);
+          known.push_back(wire.name);
+        throw EntryError(title + "/Wire", "'" + name + "' is not a wire" + suggestion(name, known));
       }
       return index;
     }

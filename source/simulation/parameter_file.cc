@@ -14,7 +14,7 @@ namespace taut
 {
   namespace
   {
-    constexpr int deepest_include = 20;
+    constexpr std::size_t deepest_include = 20, deepest_section = 20;
 
     std::string trim(const std::string &text)
     {
@@ -31,13 +31,63 @@ namespace taut
       return text;
     }
 
+    /// Number of bytes of the UTF-8 character at text[i]; 0 if there is none.
+    std::size_t utf8_length(const std::string &text, const std::size_t i)
+    {
+      const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
+      const unsigned char first = byte(i);
+      const std::size_t n = first < 0x80   ? 1
+                            : first < 0xc2 ? 0
+                            : first < 0xe0 ? 2
+                            : first < 0xf0 ? 3
+                            : first < 0xf5 ? 4
+                                           : 0;
+      if (n == 0 || i + n > text.size())
+        return 0;
+      for (std::size_t k = 1; k < n; ++k)
+        if ((byte(i + k) & 0xc0) != 0x80)
+          return 0;
+      // Overlong forms, surrogates and what is beyond the last code point (RFC 3629).
+      const unsigned char second = n > 1 ? byte(i + 1) : 0;
+      if ((first == 0xe0 && second < 0xa0) || (first == 0xed && second > 0x9f) ||
+          (first == 0xf0 && second < 0x90) || (first == 0xf4 && second > 0x8f))
+        return 0;
+      return n;
+    }
+
+    /// Names and values go into messages, tables and JSON: text without control characters.
+    void check_text(const std::string &text, const std::string &place)
+    {
+      for (std::size_t i = 0; i < text.size();)
+      {
+        const std::size_t n = utf8_length(text, i);
+        const auto byte = static_cast<unsigned char>(text[i]);
+        if (n == 0 || (byte < 0x20 && byte != '\t') || byte == 0x7f)
+        {
+          const char digits[] = "0123456789abcdef";
+          throw UserError(place + ": this is not text: byte 0x" + digits[byte >> 4] +
+                          digits[byte & 15] + "; a parameter file is text in UTF-8");
+        }
+        i += n;
+      }
+    }
+
+    std::string cannot_read(const std::string &file)
+    {
+      std::error_code error;
+      return "cannot read '" + file + "': " +
+             (std::filesystem::is_directory(file, error) ? "it is a folder; name a file in it"
+                                                         : "no such file, or no permission");
+    }
+
     /// The lines of a file without comments, continued ones joined, each with the number of its
     /// first.
     std::vector<std::pair<int, std::string>> lines_of(const std::string &file)
     {
       std::ifstream in(file, std::ios::binary);
-      if (!in || std::filesystem::is_directory(file))
-        throw UserError("cannot read '" + file + "': no such file, or no permission");
+      std::error_code error;
+      if (!in || std::filesystem::is_directory(file, error))
+        throw UserError(cannot_read(file));
       std::vector<std::pair<int, std::string>> lines;
       std::string text;
       int number = 0, first = 0;
@@ -45,10 +95,12 @@ namespace taut
       for (std::string line; std::getline(in, line);)
       {
         ++number;
-        if (line.find('\0') != std::string::npos)
-          throw UserError(file + ":" + std::to_string(number) +
-                          ": this is not text; a parameter file is a text file");
-        line = trim(line.substr(0, line.find('#')));
+        if (number == 1 && line.compare(0, 3, "\xef\xbb\xbf") == 0)
+          line.erase(0, 3); // the mark of UTF-8 that some editors write
+        // Comments may be in any encoding, but a zero says that all of this is something else.
+        if (line.find('\0') == std::string::npos)
+          line = trim(line.substr(0, line.find('#')));
+        check_text(line, file + ":" + std::to_string(number));
         if (!continued)
         {
           first = number;
@@ -86,7 +138,8 @@ namespace taut
     else
     {
       std::vector<std::string> path;
-      read_prm(file, path, 0);
+      open_files.clear();
+      read_prm(file, path);
       if (!path.empty())
         throw UserError(locate(join(path)) + ": the section is opened and never closed; add 'end'");
     }
@@ -94,6 +147,14 @@ namespace taut
 
   void ParameterFile::add(Entry entry)
   {
+    for (const std::string &part : entry.path)
+      if (part.empty())
+        throw UserError(entry.place + ": '" + entry.name() + "' = '" + entry.value +
+                        "': the name of an entry or section is empty; write 'set Name = value'");
+    for (const std::string &text : {entry.path.back(), entry.value})
+      if (!text.empty() && text.back() == '\\')
+        throw UserError(entry.place + ": " + entry.name() + " = '" + entry.value +
+                        "': '\\' at the end continues a line, but there is none; remove it");
     const auto [known, is_new] = index.emplace(entry.name(), list.size());
     if (!is_new)
       throw UserError(entry.place + ": '" + entry.name() + "' was set before, at " +
@@ -103,15 +164,16 @@ namespace taut
 
   void ParameterFile::add_section(const std::vector<std::string> &path, const std::string &place)
   {
+    if (path.size() > deepest_section)
+      throw UserError(place + ": more than " + std::to_string(deepest_section) +
+                      " sections in each other; is an 'end' missing?");
     if (section_index.emplace(join(path), section_list.size()).second)
       section_list.push_back({path, "", place});
   }
 
-  void ParameterFile::read_prm(const std::string &file, std::vector<std::string> &path,
-                               const int depth)
+  void ParameterFile::read_prm(const std::string &file, std::vector<std::string> &path)
   {
-    if (depth > deepest_include)
-      throw UserError("'" + file + "' is included by itself");
+    open_files.push_back(std::filesystem::path(file).lexically_normal().string());
     for (const auto &[number, line] : lines_of(file))
     {
       const std::string place = file + ":" + std::to_string(number);
@@ -139,28 +201,40 @@ namespace taut
       else if ((word == "include" || word == "INCLUDE") && !rest.empty())
       {
         const auto included = std::filesystem::path(file).parent_path() / rest;
-        if (!std::filesystem::exists(included))
+        std::error_code error;
+        if (!std::filesystem::is_regular_file(included, error))
           throw UserError(place + ": cannot include '" + included.string() + "': no such file");
-        read_prm(included.string(), path, depth + 1);
+        if (open_files.size() > deepest_include ||
+            std::count(open_files.begin(), open_files.end(), included.lexically_normal().string()) >
+                0)
+          throw UserError(place + ": cannot include '" + included.string() +
+                          "': it is being read already and would include itself; remove one of "
+                          "the includes");
+        read_prm(included.string(), path);
       }
       else
         throw UserError(place + ": cannot read '" + line +
                         "'; a line is 'set Name = value', 'subsection Name', 'end', 'include file' "
                         "or a comment after '#'");
     }
+    open_files.pop_back();
   }
 
   void ParameterFile::read_json(const std::string &file)
   {
     using nlohmann::json;
     std::ifstream in(file);
-    if (!in)
-      throw UserError("cannot read '" + file + "': no such file, or no permission");
+    std::error_code error;
+    if (!in || std::filesystem::is_directory(file, error))
+      throw UserError(cannot_read(file));
 
     // Keys of the objects that are open while parsing, to find one that comes twice.
     std::vector<std::vector<std::string>> open;
-    const auto watch = [&](int, json::parse_event_t event, json &parsed)
+    const auto watch = [&](int depth, json::parse_event_t event, json &parsed)
     {
+      if (depth > static_cast<int>(deepest_section))
+        throw UserError(file + ": more than " + std::to_string(deepest_section) +
+                        " objects or arrays in each other; is a bracket missing?");
       if (event == json::parse_event_t::object_start)
         open.emplace_back();
       else if (event == json::parse_event_t::object_end)
@@ -181,7 +255,10 @@ namespace taut
     }
     catch (const json::exception &e)
     {
-      throw UserError(file + ": this is not JSON: " + e.what());
+      const std::string what = e.what();
+      const std::size_t mark = what.find("] ");
+      throw UserError(file + ": this is not JSON: " +
+                      (mark == std::string::npos ? what : what.substr(mark + 2)));
     }
     if (!root.is_object())
       throw UserError(file + ": the whole file is one JSON object, {\"Name\": value, ...}");
@@ -201,6 +278,7 @@ namespace taut
       for (const auto &[key, value] : object.items())
       {
         path.push_back(key);
+        check_text(key, file);
         const std::string name = join(path);
         if (value.is_object())
         {
@@ -218,6 +296,7 @@ namespace taut
           if (all.find_first_of("\n#") != std::string::npos ||
               name.find_first_of("\n#=") != std::string::npos)
             throw UserError(file + ": " + name + ": a name or value has no line end and no '#'");
+          check_text(name + all, file + ": " + name);
           add({path, trim(all), file});
         }
         path.pop_back();
@@ -239,8 +318,9 @@ namespace taut
       entry.path.push_back(trim(part));
     if (entry.value.find_first_of("\n#") != std::string::npos)
       throw UserError("--set '" + assignment + "': a value has no line end and no '#'");
+    check_text(assignment, "--set");
     const auto known = index.find(entry.name());
-    if (known != index.end())
+    if (known != index.end() && (entry.value.empty() || entry.value.back() != '\\'))
       list[known->second] = entry;
     else
       add(entry);

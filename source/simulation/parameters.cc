@@ -32,15 +32,19 @@ namespace taut
       return names;
     }
 
-    std::string suggestion(const std::string &name, const std::vector<std::string> &known)
+    /// The names of a deal.II Selection, alone or in a List, from its description.
+    std::vector<std::string> selection_of(const std::string &pattern)
     {
-      const std::string nearest = nearest_name(name, known);
-      if (!nearest.empty())
-        return "; did you mean '" + nearest + "'?";
-      std::string all;
-      for (const std::string &k : known)
-        all += (all.empty() ? "" : ", ") + k;
-      return all.empty() ? "; there is none here" : "; known here: " + all;
+      std::vector<std::string> names;
+      const std::string mark = "[Selection ";
+      const std::size_t begin = pattern.find(mark);
+      if (begin == std::string::npos)
+        return names;
+      std::istringstream list(
+          pattern.substr(begin + mark.size(), pattern.find(" ]", begin) - begin - mark.size()));
+      for (std::string name; std::getline(list, name, '|');)
+        names.push_back(name);
+      return names;
     }
 
     /// The node of a path, or an error about the first section that does not exist.
@@ -59,6 +63,17 @@ namespace taut
         node = &(*node)[name];
       }
       return *node;
+    }
+
+    /// A list of a lower and an upper bound, or nothing.
+    void check_pair(const std::vector<double> &pair, const std::string &entry)
+    {
+      if (pair.empty())
+        return;
+      if (pair.size() != 2)
+        throw EntryError(entry, "give two numbers, the first and the last, or leave it empty");
+      if (pair[0] > pair[1])
+        throw EntryError(entry, "the first number is the smaller one; swap them");
     }
 
     /// The part of a deal.II exception that is for the user.
@@ -178,8 +193,13 @@ namespace taut
             suggestion(name, names_in(node, false)));
       const auto pattern = pattern_factory(node[name]["pattern_description"].get<std::string>());
       if (!pattern->match(entry.value))
+      {
+        const std::string near = nearest_name(
+            entry.value, selection_of(node[name]["pattern_description"].get<std::string>()));
         throw UserError(entry.place + ": " + entry.name() + " = '" + entry.value +
-                        "' is not allowed; expected " + pattern->description(PatternBase::Text));
+                        "' is not allowed; expected " + pattern->description(PatternBase::Text) +
+                        (near.empty() ? "" : "; did you mean '" + near + "'?"));
+      }
     }
   }
 
@@ -202,8 +222,16 @@ namespace taut
       }
       const auto &generators = Registry<SceneGenerator>::instance();
       if (!generators.knows(generator_name))
-        throw EntryError("Generator",
-                         "there is no such generator; known are: " + generators.names(", "));
+      {
+        std::vector<std::string> known;
+        std::istringstream list(generators.names());
+        for (std::string generator_known; std::getline(list, generator_known, '|');)
+          known.push_back(generator_known);
+        const std::string near = nearest_name(generator_name, known);
+        throw EntryError("Generator", "there is no such generator; known are: " +
+                                          generators.names(", ") +
+                                          (near.empty() ? "" : "; did you mean '" + near + "'?"));
+      }
       generator = generators.create(generator_name);
       {
         dealii::ParameterHandler prm;
@@ -221,8 +249,11 @@ namespace taut
       constexpr double most_steps = 1e10;
       if (end_time > 0. && end_time / step > most_steps)
         throw EntryError("Time/Step", "Time/End takes too many such steps");
-      if (end_time > 0. && end_time < .5 * step)
-        throw EntryError("Time/End", "it is shorter than one step");
+      if (end_time > 0. && end_time < step * (1. - 1e-9))
+        throw EntryError("Time/End", "it is shorter than one step; take a smaller Time/Step");
+      check_pair(statistics.window, "Statistics/Window");
+      for (const auto &[figure, range] : statistics.expected)
+        check_pair(range, "Statistics/Expected ranges/" + figure);
     }
     catch (const EntryError &e)
     {

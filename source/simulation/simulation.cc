@@ -28,7 +28,7 @@ namespace taut
         if (name == fixed)
           return true;
       const auto is_numbered = [&](const std::string &stem) {
-        return name.size() == stem.size() + 10 && name.compare(0, stem.size(), stem) == 0 &&
+        return name.size() >= stem.size() + 10 && name.compare(0, stem.size(), stem) == 0 &&
                name.compare(name.size() - 4, 4, ".vtu") == 0;
       };
       return is_numbered("wires") || is_numbered("links");
@@ -56,6 +56,13 @@ namespace taut
     find_rest_of_probes();
     const TimeIntegrator *integrator = parameters.end_time > 0. ? &choose_integrator() : nullptr;
 
+    // The first factorisation, which finds the bodies that nothing holds.
+    std::unique_ptr<TimeStepper> time_stepper;
+    if (integrator)
+      time_stepper = std::make_unique<TimeStepper>(bodies, links, parameters.solver, *integrator,
+                                                   parameters.step, reference, start,
+                                                   model.start == Start::equilibrium);
+
     // Nothing on the disk was touched until here, where the scene is known to make sense.
     prepare_folder();
     write_start();
@@ -69,8 +76,7 @@ namespace taut
       return;
     }
 
-    TimeStepper stepper(bodies, links, parameters.solver, *integrator, parameters.step, reference,
-                        start, model.start == Start::equilibrium);
+    TimeStepper &stepper = *time_stepper;
     Series series(parameters.output.folder, model, links, parameters.output.interval,
                   parameters.output.link_interval);
     Statistics statistics(parameters.statistics, model, links);
@@ -78,7 +84,16 @@ namespace taut
     observers.insert(observers.end(), guests.begin(), guests.end());
 
     const auto begin = std::chrono::steady_clock::now();
-    advance(stepper, observers);
+    try
+    {
+      advance(stepper, observers);
+    }
+    catch (const UserError &)
+    {
+      // What was computed before the error is kept; it may show the reason.
+      series.close();
+      throw;
+    }
     const double all =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     series.close();
@@ -97,7 +112,8 @@ namespace taut
     describe();
     find_start();
     if (parameters.end_time > 0.)
-      choose_integrator();
+      TimeStepper(bodies, links, parameters.solver, choose_integrator(), parameters.step,
+                  reference, start, model.start == Start::equilibrium);
     log << "The scene is consistent\n";
   }
 
@@ -108,7 +124,10 @@ namespace taut
     std::error_code error;
     if (fs::exists(folder, error) && !fs::is_directory(folder, error))
       throw EntryError("Output/Folder", "it is a file; name a folder");
-    if (fs::exists(folder / "used.prm", error))
+    // A loop over a folder that cannot be read has no turns; writing then says what is wrong.
+    const fs::directory_iterator content(folder, error), none;
+    if (std::any_of(content, none,
+                    [](const auto &entry) { return is_result(entry.path().filename().string()); }))
     {
       if (!parameters.output.overwrite)
         throw EntryError("Output/Folder",
@@ -230,8 +249,8 @@ namespace taut
       start.link_springs[i].u = u;
       start.gap[i] = start.geometric_gap[i] + u;
       if (model.start != Start::equilibrium && start.gap[i] < 0. && row.unilateral)
-        throw UserError(
-            "link '" + row.name + "' starts with a gap of " + std::to_string(start.gap[i]) +
+        throw EntryError(
+            links.origin(i), "link '" + row.name + "' starts with a gap of " + std::to_string(start.gap[i]) +
             ": a rigid one-sided link starts open or just touching. Change its Gap or the start.");
     }
   }

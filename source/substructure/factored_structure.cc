@@ -22,7 +22,8 @@ namespace taut
     catch (const BodyNotHeld &e)
     {
       throw BodyNotHeld("body '" + bodies[k].name() + "': " + e.what() +
-                        ". Give it mass, stiffness or a support there.");
+                            ". Give it mass, stiffness or a support there.",
+                        {}, bodies[k].origin());
     }
   }
 

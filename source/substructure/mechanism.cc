@@ -12,7 +12,8 @@ extern "C" void dsyev_(const char *jobz, const char *uplo, const int *n, double 
 namespace taut
 {
   Mechanism::Mechanism(const Scene &scene, const std::vector<std::size_t> &members)
-      : Substructure(scene.masses[members.front()].name + (members.size() > 1 ? " and others" : ""))
+      : Substructure(scene.masses[members.front()].name + (members.size() > 1 ? " and others" : ""),
+                     scene.masses[members.front()].origin)
   {
     for (const std::size_t m : members)
       for (unsigned int motion = 0; motion < 3; ++motion)

@@ -3,6 +3,7 @@
 #include <taut/substructure/substructure.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace taut
 {
@@ -28,9 +29,20 @@ namespace taut
     for (std::size_t i = 0; i < constrained.size(); ++i)
     {
       if (i > 0 && constrained[i].dof == constrained[i - 1].dof)
-        throw UserError(name() +
-                        ": two supports hold the same motion of the same point; remove one");
+        throw EntryError(
+            origin(), name() + ": two supports hold the same motion of the same point; remove one");
       moving_constraints = moving_constraints || !constrained[i].motion.is_zero();
     }
+
+    bool finite = true;
+    for (const SymmetricMatrix *matrix : {M.get(), C.get(), K.get()})
+      matrix->visit([&](unsigned int, unsigned int, double value)
+                    { finite = finite && std::isfinite(value); });
+    for (const double force : constant_force)
+      finite = finite && std::isfinite(force);
+    if (!finite)
+      throw EntryError(origin(), "body '" + name() +
+                                     "': its mass, damping, stiffness or load is beyond the range "
+                                     "of numbers; take less extreme values");
   }
 } // namespace taut

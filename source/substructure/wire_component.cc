@@ -67,7 +67,8 @@ namespace taut
   WireComponent::WireComponent(const Scene &scene, const std::size_t wire_index,
                                const WireMotion motion)
       : Substructure(scene.wires[wire_index].name +
-                     (motion == WireMotion::axial ? " (axial)" : " (transverse)")),
+                         (motion == WireMotion::axial ? " (axial)" : " (transverse)"),
+                     scene.wires[wire_index].origin),
         motion(motion)
   {
     const Wire &wire = scene.wires[wire_index];

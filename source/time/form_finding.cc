@@ -66,13 +66,13 @@ namespace taut
       for (std::size_t i = 0; i < droppers.size(); ++i)
       {
         const double tension = -state.multiplier[rows.row_of_link(base.links.size() + i)];
-        if (tension < 0.)
+        if (!(tension >= 0.))
         {
           std::ostringstream out;
           out << "dropper '" << droppers[i].name << "' would have to push with " << -tension
               << " N to hold its wire at the prescribed height. Move or remove it, or prescribe "
                  "another height.";
-          throw UserError(out.str());
+          throw EntryError(droppers[i].origin, out.str());
         }
         result.push_back(tension);
       }
@@ -101,8 +101,9 @@ namespace taut
         structure.motion(dropper.to, false, dropper.direction, 1., terms);
         structure.motion(dropper.from, false, dropper.direction, -1., terms);
         result.push_back(distance(scene, dropper) + evaluate(terms, state.displacement));
-        if (result.back() <= 0.)
-          throw UserError(
+        if (!(result.back() > 0.))
+          throw EntryError(
+              dropper.origin,
               "dropper '" + dropper.name +
               "' would have no length: its wires touch in the static state. Increase the "
               "encumbrance or the tension of the upper wire.");
@@ -143,7 +144,8 @@ namespace taut
       if (change < 1e-12)
         break;
       if (iteration + 1 == max_iterations)
-        throw UserError(
+        throw EntryError(
+            droppers.front().origin,
             "the dropper lengths do not settle: their weight decides the shape of the wires. Check "
             "the mass per length of the droppers.");
     }

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numeric>
 #include <sstream>
+#include <stdexcept>
 
 namespace taut
 {
@@ -49,17 +50,17 @@ namespace taut
         }
     }
 
-    /// Name of the body that kernel vector @p index belongs to.
-    std::string body_of_kernel(const std::vector<Substructure::Kernel> &kernels,
-                               const Structure &structure, std::size_t index)
+    /// The body that kernel vector @p index belongs to.
+    const Substructure &body_of_kernel(const std::vector<Substructure::Kernel> &kernels,
+                                       const Structure &structure, std::size_t index)
     {
       for (std::size_t k = 0; k < kernels.size(); ++k)
       {
         if (index < kernels[k].vectors.size())
-          return structure[k].name();
+          return structure[k];
         index -= kernels[k].vectors.size();
       }
-      return "";
+      throw std::logic_error("a kernel vector without a body");
     }
 
     /// Recomputes the balance K U = P + B N of each body, relative to the terms of each kind of
@@ -85,7 +86,7 @@ namespace taut
         {
           const double relative =
               error[kind] == 0. ? 0. : error[kind] / (force[kind] + stiffness[kind]);
-          if (!(relative <= state.certificate.balance))
+          if (!(relative <= state.certificate.balance) && !std::isnan(state.certificate.balance))
           {
             state.certificate.balance = relative;
             state.certificate.worst_body = k;
@@ -140,17 +141,23 @@ namespace taut
     }
     catch (const ContradictoryRows &e)
     {
-      throw UserError("static equilibrium: the links " + rows.names(e.rows()) +
-                      " contradict each other. Remove one of them, give one a finite stiffness, or "
-                      "check the gaps.");
+      throw EntryError(e.rows().empty() ? "" : rows.origin(e.rows().front()),
+                       "static equilibrium: the links " + rows.names(e.rows()) +
+                           " contradict each other. Remove one of them, give one a finite "
+                           "stiffness, or check the gaps.");
+    }
+    catch (const NotSolved &e)
+    {
+      throw UserError(std::string("static equilibrium: ") + e.what());
     }
     catch (const BodyNotHeld &e)
     {
-      throw BodyNotHeld("static equilibrium: body '" +
-                        body_of_kernel(kernels, structure, e.kernel().front()) +
-                        "' is not held: no admissible contact force balances its loads. Add a "
-                        "support or a link, or "
-                        "start with 'Start = undeformed'.");
+      const Substructure &body = body_of_kernel(kernels, structure, e.kernel().front());
+      throw BodyNotHeld("static equilibrium: body '" + body.name() +
+                            "' is not held: no admissible contact force balances its loads. Add a "
+                            "support or a link, or "
+                            "start with 'Start = undeformed'.",
+                        {}, body.origin());
     }
     state.multiplier = solution.multiplier;
 
@@ -197,7 +204,11 @@ namespace taut
       out << ", of the force balance " << state.certificate.balance << " (worst: '"
           << structure[state.certificate.worst_body].name() << "'), allowed "
           << parameters.contact_tolerance << ". Check stiffnesses for extreme ratios.";
-      throw UserError(out.str());
+      const bool rows_are_worse =
+          n > 0 && !(state.certificate.complementarity <= parameters.contact_tolerance);
+      throw EntryError(rows_are_worse ? rows.origin(state.certificate.worst_row)
+                                      : structure[state.certificate.worst_body].origin(),
+                       out.str());
     }
     return state;
   }

@@ -175,9 +175,11 @@ namespace taut
     catch (const ContradictoryRows &e)
     {
       fail("the links " + rows.names(e.rows()) +
-           " contradict each other: no contact forces satisfy them all. Remove one of them, give "
-           "one a finite "
-           "stiffness, or check the initial gaps");
+               " contradict each other: no contact forces satisfy them all. Remove one of them, "
+               "give "
+               "one a finite "
+               "stiffness, or check the initial gaps",
+           e.rows().empty() ? "" : rows.origin(e.rows().front()));
     }
   }
 
@@ -276,7 +278,7 @@ namespace taut
       {
         const double size = force[kind] + inertia[kind] + damping[kind] + stiffness[kind];
         const double relative = error[kind] == 0. ? 0. : error[kind] / size;
-        if (!(relative <= last.balance))
+        if (!(relative <= last.balance) && !std::isnan(last.balance))
         {
           last.balance = relative;
           last.worst_body = k;
@@ -308,7 +310,7 @@ namespace taut
       out << "link '" << rows[last.worst_row].name << "' misses the contact tolerance: residual "
           << last.complementarity << " > " << parameters.contact_tolerance
           << ". Take a smaller step or raise 'Contact tolerance'";
-      fail(out.str());
+      fail(out.str(), rows.origin(last.worst_row));
     }
     if (!(last.balance <= parameters.contact_tolerance))
     {
@@ -317,14 +319,14 @@ namespace taut
           << "' misses the contact tolerance in its equation of motion: residual " << last.balance
           << " > " << parameters.contact_tolerance
           << ". Check stiffness and mass for extreme ratios, or raise 'Contact tolerance'";
-      fail(out.str());
+      fail(out.str(), structure[last.worst_body].origin());
     }
   }
 
-  void TimeStepper::fail(const std::string &what) const
+  void TimeStepper::fail(const std::string &what, const std::string &entry) const
   {
     std::ostringstream out;
     out << "at t = " << current.time << " s: " << what << ".";
-    throw UserError(out.str());
+    throw EntryError(entry, out.str());
   }
 } // namespace taut

@@ -59,12 +59,13 @@ namespace taut
   };
 
   /// A body that the equations do not hold: a singular matrix, or loads that no admissible contact
-  /// force balances.
-  class BodyNotHeld : public UserError
+  /// force balances. The entry is the section of the body, once that is known.
+  class BodyNotHeld : public EntryError
   {
   public:
-    explicit BodyNotHeld(const std::string &message, std::vector<std::size_t> kernel = {})
-        : UserError(message), kernel_indices(std::move(kernel))
+    explicit BodyNotHeld(const std::string &message, std::vector<std::size_t> kernel = {},
+                         const std::string &entry = "")
+        : EntryError(entry, message), kernel_indices(std::move(kernel))
     {
     }
 

@@ -48,6 +48,18 @@ namespace taut
     }
     return best;
   }
+
+  /// End of a message about an unknown name: the nearest known one, or all that are known.
+  inline std::string suggestion(const std::string &name, const std::vector<std::string> &known)
+  {
+    const std::string nearest = nearest_name(name, known);
+    if (!nearest.empty())
+      return "; did you mean '" + nearest + "'?";
+    std::string all;
+    for (const std::string &k : known)
+      all += (all.empty() ? "" : ", ") + k;
+    return all.empty() ? "; there is none here" : "; known here: " + all;
+  }
 } // namespace taut
 
 #endif

@@ -48,7 +48,7 @@ namespace taut
     std::string locate(const std::string &name) const;
 
   private:
-    void read_prm(const std::string &file, std::vector<std::string> &path, int depth);
+    void read_prm(const std::string &file, std::vector<std::string> &path);
     void read_json(const std::string &file);
     void add(Entry entry);
     void add_section(const std::vector<std::string> &path, const std::string &place);
@@ -56,6 +56,7 @@ namespace taut
     std::vector<Entry> list, section_list;
     std::map<std::string, std::size_t> index, section_index; ///< by name, of the lists
     std::string main_file;
+    std::vector<std::string> open_files; ///< while they are read, to find a loop of includes
   };
 } // namespace taut
 

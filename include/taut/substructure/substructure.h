@@ -37,10 +37,15 @@ namespace taut
   class Substructure
   {
   public:
-    explicit Substructure(std::string name) : body_name(std::move(name)) {}
+    /// @p origin is the path of its section in the parameter file, for messages; may be empty.
+    explicit Substructure(std::string name, std::string origin = "")
+        : body_name(std::move(name)), body_origin(std::move(origin))
+    {
+    }
     virtual ~Substructure() = default;
 
     const std::string &name() const { return body_name; }
+    const std::string &origin() const { return body_origin; }
     unsigned int n_dofs() const { return K->size(); }
 
     const SymmetricMatrix &mass() const { return *M; }
@@ -80,6 +85,8 @@ namespace taut
 
   protected:
     /// Sorts the constraints and notes whether one moves. Called at the end of a constructor.
+    /// Throws EntryError if the numbers of the scene are so extreme that a matrix or a force is not
+    /// finite.
     void finish_constraints();
 
     std::unique_ptr<SymmetricMatrix> M, C, K;
@@ -89,7 +96,7 @@ namespace taut
     std::vector<ConstrainedDof> constrained;
 
   private:
-    std::string body_name;
+    std::string body_name, body_origin;
     bool moving_constraints = false;
   };
 

@@ -53,7 +53,7 @@ namespace taut
     void accept(std::size_t k);
     void update_rows();
     void certify();
-    void fail(const std::string &what) const;
+    void fail(const std::string &what, const std::string &entry = "") const;
 
     const Structure &structure;
     ContactRows &rows;
