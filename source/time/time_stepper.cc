@@ -23,7 +23,7 @@ namespace taut
                            &old_balance, &increment})
       *v = structure.zero();
     const std::size_t n = rows.size();
-    for (auto *v : {&link_history, &reference_gap, &motion})
+    for (auto *v : {&link_history, &reference_gap, &gap_terms, &motion})
       v->assign(n, 0.);
     problem.unilateral.resize(n);
     problem.free_gap.resize(n);
@@ -152,6 +152,9 @@ namespace taut
           scale += std::fabs(u);
         }
       }
+      // The ends of a row move together most of the time: each of them rounds for itself.
+      for (const Term &term : row.terms)
+        scale += step * std::fabs(term.form.dot(current.V[term.substructure]));
       problem.free_gap[i] = before + motion[i] + link_history[i];
       problem.gap_scale[i] = scale + std::fabs(motion[i]) + std::fabs(link_history[i]);
     }
@@ -286,22 +289,36 @@ namespace taut
       }
     }
 
-    // Gaps from the displacements, not from F N + d.
+    // Gaps from the increments of the displacements, not from F N + d; and gaps so carried must not
+    // drift away from the displacements, measured by the terms that these are summed from.
     last.complementarity = 0.;
     if (rows.size() > 0)
     {
       MixedComplementaritySolution recomputed;
       recomputed.multiplier = current.multiplier;
-      recomputed.gap.resize(rows.size());
-      for (std::size_t i = 0; i < rows.size(); ++i)
-        recomputed.gap[i] =
-            (rows[i].moving ? current.geometric_gap[i]
-                            : reference_gap[i] + evaluate(rows[i].terms, current.U)) +
-            current.link_springs[i].u;
+      recomputed.gap = current.gap;
       const ComplementarityResidual result = residual(problem, schur->matrix(), recomputed);
       last.complementarity = result.max;
       last.worst_row =
           std::max_element(result.rows.begin(), result.rows.end()) - result.rows.begin();
+      for (std::size_t i = 0; i < rows.n_fixed(); ++i)
+      {
+        double gap = reference_gap[i], terms = std::fabs(gap);
+        for (const Term &term : rows[i].terms)
+        {
+          const double u = term.form.dot(current.U[term.substructure]);
+          gap += u;
+          terms += std::fabs(u);
+        }
+        gap_terms[i] = std::max(gap_terms[i], terms);
+        const double drift = std::fabs(gap - current.geometric_gap[i]),
+                     relative = drift == 0. ? 0. : drift / gap_terms[i];
+        if (!(relative <= last.complementarity) && !std::isnan(last.complementarity))
+        {
+          last.complementarity = relative;
+          last.worst_row = i;
+        }
+      }
     }
 
     if (!(last.complementarity <= parameters.contact_tolerance))
