@@ -9,6 +9,7 @@ import sys
 parser = argparse.ArgumentParser(description=__doc__)
 parser.add_argument("--root", type=pathlib.Path, required=True)
 parser.add_argument("--clang-format", required=True)
+parser.add_argument("--fix", action="store_true", help="format the files instead")
 arguments = parser.parse_args()
 
 files = [f for folder in ("include", "source", "tests") for f in (arguments.root / folder).rglob("*.[ch]*")
@@ -16,4 +17,5 @@ files = [f for folder in ("include", "source", "tests") for f in (arguments.root
 if not files:
     sys.exit("no C++ files found")
 print(len(files), "files")
-sys.exit(subprocess.call([arguments.clang_format, "--dry-run", "-Werror"] + files))
+options = ["-i"] if arguments.fix else ["--dry-run", "-Werror"]
+sys.exit(subprocess.call([arguments.clang_format] + options + files))
