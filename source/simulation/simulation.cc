@@ -227,9 +227,9 @@ namespace taut
       for (std::size_t k = 0; k < bodies.size(); ++k)
       {
         bodies[k].initial_state(start.U[k], start.V[k]);
-        bodies[k].stiffness().vmult_add(1., start.U[k].data(), start.KU[k].data());
         for (const ConstrainedDof &constraint : bodies[k].constraints())
           start.U[k][constraint.dof] = constraint.motion(0., 0.);
+        bodies[k].stiffness().vmult_add(1., start.U[k].data(), start.KU[k].data());
       }
 
     start.geometric_gap.resize(links.size());
@@ -239,12 +239,17 @@ namespace taut
       const Row &row = links[i];
       start.geometric_gap[i] =
           row.gap + evaluate(row.terms, reference.displacement) + evaluate(row.terms, start.U);
-      // The spring of a link starts as compressed as its ends stand; a rigid one is not compressed.
+      // The spring of a link starts as compressed as its ends stand, and a compressed one as fast as
+      // they move; a rigid one is not compressed.
       double u = start.multiplier[i] / row.stiffness;
       if (model.start != Start::equilibrium && !std::isinf(row.stiffness))
       {
         u = row.unilateral ? std::max(0., -start.geometric_gap[i]) : -start.geometric_gap[i];
-        start.multiplier[i] = u * row.stiffness;
+        const double v = !row.unilateral || u > 0. ? -evaluate(row.terms, start.V) : 0.;
+        start.link_springs[i].v = v;
+        start.multiplier[i] = u * row.stiffness + v * row.damping;
+        if (row.unilateral)
+          start.multiplier[i] = std::max(0., start.multiplier[i]);
       }
       start.link_springs[i].u = u;
       start.gap[i] = start.geometric_gap[i] + u;
