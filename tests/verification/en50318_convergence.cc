@@ -114,10 +114,12 @@ namespace
     set("Output.Folder", folder);
     set("Output.Interval", 1e9);
     set("Output.Link interval", 1e9);
+    set("Output.Field interval", 0);
 
     const auto begin = std::chrono::steady_clock::now();
     taut::Parameters parameters;
     parameters.read(file, overrides);
+    parameters.output.overwrite = true;
     std::ostringstream log;
     taut::Simulation simulation(parameters, log);
     taut::Statistics statistics(parameters.statistics, simulation.scene(), simulation.rows());
