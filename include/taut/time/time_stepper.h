@@ -77,8 +77,8 @@ namespace taut
     std::vector<double>
         link_history; ///< part of a link spring's compression that does not depend on N
     std::vector<double> reference_gap; ///< gap of the fixed rows at the reference
-    std::vector<double> gap_terms; ///< largest terms of the gaps of the fixed rows so far
-    std::vector<double> motion;    ///< B^T dU
+    std::vector<double> gap_terms;     ///< largest terms of the gaps of the fixed rows so far
+    std::vector<double> motion;        ///< B^T dU
     std::vector<double> old_multiplier;
     std::vector<std::vector<KindNorm>> norms; ///< of M, C, K of each body
 
