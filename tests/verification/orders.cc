@@ -1,0 +1,532 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: on smooth problems backward Euler is of first order and BDF2, Newmark (1/4, 1/2),
+// generalised-alpha (0.8) and (0) are of second order, whatever the bodies hang on. The reference
+// knows nothing of the time stepper: the matrices of the bodies, joints eliminated, integrated by
+// the classical Runge-Kutta method of fourth order with a step of 1/16 of the smallest tested one
+// or less.
+#include "run.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+using namespace verification;
+
+namespace
+{
+  using Vector = std::vector<double>;
+
+  /// A dense matrix, row by row.
+  struct Matrix
+  {
+    int n;
+    Vector a;
+    explicit Matrix(const int n) : n(n), a(n * n, 0.) {}
+    double &operator()(int i, int j) { return a[i * n + j]; }
+    double operator()(int i, int j) const { return a[i * n + j]; }
+    Vector times(const Vector &x) const
+    {
+      Vector y(n, 0.);
+      for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j)
+          y[i] += a[i * n + j] * x[j];
+      return y;
+    }
+    /// Gauss-Jordan with pivoting.
+    Matrix inverse() const
+    {
+      Matrix m(*this), result(n);
+      for (int i = 0; i < n; ++i)
+        result(i, i) = 1.;
+      for (int c = 0; c < n; ++c)
+      {
+        int p = c;
+        for (int r = c; r < n; ++r)
+          if (std::fabs(m(r, c)) > std::fabs(m(p, c)))
+            p = r;
+        for (int k = 0; k < n; ++k)
+        {
+          std::swap(m(c, k), m(p, k));
+          std::swap(result(c, k), result(p, k));
+        }
+        const double pivot = m(c, c);
+        for (int k = 0; k < n; ++k)
+        {
+          m(c, k) /= pivot;
+          result(c, k) /= pivot;
+        }
+        for (int r = 0; r < n; ++r)
+          if (r != c && m(r, c) != 0.)
+          {
+            const double f = m(r, c);
+            for (int k = 0; k < n; ++k)
+            {
+              m(r, k) -= f * m(c, k);
+              result(r, k) -= f * result(c, k);
+            }
+          }
+      }
+      return result;
+    }
+  };
+
+  /// Motion of a moving support and its derivatives.
+  struct Given
+  {
+    double u = 0., v = 0., a = 0.;
+  };
+  using Motion = std::function<Given(double)>;
+
+  /**
+   * M u" + C u' + K u = P(t) of all bodies in one vector. A joint with a stiffness adds k b b^T and
+   * c b b^T; a rigid one is eliminated, u = T y with T the identity but for one row. A support that
+   * moves is a given part of u.
+   */
+  class Reference
+  {
+  public:
+    Reference(const taut::Structure &structure, const taut::ContactRows &rows, const Motion &motion)
+        : structure(structure), motion(motion), M(n_all(structure)), C(n_all(structure)),
+          K(n_all(structure)), T(n_all(structure)), M_inverse(0)
+    {
+      const int n = M.n;
+      constrained.assign(n, 0);
+      moving.assign(n, 0);
+      for (int i = 0; i < n; ++i)
+        T(i, i) = 1.;
+      int offset = 0;
+      for (std::size_t k = 0; k < structure.size(); ++k)
+      {
+        offsets.push_back(offset);
+        const auto add = [&](const taut::SymmetricMatrix &from, Matrix &to)
+        {
+          from.visit([&](unsigned int i, unsigned int j, double value)
+                     { to(offset + i, offset + j) = to(offset + j, offset + i) = value; });
+        };
+        add(structure[k].mass(), M);
+        add(structure[k].damping(), C);
+        add(structure[k].stiffness(), K);
+        for (const taut::ConstrainedDof &c : structure[k].constraints())
+        {
+          constrained[offset + c.dof] = 1;
+          moving[offset + c.dof] = !c.motion.is_zero();
+        }
+        offset += structure[k].n_dofs();
+      }
+      for (std::size_t r = 0; r < rows.size(); ++r)
+        add_joint(rows[r]);
+      reduce();
+    }
+
+    /// Displacements at multiples of @p step from given U and V, all bodies in one vector.
+    std::vector<Vector> solve(Vector u, Vector v, const double step, const int substeps,
+                              const int n_steps)
+    {
+      const double dt = step / substeps;
+      const auto a = [&](double t, const Vector &U, const Vector &V)
+      { return acceleration(t, U, V); };
+      const auto combine = [](const Vector &x, double f, const Vector &y)
+      {
+        Vector z(x);
+        for (std::size_t i = 0; i < x.size(); ++i)
+          z[i] += f * y[i];
+        return z;
+      };
+      std::vector<Vector> result = {u};
+      forces = {multiplier(0., u, v)};
+      double t = 0.;
+      for (int i = 0; i < n_steps; ++i)
+      {
+        for (int k = 0; k < substeps; ++k)
+        {
+          t = i * step + k * dt;
+          const Vector a1 = a(t, u, v);
+          const Vector u2 = combine(u, .5 * dt, v), v2 = combine(v, .5 * dt, a1),
+                       a2 = a(t + .5 * dt, u2, v2);
+          const Vector u3 = combine(u, .5 * dt, v2), v3 = combine(v, .5 * dt, a2),
+                       a3 = a(t + .5 * dt, u3, v3);
+          const Vector u4 = combine(u, dt, v3), v4 = combine(v, dt, a3), a4 = a(t + dt, u4, v4);
+          for (std::size_t j = 0; j < u.size(); ++j)
+          {
+            u[j] += dt / 6. * (v[j] + 2. * v2[j] + 2. * v3[j] + v4[j]);
+            v[j] += dt / 6. * (a1[j] + 2. * a2[j] + 2. * a3[j] + a4[j]);
+          }
+          set_given(t + dt, u, v);
+        }
+        result.push_back(u);
+        forces.push_back(multiplier(t + dt, u, v));
+      }
+      return result;
+    }
+
+    /// Force of the rigid joint at the times of the last solve().
+    Vector forces;
+
+  private:
+    static int n_all(const taut::Structure &structure) { return structure.n_dofs(); }
+
+    void add_joint(const taut::Row &row)
+    {
+      Vector b(M.n, 0.);
+      for (const taut::Term &term : row.terms)
+        for (std::size_t i = 0; i < term.form.index.size(); ++i)
+          b[offsets[term.substructure] + term.form.index[i]] += term.form.value[i];
+      if (!std::isinf(row.stiffness))
+      {
+        for (int i = 0; i < M.n; ++i)
+          for (int j = 0; j < M.n; ++j)
+          {
+            K(i, j) += row.stiffness * b[i] * b[j];
+            C(i, j) += row.damping * b[i] * b[j];
+          }
+        return;
+      }
+      int p = 0;
+      for (int i = 0; i < M.n; ++i)
+        if (std::fabs(b[i]) > std::fabs(b[p]) && !constrained[i])
+          p = i;
+      for (int i = 0; i < M.n; ++i)
+        T(p, i) = i == p ? 0. : -b[i] / b[p];
+      pivot = p;
+      pivot_factor = b[p];
+    }
+
+    void reduce()
+    {
+      const int n = M.n;
+      Matrix reduced(n);
+      for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j)
+          for (int k = 0; k < n; ++k)
+            if (T(k, i) != 0.)
+              for (int l = 0; l < n; ++l)
+                if (T(l, j) != 0.)
+                  reduced(i, j) += T(k, i) * M(k, l) * T(l, j);
+      for (int i = 0; i < n; ++i)
+        if (constrained[i] || i == pivot)
+        {
+          for (int j = 0; j < n; ++j)
+            reduced(i, j) = reduced(j, i) = 0.;
+          reduced(i, i) = 1.;
+        }
+      M_inverse = reduced.inverse();
+    }
+
+    void set_given(const double t, Vector &u, Vector &v) const
+    {
+      for (int i = 0; i < M.n; ++i)
+        if (moving[i])
+        {
+          u[i] = motion(t).u;
+          v[i] = motion(t).v;
+        }
+    }
+
+    /// P - C v - K u, and minus M times the acceleration of moving supports.
+    Vector balance(const double t, const Vector &u, const Vector &v) const
+    {
+      Vector r(M.n, 0.), given(M.n, 0.), P;
+      for (std::size_t k = 0; k < structure.size(); ++k)
+      {
+        structure[k].external_force(t, P);
+        std::copy(P.begin(), P.end(), r.begin() + offsets[k]);
+      }
+      for (int i = 0; i < M.n; ++i)
+        if (moving[i])
+          given[i] = motion(t).a;
+      const Vector Cv = C.times(v), Ku = K.times(u), Ma = M.times(given);
+      for (int i = 0; i < M.n; ++i)
+        r[i] -= Cv[i] + Ku[i] + Ma[i];
+      return r;
+    }
+
+    Vector acceleration(const double t, Vector u, Vector v) const
+    {
+      set_given(t, u, v);
+      const Vector r = balance(t, u, v);
+      Vector reduced(M.n, 0.);
+      for (int i = 0; i < M.n; ++i)
+        if (!constrained[i] && i != pivot)
+          for (int k = 0; k < M.n; ++k)
+            reduced[i] += T(k, i) * r[k];
+      Vector a = T.times(M_inverse.times(reduced));
+      for (int i = 0; i < M.n; ++i)
+        if (constrained[i])
+          a[i] = moving[i] ? motion(t).a : 0.;
+      return a;
+    }
+
+    double multiplier(const double t, const Vector &u, const Vector &v) const
+    {
+      if (pivot < 0)
+        return 0.;
+      Vector a = acceleration(t, u, v);
+      const Vector r = balance(t, u, v), Ma = M.times(a);
+      return (Ma[pivot] - r[pivot]) / pivot_factor;
+    }
+
+    const taut::Structure &structure;
+    Motion motion;
+    Matrix M, C, K, T, M_inverse;
+    std::vector<int> offsets;
+    std::vector<char> constrained, moving;
+    int pivot = -1;
+    double pivot_factor = 1.;
+  };
+
+  struct Scheme
+  {
+    std::string name;
+    Overrides overrides;
+    double order;
+  };
+  const std::vector<Scheme> schemes = {
+      {"backward Euler", {"Time.Scheme=backward Euler"}, 1.},
+      {"BDF2", {"Time.Scheme=BDF2"}, 2.},
+      {"Newmark (1/4, 1/2)", {"Time.Scheme=Newmark"}, 2.},
+      {"generalised-alpha (0.8)", {"Time.Scheme=generalised-alpha"}, 2.},
+      {"generalised-alpha (0)",
+       {"Time.Scheme=generalised-alpha", "Time.Generalised-alpha.Spectral radius=0"},
+       2.}};
+
+  Vector flat(const taut::BlockVector &U)
+  {
+    Vector result;
+    for (const Vector &block : U)
+      result.insert(result.end(), block.begin(), block.end());
+    return result;
+  }
+
+  struct Orders
+  {
+    std::map<std::string, double> displacement, force;
+  };
+
+  /**
+   * Runs a scene with all schemes, N, 2 N, 4 N, ... steps to @p end, and compares all displacements
+   * at N times, and the force of a rigid joint over the second half of the run.
+   */
+  Orders measure(const std::string &name, const std::string &scene, const double end,
+                 const Motion &motion = {}, const int coarsest = 200, const int refinements = 5)
+  {
+    Session session(scene, {"Time.Step=1e-3", "Time.End=1e-3"});
+    const taut::Structure &structure = session.simulation().structure();
+    taut::BlockVector U = structure.zero(), V = structure.zero();
+    Vector start_u, start_v;
+    session.run(
+        [&](const taut::StepView &view)
+        {
+          if (view.state.time > 0.)
+            return;
+          start_u = flat(view.state.U);
+          start_v = flat(view.state.V);
+          const Vector rest = flat(view.reference.displacement);
+          for (std::size_t i = 0; i < rest.size(); ++i)
+            start_u[i] += rest[i];
+        });
+    Reference reference(structure, session.simulation().rows(), motion);
+    const std::vector<Vector> exact =
+        reference.solve(start_u, start_v, end / coarsest, 16 << (refinements - 1), coarsest);
+    double size = 0., force_size = 0.;
+    for (const Vector &u : exact)
+      for (std::size_t i = 0; i < u.size(); ++i)
+        size = std::max(size, std::fabs(u[i]));
+    for (const double N : reference.forces)
+      force_size = std::max(force_size, std::fabs(N));
+
+    Orders orders;
+    for (const Scheme &scheme : schemes)
+    {
+      Vector steps, errors, force_errors;
+      for (int k = 0; k < refinements; ++k)
+      {
+        // Backward Euler reaches its order at shorter steps only.
+        const int ratio = (scheme.order == 1. ? 16 : 1) << k;
+        steps.push_back(end / (coarsest * ratio));
+        std::ostringstream step, last;
+        step.precision(17);
+        last.precision(17);
+        step << "Time.Step=" << steps.back();
+        last << "Time.End=" << end;
+        Overrides overrides = scheme.overrides;
+        overrides.push_back(step.str());
+        overrides.push_back(last.str());
+        double error = 0., force_error = 0.;
+        int i = 0;
+        run_scene(scene, overrides,
+                  [&](const taut::StepView &view)
+                  {
+                    const int number = i++;
+                    if (number % ratio != 0)
+                      return;
+                    const Vector u = flat(view.state.U), rest = flat(view.reference.displacement),
+                                 &e = exact[number / ratio];
+                    for (std::size_t j = 0; j < u.size(); ++j)
+                      error = std::max(error, std::fabs(u[j] + rest[j] - e[j]));
+                    if (force_size > 0. && number / ratio > coarsest / 2)
+                      force_error =
+                          std::max(force_error, std::fabs(view.state.multiplier[0] -
+                                                          reference.forces[number / ratio]));
+                  });
+        errors.push_back(error / size);
+        force_errors.push_back(force_size > 0. ? force_error / force_size : 1.);
+      }
+      orders.displacement[scheme.name] = fitted_order(steps, errors);
+      figure(name + ", order of " + scheme.name, orders.displacement[scheme.name]);
+      figure(name + ", relative error of " + scheme.name + " at the smallest step", errors.back());
+      if (force_size > 0.)
+      {
+        orders.force[scheme.name] = fitted_order(steps, force_errors);
+        figure(name + ", order of the joint's force, " + scheme.name, orders.force[scheme.name]);
+        figure(name + ", relative error of the joint's force, " + scheme.name +
+                   " at the smallest step",
+               force_errors.back());
+      }
+      EXPECT_NEAR(orders.displacement[scheme.name], scheme.order, .1)
+          << name << ", " << scheme.name;
+    }
+    return orders;
+  }
+
+  std::string beam(const std::string &name, const double from, const double to,
+                   const std::string &more, const double element_size = 1.)
+  {
+    std::ostringstream text;
+    text << " subsection Wire " << name << "\n  set From = " << from << ", 0\n  set To = " << to
+         << ", 0\n  set Components = beam\n  set Mass per length = 1.5\n  set Tension = 60\n"
+         << "  set Bending stiffness = 20\n  set Element size = " << element_size << "\n"
+         << more << " end\n";
+    return text.str();
+  }
+
+  const std::string ends = " subsection Support ends\n  set Wire = beam\n  set Positions = 0, 4\n"
+                           " end\n";
+
+  std::string network(const std::string &start, const std::string &items)
+  {
+    return "set Generator = network\nset Gravity = 0, 0\nset Start = " + start +
+           "\nsubsection Network\n" + items + "end\n";
+  }
+} // namespace
+
+TEST(Orders, free_vibration_from_a_given_displacement_and_velocity)
+{
+  measure("free vibration of a beam",
+          network("given", " set Wires = beam\n set Supports = ends\n" + ends +
+                               beam("beam", 0., 4.,
+                                    "  set Initial transverse displacement = "
+                                    "0.01*sin(pi*s/4)+0.004*sin(pi*s/2)\n"
+                                    "  set Initial transverse velocity = 0.1*sin(pi*s/4)\n",
+                                    .5)),
+          2.);
+}
+
+TEST(Orders, rayleigh_damped_beam)
+{
+  measure("Rayleigh-damped beam",
+          network("given", " set Wires = beam\n set Supports = ends\n" + ends +
+                               beam("beam", 0., 4.,
+                                    "  set Mass damping = 1.5\n  set Stiffness damping = 0.01\n"
+                                    "  set Initial transverse displacement = 0.01*sin(pi*s/4)\n")),
+          2.);
+}
+
+TEST(Orders, moving_force)
+{
+  // Enters at a quarter of the span, smoothly: a force that is switched on excites modes that no
+  // step here resolves.
+  measure("moving force on a beam",
+          network("undeformed", " set Wires = beam\n set Supports = ends\n set Loads = force\n" +
+                                    ends + beam("beam", 0., 4., "") +
+                                    " subsection Load force\n  set Type = moving\n"
+                                    "  set On = beam @ 1\n  set Speed = 1\n"
+                                    "  set Magnitude = -10*sin(pi*t/4)^4\n end\n"),
+          2., {}, 3200, 4);
+}
+
+TEST(Orders, load_that_changes_from_an_equilibrium)
+{
+  measure("load from equilibrium",
+          network("equilibrium", " set Wires = beam\n set Supports = ends\n set Loads = force\n" +
+                                     ends + beam("beam", 0., 4., "") +
+                                     " subsection Load force\n  set Type = point\n"
+                                     "  set On = beam @ 1.5\n"
+                                     "  set Magnitude = 10+5*sin(4*t)^2\n end\n"),
+          2.);
+}
+
+TEST(Orders, rigid_joint_between_two_bodies)
+{
+  const Orders orders = measure(
+      "rigid joint of two beams",
+      network("undeformed",
+              " set Wires = beam, other\n set Supports = ends, far end\n set Links = joint\n"
+              " set Loads = force\n subsection Support ends\n  set Wire = beam\n"
+              "  set Positions = 0\n end\n subsection Support far end\n  set Wire = other\n"
+              "  set Positions = 2\n end\n" +
+                  beam("beam", 0., 2., "") + beam("other", 2., 4., "") +
+                  " subsection Link joint\n  set Type = joint\n  set From = beam @ 2\n"
+                  "  set To = other @ 0\n  set Direction = 0, 1\n end\n"
+                  " subsection Load force\n  set Type = point\n  set On = beam @ 1\n"
+                  "  set Magnitude = 10*sin(2*t)^4\n end\n"),
+      2.);
+  for (const Scheme &scheme : schemes)
+    EXPECT_NEAR(orders.force.at(scheme.name), scheme.order, .2) << scheme.name;
+}
+
+TEST(Orders, moving_support)
+{
+  // u = 0.01 sin(3 t)^3
+  const Motion motion = [](const double t)
+  {
+    const double s = std::sin(3. * t), c = std::cos(3. * t);
+    return Given{.01 * s * s * s, .09 * s * s * c, .27 * (2. * s * c * c - s * s * s)};
+  };
+  measure("moving support",
+          network("equilibrium", " set Wires = beam\n set Supports = ends, moving\n"
+                                 " subsection Support ends\n  set Wire = beam\n"
+                                 "  set Positions = 4\n end\n"
+                                 " subsection Support moving\n  set Wire = beam\n"
+                                 "  set Positions = 0\n  set Displacement = 0.01*sin(3*t)^3\n"
+                                 " end\n" +
+                                     beam("beam", 0., 4.,
+                                          "  set Mass damping = 0.5\n"
+                                          "  set Stiffness damping = 1e-3\n")),
+          2., motion);
+}
+
+TEST(Orders, damped_link_under_a_load)
+{
+  measure("Kelvin-Voigt link of mass and beam",
+          network("equilibrium", " set Wires = beam\n set Supports = ends\n set Masses = mass\n"
+                                 " set Links = link\n set Loads = force\n" +
+                                     ends + beam("beam", 0., 4., "") +
+                                     " subsection Mass mass\n  set Position = 1, -1\n"
+                                     "  set Mass = 2\n  set Motions = y\n end\n"
+                                     " subsection Link link\n  set Type = joint\n"
+                                     "  set From = mass\n  set To = beam @ 1\n"
+                                     "  set Direction = 0, 1\n  set Stiffness = 400\n"
+                                     "  set Damping = 20\n end\n"
+                                     " subsection Load force\n  set Type = point\n"
+                                     "  set On = mass\n  set Magnitude = 10*sin(2*t)^4\n end\n"),
+          2.);
+}
+
+TEST(Orders, damped_link_of_bodies_that_move_at_the_start)
+{
+  measure("Kelvin-Voigt link of moving masses",
+          network("given", " set Masses = one, two\n set Springs = spring\n set Links = link\n"
+                           " subsection Mass one\n  set Position = 0, 0\n  set Mass = 2\n"
+                           "  set Motions = y\n  set Initial velocity = 0, 0.5, 0\n"
+                           "  set Initial displacement = 0, 0.02, 0\n end\n"
+                           " subsection Mass two\n  set Position = 0, 1\n  set Mass = 3\n"
+                           "  set Motions = y\n  set Initial velocity = 0, -0.3, 0\n end\n"
+                           " subsection Spring spring\n  set From = ground\n  set To = one\n"
+                           "  set Stiffness = 100\n end\n"
+                           " subsection Link link\n  set Type = joint\n  set From = one\n"
+                           "  set To = two\n  set Direction = 0, 1\n  set Stiffness = 400\n"
+                           "  set Damping = 20\n end\n"),
+          2.);
+}
