@@ -9,6 +9,13 @@
 
 namespace taut
 {
+  namespace
+  {
+    /// Part of the motion of its ends that counts in the certificate of a row: a thousand roundings
+    /// of the motion then are 1e-8 of it.
+    constexpr double rounding_share = 1e-5;
+  } // namespace
+
   TimeStepper::TimeStepper(const Structure &structure, ContactRows &rows,
                            const SolverParameters &parameters, const TimeIntegrator &integrator,
                            const double step, Reference reference, State start, const bool at_rest)
@@ -37,6 +44,7 @@ namespace taut
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       const Substructure &body = structure[k];
+      reference_force.push_back(largest(body, origin.force[k]));
       norms.push_back({KindNorm(body, body.mass()), KindNorm(body, body.damping()),
                        KindNorm(body, body.stiffness())});
     }
@@ -142,16 +150,13 @@ namespace taut
       double before = current.geometric_gap[i], scale = std::fabs(before);
       if (row.moving)
       {
-        before = row.gap;
-        scale = std::fabs(row.gap);
-        for (const Term &term : row.terms)
-        {
-          const double u = term.form.dot(origin.displacement[term.substructure]) +
-                           term.form.dot(current.U[term.substructure]);
-          before += u;
-          scale += std::fabs(u);
-        }
+        before =
+            row.gap + evaluate(row.terms, origin.displacement) + evaluate(row.terms, current.U);
+        scale = std::fabs(row.gap) + magnitude(row.terms, origin.displacement) +
+                magnitude(row.terms, current.U);
       }
+      // The ends of a row may move together: its gap rounds against the way of each.
+      scale += magnitude(row.terms, current.dU);
       problem.free_gap[i] = before + motion[i] + link_history[i];
       problem.gap_scale[i] = scale + std::fabs(motion[i]) + std::fabs(link_history[i]);
     }
@@ -251,7 +256,11 @@ namespace taut
       double *r = current.balance[k].data(), *a = increment[k].data();
       const double *KU = current.KU[k].data(), *A = current.A[k].data(), *A0 = old_A[k].data(),
                    *r0 = old_balance[k].data();
-      const PerKind force = largest(body, current.balance[k]);
+      // P and B N may cancel, and both against the forces of the reference: each counts.
+      PerKind force = largest(body, current.balance[k]);
+      const PerKind external = largest(body, P[k]);
+      for (int kind = 0; kind < 2; ++kind)
+        force[kind] += external[kind] + reference_force[k][kind];
       body.damping().vmult_add(-1., current.V[k].data(), r);
       work.resize(n);
       double *residual = work.data();
@@ -296,6 +305,11 @@ namespace taut
             (rows[i].moving ? current.geometric_gap[i]
                             : reference_gap[i] + evaluate(rows[i].terms, current.U)) +
             current.link_springs[i].u;
+      // These gaps round against the whole motion of the ends, which may be much larger than all
+      // gaps.
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        problem.gap_scale[i] +=
+            rounding_share * (std::fabs(reference_gap[i]) + magnitude(rows[i].terms, current.U));
       const ComplementarityResidual result = residual(problem, schur->matrix(), recomputed);
       last.complementarity = result.max;
       last.worst_row =
