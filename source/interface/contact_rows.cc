@@ -29,7 +29,17 @@ namespace taut
         rows.push_back(std::move(row));
       }
       if (!moving)
+      {
+        for (const CutRow &cut : structure.cut_rows())
+        {
+          Row row;
+          row.name = cut.name;
+          row.stiffness = std::numeric_limits<double>::infinity();
+          row.terms = cut.terms;
+          rows.push_back(std::move(row));
+        }
         fixed = rows.size();
+      }
     }
   }
 

@@ -14,9 +14,9 @@ namespace taut
 {
   namespace
   {
-    using Ranges = std::vector<
-        std::tuple<unsigned int, unsigned int, std::string,
-                   dealii::DataComponentInterpretation::DataComponentInterpretation>>;
+    using Ranges =
+        std::vector<std::tuple<unsigned int, unsigned int, std::string,
+                               dealii::DataComponentInterpretation::DataComponentInterpretation>>;
 
     /// Patches made by hand, written by deal.II.
     template <int dim>
@@ -70,13 +70,14 @@ namespace taut
         {
           const double s = nodes[e] + (nodes[e + 1] - nodes[e]) * k / subdivisions;
           samples.push_back(sample(scene, structure, {Attachment::Kind::wire, w, s}));
+          samples.back().part = structure.part(w, s);
         }
       wires.push_back(std::move(samples));
     }
     for (const Link &link : scene.links)
       if (!link.moving())
-        link_ends.push_back(sample(
-            scene, structure, link.to.kind == Attachment::Kind::ground ? link.from : link.to));
+        link_ends.push_back(sample(scene, structure,
+                                   link.to.kind == Attachment::Kind::ground ? link.from : link.to));
   }
 
   Fields::Sample Fields::sample(const Scene &scene, const Structure &structure,
@@ -119,9 +120,9 @@ namespace taut
   void Fields::write_wires(const StepView &step, const std::string &name) const
   {
     Patches<1> out;
-    out.names = {"displacement", "displacement", "displacement", "wire"};
-    out.ranges = {{0, 2, "displacement",
-                   dealii::DataComponentInterpretation::component_is_part_of_vector}};
+    out.names = {"displacement", "displacement", "displacement", "wire", "part"};
+    out.ranges = {
+        {0, 2, "displacement", dealii::DataComponentInterpretation::component_is_part_of_vector}};
     for (std::size_t w = 0; w < wires.size(); ++w)
     {
       // One patch a wire, with the coordinates of its points as the last rows of its data.
@@ -133,13 +134,15 @@ namespace taut
       patch.points_are_available = true;
       patch.vertices[0] = dealii::Point<3>(wires[w].front().place.x, 0., wires[w].front().place.y);
       patch.vertices[1] = dealii::Point<3>(wires[w].back().place.x, 0., wires[w].back().place.y);
-      patch.data.reinit(7, n);
+      patch.data.reinit(8, n);
       for (std::size_t k = 0; k < n; ++k)
       {
         const Sample &at = wires[w][k];
         const Point u = displacement(at, step);
-        const double values[] = {u.x, 0., u.y, static_cast<double>(w), at.place.x, 0., at.place.y};
-        for (unsigned int c = 0; c < 7; ++c)
+        const double values[] = {
+            u.x,        0., u.y,       static_cast<double>(w), static_cast<double>(at.part),
+            at.place.x, 0., at.place.y};
+        for (unsigned int c = 0; c < 8; ++c)
           patch.data(c, k) = values[c];
       }
       out.patches.push_back(std::move(patch));
@@ -151,10 +154,12 @@ namespace taut
   {
     Patches<0> out;
     out.names = {"displacement", "displacement", "displacement", "force", "gap", "open"};
-    out.ranges = {{0, 2, "displacement",
-                   dealii::DataComponentInterpretation::component_is_part_of_vector}};
+    out.ranges = {
+        {0, 2, "displacement", dealii::DataComponentInterpretation::component_is_part_of_vector}};
     for (std::size_t i = 0; i < step.rows.size(); ++i)
     {
+      if (step.rows[i].is_cut())
+        continue;
       Sample moving;
       if (step.rows[i].moving)
         moving = sample(step.scene, step.structure,
@@ -163,7 +168,7 @@ namespace taut
       const Sample &end = step.rows[i].moving ? moving : link_ends[i];
       const Point u = displacement(end, step);
       dealii::DataOutBase::Patch<0, 3> patch;
-      patch.patch_index = i;
+      patch.patch_index = out.patches.size();
       patch.vertices[0] = dealii::Point<3>(end.place.x, 0., end.place.y);
       patch.data.reinit(6, 1);
       const double values[] = {u.x,

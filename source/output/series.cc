@@ -10,6 +10,8 @@ namespace taut
     std::vector<std::string> sliding_columns, link_columns, probe_columns;
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
+      if (rows[i].is_cut())
+        continue;
       const bool angular = scene.links[rows[i].link].rotational;
       const std::string force = rows[i].name + (angular ? " moment [N m]" : " force [N]"),
                         gap = rows[i].name + (angular ? " gap [rad]" : " gap [m]");
@@ -48,7 +50,7 @@ namespace taut
     {
       file << state.time;
       for (std::size_t i = 0; i < step.rows.size(); ++i)
-        if (step.rows[i].moving == moving)
+        if (step.rows[i].moving == moving && !step.rows[i].is_cut())
         {
           if (moving)
             file << step.rows.position(i, state.time);

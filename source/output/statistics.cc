@@ -74,7 +74,7 @@ namespace taut
     {
       if (rows[i].moving)
         contacts.push_back({rows[i].name, i, {}, {}});
-      else
+      else if (!rows[i].is_cut())
       {
         link_names.push_back(rows[i].name);
         link_unilateral.push_back(rows[i].unilateral);

@@ -3,6 +3,7 @@
 
 #include <taut/base/exceptions.h>
 #include <taut/scene/entries.h>
+#include <taut/scene/named_items.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -141,9 +142,9 @@ namespace taut
     pantograph_items.resize(pantographs.size());
     for (std::size_t i = 0; i < pantographs.size(); ++i)
     {
-      prm.enter_subsection("Pantograph " + pantographs[i]);
+      enter_item(prm, "Pantograph", pantographs, i, "Catenary/Pantographs");
       pantograph_items[i].declare(prm);
-      prm.leave_subsection();
+      leave_item(prm);
     }
     prm.leave_subsection();
   }

@@ -266,7 +266,7 @@ namespace taut
   void check(const Scene &scene, const double end_time)
   {
     if (scene.wires.empty() && scene.masses.empty())
-      throw UserError("the scene is empty: name at least one wire or mass");
+      throw EntryError("", "the scene is empty: name at least one wire or mass");
     check_names(scene.wires, "wires");
     check_names(scene.masses, "masses");
     check_names(scene.links, "links");

@@ -77,6 +77,8 @@ namespace taut
                      ". Write a formula in s (position along the wire [m]) and t (time [s]), e.g. "
                      "'120*sin(2*pi*t)'.");
     };
+    if (is_number)
+      throw bad("the number is out of range");
     auto fresh = std::make_shared<Parser>();
     const CaughtErrorOutput said;
     try

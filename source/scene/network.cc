@@ -61,6 +61,9 @@ namespace taut
       wire.origin = title;
       wire.a = {item.from[0], item.from[1]};
       wire.b = {item.to[0], item.to[1]};
+      // Links ask for its direction before the whole scene is checked.
+      if (!(wire.length() > 0.))
+        throw EntryError(title + "/To", "its two ends are at one place; give it a length");
       wire.mass_per_length = item.mass_per_length;
       wire.has_axial = contains(item.components, "bar");
       wire.axial_stiffness = item.axial_stiffness;

@@ -346,13 +346,13 @@ namespace taut
 
   std::string ParameterFile::locate(const std::string &name) const
   {
-    const auto entry = index.find(name);
-    if (entry != index.end())
-      return list[entry->second].place + ": " + name + " = '" + list[entry->second].value + "'";
-    // Not set, or a section: the innermost section around it that is there.
+    // If it is not set, or a section: the innermost entry or section around it that is there.
     const std::string suffix = name.empty() ? "" : ": " + name;
     for (std::string path = name; !path.empty();)
     {
+      const auto around = index.find(path);
+      if (around != index.end())
+        return list[around->second].place + ": " + path + " = '" + list[around->second].value + "'";
       const auto section = section_index.find(path);
       if (section != section_index.end())
         return section_list[section->second].place + suffix;

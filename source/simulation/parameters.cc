@@ -170,6 +170,7 @@ namespace taut
     prm.leave_subsection();
 
     solver.declare_parameters(prm);
+    partition.declare_parameters(prm);
     output.declare_parameters(prm);
     statistics.declare_parameters(prm);
     generator->declare_parameters(prm);
@@ -282,7 +283,10 @@ namespace taut
     keep_listing(prm);
   }
 
-  void Parameters::print(std::ostream &out) const { out << listing; }
+  void Parameters::print(std::ostream &out) const
+  {
+    out << listing;
+  }
 
   Scene Parameters::scene() const
   {

@@ -4,6 +4,7 @@
 #include <taut/output/fields.h>
 #include <taut/output/scene_report.h>
 #include <taut/output/series.h>
+#include <taut/partition/make_partition.h>
 #include <taut/simulation/simulation.h>
 #include <taut/time/choose_scheme.h>
 #include <taut/time/form_finding.h>
@@ -27,8 +28,14 @@ namespace taut
                                 "certificate.csv", "statistics.json", "wires.pvd", "links.pvd"})
         if (name == fixed)
           return true;
+<<<<<<< HEAD
       const auto is_numbered = [&](const std::string &stem) {
         return name.size() >= stem.size() + 10 && name.compare(0, stem.size(), stem) == 0 &&
+=======
+      const auto is_numbered = [&](const std::string &stem)
+      {
+        return name.size() == stem.size() + 10 && name.compare(0, stem.size(), stem) == 0 &&
+>>>>>>> partition
                name.compare(name.size() - 4, 4, ".vtu") == 0;
       };
       return is_numbered("wires") || is_numbered("links");
@@ -37,8 +44,8 @@ namespace taut
 
   Simulation::Simulation(const Parameters &parameters, std::ostream &log)
       : parameters(parameters), log(log),
-        model(find_lengths(parameters.scene(), parameters.solver)), bodies(model),
-        links(model, bodies)
+        model(find_lengths(parameters.scene(), parameters.solver)),
+        bodies(model, make_partition(model, parameters.partition)), links(model, bodies)
   {
     for (const Probe &probe : model.probes)
     {
@@ -130,9 +137,10 @@ namespace taut
                     [](const auto &entry) { return is_result(entry.path().filename().string()); }))
     {
       if (!parameters.output.overwrite)
-        throw EntryError("Output/Folder",
-                         "'" + folder.string() +
-                             "' holds the results of a run; name another folder, or run with --overwrite");
+        throw EntryError(
+            "Output/Folder",
+            "'" + folder.string() +
+                "' holds the results of a run; name another folder, or run with --overwrite");
       // Files of a longer run would mix with those of this one.
       for (const fs::directory_entry &entry : fs::directory_iterator(folder, error))
         if (is_result(entry.path().filename().string()))
@@ -143,17 +151,19 @@ namespace taut
       throw EntryError("Output/Folder",
                        "cannot make '" + folder.string() + "': " + error.message());
     std::ofstream used(folder / "used.prm");
-    used << "# Written by taut " << version() << "; the entries of the run whose results are beside this file.\n";
+    used << "# Written by taut " << version()
+         << "; the entries of the run whose results are beside this file.\n";
     parameters.print(used);
     used.close();
     if (!used)
-      throw EntryError("Output/Folder",
-                       "cannot write into '" + folder.string() + "': no permission, or the disk is full");
+      throw EntryError("Output/Folder", "cannot write into '" + folder.string() +
+                                            "': no permission, or the disk is full");
   }
 
   void Simulation::advance(TimeStepper &stepper, const std::vector<Observer *> &observers)
   {
-    const auto show = [&](const State &state, const Certificate &certificate) {
+    const auto show = [&](const State &state, const Certificate &certificate)
+    {
       update_probes(state);
       for (Observer *observer : observers)
         observer->record(view(state, certificate));
@@ -180,9 +190,14 @@ namespace taut
     log << "Scene '" << parameters.generator_name << "': " << model.wires.size() << " wires, "
         << model.masses.size() << " masses, " << model.links.size() << " links\n"
         << "  " << bodies.size() << " bodies:";
-    for (std::size_t k = 0; k < bodies.size(); ++k)
+    constexpr std::size_t most_named = 6;
+    for (std::size_t k = 0; k < std::min(bodies.size(), most_named); ++k)
       log << (k > 0 ? "," : "") << " '" << bodies[k].name() << "' " << bodies[k].n_dofs()
           << " DoFs";
+    if (bodies.size() > most_named)
+      log << " and more, " << bodies.n_dofs() << " DoFs in all";
+    if (!bodies.cut_rows().empty())
+      log << "\n  wires cut in " << bodies.cut_rows().size() << " rows";
     log << "\n  " << links.size() << " multipliers: " << n_unilateral << " one-sided, "
         << links.size() - n_unilateral << " bilateral; " << links.size() - links.n_fixed()
         << " moving; " << n_rigid << " rigid\n";
@@ -310,6 +325,8 @@ namespace taut
                  {"link", "x [m]", "force [N, N m]", "gap [m, rad]", "length [m]"});
     for (std::size_t i = 0; i < links.size(); ++i)
     {
+      if (links[i].is_cut())
+        continue;
       const Link &link = model.links[links[i].link];
       const Attachment &end = link.to.kind == Attachment::Kind::ground ? link.from : link.to;
       const double x = end.kind == Attachment::Kind::wire

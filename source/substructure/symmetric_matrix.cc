@@ -73,7 +73,8 @@ namespace taut
       l[k] = left[k].data();
     }
     // y_i += D_i x_i, + L_i x_{i-1} + L_{i+1}^T x_{i+1} where these exist.
-    const auto end_node = [&](const std::size_t i) {
+    const auto end_node = [&](const std::size_t i)
+    {
       for (int r = 0; r < b; ++r)
       {
         double sum = 0.;

@@ -64,8 +64,14 @@ namespace taut
     dof_handler.renumber_dofs(renumbering);
   }
 
+  WireComponent::WireComponent(const Scene &scene, const std::size_t wire, const WireMotion motion)
+      : WireComponent(scene, wire, motion, 0, grid(scene, wire).size() - 1)
+  {
+  }
+
   WireComponent::WireComponent(const Scene &scene, const std::size_t wire_index,
-                               const WireMotion motion)
+                               const WireMotion motion, const std::size_t first_node,
+                               const std::size_t last_node)
       : Substructure(scene.wires[wire_index].name +
                          (motion == WireMotion::axial ? " (axial)" : " (transverse)"),
                      scene.wires[wire_index].origin),
@@ -73,6 +79,9 @@ namespace taut
   {
     const Wire &wire = scene.wires[wire_index];
     nodes = grid(scene, wire_index);
+    wire_length = nodes.back();
+    is_last = last_node + 1 == nodes.size();
+    nodes = {nodes.begin() + first_node, nodes.begin() + last_node + 1};
     axis = motion == WireMotion::axial ? wire.tangent() : wire.normal();
     beam = motion == WireMotion::transverse && wire.transverse == TransverseKind::beam;
     if (beam)
@@ -101,6 +110,13 @@ namespace taut
   }
 
   WireComponent::~WireComponent() = default;
+
+  bool WireComponent::owns(const double s) const
+  {
+    // Positions closer than rounding are one node, as in the grid.
+    const double same = 1e-12 * wire_length;
+    return s >= nodes.front() - same && (is_last || s < nodes.back() - same);
+  }
 
   void WireComponent::assemble(const Wire &wire)
   {
@@ -150,6 +166,8 @@ namespace taut
       const unsigned int offset = support.motion == WireMotion::slope ? 1 : 0;
       for (const double s : support.positions)
       {
+        if (!owns(s))
+          continue;
         const auto node = std::min_element(nodes.begin(), nodes.end(),
                                            [s](const double p, const double q)
                                            { return std::fabs(p - s) < std::fabs(q - s); });
@@ -175,6 +193,8 @@ namespace taut
       if (mass.wire == wire)
         for (const double s : mass.positions)
         {
+          if (!owns(s))
+            continue;
           value_at(s, row);
           for (std::size_t i = 0; i < row.index.size(); ++i)
             for (std::size_t j = 0; j <= i; ++j)
@@ -239,7 +259,7 @@ namespace taut
     void add(const double t, std::vector<double> &P) const override
     {
       const double s = load.target.position + load.speed * t;
-      if (s < 0. || s > wire.length())
+      if (s < 0. || s > wire.wire_length || !wire.owns(s))
         return;
       SparseVector shape;
       if (load.rotational)
@@ -266,6 +286,8 @@ namespace taut
       if (load.target.kind != Attachment::Kind::wire || load.target.index != wire)
         continue;
       if (load.rotational && motion == WireMotion::axial)
+        continue;
+      if (load.kind == Load::Kind::point && !owns(load.target.position))
         continue;
       const double factor = load.rotational ? 1. : component(load.direction);
       if (factor == 0.)
@@ -333,7 +355,7 @@ namespace taut
     U.assign(n_dofs(), 0.);
     if (f.is_zero())
       return;
-    const double delta = 1e-5 * length();
+    const double delta = 1e-5 * wire_length;
     for (std::size_t i = 0; i < nodes.size(); ++i)
     {
       const double s = nodes[i];
@@ -341,11 +363,11 @@ namespace taut
       if (beam)
       {
         // The slope from a central difference inside the wire: second order in 1e-5 of the length.
-        const double left = std::max(0., s - delta), right = std::min(length(), s + delta);
+        const double left = std::max(0., s - delta), right = std::min(wire_length, s + delta);
         U[2 * i + 1] = (f(right, 0.) - f(left, 0.)) / (right - left);
         if (left == 0. && s == 0.)
           U[2 * i + 1] = (-3. * f(0., 0.) + 4. * f(delta, 0.) - f(2. * delta, 0.)) / (2. * delta);
-        if (right == length() && s == length())
+        if (right == wire_length && s == wire_length)
           U[2 * i + 1] =
               (3. * f(s, 0.) - 4. * f(s - delta, 0.) + f(s - 2. * delta, 0.)) / (2. * delta);
       }
@@ -366,9 +388,9 @@ namespace taut
 
   Substructure::Kernel WireComponent::kernel() const
   {
-    // Rigid motions q0 + q1 (s - L/2)/(L/2) that cost nothing: q1 only for a beam without tension.
-    // Each held DoF of the supports is one condition on (q0, q1).
-    const double half = .5 * length();
+    // Rigid motions q0 + q1 (s - middle)/(L/2) that cost nothing: q1 only for a beam without
+    // tension. Each held DoF of the supports is one condition on (q0, q1).
+    const double half = .5 * (nodes.back() - nodes.front()), middle = nodes.front() + half;
     const unsigned int n_rigid = bends_freely ? 2 : 1;
     std::vector<std::pair<double, double>> conditions;
     const auto hold = [&](const unsigned int dof)
@@ -377,7 +399,7 @@ namespace taut
       if (beam && dof % 2 == 1)
         conditions.emplace_back(0., 1.);
       else
-        conditions.emplace_back(1., (s - half) / half);
+        conditions.emplace_back(1., (s - middle) / half);
     };
     for (const ConstrainedDof &constraint : constrained)
       if (constraint.dof < discretisation->dof_handler.n_dofs())
@@ -392,7 +414,7 @@ namespace taut
       std::vector<double> R(n_dofs(), 0.);
       for (std::size_t i = 0; i < nodes.size(); ++i)
       {
-        R[dofs_per_node * i] = q0 + q1 * (nodes[i] - half) / half;
+        R[dofs_per_node * i] = q0 + q1 * (nodes[i] - middle) / half;
         if (beam)
           R[2 * i + 1] = q1 / half;
         else if (i + 1 < nodes.size())

@@ -28,7 +28,8 @@ namespace taut
       const double half = .5 * link.mass_per_length * link.length;
       for (const Attachment *end : {&link.from, &link.to})
         if (end->kind == Attachment::Kind::wire)
-          scene.point_masses.push_back({link.name, link.origin, end->index, {end->position}, half, true});
+          scene.point_masses.push_back(
+              {link.name, link.origin, end->index, {end->position}, half, true});
         else
           scene.masses[end->index].mass += half;
     }

@@ -102,6 +102,9 @@ namespace taut
       }
       StepCoefficients coefficients(const double step) const override
       {
+        if (!(beta > 0.))
+          throw EntryError("Time/Newmark/Beta",
+                           "Newmark is solved for the displacement and needs a positive one");
         return newmark(step, beta, gamma);
       }
       std::string description() const override

@@ -37,6 +37,7 @@ namespace taut
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       const Substructure &body = structure[k];
+      reference_force.push_back(largest(body, origin.force[k]));
       norms.push_back({KindNorm(body, body.mass()), KindNorm(body, body.damping()),
                        KindNorm(body, body.stiffness())});
     }
@@ -142,19 +143,13 @@ namespace taut
       double before = current.geometric_gap[i], scale = std::fabs(before);
       if (row.moving)
       {
-        before = row.gap;
-        scale = std::fabs(row.gap);
-        for (const Term &term : row.terms)
-        {
-          const double u = term.form.dot(origin.displacement[term.substructure]) +
-                           term.form.dot(current.U[term.substructure]);
-          before += u;
-          scale += std::fabs(u);
-        }
+        before =
+            row.gap + evaluate(row.terms, origin.displacement) + evaluate(row.terms, current.U);
+        scale = std::fabs(row.gap) + magnitude(row.terms, origin.displacement) +
+                magnitude(row.terms, current.U);
       }
       // The ends of a row move together most of the time: each of them rounds for itself.
-      for (const Term &term : row.terms)
-        scale += step * std::fabs(term.form.dot(current.V[term.substructure]));
+      scale += step * magnitude(row.terms, current.V);
       problem.free_gap[i] = before + motion[i] + link_history[i];
       problem.gap_scale[i] = scale + std::fabs(motion[i]) + std::fabs(link_history[i]);
     }
@@ -256,7 +251,11 @@ namespace taut
       double *r = current.balance[k].data(), *a = increment[k].data();
       const double *KU = current.KU[k].data(), *A = current.A[k].data(), *A0 = old_A[k].data(),
                    *r0 = old_balance[k].data();
-      const PerKind force = largest(body, current.balance[k]);
+      // P and B N may cancel, and both against the forces of the reference: each counts.
+      PerKind force = largest(body, current.balance[k]);
+      const PerKind external = largest(body, P[k]);
+      for (int kind = 0; kind < 2; ++kind)
+        force[kind] += external[kind] + reference_force[k][kind];
       body.damping().vmult_add(-1., current.V[k].data(), r);
       work.resize(n);
       double *residual = work.data();

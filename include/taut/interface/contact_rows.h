@@ -5,25 +5,33 @@
 #include <taut/scene/scene.h>
 #include <taut/substructure/structure.h>
 
+#include <limits>
 #include <string>
 #include <vector>
 
 namespace taut
 {
-  /// One multiplier: a link of the scene as a linear form B_i on the displacements.
+  /// Index of the link of a row that holds the pieces of a cut wire together.
+  constexpr std::size_t no_link = std::numeric_limits<std::size_t>::max();
+
+  /// One multiplier: a link of the scene, or a cut of a wire, as a linear form B_i on the
+  /// displacements.
   struct Row
   {
     std::string name;
-    std::size_t link = 0; ///< index in the scene
+    std::size_t link = no_link; ///< index in the scene
     bool unilateral = false;
     bool moving = false;
     double stiffness = 0.;   ///< [N/m, N m/rad]; infinite: rigid
     double damping = 0.;     ///< [N s/m, N m s/rad]
     double gap = 0.;         ///< D at U = 0, N = 0 [m, rad]
     std::vector<Term> terms; ///< B_i: D = terms . U + gap + S N
+
+    bool is_cut() const { return link == no_link; }
   };
 
-  /// The rows of a scene: the fixed ones first, in the order of the links, then the moving ones.
+  /// The rows of a scene: the fixed links in their order, then the cuts of wires, then the moving
+  /// links.
   class ContactRows
   {
   public:

@@ -11,14 +11,16 @@
 namespace taut
 {
   /**
-   * The motion of all wires for ParaView: wires_NNNN.vtu with the displacement from the undeformed line as a vector to
-   * warp by, links_NNNN.vtu with the ends of the links as points that carry force and gap, and wires.pvd and links.pvd
-   * that join them in time. Positions are x, 0, y: the plane stands upright.
+   * The motion of all wires for ParaView: wires_NNNN.vtu with the displacement from the undeformed
+   * line as a vector to warp by, links_NNNN.vtu with the ends of the links as points that carry
+   * force and gap, and wires.pvd and links.pvd that join them in time. Positions are x, 0, y: the
+   * plane stands upright.
    */
   class Fields : public Observer
   {
   public:
-    /// @p interval: least time between two files [s]; @p subdivisions: pieces an element is drawn with.
+    /// @p interval: least time between two files [s]; @p subdivisions: pieces an element is drawn
+    /// with.
     Fields(const std::string &folder, const Scene &scene, const Structure &structure,
            double interval, unsigned int subdivisions);
 
@@ -31,6 +33,7 @@ namespace taut
     {
       Point place;
       std::vector<Term> x, y;
+      unsigned int part = 0; ///< of the partition
     };
     Sample sample(const Scene &scene, const Structure &structure, const Attachment &at) const;
     Point displacement(const Sample &sample, const StepView &step) const;
@@ -43,7 +46,8 @@ namespace taut
     double interval, next = 0.;
     unsigned int subdivisions;
     std::vector<std::vector<Sample>> wires; ///< along each wire, `subdivisions` an element
-    std::vector<Sample> link_ends;          ///< the `to` end, or `from` if that is the ground; fixed rows only
+    std::vector<Sample>
+        link_ends; ///< the `to` end, or `from` if that is the ground; fixed rows only
     std::vector<std::pair<double, std::string>> wire_files, link_files;
   };
 } // namespace taut

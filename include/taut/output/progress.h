@@ -9,7 +9,8 @@
 
 namespace taut
 {
-  /// How far a run is: a bar that redraws itself on a terminal, a line a tenth of the run otherwise.
+  /// How far a run is: a bar that redraws itself on a terminal, a line a tenth of the run
+  /// otherwise.
   class Progress : public Observer
   {
   public:

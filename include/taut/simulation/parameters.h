@@ -4,6 +4,7 @@
 
 #include <taut/base/exceptions.h>
 #include <taut/output/statistics.h>
+#include <taut/partition/make_partition.h>
 #include <taut/scene/named_items.h>
 #include <taut/scene/scene_generator.h>
 #include <taut/simulation/parameter_file.h>
@@ -53,7 +54,8 @@ namespace taut
     /// Leaves all entries at their defaults, for print().
     void set_defaults();
 
-    /// Writes all entries with their present values and help, as a .prm file; after read() or set_defaults().
+    /// Writes all entries with their present values and help, as a .prm file; after read() or
+    /// set_defaults().
     void print(std::ostream &out) const;
 
     /// The scene of the generator with gravity, start and probes, checked.
@@ -73,6 +75,7 @@ namespace taut
     double step = 1e-3, end_time = 6.912;
 
     SolverParameters solver;
+    PartitionParameters partition;
     OutputParameters output;
     StatisticsParameters statistics;
 

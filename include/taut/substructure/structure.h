@@ -2,11 +2,13 @@
 #ifndef taut_structure_h
 #define taut_structure_h
 
+#include <taut/scene/partition.h>
 #include <taut/scene/scene.h>
 #include <taut/substructure/mechanism.h>
 #include <taut/substructure/wire_component.h>
 
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace taut
@@ -21,11 +23,22 @@ namespace taut
   /// One vector of DoFs for each substructure.
   using BlockVector = std::vector<std::vector<double>>;
 
+  /// What holds two pieces of a wire together where it was cut: a linear form that is zero.
+  struct CutRow
+  {
+    std::string name;
+    std::vector<Term> terms;
+  };
+
   /// All substructures of a scene, and where the scene's points are in them.
   class Structure
   {
   public:
-    explicit Structure(const Scene &scene);
+    /// All wires whole.
+    explicit Structure(const Scene &scene) : Structure(scene, whole(scene)) {}
+
+    /// The wires cut as @p partition says.
+    Structure(const Scene &scene, const Partition &partition);
 
     std::size_t size() const { return substructures.size(); }
     const Substructure &operator[](std::size_t k) const { return *substructures[k]; }
@@ -39,21 +52,38 @@ namespace taut
     void motion(const Attachment &point, bool rotational, const Point &direction, double factor,
                 std::vector<Term> &terms) const;
 
+    /// One row a cut for each motion that is continuous there: displacement, and slope of a beam.
+    const std::vector<CutRow> &cut_rows() const { return cuts; }
+
+    /// Part of the partition that a point of a wire belongs to.
+    unsigned int part(std::size_t wire, double s) const;
+
     /// Zero vectors of the right sizes.
     BlockVector zero() const;
 
   private:
-    /// Substructures of a wire; `ground` (none) where it lacks the component.
+    /// Substructures of a wire's pieces, in order; none where it lacks the component.
     struct WireParts
     {
-      std::size_t axial = ground, transverse = ground;
+      std::vector<double> begins; ///< position of the first node of each piece [m]
+      std::vector<unsigned int> part;
+      std::vector<std::size_t> axial, transverse;
     };
+
+    void add_pieces(const Scene &scene, std::size_t wire, WireMotion motion,
+                    const std::vector<Partition::Piece> &pieces, std::vector<std::size_t> &indices);
+    std::size_t piece(const WireParts &parts, double s) const;
 
     std::vector<std::unique_ptr<Substructure>> substructures;
     std::vector<WireParts> wires;
     std::vector<Point> tangents, normals;
+    std::vector<double> lengths;
     std::vector<std::size_t> mechanism_of_mass;
+    std::vector<CutRow> cuts;
   };
+
+  /// Sum of the absolute values of the terms applied to U: what a sum that cancels rounds against.
+  double magnitude(const std::vector<Term> &terms, const BlockVector &U);
 
   /// Sum of the forms of @p terms applied to U.
   double evaluate(const std::vector<Term> &terms, const BlockVector &U);

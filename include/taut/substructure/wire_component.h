@@ -23,11 +23,23 @@ namespace taut
   class WireComponent : public Substructure
   {
   public:
-    /// @p motion is axial or transverse.
+    /// The whole wire; @p motion is axial or transverse.
     WireComponent(const Scene &scene, std::size_t wire, WireMotion motion);
+
+    /**
+     * The piece between two nodes of the wire's grid. What stands on the node where two pieces meet
+     * belongs to the second one.
+     */
+    WireComponent(const Scene &scene, std::size_t wire, WireMotion motion, std::size_t first_node,
+                  std::size_t last_node);
     ~WireComponent() override;
 
-    double length() const { return nodes.back(); }
+    /// True if a point of the wire is on this piece.
+    bool owns(double s) const;
+
+    /// DoF of the displacement at the first or last node; the slope, if there is one, follows it.
+    unsigned int first_dof() const { return 0; }
+    unsigned int last_dof() const { return dofs_per_node * (nodes.size() - 1); }
 
     /// Values of the shape functions at s [m]: u(s) = result . U.
     void value_at(double s, SparseVector &result) const;
@@ -55,8 +67,10 @@ namespace taut
     void evaluate(double s, bool slope, SparseVector &result) const;
     double component(const Point &direction) const;
 
-    std::vector<double> nodes;
-    Point axis; ///< unit vector of the motion in the plane
+    std::vector<double> nodes; ///< of this piece, s on the whole wire
+    double wire_length;
+    bool is_last; ///< the piece with the wire's end
+    Point axis;   ///< unit vector of the motion in the plane
     WireMotion motion;
     bool beam = false;
     bool bends_freely = false; ///< no tension: a rigid rotation costs nothing

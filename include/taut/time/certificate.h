@@ -18,7 +18,7 @@ namespace taut
     double complementarity = 0.;
     std::size_t worst_row = 0;
 
-    /// Largest residual of the equation of motion of a body, over |P + B N| + |K||U| + |C||V| +
+    /// Largest residual of the equation of motion of a body, over |P| + |B N| + |K||U| + |C||V| +
     /// |M||dU|/step^2.
     double balance = 0.;
     std::size_t worst_body = 0;

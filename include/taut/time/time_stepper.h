@@ -81,6 +81,7 @@ namespace taut
     std::vector<double> motion;        ///< B^T dU
     std::vector<double> old_multiplier;
     std::vector<std::vector<KindNorm>> norms; ///< of M, C, K of each body
+    std::vector<PerKind> reference_force;     ///< largest of K U_ref of each body [N, N m]
 
     BlockVector P; ///< external force minus the reference's [N]
     BlockVector right_hand_side;

@@ -1,0 +1,157 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Writes doc/parameters.md from what the program says about its own entries; with --check only compares."""
+import argparse
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+parser = argparse.ArgumentParser(description=__doc__)
+parser.add_argument("--program", type=pathlib.Path, required=True)
+parser.add_argument("--output", type=pathlib.Path, required=True)
+parser.add_argument("--check", action="store_true")
+arguments = parser.parse_args()
+
+# One item of each kind, so that each kind's section is declared.
+NETWORK = """
+set Generator = network
+subsection Network
+  set Wires        = ITEM
+  set Supports     = ITEM
+  set Point masses = ITEM
+  set Masses       = mass
+  set Springs      = ITEM
+  set Links        = ITEM
+  set Loads        = ITEM
+  subsection Wire ITEM
+    set Components      = string
+    set Mass per length = 1
+    set Tension         = 1
+  end
+  subsection Support ITEM
+    set Wire      = ITEM
+    set Positions = 0, 1
+  end
+  subsection Point mass ITEM
+    set Wire      = ITEM
+    set Positions = 0.5
+  end
+  subsection Mass mass
+    set Mass = 1
+  end
+  subsection Spring ITEM
+    set To        = mass
+    set Stiffness = 1
+  end
+  subsection Link ITEM
+    set To        = ITEM @ 0.5
+    set Direction = 0, 1
+  end
+  subsection Load ITEM
+    set On = mass
+  end
+end
+subsection Time
+  set End = 0
+end
+subsection Output
+  set Folder = run
+  set Probes = ITEM
+  subsection Probe ITEM
+    set Point = mass
+  end
+end
+"""
+
+GROUPS = {"Time": "Time and integration", "Solver": "Solvers", "Output": "Output", "Statistics": "Statistics",
+          "Catenary": "Generator `catenary`", "Network": "Generator `network`"}
+
+
+def run(folder, *options):
+    done = subprocess.run([arguments.program, *options], cwd=folder, text=True, capture_output=True, check=False)
+    if done.returncode != 0:
+        sys.exit(f"{arguments.program} {' '.join(options)}: {done.stderr or done.stdout}")
+
+
+def entries(text):
+    """[(path of the section, name, default, help)] of a listing."""
+    path, comment, result = [], [], []
+    for line in text.splitlines():
+        line = line.strip()
+        if line.startswith("#"):
+            comment.append(line[1:].strip())
+            continue
+        if line.startswith("subsection "):
+            path.append(line[len("subsection "):])
+        elif line == "end":
+            path.pop()
+        elif line.startswith("set "):
+            name, value = (part.strip() for part in line[4:].split("=", 1))
+            value = value.split("# default:", 1)[-1].strip()
+            # Alternatives of a plugin list stand one a line.
+            text = re.sub(r"(?<![.,;:(]) \n('[\w -]+':)", r"; \1", " \n".join(comment)).replace(" \n", " ")
+            result.append((tuple(path), name, value, text))
+        comment = []
+    return result
+
+
+def tidy(path):
+    """Names of items are the reader's own."""
+    named = ("Wire", "Support", "Point mass", "Mass", "Spring", "Link", "Load", "Probe", "Pantograph")
+    return tuple(re.sub(rf"^({'|'.join(named)}) (ITEM|mass|pantograph)$", r"\1 <name>", part) for part in path)
+
+
+def table(rows):
+    lines = ["| entry | default | meaning |", "|---|---|---|"]
+    for name, value, text in rows:
+        text = text.replace("|", "\\|").replace("<", "&lt;")
+        value = value and f"`{value}`"
+        lines.append(f"| {name} | {value} | {text} |")
+    return lines
+
+
+with tempfile.TemporaryDirectory() as folder:
+    run(folder)
+    line = entries(pathlib.Path(folder, "taut.prm").read_text())
+    pathlib.Path(folder, "network.prm").write_text(NETWORK)
+    run(folder, "network.prm")
+    net = entries(pathlib.Path(folder, "run", "used.prm").read_text())
+
+sections = {}
+for source in (line, net):
+    for path, name, value, text in source:
+        text = re.sub(r"^(Listing of Parameters -+ )", "", text)
+        if name == "Generator":
+            value = "catenary"
+        rows = sections.setdefault(tidy(path), [])
+        if name not in [row[0] for row in rows]:
+            rows.append((name, "" if value in ("ITEM", "mass") else value, text))
+
+HEAD = """# Parameter reference
+
+Every entry of a parameter file, as the program describes it. This page is generated: after a change of an entry run
+`cmake --build build --target update_parameter_reference`.
+
+`taut` without a file writes these entries for a railway line, `used.prm` in a results folder those of its run. Names of
+items, `<name>` below, are yours: list them in the entry that says so, then give each its section. Units stand in
+brackets; a formula knows `pi`, `t` [s] and, on a wire, `s` [m].
+
+## Top of the file
+"""
+out = HEAD.splitlines() + [""]
+out += table(sections[()])
+group = None
+for path in sorted((p for p in sections if p), key=lambda p: list(GROUPS).index(p[0])):
+    if path[0] != group:
+        group = path[0]
+        out += ["", f"## {GROUPS[group]}"]
+    out += ["", f"### {' / '.join(path)}".replace("<", "\\<").replace(">", "\\>"), ""] + table(sections[path])
+text = "\n".join(out) + "\n"
+
+if arguments.check:
+    if not arguments.output.exists() or arguments.output.read_text() != text:
+        sys.exit(f"{arguments.output} is stale: run the target update_parameter_reference")
+else:
+    arguments.output.write_text(text)

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_make_partition_h
+#define taut_make_partition_h
+
+#include <taut/scene/partition.h>
+
+#include <string>
+
+namespace dealii
+{
+  class ParameterHandler;
+}
+
+namespace taut
+{
+  /// How a scene is to be cut.
+  struct PartitionParameters
+  {
+    std::string method = "METIS";
+    unsigned int n_substructures = 1;
+    std::string cuts;
+
+    /// Declares the members in subsection "Partition".
+    void declare_parameters(dealii::ParameterHandler &prm);
+  };
+
+  /**
+   * Cuts the wires of a scene:
+   * 'METIS': the graph of all grid nodes into parts of about equal work; elements and links pull
+   * their ends together, and a cut moves to the nearest node without a link or support. 'wires':
+   * every wire is a part. 'given': at the positions listed, moved to the nearest node; every piece
+   * is a part. Throws EntryError.
+   */
+  Partition make_partition(const Scene &scene, const PartitionParameters &parameters);
+} // namespace taut
+
+#endif

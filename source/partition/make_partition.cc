@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
+#include <taut/partition/make_partition.h>
+#include <taut/scene/entries.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <metis.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <sstream>
+
+namespace taut
+{
+  namespace
+  {
+    std::size_t nearest_node(const std::vector<double> &nodes, const double s)
+    {
+      const auto after = std::lower_bound(nodes.begin(), nodes.end(), s);
+      if (after == nodes.begin())
+        return 0;
+      if (after == nodes.end())
+        return nodes.size() - 1;
+      return (*after - s < s - *(after - 1) ? after : after - 1) - nodes.begin();
+    }
+
+    /// The grid nodes of all wires as vertices of one graph.
+    class NodeGraph
+    {
+    public:
+      explicit NodeGraph(const Scene &scene);
+
+      /// Part of every node.
+      std::vector<idx_t> parts(idx_t n_parts) const;
+
+      std::vector<std::vector<double>> nodes; ///< of each wire
+      std::vector<std::size_t> first;         ///< vertex of the first node of each wire
+      std::vector<std::vector<char>>
+          is_attachment; ///< a link, support, mass or load is on the node
+
+    private:
+      /// Elements hold their ends together more than links do.
+      static constexpr idx_t element_weight = 10, link_weight = 1;
+
+      void connect(std::size_t a, std::size_t b, idx_t weight);
+      void note(const Attachment &end);
+
+      std::vector<std::map<idx_t, idx_t>> neighbours;
+      std::vector<idx_t> work; ///< of a node: its DoFs
+    };
+
+    NodeGraph::NodeGraph(const Scene &scene)
+    {
+      for (std::size_t w = 0; w < scene.wires.size(); ++w)
+      {
+        const Wire &wire = scene.wires[w];
+        nodes.push_back(grid(scene, w));
+        first.push_back(neighbours.size());
+        is_attachment.emplace_back(nodes[w].size(), 0);
+        neighbours.resize(neighbours.size() + nodes[w].size());
+        const idx_t dofs = (wire.has_axial ? wire.degree : 0) +
+                           (wire.transverse == TransverseKind::beam     ? 2
+                            : wire.transverse == TransverseKind::string ? wire.degree
+                                                                        : 0);
+        work.resize(neighbours.size(), dofs);
+        for (std::size_t i = 0; i + 1 < nodes[w].size(); ++i)
+          connect(first[w] + i, first[w] + i + 1, element_weight);
+      }
+      for (const Link &link : scene.links)
+      {
+        if (link.moving())
+          continue;
+        note(link.from);
+        note(link.to);
+        if (link.from.kind == Attachment::Kind::wire && link.to.kind == Attachment::Kind::wire)
+          connect(first[link.from.index] + nearest_node(nodes[link.from.index], link.from.position),
+                  first[link.to.index] + nearest_node(nodes[link.to.index], link.to.position),
+                  link_weight);
+      }
+      const auto note_all = [&](const std::size_t wire, const std::vector<double> &positions)
+      {
+        for (const double s : positions)
+          note({Attachment::Kind::wire, wire, s});
+      };
+      for (const Support &support : scene.supports)
+        note_all(support.wire, support.positions);
+      for (const PointMass &mass : scene.point_masses)
+        note_all(mass.wire, mass.positions);
+      for (const Load &load : scene.loads)
+        if (load.kind == Load::Kind::point)
+          note(load.target);
+    }
+
+    void NodeGraph::connect(const std::size_t a, const std::size_t b, const idx_t weight)
+    {
+      if (a == b)
+        return;
+      neighbours[a][b] += weight;
+      neighbours[b][a] += weight;
+    }
+
+    void NodeGraph::note(const Attachment &end)
+    {
+      if (end.kind == Attachment::Kind::wire)
+        is_attachment[end.index][nearest_node(nodes[end.index], end.position)] = 1;
+    }
+
+    std::vector<idx_t> NodeGraph::parts(idx_t n_parts) const
+    {
+      idx_t n = neighbours.size();
+      std::vector<idx_t> part(n, 0);
+      if (n_parts == 1)
+        return part;
+      std::vector<idx_t> offset = {0}, adjacent, weight, vertex_weight = work;
+      for (const auto &list : neighbours)
+      {
+        for (const auto &[node, w] : list)
+        {
+          adjacent.push_back(node);
+          weight.push_back(w);
+        }
+        offset.push_back(adjacent.size());
+      }
+      idx_t options[METIS_NOPTIONS], n_constraints = 1, cut = 0;
+      METIS_SetDefaultOptions(options);
+      options[METIS_OPTION_SEED] = 1;
+      const int status = METIS_PartGraphRecursive(
+          &n, &n_constraints, offset.data(), adjacent.data(), vertex_weight.data(), nullptr,
+          weight.data(), &n_parts, nullptr, nullptr, options, &cut, part.data());
+      if (status != METIS_OK)
+        throw std::runtime_error("METIS failed to partition the wires");
+      return part;
+    }
+
+    /// A node between `low` and `high`, both excluded, that carries nothing; the nearest one to
+    /// `wanted`.
+    std::size_t free_node(const std::vector<char> &is_attachment, const std::size_t wanted,
+                          const std::size_t low, const std::size_t high)
+    {
+      constexpr std::size_t farthest = 4;
+      for (std::size_t distance = 0; distance <= farthest; ++distance)
+        for (const std::size_t node : {wanted - std::min(distance, wanted), wanted + distance})
+          if (node > low && node < high && !is_attachment[node])
+            return node;
+      return wanted;
+    }
+
+    Partition by_metis(const Scene &scene, const unsigned int n_parts)
+    {
+      const NodeGraph graph(scene);
+      std::size_t n_elements = 0;
+      for (const auto &nodes : graph.nodes)
+        n_elements += nodes.size() - 1;
+      if (n_parts > std::max<std::size_t>(1, n_elements))
+        throw EntryError("Partition/Number of substructures",
+                         "the wires have only " + std::to_string(n_elements) +
+                             " elements to share; take fewer substructures or smaller elements");
+      const std::vector<idx_t> part = graph.parts(n_parts);
+      Partition partition;
+      partition.n_parts = n_parts;
+      for (std::size_t w = 0; w < graph.nodes.size(); ++w)
+      {
+        const std::size_t n = graph.nodes[w].size();
+        const idx_t *p = part.data() + graph.first[w];
+        std::vector<Partition::Piece> pieces = {{0, static_cast<unsigned int>(p[0])}};
+        for (std::size_t i = 1; i < n; ++i)
+          if (p[i] != p[i - 1])
+          {
+            // No piece without an element, none beyond the end.
+            const std::size_t node =
+                free_node(graph.is_attachment[w], i, pieces.back().first, n - 1);
+            if (node > pieces.back().first && node < n - 1)
+              pieces.push_back({node, static_cast<unsigned int>(p[i])});
+          }
+        partition.wires.push_back(std::move(pieces));
+      }
+      return partition;
+    }
+
+    Partition by_wires(const Scene &scene)
+    {
+      Partition partition = whole(scene);
+      for (std::size_t w = 0; w < partition.wires.size(); ++w)
+        partition.wires[w].front().part = w;
+      partition.n_parts = std::max<std::size_t>(1, scene.wires.size());
+      return partition;
+    }
+
+    Partition by_list(const Scene &scene, const std::string &text)
+    {
+      const std::string entry = "Partition/Cuts";
+      std::vector<std::vector<std::size_t>> cuts(scene.wires.size());
+      std::istringstream list(text);
+      for (std::string one; std::getline(list, one, ';');)
+        for (const Attachment &cut : parse_attachments(one, scene, entry))
+        {
+          if (cut.kind != Attachment::Kind::wire)
+            throw EntryError(entry,
+                             "'" + one + "' is not on a wire; write 'wire @ 10, 20; other @ 5'");
+          const std::vector<double> nodes = grid(scene, cut.index);
+          const std::size_t node = nearest_node(nodes, cut.position);
+          if (!(cut.position > 0. && cut.position < nodes.back()) || node == 0 ||
+              node + 1 == nodes.size())
+            throw EntryError(entry,
+                             "a cut of '" + scene.wires[cut.index].name +
+                                 "' is not inside the wire, or in its first or last element");
+          cuts[cut.index].push_back(node);
+        }
+      Partition partition;
+      partition.n_parts = 0;
+      for (std::vector<std::size_t> &nodes : cuts)
+      {
+        std::sort(nodes.begin(), nodes.end());
+        nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+        std::vector<Partition::Piece> pieces = {{0, partition.n_parts++}};
+        for (const std::size_t node : nodes)
+          pieces.push_back({node, partition.n_parts++});
+        partition.wires.push_back(std::move(pieces));
+      }
+      return partition;
+    }
+  } // namespace
+
+  void PartitionParameters::declare_parameters(dealii::ParameterHandler &prm)
+  {
+    using namespace dealii::Patterns;
+    prm.enter_subsection("Partition");
+    prm.add_parameter(
+        "Method", method,
+        "'METIS': parts of about equal work. 'wires': every wire is a part. 'given': at "
+        "the positions of Cuts",
+        Selection("METIS|wires|given"));
+    prm.add_parameter("Number of substructures", n_substructures,
+                      "Parts that METIS cuts the wires into; 1: no cuts [1]", Integer(1, 1000000));
+    prm.add_parameter("Cuts", cuts,
+                      "For 'given': 'wire @ positions; other wire @ positions', numbers and ranges "
+                      "first:step:last [m]",
+                      Anything());
+    prm.leave_subsection();
+  }
+
+  Partition make_partition(const Scene &scene, const PartitionParameters &parameters)
+  {
+    if (parameters.method == "METIS")
+      return by_metis(scene, parameters.n_substructures);
+    if (parameters.method == "wires")
+      return by_wires(scene);
+    return by_list(scene, parameters.cuts);
+  }
+} // namespace taut
