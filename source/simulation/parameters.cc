@@ -229,9 +229,9 @@ namespace taut
         for (std::string generator_known; std::getline(list, generator_known, '|');)
           known.push_back(generator_known);
         const std::string near = nearest_name(generator_name, known);
-        throw EntryError("Generator", "there is no such generator; known are: " +
-                                          generators.names(", ") +
-                                          (near.empty() ? "" : "; did you mean '" + near + "'?"));
+        throw EntryError("Generator",
+                         "there is no such generator; known are: " + generators.names(", ") +
+                             (near.empty() ? "" : "; did you mean '" + near + "'?"));
       }
       generator = generators.create(generator_name);
       {

@@ -28,14 +28,9 @@ namespace taut
                                 "certificate.csv", "statistics.json", "wires.pvd", "links.pvd"})
         if (name == fixed)
           return true;
-<<<<<<< HEAD
-      const auto is_numbered = [&](const std::string &stem) {
-        return name.size() >= stem.size() + 10 && name.compare(0, stem.size(), stem) == 0 &&
-=======
       const auto is_numbered = [&](const std::string &stem)
       {
-        return name.size() == stem.size() + 10 && name.compare(0, stem.size(), stem) == 0 &&
->>>>>>> partition
+        return name.size() >= stem.size() + 10 && name.compare(0, stem.size(), stem) == 0 &&
                name.compare(name.size() - 4, 4, ".vtu") == 0;
       };
       return is_numbered("wires") || is_numbered("links");
@@ -119,8 +114,8 @@ namespace taut
     describe();
     find_start();
     if (parameters.end_time > 0.)
-      TimeStepper(bodies, links, parameters.solver, choose_integrator(), parameters.step,
-                  reference, start, model.start == Start::equilibrium);
+      TimeStepper(bodies, links, parameters.solver, choose_integrator(), parameters.step, reference,
+                  start, model.start == Start::equilibrium);
     log << "The scene is consistent\n";
   }
 
@@ -254,8 +249,8 @@ namespace taut
       const Row &row = links[i];
       start.geometric_gap[i] =
           row.gap + evaluate(row.terms, reference.displacement) + evaluate(row.terms, start.U);
-      // The spring of a link starts as compressed as its ends stand, and a compressed one as fast as
-      // they move; a rigid one is not compressed.
+      // The spring of a link starts as compressed as its ends stand, and a compressed one as fast
+      // as they move; a rigid one is not compressed.
       double u = start.multiplier[i] / row.stiffness;
       if (model.start != Start::equilibrium && !std::isinf(row.stiffness))
       {
@@ -269,9 +264,10 @@ namespace taut
       start.link_springs[i].u = u;
       start.gap[i] = start.geometric_gap[i] + u;
       if (model.start != Start::equilibrium && start.gap[i] < 0. && row.unilateral)
-        throw EntryError(
-            links.origin(i), "link '" + row.name + "' starts with a gap of " + std::to_string(start.gap[i]) +
-            ": a rigid one-sided link starts open or just touching. Change its Gap or the start.");
+        throw EntryError(links.origin(i), "link '" + row.name + "' starts with a gap of " +
+                                              std::to_string(start.gap[i]) +
+                                              ": a rigid one-sided link starts open or just "
+                                              "touching. Change its Gap or the start.");
     }
   }
 

@@ -106,8 +106,8 @@ namespace taut
           throw EntryError(
               dropper.origin,
               "dropper '" + dropper.name +
-              "' would have no length: its wires touch in the static state. Increase the "
-              "encumbrance or the tension of the upper wire.");
+                  "' would have no length: its wires touch in the static state. Increase the "
+                  "encumbrance or the tension of the upper wire.");
       }
       return result;
     }
