@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "run.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace verification;
+
+namespace
+{
+  /// What a run leaves behind that must not depend on the cuts, step by step.
+  struct Record
+  {
+    std::vector<double> force, gap, probe;
+    std::vector<char> closed;
+    std::size_t n_cut_rows = 0;
+  };
+
+  Record record(const std::string &scene, Overrides overrides, const std::string &partition)
+  {
+    if (!partition.empty())
+      overrides.push_back(partition);
+    Record result;
+    run_scene(scene_file(scene), overrides,
+              [&](const taut::StepView &view)
+              {
+                result.n_cut_rows = view.structure.cut_rows().size();
+                for (std::size_t i = 0; i < view.rows.size(); ++i)
+                {
+                  if (view.rows[i].is_cut())
+                    continue;
+                  result.force.push_back(view.state.multiplier[i]);
+                  result.gap.push_back(view.state.geometric_gap[i]);
+                  result.closed.push_back(view.state.multiplier[i] != 0.);
+                }
+                result.probe.insert(result.probe.end(), view.probes.begin(), view.probes.end());
+              });
+    return result;
+  }
+
+  /// Largest difference over the largest value.
+  double difference(const std::vector<double> &a, const std::vector<double> &b)
+  {
+    double error = a.size() == b.size() ? 0. : INFINITY, size = 0.;
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+    {
+      error = std::max(error, std::fabs(a[i] - b[i]));
+      size = std::max(size, std::fabs(a[i]));
+    }
+    return size > 0. ? error / size : error;
+  }
+
+  void expect_same(const std::string &scene, const Overrides &overrides,
+                   const std::vector<std::string> &partitions, const double gap_tolerance = 1e-9,
+                   const double force_tolerance = 1e-7)
+  {
+    const Record uncut = record(scene, overrides, "");
+    for (const std::string &partition : partitions)
+    {
+      SCOPED_TRACE(scene + ", " + partition);
+      const Record cut = record(scene, overrides, partition);
+      EXPECT_GT(cut.n_cut_rows, 0u);
+      EXPECT_LT(difference(uncut.force, cut.force), force_tolerance);
+      EXPECT_LT(difference(uncut.gap, cut.gap), gap_tolerance);
+      EXPECT_LT(difference(uncut.probe, cut.probe), gap_tolerance);
+      EXPECT_EQ(uncut.closed, cut.closed);
+      figure(scene + ", " + partition + ", force", difference(uncut.force, cut.force));
+      figure(scene + ", " + partition + ", gap", difference(uncut.gap, cut.gap));
+    }
+  }
+
+  std::string parts(const unsigned int n)
+  {
+    return "Partition/Number of substructures=" + std::to_string(n);
+  }
+} // namespace
+
+// Claim: the answers do not depend on how METIS cuts the wires; the contact crosses cuts without a
+// trace. Expected: the uncut run, to 1e-9 of the largest gap and 1e-7 of the largest force, with
+// the same links open.
+TEST(Partition, en50318_is_the_same_in_any_number_of_parts)
+{
+  expect_same("en50318_2002_250",
+              {"Time/End=2.4", "Time/Step=2e-3", "Catenary/Number of spans=5",
+               "Catenary/Uplift positions=120"},
+              {parts(2), parts(7), parts(64)});
+}
+
+// Claim: so in statics, where most pieces float and their free motions are unknowns, and with
+// moving supports, stops, angular stops, bars and axial cuts. Expected: the uncut run.
+TEST(Partition, every_wire_scene_is_the_same_in_three_parts)
+{
+  for (const char *scene : {"beam_over_supports", "bar_on_wall", "string_on_stop",
+                            "beam_angular_stop", "inclined_cable"})
+    expect_same(scene, {"Time/End=0.8"}, {parts(3)});
+}
+
+// Claim: the mesh does not change with the cuts, and cuts can be given by hand. Expected: two cuts
+// of a beam are four rows (displacement and slope), and the answers those of the whole beam.
+TEST(Partition, cuts_by_hand_keep_the_answers)
+{
+  const Record cut = record("beam_over_supports", {"Time/End=0.1", "Partition/Method=given"},
+                            "Partition/Cuts=beam @ 3.5, 12.25");
+  EXPECT_EQ(cut.n_cut_rows, 4u);
+  const Record uncut = record("beam_over_supports", {"Time/End=0.1"}, "");
+  EXPECT_LT(difference(uncut.force, cut.force), 1e-7);
+  EXPECT_LT(difference(uncut.gap, cut.gap), 1e-9);
+}
+
+// Claim: the cuts of METIS avoid the droppers, and parts are balanced. Expected: no fixed link of
+// the EN line touches a cut node; the largest of 16 parts has at most 1.3 times the mean number of
+// nodes.
+TEST(Partition, metis_balances_the_parts_and_spares_the_droppers)
+{
+  Session session(scene_file("en50318_2002_250"), {parts(16), "Time/End=0"});
+  const taut::Scene &scene = session.simulation().scene();
+  const taut::Partition partition = make_partition(scene, session.parameters().partition);
+  ASSERT_EQ(partition.n_parts, 16u);
+  std::vector<double> size(16, 0.);
+  double all = 0.;
+  for (std::size_t w = 0; w < scene.wires.size(); ++w)
+  {
+    const std::vector<double> nodes = grid(scene, w);
+    const auto &pieces = partition.wires[w];
+    for (std::size_t p = 0; p < pieces.size(); ++p)
+    {
+      const std::size_t end = p + 1 < pieces.size() ? pieces[p + 1].first : nodes.size();
+      size[pieces[p].part] += end - pieces[p].first;
+      all += end - pieces[p].first;
+      if (p > 0)
+        for (const taut::Link &link : scene.links)
+          for (const taut::Attachment *at : {&link.from, &link.to})
+            if (!link.moving() && at->kind == taut::Attachment::Kind::wire && at->index == w)
+              EXPECT_GT(std::fabs(at->position - nodes[pieces[p].first]), 1e-9) << link.name;
+    }
+  }
+  EXPECT_LT(*std::max_element(size.begin(), size.end()), 1.3 * all / 16.);
+  EXPECT_GT(*std::min_element(size.begin(), size.end()), 0.7 * all / 16.);
+}
