@@ -1,0 +1,968 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: a mistake in the input is one error of one line that names file, line, entry, value and
+// remedy; results of an earlier run are as they were. Source: the table below; each case changes a
+// scene that runs.
+#include <taut/simulation/simulation.h>
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace
+{
+  namespace fs = std::filesystem;
+  using Texts = std::vector<std::string>;
+  using Changes = std::vector<std::pair<std::string, std::string>>;
+
+  const char *const network = R"(set Generator = network
+set Start     = equilibrium
+subsection Network
+  set Wires        = line, arm
+  set Supports     = ends, clamp, clamp slope
+  set Point masses = clip
+  set Masses       = block
+  set Springs      = spring
+  set Links        = hanger, stop
+  set Loads        = push
+  subsection Wire line
+    set From            = 0, 0
+    set To              = 10, 0
+    set Components      = string
+    set Mass per length = 1
+    set Tension         = 1000
+    set Element size    = 1
+  end
+  subsection Wire arm
+    set From              = 0, 2
+    set To                = 4, 2
+    set Components        = beam
+    set Mass per length   = 2
+    set Bending stiffness = 500
+    set Element size      = 0.5
+  end
+  subsection Support ends
+    set Wire      = line
+    set Positions = 0, 10
+  end
+  subsection Support clamp
+    set Wire      = arm
+    set Positions = 0
+  end
+  subsection Support clamp slope
+    set Wire   = arm
+    set Motion = slope
+  end
+  subsection Point mass clip
+    set Wire      = line
+    set Positions = 5
+    set Mass      = 0.5
+  end
+  subsection Mass block
+    set Position = 3, -1
+    set Motions  = y
+    set Mass     = 3
+  end
+  subsection Spring spring
+    set From      = ground
+    set To        = block
+    set Stiffness = 600
+  end
+  subsection Link hanger
+    set Type      = dropper
+    set From      = arm @ 3
+    set To        = line @ 3
+    set Stiffness = 1e4
+  end
+  subsection Link stop
+    set Type      = stop
+    set From      = block
+    set To        = line @ 6
+    set Direction = 0, 1
+    set Stiffness = rigid
+    set Gap       = 0.5
+  end
+  subsection Load push
+    set On        = block
+    set Magnitude = 10*t
+  end
+end
+subsection Time
+  set Scheme = automatic
+  set Step   = 0.01
+  set End    = 0.05
+  subsection Newmark
+    set Beta = 0.25
+  end
+  subsection Generalised-alpha
+    set Spectral radius = 0.8
+  end
+end
+subsection Output
+  set Folder = results
+  set Probes = middle
+  subsection Probe middle
+    set Point = line @ 5
+  end
+end
+subsection Statistics
+  set Window =
+end
+)";
+
+  const char *const catenary = R"(set Generator = catenary
+subsection Catenary
+  set Number of spans = 2
+  set Span length     = 20
+  subsection Contact wire
+    set Element size = 2
+  end
+  subsection Messenger wire
+    set Element size = 2
+  end
+  subsection Droppers
+    set Positions = 5, 10, 15
+    set Pre-sag   =
+    set Lengths   =
+  end
+  set Uplift positions = 20
+  set Pantographs      = one
+  subsection Pantograph one
+    set Masses      = 7, 15
+    set Stiffnesses = 4200, 50
+    set Dampings    = 10, 90
+    set Start       = 5
+    set Speed       = 100
+  end
+end
+subsection Time
+  set Step = 0.01
+  set End  = 0.05
+end
+subsection Output
+  set Folder = results
+end
+)";
+
+  /// What is wrong, the changes that make it so, and what the message has to say. A line of the
+  /// scene that ends with
+  /// "# here" is the one that the message has to name.
+  struct Case
+  {
+    const char *name;
+    const char *scene;
+    Changes changes;
+    Texts fragments;
+    bool in_run = false; ///< the mistake shows while the run is on its way, with its results begun
+  };
+
+  const char *const whole = ""; ///< the text is that of the only change
+
+  const std::vector<Case> &table()
+  {
+    static const std::vector<Case> cases = {
+        // Structure of the file
+        {"unknown_entry",
+         network,
+         {{"set Tension  ", "set Tensoin # here\n#"}},
+         {"cannot read", "set Tensoin"}},
+        {"misspelt_entry",
+         network,
+         {{"set Tension         = 1000", "set Tensoin = 1000 # here"}},
+         {"there is no entry 'Tensoin' in 'Wire line'", "did you mean 'Tension'"}},
+        {"misspelt_section",
+         network,
+         {{"subsection Wire line", "subsection Wire lime # here"}},
+         {"there is no section 'Wire lime'", "did you mean 'Wire line'"}},
+        {"section_without_its_name_in_the_list",
+         network,
+         {{"set Loads        = push", "set Loads ="},
+          {"subsection Load push", "subsection Load push # here"}},
+         {"there is no section 'Load push' in 'Network'"}},
+        {"duplicate_entry",
+         network,
+         {{"    set Positions = 0, 10", "    set Positions = 0, 10\nset Positions = 1 # here"}},
+         {"Network/Support ends/Positions", "was set before, at", "remove one"}},
+        {"missing_end",
+         network,
+         {{"subsection Statistics", "subsection Statistics # here"},
+          {"set Window =\nend", "set Window ="}},
+         {"Statistics", "never closed", "add 'end'"}},
+        {"stray_end",
+         network,
+         {{"subsection Statistics\n", "end # here\nsubsection Statistics\n"}},
+         {"'end' without a 'subsection'"}},
+        {"nonsense_line",
+         network,
+         {{"subsection Statistics\n", "hello # here\nsubsection Statistics\n"}},
+         {"cannot read 'hello'", "set Name = value"}},
+        {"entry_without_name",
+         network,
+         {{"set Gap       = 0.5", "set = 0.5 # here"}},
+         {"the name of an entry", "empty"}},
+        {"trailing_backslash",
+         whole,
+         {{"", "set Start = equilibrium \\\\ # here\n"}},
+         {"Start", "continues a line"}},
+        {"binary",
+         whole,
+         {{"", std::string("set A = 1\n\x7f"
+                           "ELF\x02\x01 # here\n")}},
+         {"not text", "byte 0x7f"}},
+        {"binary_with_zero",
+         whole,
+         {{"", std::string("set A = 1\n\0 # here\n", 20)}},
+         {"not text", "byte 0x00"}},
+        {"latin_1",
+         network,
+         {{"set Wires        = line, arm", "set Wires = l\xfc"
+                                           "ne, arm # here"}},
+         {"not text", "byte 0xfc", "UTF-8"}},
+        {"sections_without_end",
+         whole,
+         {{"",
+           "subsection a\nsubsection a\nsubsection a\nsubsection a\nsubsection a\nsubsection a\n"
+           "subsection a\nsubsection a\nsubsection a\nsubsection a\nsubsection a\nsubsection "
+           "a\nsubsection a\nsubsection a\n"
+           "subsection a\nsubsection a\nsubsection a\nsubsection a\nsubsection a\nsubsection "
+           "a\nsubsection a # here\n"}},
+         {"more than 20 sections", "'end'"}},
+        {"include_of_a_missing_file",
+         whole,
+         {{"", "set Start = given\ninclude nowhere.prm # here\n"}},
+         {"cannot include", "nowhere.prm", "no such file"}},
+        {"include_of_a_folder",
+         whole,
+         {{"", "include results # here\n"}},
+         {"cannot include", "no such file"}},
+        {"include_loop",
+         whole,
+         {{"", "\ninclude scene.prm # here\n"}},
+         {"cannot include", "include itself", "remove"}},
+
+        // Types
+        {"ill_typed_number",
+         network,
+         {{"= 1000", "= 1 kN # here"}},
+         {"Network/Wire line/Tension = '1 kN'", "floating point"}},
+        {"nan",
+         network,
+         {{"= 1000", "= nan # here"}},
+         {"Network/Wire line/Tension = 'nan'", "not allowed"}},
+        {"inf",
+         network,
+         {{"= 1000", "= inf # here"}},
+         {"Network/Wire line/Tension = 'inf'", "not allowed"}},
+        {"overflow",
+         network,
+         {{"= 1000", "= 1e999 # here"}},
+         {"Network/Wire line/Tension = '1e999'", "not allowed"}},
+        {"negative_tension",
+         network,
+         {{"= 1000", "= -1000 # here"}},
+         {"Tension = '-1000'", "0 <= v"}},
+        {"list_too_short",
+         network,
+         {{"set To              = 10, 0", "set To = 10 # here"}},
+         {"Wire line/To = '10'", "2 to 2"}},
+        {"list_too_long",
+         network,
+         {{"set To              = 10, 0", "set To = 10, 0, 0 # here"}},
+         {"Wire line/To = '10, 0, 0'", "2 to 2"}},
+        {"unknown_generator",
+         network,
+         {{"set Generator = network", "set Generator = netwerk # here"}},
+         {"Generator = 'netwerk'", "catenary", "did you mean 'network'"}},
+        {"unknown_scheme",
+         network,
+         {{"= automatic", "= newmark beta # here"}},
+         {"Time/Scheme = 'newmark beta'", "BDF2", "did you mean 'Newmark'"}},
+        {"unknown_component",
+         network,
+         {{"= string", "= strong # here"}},
+         {"Components = 'strong'", "did you mean 'string'"}},
+        {"bad_bool",
+         network,
+         {{"set Mass      = 0.5", "set Mass = 0.5\nset Weight = perhaps # here"}},
+         {"Weight = 'perhaps'", "boolean"}},
+        {"fractional_degree",
+         network,
+         {{"set Tension ", "set Degree = 1.5 # here\nset Tension "}},
+         {"Degree = '1.5'", "integer"}},
+
+        // Formulas
+        {"formula_with_unknown_function",
+         network,
+         {{"= 10*t", "= 10*sine(t) # here"}},
+         {"Load push/Magnitude = '10*sine(t)'", "sine", "formula in s"}},
+        {"formula_unfinished",
+         network,
+         {{"= 10*t", "= 10*( # here"}},
+         {"Load push/Magnitude", "cannot evaluate"}},
+        {"formula_empty",
+         network,
+         {{"= 10*t", "= # here"}},
+         {"Load push/Magnitude", "cannot evaluate", "formula in s"}},
+        {"two_formulas",
+         network,
+         {{"= 10*t", "= 1; 2 # here"}},
+         {"Load push/Magnitude", "one formula"}},
+        {"formula_infinite_at_the_start",
+         network,
+         {{"= 10*t", "= 1/t # here"}},
+         {"Load push/Magnitude", "not finite", "t = 0", "if(condition"}},
+        {"formula_not_a_number_at_the_start",
+         network,
+         {{"= 10*t", "= sqrt(-1) # here"}},
+         {"Load push/Magnitude", "not finite"}},
+        {"number_too_large_in_a_formula",
+         network,
+         {{"= 10*t", "= 1e999 # here"}},
+         {"Load push/Magnitude", "out of range"}},
+        {"formula_not_a_number_in_the_run",
+         network,
+         {{"= 10*t", "= sqrt(0.025-t) # here"}},
+         {"Load push/Magnitude", "not finite", "t = 0.03", "if(condition"},
+         true},
+
+        // Names
+        {"name_with_at_sign",
+         network,
+         {{"set Wires        = line, arm", "set Wires = li@ne, arm # here"}},
+         {"Network/Wires", "'li@ne' cannot be a name"}},
+        {"name_twice",
+         network,
+         {{"set Wires        = line, arm", "set Wires = line, arm, line # here"}},
+         {"Network/Wires", "'line' comes twice"}},
+        {"empty_name",
+         network,
+         {{"set Wires        = line, arm", "set Wires = line, , arm # here"}},
+         {"Network/Wires", "cannot be a name"}},
+        {"pantograph_with_slash",
+         catenary,
+         {{"set Pantographs      = one", "set Pantographs = on/e # here"}},
+         {"Catenary/Pantographs", "'on/e' cannot be a name"}},
+        {"pantograph_twice",
+         catenary,
+         {{"set Pantographs      = one", "set Pantographs = one, one # here"}},
+         {"Catenary/Pantographs", "comes twice"}},
+        {"unknown_wire_of_a_support",
+         network,
+         {{"set Wire      = arm", "set Wire = arn # here"}},
+         {"Support clamp/Wire = 'arn'", "not a wire", "did you mean 'arm'"}},
+        {"unknown_wire_of_a_link",
+         network,
+         {{"= arm @ 3", "= arn @ 3 # here"}},
+         {"Link hanger/From", "not known", "did you mean 'arm'"}},
+        {"unknown_mass",
+         network,
+         {{"set To        = block", "set To = blok # here"}},
+         {"Spring spring/To", "not known", "did you mean 'block'"}},
+        {"mass_named_as_a_wire",
+         network,
+         {{"set Masses       = block", "set Masses = block, line"},
+          {"subsection Load push", "subsection Mass line # here\nend\nsubsection Load push"}},
+         {"Mass line", "taken by a wire"}},
+
+        // Numbers that make no sense
+        {"negative_mass",
+         network,
+         {{"set Mass     = 3", "set Mass = -3 # here"}},
+         {"Mass block/Mass = '-3'", "0 <= v"}},
+        {"negative_stiffness",
+         network,
+         {{"= 600", "= -600 # here"}},
+         {"Spring spring/Stiffness = '-600'", "0 <= v"}},
+        {"negative_link_stiffness",
+         network,
+         {{"= 1e4", "= -1e4 # here"}},
+         {"Link hanger/Stiffness", "positive", "rigid"}},
+        {"negative_damping",
+         network,
+         {{"= 600", "= 600\nset Damping = -1 # here"}},
+         {"Spring spring/Damping = '-1'", "0 <= v"}},
+        {"wire_without_length",
+         network,
+         {{"= 10, 0", "= 0, 0 # here"}},
+         {"Wire line/To", "give it a length"}},
+        {"wire_beyond_all_lengths",
+         network,
+         {{"= 10, 0", "= 1e300, 0 # here"}},
+         {"Wire line/To", "at most"}},
+        {"wire_far_from_the_origin",
+         network,
+         {{"    set From            = 0, 0\n    set To              = 10, 0",
+           "    set From = 1e12, 0 # here\n    set To = 1000000000010, 0"}},
+         {"Wire line/From", "origin"}},
+        {"wire_without_mass",
+         network,
+         {{"set Mass per length = 1", "set Mass per length = 0 # here"}},
+         {"Wire line/Mass per length = '0'", "positive"}},
+        {"element_size_zero",
+         network,
+         {{"set Element size    = 1", "set Element size = 0 # here"}},
+         {"Wire line/Element size = '0'", "positive"}},
+        {"too_many_elements",
+         network,
+         {{"set Element size    = 1", "set Element size = 1e-9 # here"}},
+         {"Wire line/Element size", "too many"}},
+        {"string_without_tension",
+         network,
+         {{"= 1000", "= 0 # here"}},
+         {"Wire line/Tension = '0'", "string needs a positive"}},
+        {"beam_without_stiffness",
+         network,
+         {{"set Bending stiffness = 500", "set Bending stiffness = 0 # here"}},
+         {"Wire arm/Bending stiffness = '0'", "string"}},
+        {"bar_without_stiffness",
+         network,
+         {{"= string", "= bar, string"}, {"subsection Wire line", "subsection Wire line # here"}},
+         {"Wire line/Axial stiffness", "bar needs a positive"}},
+        {"string_and_beam",
+         network,
+         {{"= string", "= string, beam # here"}},
+         {"Wire line/Components", "exclude each other"}},
+        {"no_component",
+         network,
+         {{"= string", "= # here"}},
+         {"Wire line/Components", "name at least one"}},
+        {"elastic_support_of_nothing",
+         network,
+         {{"    set Motion = slope", "    set Motion = slope\n    set Type = elastic"},
+          {"subsection Support clamp slope", "subsection Support clamp slope # here"}},
+         {"Stiffness", "elastic support needs"}},
+        {"inertia_without_rotation",
+         network,
+         {{"set Mass     = 3", "set Mass = 3\nset Inertia = 1 # here"}},
+         {"Mass block/Inertia", "rotation"}},
+
+        // Places and motions
+        {"position_outside_of_the_wire",
+         network,
+         {{"set Positions = 5", "set Positions = 11 # here"}},
+         {"Point mass clip/Positions", "outside wire 'line'", "0 to 10"}},
+        {"no_position",
+         network,
+         {{"set Positions = 5", "set Positions = # here"}},
+         {"Point mass clip/Positions", "no position"}},
+        {"bad_range",
+         network,
+         {{"set Positions = 5", "set Positions = 0:0:5 # here"}},
+         {"Point mass clip/Positions", "first:step:last"}},
+        {"half_a_range",
+         network,
+         {{"set Positions = 5", "set Positions = 0:5 # here"}},
+         {"Point mass clip/Positions", "neither a number nor a range"}},
+        {"link_outside_of_the_wire",
+         network,
+         {{"= arm @ 3", "= arm @ 5 # here"}},
+         {"Link hanger/From", "outside wire 'arm'", "0 to 4"}},
+        {"wire_without_position",
+         network,
+         {{"= arm @ 3", "= arm # here"}},
+         {"Link hanger/From", "arm @ position"}},
+        {"moment_on_a_string",
+         network,
+         {{"set Gap       = 0.5", "set Gap = 0.5\nset Rotational = true"},
+          {"set From      = block", "set From = ground"},
+          {"= line @ 6", "= line @ 6 # here"}},
+         {"Link stop/To", "no slope", "beam"}},
+        {"moment_on_a_mass_that_does_not_turn",
+         network,
+         {{"set On        = block", "set On = block # here\nset Rotational = true"}},
+         {"Load push/On", "does not rotate", "add 'rotation'"}},
+        {"support_of_a_motion_that_is_not",
+         network,
+         {{"    set Motion = slope", "    set Motion = axial # here"}},
+         {"Support clamp slope/Motion", "no component bar"}},
+        {"slope_of_a_string",
+         network,
+         {{"set Positions = 0, 10", "set Positions = 0, 10\nset Motion = slope # here"}},
+         {"Support ends/Motion", "no slope"}},
+        {"two_supports_of_one_motion",
+         network,
+         {{"    set Motion = slope", "    set Motion = transverse\n    set Positions = 0 # here"}},
+         {"Positions", "held there already", "remove one"}},
+        {"one_support_twice_at_one_place",
+         network,
+         {{"set Positions = 0, 10", "set Positions = 0, 10, 10 # here"}},
+         {"Support ends/Positions", "held there already"}},
+        {"link_from_ground_to_ground",
+         network,
+         {{"set From      = block", "set From = ground"}, {"= line @ 6", "= ground # here"}},
+         {"Link stop/To", "both ends are the ground"}},
+        {"link_of_a_point_to_itself",
+         network,
+         {{"= line @ 6", "= line @ 6 # here"}, {"set From      = block", "set From = line @ 6"}},
+         {"Link stop/To", "same point"}},
+        {"link_across_every_motion",
+         network,
+         {{"= 0, 1\n    set Stiffness = rigid", "= 1, 0 # here\n    set Stiffness = rigid"}},
+         {"Link stop/Direction", "neither end can move"}},
+        {"load_across_every_motion",
+         network,
+         {{"set On        = block", "set On = block\nset Direction = 1, 0 # here"}},
+         {"Load push/Direction", "cannot move along it"}},
+        {"load_on_the_ground",
+         network,
+         {{"set On        = block", "set On = ground # here"}},
+         {"Load push/On", "moves nothing"}},
+        {"probe_across_every_motion",
+         network,
+         {{"set Point = line @ 5", "set Point = line @ 5\nset Direction = 1, 0 # here"}},
+         {"Probe middle/Direction", "cannot move along it"}},
+        {"direction_zero",
+         network,
+         {{"= 0, 1\n    set Stiffness = rigid", "= 0, 0 # here\n    set Stiffness = rigid"}},
+         {"Link stop/Direction", "not zero"}},
+        {"direction_missing",
+         network,
+         {{"    set Direction = 0, 1\n", ""},
+          {"set From      = block", "set From = ground"},
+          {"subsection Link stop", "subsection Link stop # here"}},
+         {"Link stop/Direction", "give 'x, y'"}},
+        {"spring_between_wire_and_mass",
+         network,
+         {{"set From      = ground", "set From = line @ 3 # here"}},
+         {"Spring spring/From", "between masses", "use a link"}},
+        {"spring_across_every_motion",
+         network,
+         {{"= 600", "= 600\nset Direction = 1, 0 # here"}},
+         {"Spring spring/Direction", "cannot move"}},
+        {"rigid_link_with_damping",
+         network,
+         {{"set Gap       = 0.5", "set Damping = 1 # here"}},
+         {"Link stop/Damping", "finite Stiffness"}},
+        {"unequal_numbers_of_ends",
+         network,
+         {{"subsection Link hanger", "subsection Link hanger # here"},
+          {"= arm @ 3", "= arm @ 1, 2, 3"},
+          {"= line @ 3", "= line @ 1, 2"}},
+         {"Link hanger", "equal numbers"}},
+        {"speed_of_a_stop",
+         network,
+         {{"set Gap       = 0.5", "set Speed = 1 # here"}},
+         {"Link stop/Speed", "sliding contact"}},
+        {"contact_leaves_its_wire",
+         network,
+         {{"= stop\n", "= sliding contact\n"}, {"set Gap       = 0.5", "set Speed = 100 # here"}},
+         {"Link stop/Speed", "leaves wire 'line'", "Shorten Time/End"}},
+        {"contact_on_a_mass",
+         network,
+         {{"= stop\n", "= sliding contact\n"},
+          {"= line @ 6", "= block # here"},
+          {"set From      = block", "set From = ground"}},
+         {"Link stop/To", "slides on a wire"}},
+
+        // Catenary
+        {"dropper_outside_of_its_span",
+         catenary,
+         {{"= 5, 10, 15", "= 5, 10, 25 # here"}},
+         {"Catenary/Droppers/Positions", "25 m is not inside its span of 20 m"}},
+        {"pre_sag_of_other_length",
+         catenary,
+         {{"set Pre-sag   =", "set Pre-sag = 0, 0.01 # here"}},
+         {"Catenary/Droppers/Pre-sag", "2 values for 3"}},
+        {"dropper_that_would_push",
+         catenary,
+         {{"set Pre-sag   =", "set Pre-sag = 0.1, 0.5, 0.1"},
+          {"subsection Droppers", "subsection Droppers # here"}},
+         {"dropper '", "would have to push", "remove it"}},
+        {"dropper_without_length",
+         catenary,
+         {{"set Span length     = 20", "set Span length = 20\nset Encumbrance = 0.01"},
+          {"subsection Droppers", "subsection Droppers # here"}},
+         {"dropper '", "no length", "encumbrance"}},
+        {"uplift_outside_of_the_line",
+         catenary,
+         {{"set Uplift positions = 20", "set Uplift positions = 50 # here"}},
+         {"Catenary/Uplift positions", "outside wire 'contact'"}},
+        {"pantograph_lists_of_unequal_length",
+         catenary,
+         {{"= 10, 90", "= 10"}, {"subsection Pantograph one", "subsection Pantograph one # here"}},
+         {"Pantograph one", "lists of one length", "2, 2, 1"}},
+        {"pantograph_without_mass",
+         catenary,
+         {{"set Masses      = 7, 15", "set Masses = 0, 0"},
+          {"= 4200, 50", "= 0, 0"},
+          {"= 10, 90", "= 0, 0"},
+          {"subsection Pantograph one", "subsection Pantograph one # here"}},
+         {"Pantograph one", "one"}},
+        {"no_spans",
+         catenary,
+         {{"spans = 2", "spans = 0 # here"}},
+         {"Number of spans = '0'", "integer"}},
+
+        // Bodies that nothing holds, links that contradict each other
+        {"mass_without_support",
+         network,
+         {{"    set From      = ground\n    set To        = block\n    set Stiffness = 600",
+           "    set From = ground\n set To = block\n    set Damping = 600"},
+          {"subsection Mass block", "subsection Mass block # here"}},
+         {"Mass block", "'block' is not held", "Add a support"}},
+        {"beam_without_support",
+         network,
+         {{"set Supports     = ends, clamp, clamp slope", "set Supports = ends"},
+          {"  subsection Support clamp\n    set Wire      = arm\n    set Positions = 0\n  end\n  "
+           "subsection Support clamp slope\n    set Wire   = arm\n    set Motion = slope\n  end\n",
+           ""},
+          {"subsection Wire arm", "subsection Wire arm # here"}},
+         {"Wire arm", "is not held", "Add a support"}},
+        {"one_sided_support_with_a_lifting_load",
+         network,
+         {{"    set From      = ground\n    set To        = block\n    set Stiffness = 600",
+           "    set From = ground\n set To = block\n    set Damping = 1"},
+          {"set From      = block", "set From = ground"},
+          {"= line @ 6", "= block"},
+          {"= 10*t", "= 100"},
+          {"subsection Mass block", "subsection Mass block # here"}},
+         {"Mass block", "'block' is not held"}},
+        {"joints_with_different_gaps",
+         network,
+         {{"= hanger, stop", "= hanger, stop, a, b"},
+          {"subsection Load push",
+           "subsection Link a # here\n set From=ground\nset To = line @ 7\nset Direction=0, "
+           "1\nend\nsubsection Link b\n set From=ground\nset To = line @ 7\nset Direction=0, "
+           "1\nset Gap = 0.1\nend\nsubsection Load push"}},
+         {"static equilibrium", "'a'", "'b'", "contradict each other", "finite stiffness"}},
+        {"joints_with_different_gaps_in_dynamics",
+         network,
+         {{"= equilibrium", "= undeformed"},
+          {"= hanger, stop", "= hanger, stop, a, b"},
+          {"subsection Load push",
+           "subsection Link a # here\n set From=ground\nset To = line @ 7\nset Direction=0, "
+           "1\nend\nsubsection Link b\n set From=ground\nset To = line @ 7\nset Direction=0, "
+           "1\nset Gap = 0.1\nend\nsubsection Load push"}},
+         {"at t = 0.01 s", "'a'", "'b'", "contradict each other", "finite stiffness"},
+         true},
+        {"stops_that_overlap",
+         network,
+         {{"= hanger, stop", "= hanger, stop, a, b"},
+          {"subsection Load push",
+           "subsection Link a # here\nset Type = stop\n set From=ground\nset To = line @ 7\nset "
+           "Direction=0, 1\nset Gap=-0.1\nend\nsubsection Link b\nset Type=stop\n set "
+           "From=ground\nset To = line @ 7\nset Direction=0, -1\nset Gap = -0.1\nend\nsubsection "
+           "Load push"}},
+         {"static equilibrium", "'a'", "'b'", "contradict each other"}},
+        {"penetration_at_the_start",
+         network,
+         {{"= equilibrium", "= undeformed"},
+          {"set Gap       = 0.5", "set Gap = -0.5"},
+          {"subsection Link stop", "subsection Link stop # here"}},
+         {"link 'stop'", "starts with a gap of -0.5", "Change its Gap"}},
+        {"mass_without_mass",
+         network,
+         {{"= equilibrium", "= undeformed"},
+          {"set Mass     = 3", "set Mass = 0"},
+          {"    set From      = ground\n    set To        = block\n    set Stiffness = 600",
+           "    set From = ground\n set To = block\n    set Stiffness = 0\nset Damping = 0"},
+          {"subsection Spring spring", "subsection Spring spring"}},
+         {"Spring spring", "neither Stiffness nor Damping"}},
+        {"massless_mass_that_nothing_holds",
+         network,
+         {{"= equilibrium", "= undeformed"},
+          {"= hanger, stop", "= hanger, stop"},
+          {"set Masses       = block", "set Masses = block, lost"},
+          {"subsection Load push", "subsection Mass lost # here\nend\nsubsection Load push"}},
+         {"Mass lost", "singular", "Give it mass"}},
+        {"massless_mass_and_a_given_scheme",
+         network,
+         {{"= equilibrium", "= undeformed"},
+          {"= automatic", "= BDF2"},
+          {"set Masses       = block", "set Masses = block, lost"},
+          {"subsection Load push", "subsection Mass lost # here\nend\nsubsection Load push"}},
+         {"Mass lost", "singular", "Give it mass"}},
+
+        // Time, output, statistics
+        {"newmark_beta_zero",
+         network,
+         {{"= automatic", "= Newmark"}, {"set Beta = 0.25", "set Beta = 0 # here"}},
+         {"Newmark", "needs a positive one"}},
+        {"spectral_radius_out_of_range",
+         network,
+         {{"set Spectral radius = 0.8", "set Spectral radius = 1.5 # here"}},
+         {"Time/Generalised-alpha/Spectral radius = '1.5'", "v <= 1"}},
+        {"step_zero", network, {{"= 0.01\n", "= 0 # here\n"}}, {"Time/Step = '0'", "positive"}},
+        {"step_longer_than_the_run",
+         network,
+         {{"set End    = 0.05", "set End = 0.005 # here"}},
+         {"Time/End = '0.005'", "shorter than one step"}},
+        {"too_many_steps",
+         network,
+         {{"= 0.01\n", "= 1e-30 # here\n"}},
+         {"Time/Step = '1e-30'", "too many"}},
+        {"folder_is_a_file",
+         network,
+         {{"= results", "= scene.prm # here"}},
+         {"Output/Folder", "it is a file"}},
+        {"folder_below_a_file",
+         network,
+         {{"= results", "= scene.prm/results # here"}},
+         {"Output/Folder", "cannot make"}},
+        {"folder_where_nobody_writes",
+         network,
+         {{"= results", "= /proc/taut # here"}},
+         {"Output/Folder = '/proc/taut'", "cannot make"}},
+        {"folder_without_name", network, {{"= results", "= # here"}}, {"Output/Folder"}},
+        {"window_of_one_value",
+         network,
+         {{"set Window =", "set Window = 5 # here"}},
+         {"Statistics/Window = '5'", "two numbers"}},
+        {"window_backwards",
+         network,
+         {{"set Window =", "set Window = 5, 2 # here"}},
+         {"Statistics/Window = '5, 2'", "swap"}},
+        {"tolerance_zero",
+         network,
+         {{"subsection Statistics\n",
+           "subsection Solver\nset Contact tolerance = 0 # here\nend\nsubsection Statistics\n"}},
+         {"Solver/Contact tolerance = '0'", "1e-15"}},
+        {"no_bodies",
+         whole,
+         {{"", "set Generator = network\n"}},
+         {"scene.prm", "the scene is empty", "name at least one"}},
+    };
+    return cases;
+  }
+
+  class BadInput : public testing::Test
+  {
+  protected:
+    void SetUp() override
+    {
+      static int count = 0;
+      folder = fs::temp_directory_path() /
+               ("taut_bad_input_" + std::to_string(getpid()) + "_" + std::to_string(++count));
+      fs::create_directories(folder / "results");
+      write("results/used.prm", "earlier");
+      write("results/links.csv", "earlier");
+      before = fs::current_path();
+      fs::current_path(folder);
+    }
+
+    void TearDown() override
+    {
+      fs::current_path(before);
+      std::error_code ignored;
+      fs::remove_all(folder, ignored);
+    }
+
+    void write(const std::string &name, const std::string &text)
+    {
+      std::ofstream(folder / name, std::ios::binary) << text;
+    }
+
+    std::string content(const std::string &name)
+    {
+      std::ifstream in(folder / name);
+      return {std::istreambuf_iterator<char>(in), {}};
+    }
+
+    bool earlier_results_are_whole()
+    {
+      return content("results/used.prm") == "earlier" &&
+             content("results/links.csv") == "earlier" &&
+             std::distance(fs::directory_iterator(folder / "results"), {}) == 2;
+    }
+
+    /// The error of reading and running a file, as the program prints it; empty if there is none.
+    std::string error_of(const std::string &file, const Texts &overrides = {},
+                         bool overwrite = true)
+    {
+      taut::Parameters parameters;
+      std::ostringstream log;
+      try
+      {
+        parameters.read(file, overrides);
+        parameters.output.overwrite = overwrite;
+        taut::Simulation(parameters, log).run();
+      }
+      catch (const taut::EntryError &e)
+      {
+        return parameters.explain(e);
+      }
+      catch (const taut::UserError &e)
+      {
+        return e.what();
+      }
+      return "";
+    }
+
+    fs::path folder, before;
+  };
+
+  /// Line of the mark "# here", and the text without it.
+  int find_mark(std::string &text)
+  {
+    const std::size_t at = text.find(" # here");
+    if (at == std::string::npos)
+      return 0;
+    int line = 1;
+    for (std::size_t i = 0; i < at; ++i)
+      line += text[i] == '\n';
+    text.erase(at, 7);
+    return line;
+  }
+
+  void expect_fragments(const std::string &message, const Texts &fragments)
+  {
+    EXPECT_NE(message, "") << "accepted";
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    for (const std::string &fragment : fragments)
+      EXPECT_NE(message.find(fragment), std::string::npos)
+          << "'" << fragment << "' is missing in: " << message;
+  }
+
+  std::string change(std::string text, const Changes &changes)
+  {
+    for (const auto &[from, to] : changes)
+    {
+      const std::size_t at = text.find(from);
+      EXPECT_NE(at, std::string::npos) << "the scene has no '" << from << "'";
+      if (at != std::string::npos)
+        text.replace(at, from.size(), to);
+    }
+    return text;
+  }
+} // namespace
+
+TEST_F(BadInput, TheScenesBeforeTheChangesRun)
+{
+  for (const char *scene : {network, catenary})
+  {
+    write("scene.prm", scene);
+    EXPECT_EQ(error_of("scene.prm"), "");
+  }
+}
+
+TEST_F(BadInput, EachMistakeIsNamedWithItsPlaceAndRemedy)
+{
+  std::set<std::string> names;
+  for (const Case &c : table())
+  {
+    SCOPED_TRACE(c.name);
+    EXPECT_TRUE(names.insert(c.name).second);
+    write("results/used.prm", "earlier");
+    write("results/links.csv", "earlier");
+    std::string text = change(c.scene, c.changes);
+    const int line = find_mark(text);
+    Texts fragments = c.fragments;
+    if (line > 0)
+      fragments.push_back("scene.prm:" + std::to_string(line) + ":");
+    write("scene.prm", text);
+    const std::string message = error_of("scene.prm");
+    expect_fragments(message, fragments);
+    if (c.in_run)
+    {
+      fs::remove_all(folder / "results");
+      fs::create_directories(folder / "results");
+    }
+    else
+      EXPECT_TRUE(earlier_results_are_whole());
+    if (std::getenv("TAUT_PRINT_MESSAGES"))
+      std::printf("%s\n  %s\n", c.name, message.c_str());
+  }
+  EXPECT_GE(names.size(), 40u);
+}
+
+TEST_F(BadInput, FilesThatCannotBeRead)
+{
+  expect_fragments(error_of("nowhere.prm"), {"cannot read 'nowhere.prm'", "no such file"});
+  expect_fragments(error_of("nowhere.json"), {"cannot read 'nowhere.json'", "no such file"});
+  expect_fragments(error_of("results"), {"cannot read 'results'", "it is a folder"});
+  fs::create_directories("folder.json");
+  expect_fragments(error_of("folder.json"), {"cannot read 'folder.json'", "it is a folder"});
+  write("a.prm", "set Start = given\ninclude b.prm\n");
+  write("b.prm", "# back\ninclude ./a.prm\n");
+  expect_fragments(error_of("a.prm"), {"b.prm:2:", "include itself"});
+  EXPECT_TRUE(earlier_results_are_whole());
+}
+
+TEST_F(BadInput, Json)
+{
+  const std::vector<std::pair<std::string, Texts>> cases = {
+      {"{\"Start\": \"given\",,}", {"scene.json: this is not JSON", "line 1"}},
+      {"", {"scene.json: this is not JSON"}},
+      {"[1, 2]", {"one JSON object"}},
+      {"{\"Time\": {\"Step\": 0.1, \"Step\": 0.2}}", {"'Step' comes twice"}},
+      {"{\"Network\": {\"Wires\": [{\"a\": 1}]}}",
+       {"scene.json: Network/Wires", "a list of these"}},
+      {"{\"Time\": {\"Step\": null}}", {"scene.json: Time/Step"}},
+      {"{\"Time\": {\"Stp\": 0.1}}",
+       {"scene.json", "no entry 'Stp' in 'Time'", "did you mean 'Step'"}},
+      {"{\"Tme\": {\"Step\": 0.1}}", {"scene.json", "no section 'Tme'", "did you mean 'Time'"}},
+      {"{\"Time\": {\"Step\": -0.1}}", {"scene.json: Time/Step = '-0.1'", "0 <= v"}},
+      {"{\"Time\": {\"Step\": 1e999}}", {"scene.json: this is not JSON"}},
+      {"{\"Time\": {\"Step\": \"0.1\\u0000\"}}", {"scene.json: Time/Step", "not text"}},
+      {"{\"Time\": {\"Scheme\": \"BDF2\\\\\"}}", {"scene.json: Time/Scheme", "continues a line"}},
+      {"{\"\": 1}", {"scene.json", "empty"}},
+      {"{\"Time\": 3}", {"scene.json", "no entry 'Time'"}},
+      {std::string(100000, '['), {"scene.json", "in each other", "bracket"}},
+  };
+  for (const auto &[text, fragments] : cases)
+  {
+    SCOPED_TRACE(text.substr(0, 80));
+    write("scene.json", text);
+    expect_fragments(error_of("scene.json"), fragments);
+    EXPECT_TRUE(earlier_results_are_whole());
+  }
+}
+
+TEST_F(BadInput, ChangesOnTheCommandLine)
+{
+  write("scene.prm", network);
+  const std::vector<std::pair<std::string, Texts>> cases = {
+      {"Time.Step", {"--set 'Time.Step'", "Section.Entry=value"}},
+      {"=3", {"--set", "Section.Entry=value"}},
+      {"Time.Stp=3", {"--set", "no entry 'Stp'", "did you mean 'Step'"}},
+      {"Time.Step=fast", {"--set: Time/Step = 'fast'", "not allowed"}},
+      {"Time..Step=1", {"--set", "empty"}},
+      {"Time.Step=1\\", {"--set: Time/Step", "continues a line"}},
+      {"Time.Step=1 # 2", {"--set", "no '#'"}},
+  };
+  for (const auto &[assignment, fragments] : cases)
+  {
+    SCOPED_TRACE(assignment);
+    expect_fragments(error_of("scene.prm", {assignment}), fragments);
+    EXPECT_TRUE(earlier_results_are_whole());
+  }
+}
+
+TEST_F(BadInput, ResultsOfAnEarlierRunStayWithoutOverwrite)
+{
+  write("scene.prm", network);
+  expect_fragments(error_of("scene.prm", {}, false),
+                   {"scene.prm:", "Output/Folder = 'results'", "--overwrite"});
+  EXPECT_TRUE(earlier_results_are_whole());
+
+  // A table of somebody else's without a run beside it is as much worth.
+  fs::remove("results/used.prm");
+  expect_fragments(error_of("scene.prm", {}, false), {"Output/Folder = 'results'", "--overwrite"});
+  EXPECT_EQ(content("results/links.csv"), "earlier");
+
+  // Files that no run writes are left alone.
+  fs::remove("results/links.csv");
+  write("results/notes.txt", "mine");
+  EXPECT_EQ(error_of("scene.prm", {}, false), "");
+  EXPECT_EQ(content("results/notes.txt"), "mine");
+}
+
+TEST_F(BadInput, ARunThatFailsKeepsWhatItHad)
+{
+  write("scene.prm", change(network, {{"= 10*t", "= sqrt(0.025-t)"}}));
+  EXPECT_NE(error_of("scene.prm"), "");
+  std::istringstream lines(content("results/certificate.csv"));
+  int n = 0;
+  for (std::string line; std::getline(lines, line);)
+    ++n;
+  EXPECT_EQ(n, 4) << "head, start and two steps";
+  EXPECT_FALSE(fs::exists("results/statistics.json"));
+}
