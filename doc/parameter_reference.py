@@ -65,7 +65,8 @@ subsection Output
 end
 """
 
-GROUPS = {"Time": "Time and integration", "Solver": "Solvers", "Output": "Output", "Statistics": "Statistics",
+GROUPS = {"Time": "Time and integration", "Partition": "Cutting into substructures", "Solver": "Solvers",
+          "Output": "Output", "Statistics": "Statistics",
           "Catenary": "Generator `catenary`", "Network": "Generator `network`"}
 
 
@@ -143,10 +144,11 @@ brackets; a formula knows `pi`, `t` [s] and, on a wire, `s` [m].
 out = HEAD.splitlines() + [""]
 out += table(sections[()])
 group = None
-for path in sorted((p for p in sections if p), key=lambda p: list(GROUPS).index(p[0])):
+order = [*GROUPS, *(path[0] for path in sections if path and path[0] not in GROUPS)]
+for path in sorted((p for p in sections if p), key=lambda p: order.index(p[0])):
     if path[0] != group:
         group = path[0]
-        out += ["", f"## {GROUPS[group]}"]
+        out += ["", f"## {GROUPS.get(group, group)}"]
     out += ["", f"### {' / '.join(path)}".replace("<", "\\<").replace(">", "\\>"), ""] + table(sections[path])
 text = "\n".join(out) + "\n"
 
