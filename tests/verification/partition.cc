@@ -40,10 +40,10 @@ namespace
     return result;
   }
 
-  /// Largest difference over the largest value.
-  double difference(const std::vector<double> &a, const std::vector<double> &b)
+  /// Largest difference over the largest value, or over @p size if that is larger.
+  double difference(const std::vector<double> &a, const std::vector<double> &b, double size = 0.)
   {
-    double error = a.size() == b.size() ? 0. : INFINITY, size = 0.;
+    double error = a.size() == b.size() ? 0. : INFINITY;
     for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
     {
       error = std::max(error, std::fabs(a[i] - b[i]));
@@ -57,17 +57,22 @@ namespace
                    const double force_tolerance = 1e-7)
   {
     const Record uncut = record(scene, overrides, "");
+    // A link that never opens has gaps of nothing but rounding: the motion of the bodies counts
+    // too.
+    double way = 0.;
+    for (const double u : uncut.probe)
+      way = std::max(way, std::fabs(u));
     for (const std::string &partition : partitions)
     {
       SCOPED_TRACE(scene + ", " + partition);
       const Record cut = record(scene, overrides, partition);
       EXPECT_GT(cut.n_cut_rows, 0u);
       EXPECT_LT(difference(uncut.force, cut.force), force_tolerance);
-      EXPECT_LT(difference(uncut.gap, cut.gap), gap_tolerance);
+      EXPECT_LT(difference(uncut.gap, cut.gap, way), gap_tolerance);
       EXPECT_LT(difference(uncut.probe, cut.probe), gap_tolerance);
       EXPECT_EQ(uncut.closed, cut.closed);
       figure(scene + ", " + partition + ", force", difference(uncut.force, cut.force));
-      figure(scene + ", " + partition + ", gap", difference(uncut.gap, cut.gap));
+      figure(scene + ", " + partition + ", gap", difference(uncut.gap, cut.gap, way));
     }
   }
 
@@ -94,7 +99,7 @@ TEST(Partition, every_wire_scene_is_the_same_in_three_parts)
 {
   for (const char *scene : {"beam_over_supports", "bar_on_wall", "string_on_stop",
                             "beam_angular_stop", "inclined_cable"})
-    expect_same(scene, {"Time/End=0.8"}, {parts(3)});
+    expect_same(scene, {"Time/End=1.2"}, {parts(3)});
 }
 
 // Claim: the mesh does not change with the cuts, and cuts can be given by hand. Expected: two cuts
@@ -129,11 +134,14 @@ TEST(Partition, metis_balances_the_parts_and_spares_the_droppers)
       const std::size_t end = p + 1 < pieces.size() ? pieces[p + 1].first : nodes.size();
       size[pieces[p].part] += end - pieces[p].first;
       all += end - pieces[p].first;
-      if (p > 0)
-        for (const taut::Link &link : scene.links)
-          for (const taut::Attachment *at : {&link.from, &link.to})
-            if (!link.moving() && at->kind == taut::Attachment::Kind::wire && at->index == w)
-              EXPECT_GT(std::fabs(at->position - nodes[pieces[p].first]), 1e-9) << link.name;
+      if (p == 0)
+        continue;
+      for (const taut::Link &link : scene.links)
+        for (const taut::Attachment *at : {&link.from, &link.to})
+        {
+          if (!link.moving() && at->kind == taut::Attachment::Kind::wire && at->index == w)
+            EXPECT_GT(std::fabs(at->position - nodes[pieces[p].first]), 1e-9) << link.name;
+        }
     }
   }
   EXPECT_LT(*std::max_element(size.begin(), size.end()), 1.3 * all / 16.);
