@@ -140,7 +140,9 @@ TEST(Partition, metis_balances_the_parts_and_spares_the_droppers)
         for (const taut::Attachment *at : {&link.from, &link.to})
         {
           if (!link.moving() && at->kind == taut::Attachment::Kind::wire && at->index == w)
+          {
             EXPECT_GT(std::fabs(at->position - nodes[pieces[p].first]), 1e-9) << link.name;
+          }
         }
     }
   }
