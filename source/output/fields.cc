@@ -33,8 +33,16 @@ namespace taut
         dealii::DataOutBase::VtkFlags flags;
         flags.compression_level = dealii::DataOutBase::VtkFlags::best_speed;
         this->set_flags(flags);
-        if (!patches.empty())
-          this->write_vtu(file);
+        try
+        {
+          if (!patches.empty())
+            this->write_vtu(file);
+        }
+        catch (const dealii::ExceptionBase &)
+        {
+          // deal.II throws as soon as the file fails; what the user can do is said below.
+          file.setstate(std::ios::failbit);
+        }
         file.close();
         if (!file)
           throw UserError("cannot write '" + path + "': the disk may be full");
@@ -188,7 +196,14 @@ namespace taut
                                 const std::vector<std::pair<double, std::string>> &files) const
   {
     std::ofstream file(folder + "/" + name);
-    dealii::DataOutBase::write_pvd_record(file, files);
+    try
+    {
+      dealii::DataOutBase::write_pvd_record(file, files);
+    }
+    catch (const dealii::ExceptionBase &)
+    {
+      file.setstate(std::ios::failbit);
+    }
     file.close();
     if (!file)
       throw UserError("cannot write '" + folder + "/" + name + "': the disk may be full");

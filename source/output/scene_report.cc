@@ -140,9 +140,8 @@ namespace taut
       masses.print("Masses", out);
 
       Table springs({"name", "from", "to", "direction", "N/m", "N s/m"});
-      const auto end = [&](const std::size_t i) {
-        return i == ground ? std::string("ground") : scene.masses[i].name;
-      };
+      const auto end = [&](const std::size_t i)
+      { return i == ground ? std::string("ground") : scene.masses[i].name; };
       for (const Spring &s : scene.springs)
         springs.add(s.name, end(s.from), end(s.to), direction(s.rotational, s.direction),
                     s.stiffness, s.damping);
@@ -186,7 +185,8 @@ namespace taut
   void write_sketch(const Scene &scene, const std::string &path)
   {
     double left = 1e300, right = -1e300, bottom = 1e300, top = -1e300;
-    const auto include = [&](const Point &p) {
+    const auto include = [&](const Point &p)
+    {
       left = std::min(left, p.x);
       right = std::max(right, p.x);
       bottom = std::min(bottom, p.y);
@@ -202,27 +202,29 @@ namespace taut
     constexpr double width = 1000., margin = 40., least_height = 120.;
     const double span = std::max({right - left, top - bottom, 1e-12});
     const double sx = width / std::max(right - left, .1 * span);
-    const double sy =
-        top > bottom ? std::max(sx, least_height / (top - bottom)) : sx;
+    const double sy = top > bottom ? std::max(sx, least_height / (top - bottom)) : sx;
     const double height = std::max((top - bottom) * std::min(sy, 1e3 * sx), least_height);
     const auto X = [&](const Point &p) { return margin + (p.x - left) * sx; };
-    const auto Y = [&](const Point &p) {
-      return margin + .5 * height - (p.y - .5 * (bottom + top)) * sy;
-    };
+    const auto Y = [&](const Point &p)
+    { return margin + .5 * height - (p.y - .5 * (bottom + top)) * sy; };
 
     std::ofstream out(path);
     out << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << width + 2. * margin
-        << "\" height=\"" << height + 2. * margin << "\" font-family=\"sans-serif\" font-size=\"11\">\n"
+        << "\" height=\"" << height + 2. * margin
+        << "\" font-family=\"sans-serif\" font-size=\"11\">\n"
         << "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
-    const auto line = [&](const Point &p, const Point &q, const std::string &style) {
+    const auto line = [&](const Point &p, const Point &q, const std::string &style)
+    {
       out << "<line x1=\"" << X(p) << "\" y1=\"" << Y(p) << "\" x2=\"" << X(q) << "\" y2=\"" << Y(q)
           << "\" " << style << "/>\n";
     };
-    const auto dot = [&](const Point &p, const double radius, const std::string &style) {
+    const auto dot = [&](const Point &p, const double radius, const std::string &style)
+    {
       out << "<circle cx=\"" << X(p) << "\" cy=\"" << Y(p) << "\" r=\"" << radius << "\" " << style
           << "/>\n";
     };
-    const auto label = [&](const Point &p, const std::string &name) {
+    const auto label = [&](const Point &p, const std::string &name)
+    {
       std::string safe;
       for (const char c : name)
         safe += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
@@ -249,11 +251,13 @@ namespace taut
       dot(mass.position, 5., "fill=\"#393\"");
       label(mass.position, mass.name);
     }
-    out << "<text x=\"8\" y=\"14\">black: wires, blue: supports, green: masses, red: links (hollow: "
+    out << "<text x=\"8\" y=\"14\">black: wires, blue: supports, green: masses, red: links "
+           "(hollow: "
            "one-sided); heights x "
         << sy / sx << "</text>\n</svg>\n";
     out.close();
     if (!out)
-      throw UserError("cannot write the sketch '" + path + "': check the folder");
+      throw UserError("cannot write the sketch '" + path +
+                      "': check that its folder is writable and the disk not full");
   }
 } // namespace taut

@@ -221,6 +221,29 @@ namespace
       return out.str();
     }
 
+    /// One number of a text changed: by a factor, or to anything.
+    std::string scaled(const std::string &text)
+    {
+      static const std::regex pattern("[-+]?[0-9.]+([eE][-+]?[0-9]+)?");
+      std::vector<std::pair<std::size_t, std::size_t>> found;
+      for (std::sregex_iterator m(text.begin(), text.end(), pattern), end; m != end; ++m)
+        found.emplace_back(m->position(), m->length());
+      if (found.empty())
+        return text;
+      const auto at = found[below(found.size())];
+      std::string fresh = number();
+      if (below(4) > 0)
+      {
+        static const double factors[] = {-1.,  .1,  .5,   .9,   1.1,   2.,   10.,   1e3,
+                                         1e-3, 1e6, 1e-6, 1e12, 1e-12, 1e50, 1e-50, 0.};
+        const double before = std::strtod(text.c_str() + at.first, nullptr);
+        std::ostringstream out;
+        out << factors[below(16)] * (before == 0. ? 1. : before);
+        fresh = out.str();
+      }
+      return text.substr(0, at.first) + fresh + text.substr(at.first + at.second);
+    }
+
     std::string word(const Lines &lines)
     {
       static const Lines words = {"joint",
@@ -293,7 +316,7 @@ namespace
       const std::size_t i = some_entry(lines);
       const bool usable = is_entry(lines[i]);
       const std::string name = usable ? key(lines[i]) : "", text = usable ? value(lines[i]) : "";
-      switch (below(16))
+      switch (below(30))
       {
       case 0: // swap two values
       {
@@ -319,29 +342,6 @@ namespace
         if (usable)
           lines[i] = entry(name, number());
         break;
-      case 4:
-      case 5:
-      case 6: // one number of a value, anywhere or of its own size
-      {
-        static const std::regex pattern("[-+]?[0-9.]+([eE][-+]?[0-9]+)?");
-        std::vector<std::pair<std::size_t, std::size_t>> found;
-        for (std::sregex_iterator m(text.begin(), text.end(), pattern), end; m != end; ++m)
-          found.emplace_back(m->position(), m->length());
-        if (!usable || found.empty())
-          break;
-        const auto at = found[below(found.size())];
-        std::string fresh = number();
-        if (below(2) == 0)
-        {
-          static const double factors[] = {-1., .1, .5, .9, 1.1, 2., 10., 1e3, 1e-3, 1e6, 1e-6, 0.};
-          std::ostringstream out;
-          out << factors[below(12)] * std::strtod(text.c_str() + at.first, nullptr);
-          fresh = out.str();
-        }
-        lines[i] =
-            entry(name, text.substr(0, at.first) + fresh + text.substr(at.first + at.second));
-        break;
-      }
       case 7:
       case 8: // another word
         if (usable)
@@ -357,11 +357,11 @@ namespace
         if (known == dictionary.end())
           break;
         const std::string line = pick(known->second);
-        const std::size_t use = below(4);
+        const std::size_t use = below(6);
         const std::string fresh = entry(key(line), use == 0   ? value(line)
                                                    : use == 1 ? number()
                                                    : use == 2 ? word(lines)
-                                                              : value(pick(known->second)));
+                                                              : scaled(value(line)));
         // In the place of the entry if it is there.
         for (std::size_t k = 0; k < lines.size(); ++k)
           if (is_entry(lines[k]) && titles[k] == titles[i] && key(lines[k]) == key(line))
@@ -393,7 +393,7 @@ namespace
           lines[i] = entry(name, fresh);
         }
         break;
-      default: // the end of another file
+      case 15: // the end of another file
         if (below(4) == 0)
         {
           const Lines &other = corpus[below(corpus.size())];
@@ -402,6 +402,10 @@ namespace
         }
         else if (usable)
           lines[i] = entry(name, "");
+        break;
+      default: // one number of a value, most often of its own size
+        if (usable)
+          lines[i] = entry(name, scaled(text));
       }
     }
 
