@@ -1,9 +1,9 @@
 #!/usr/bin/env pvpython
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Shows the motion of a results folder of taut in ParaView: wires warped by their displacement, links as points coloured
-by force.
+"""Shows the motion of a results folder of taut in ParaView: wires warped by their displacement, links as points
+coloured by force.
 
-  paraview --script=show_in_paraview.py                      in a results folder
+  paraview --script=<path>/show_in_paraview.py               in a results folder, opens ParaView
   pvpython show_in_paraview.py RESULTS                       opens a window and plays the run
   pvpython show_in_paraview.py RESULTS --picture FILE.png    draws the last time, or the one given by --time
 
@@ -23,7 +23,7 @@ parser.add_argument("--height", type=float, help="exaggeration of heights (as mu
 parser.add_argument("--point-size", type=float, default=8., help="of a link, in pixels (8)")
 parser.add_argument("--time", type=float, help="time to show [s]")
 parser.add_argument("--picture", metavar="FILE.png", help="draw one time into a file, without a window")
-arguments = parser.parse_args()
+arguments, _ = parser.parse_known_args(getattr(sys, "argv", [""])[1:])  # ParaView's own shell may hand over its own
 
 
 def warped(name):
@@ -44,7 +44,8 @@ def higher(source, factor):
 
 wires, links = warped("wires.pvd"), warped("links.pvd")
 if not wires and not links:
-    sys.exit(f"show_in_paraview.py: no wires.pvd or links.pvd in '{arguments.results}'; run with Output/Field interval > 0")
+    sys.exit(f"show_in_paraview.py: no wires.pvd or links.pvd in '{arguments.results}'; "
+             "run with Output/Field interval > 0")
 
 view = pv.GetActiveViewOrCreate("RenderView")
 view.ViewSize = [1600, 600]
