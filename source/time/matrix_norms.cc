@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
 #include <taut/time/matrix_norms.h>
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace taut
 {
@@ -59,6 +61,21 @@ namespace taut
         largest = a > largest || a != a ? a : largest;
       }
     return result;
+  }
+
+  void check_size(const Substructure &body, const PerKind &force, const PerKind &displacement,
+                  const PerKind &velocity, const std::string &when)
+  {
+    for (int kind = 0; kind < 2; ++kind)
+      if (!(force[kind] <= largest_number && displacement[kind] <= largest_number &&
+            velocity[kind] <= largest_number))
+      {
+        std::ostringstream out;
+        out << when << "body '" << body.name() << "' has numbers beyond " << largest_number
+            << ": force " << force[kind] << ", displacement " << displacement[kind] << ", velocity "
+            << velocity[kind] << ". Check loads, stiffnesses and masses for extreme values.";
+        throw EntryError(body.origin(), out.str());
+      }
   }
 
   KindNorm::KindNorm(const Substructure &body, const SymmetricMatrix &matrix)

@@ -75,9 +75,10 @@ namespace taut
       for (std::size_t k = 0; k < structure.size(); ++k)
       {
         const Substructure &body = structure[k];
-        const PerKind force = largest(body, r[k]);
-        const PerKind stiffness =
-            KindNorm(body, body.stiffness()).times(largest(body, state.displacement[k]));
+        const PerKind force = largest(body, r[k]),
+                      displacement = largest(body, state.displacement[k]);
+        check_size(body, force, displacement, {0., 0.}, "static equilibrium: ");
+        const PerKind stiffness = KindNorm(body, body.stiffness()).times(displacement);
         body.stiffness().vmult_add(-1., state.displacement[k].data(), r[k].data());
         for (const ConstrainedDof &constraint : body.constraints())
           r[k][constraint.dof] = 0.;

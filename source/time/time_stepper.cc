@@ -274,8 +274,18 @@ namespace taut
       for (double &d : increments)
         d *= c.mass_factor();
       const PerKind error = largest(body, work), inertia = norms[k][0].times(increments),
-                    damping = norms[k][1].times(largest(body, current.V[k])),
-                    stiffness = norms[k][2].times(largest(body, current.U[k]));
+                    velocity = largest(body, current.V[k]),
+                    displacement = largest(body, current.U[k]),
+                    damping = norms[k][1].times(velocity),
+                    stiffness = norms[k][2].times(displacement);
+      for (int kind = 0; kind < 2; ++kind)
+        if (!(std::max({force[kind], velocity[kind], displacement[kind]}) <= largest_number) ||
+            std::isnan(velocity[kind]) || std::isnan(displacement[kind]))
+        {
+          std::ostringstream when;
+          when << "at t = " << current.time << " s: ";
+          check_size(body, force, displacement, velocity, when.str());
+        }
       for (int kind = 0; kind < 2; ++kind)
       {
         const double size = force[kind] + inertia[kind] + damping[kind] + stiffness[kind];

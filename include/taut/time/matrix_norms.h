@@ -5,6 +5,7 @@
 #include <taut/substructure/substructure.h>
 
 #include <array>
+#include <string>
 #include <vector>
 
 namespace taut
@@ -14,6 +15,15 @@ namespace taut
 
   /// Largest absolute entries of a vector of a substructure.
   PerKind largest(const Substructure &body, const std::vector<double> &x);
+
+  /// Motions and forces beyond this are no result of a sensible scene; sums and squares of those
+  /// below it are finite.
+  constexpr double largest_number = 1e100;
+
+  /// Throws an EntryError on the section of the body if one of the largest entries is beyond
+  /// largest_number. @p when begins the message.
+  void check_size(const Substructure &body, const PerKind &force, const PerKind &displacement,
+                  const PerKind &velocity, const std::string &when);
 
   /**
    * Largest absolute row sums of a matrix by kind of row and column, free DoFs only: bounds |A| |x|
