@@ -39,6 +39,7 @@ def higher(source, factor):
     scaled = pv.Transform(Input=source)
     scaled.TransformAllInputVectors = 0
     scaled.Transform.Scale = [1, 1, factor]
+    pv.Hide3DWidgets(proxy=scaled.Transform)
     return scaled
 
 
