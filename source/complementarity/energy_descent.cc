@@ -178,7 +178,7 @@ namespace taut
     {
       const double change = length * direction[i];
       multipliers[i] += change;
-      is_motion |= matrix->diagonal(i) * std::abs(change) > options.dead_band * terms[i];
+      is_motion |= matrix->diagonal(i) * std::abs(change) > options.linear_tolerance * terms[i];
     }
     if (is_motion)
       std::fill(blocked.begin(), blocked.end(), 0);

@@ -548,6 +548,30 @@ namespace
       }
   }
 
+  TEST(complementarity, a_touching_row_may_be_what_holds_a_body)
+  {
+    // Made from N = (0, -3, 0, 0, -5, 0), D = (0, 0, 2, 3, 0, 5), alpha = (1, 3, 0). Without row 0,
+    // which touches, one motion is free: the method of multipliers alone comes to rest some 1e-7 N
+    // from the answer.
+    for (const std::string &method : both_methods)
+    {
+      DenseOperator F = dense({{19., 6., 14., 2., -15., -11.},
+                               {6., 10., 7., -2., -12., 0.},
+                               {14., 7., 14., -1., -12., -4.},
+                               {2., -2., -1., 2., 0., -4.},
+                               {-15., -12., -12., 0., 19., 7.},
+                               {-11., 0., -4., -4., 7., 11.}});
+      auto touching = problem({1, 0, 1, 1, 0, 1}, {-50., -26., -35., -7., 62., 36.});
+      touching.kernel = {-1., -1., -2., -2., 0., -2., -2., -1., 0.,
+                         2.,  -1., 2.,  -2., 1., -1., -1., -2., 0.};
+      touching.kernel_load = {-3., -8., -7.};
+      ComplementaritySolver solver(method);
+      const auto &result = solver.solve(touching, F);
+      expect_near(result.solution.multiplier, {0., -3., 0., 0., -5., 0.}, 1e-11);
+      expect_near(result.solution.gap, {0., 0., 2., 3., 0., 5.}, 1e-9);
+    }
+  }
+
   TEST(complementarity, contradictory_rows_of_a_floating_body_are_named)
   {
     // A mass tied to two places at once; the third row is its neighbour's.
