@@ -18,6 +18,7 @@ namespace taut
     void fail(const Item &item, const std::string &entry, const Parts &...parts)
     {
       std::ostringstream out;
+      out.precision(12); // a position that is outside by little has to look so
       (out << ... << parts);
       throw EntryError(item.origin.empty() || entry.empty() ? item.origin
                                                             : item.origin + "/" + entry,

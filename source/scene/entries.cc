@@ -75,9 +75,18 @@ namespace taut
   {
     if (trim(text) == "rigid")
       return std::numeric_limits<double>::infinity();
-    const double value = parse_number(trim(text), entry);
+    const std::string allowed = "a stiffness is a positive number or 'rigid'";
+    double value = 0.;
+    try
+    {
+      value = parse_number(trim(text), entry);
+    }
+    catch (const EntryError &e)
+    {
+      throw EntryError(entry, e.message() + "; " + allowed);
+    }
     if (!(value > 0.))
-      throw EntryError(entry, "a stiffness is positive, or 'rigid'; got '" + text + "'");
+      throw EntryError(entry, allowed + "; got '" + text + "'");
     return value;
   }
 

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cctype>
 #include <cmath>
 #include <sstream>
 
@@ -47,6 +48,45 @@ namespace taut
       return names;
     }
 
+    /// "Or add 'a' to 'Wires'." for the section 'Wire a' of an item that the list of names lacks.
+    std::string list_of(const std::string &section, const nlohmann::json &node)
+    {
+      const std::size_t space = section.rfind(' ');
+      if (space == std::string::npos)
+        return "";
+      // The help of a list says which sections its names have.
+      for (const auto &[list, entry] : node.items())
+        if (entry.contains("documentation"))
+        {
+          const std::string help = entry["documentation"].get<std::string>();
+          for (std::size_t at = section.find(' '); at != std::string::npos;
+               at = section.find(' ', at + 1))
+            if (help.find("'" + section.substr(0, at) + " <name>'") != std::string::npos)
+              return " Or add '" + section.substr(at + 1) + "' to the names in '" + list + "'.";
+        }
+      return "";
+    }
+
+    /// deal.II's description of a pattern, as the middle of a sentence and without its largest
+    /// numbers.
+    std::string expectation(const PatternBase &pattern)
+    {
+      std::string text = pattern.description(PatternBase::Text);
+      const auto replace = [&](const std::string &from, const std::string &to)
+      {
+        for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from))
+          text.replace(at, from.size(), to);
+      };
+      replace(" v such that -MAX_DOUBLE <= v <= MAX_DOUBLE", "");
+      replace(" <= MAX_DOUBLE", "");
+      replace("1 to 4294967295 elements", "one or more elements");
+      replace("0 to 4294967295 elements", "any number of elements");
+      replace("A floating", "a floating");
+      if (!text.empty())
+        text[0] = std::tolower(static_cast<unsigned char>(text[0]));
+      return text;
+    }
+
     /// The node of a path, or an error about the first section that does not exist.
     const nlohmann::json &find_section(const nlohmann::json &root,
                                        const ParameterFile::Entry &entry,
@@ -59,7 +99,7 @@ namespace taut
         if (!node->contains(name) || (*node)[name].contains("pattern_description"))
           throw UserError(entry.place + ": there is no section '" + name + "'" +
                           (i > 0 ? " in '" + entry.path[i - 1] + "'" : "") +
-                          suggestion(name, names_in(*node, true)));
+                          suggestion(name, names_in(*node, true)) + list_of(name, *node));
         node = &(*node)[name];
       }
       return *node;
@@ -198,7 +238,7 @@ namespace taut
         const std::string near = nearest_name(
             entry.value, selection_of(node[name]["pattern_description"].get<std::string>()));
         throw UserError(entry.place + ": " + entry.name() + " = '" + entry.value +
-                        "' is not allowed; expected " + pattern->description(PatternBase::Text) +
+                        "' is not allowed; expected " + expectation(*pattern) +
                         (near.empty() ? "" : "; did you mean '" + near + "'?"));
       }
     }
@@ -249,7 +289,9 @@ namespace taut
         throw EntryError("Time/Step", "it must be positive");
       constexpr double most_steps = 1e10;
       if (end_time > 0. && end_time / step > most_steps)
-        throw EntryError("Time/Step", "Time/End takes too many such steps");
+        throw EntryError(
+            "Time/Step",
+            "Time/End takes more than 1e10 such steps; take a larger step or an earlier end");
       if (end_time > 0. && end_time < step * (1. - 1e-9))
         throw EntryError("Time/End", "it is shorter than one step; take a smaller Time/Step");
       check_pair(statistics.window, "Statistics/Window");
