@@ -28,6 +28,14 @@ namespace taut
                                             "Uplift"};
   }
 
+  namespace
+  {
+    bool is_inside(const double value, const std::vector<double> &range)
+    {
+      return value >= range[0] && value <= range[1];
+    }
+  } // namespace
+
   void StatisticsParameters::declare_parameters(dealii::ParameterHandler &prm)
   {
     using namespace dealii::Patterns;
@@ -82,7 +90,10 @@ namespace taut
     }
     link_figures.resize(link_names.size());
     for (const Probe &probe : scene.probes)
+    {
       probe_names.push_back(probe.name);
+      probe_rotates.push_back(probe.rotational);
+    }
     uplift.assign(probe_names.size(), 0.);
     lowering.assign(probe_names.size(), 0.);
   }
@@ -173,6 +184,14 @@ namespace taut
             {"Contact loss", "%", 100. * f.loss}};
   }
 
+  const std::vector<double> *Statistics::uplift_range(const std::size_t probe) const
+  {
+    const auto range = parameters.expected.find("Uplift");
+    return range != parameters.expected.end() && range->second.size() == 2 && !probe_rotates[probe]
+               ? &range->second
+               : nullptr;
+  }
+
   void Statistics::print(std::ostream &out) const
   {
     const auto flags = out.flags();
@@ -187,7 +206,7 @@ namespace taut
       {
         const auto &r = range->second;
         out << "   expected " << r[0] << " to " << r[1]
-            << (value >= r[0] && value <= r[1] ? "   inside" : "   OUTSIDE");
+            << (is_inside(value, r) ? "   inside" : "   OUTSIDE");
       }
       out << '\n';
     };
@@ -222,14 +241,17 @@ namespace taut
       }
     }
     if (!uplift.empty())
+      out << "Displacement of the probes along their directions: largest, smallest\n";
+    for (std::size_t i = 0; i < uplift.size(); ++i)
     {
-      out << "Largest displacement of the probes\n";
-      for (std::size_t i = 0; i < uplift.size(); ++i)
-        out << "  " << std::left << std::setw(36) << probe_names[i] << std::right << std::setw(10)
-            << 1e3 * uplift[i] << " mm up, " << 1e3 * std::fabs(lowering[i]) << " mm down\n";
-      const auto range = parameters.expected.find("Uplift");
-      if (range != parameters.expected.end() && range->second.size() == 2)
-        out << "  expected uplift " << range->second[0] << " to " << range->second[1] << " mm\n";
+      out << "  " << std::left << std::setw(36) << probe_names[i] << std::right << std::setw(10)
+          << 1e3 * uplift[i] << std::setw(10) << 1e3 * lowering[i]
+          << (probe_rotates[i] ? " mrad" : " mm  ");
+      const std::vector<double> *range = uplift_range(i);
+      if (range)
+        out << "       expected " << (*range)[0] << " to " << (*range)[1]
+            << (is_inside(1e3 * uplift[i], *range) ? "   inside" : "   OUTSIDE");
+      out << '\n';
     }
     std::size_t n_opened = 0;
     double longest = 0.;
@@ -294,16 +316,20 @@ namespace taut
       {
         const auto range = parameters.expected.find(figure.name);
         if (range != parameters.expected.end() && range->second.size() == 2)
-          entry["expected"][figure.name] = {
-              {"range", range->second},
-              {"value", figure.value},
-              {"inside", figure.value >= range->second[0] && figure.value <= range->second[1]}};
+          entry["expected"][figure.name] = {{"range", range->second},
+                                            {"value", figure.value},
+                                            {"inside", is_inside(figure.value, range->second)}};
       }
     }
     root["probes"] = json::object();
     for (std::size_t i = 0; i < uplift.size(); ++i)
+    {
       root["probes"][probe_names[i]] = {{"largest [m, rad]", uplift[i]},
                                         {"smallest [m, rad]", lowering[i]}};
+      if (const std::vector<double> *range = uplift_range(i))
+        root["probes"][probe_names[i]]["expected"] = {
+            {"range [mm]", *range}, {"inside", is_inside(1e3 * uplift[i], *range)}};
+    }
     root["links"] = json::object();
     for (std::size_t i = 0; i < link_figures.size(); ++i)
       root["links"][link_names[i]] = {{"open time [s]", link_figures[i].open_time},

@@ -86,7 +86,8 @@ namespace taut
     prm.add_parameter("Wire", wire, "Name of the wire");
     prm.add_parameter("Positions", positions,
                       "Where on the wire: numbers and ranges first:step:last [m]");
-    prm.add_parameter("Motion", motion, "Which motion of the wire is supported",
+    prm.add_parameter("Motion", motion,
+                      "Which motion of the wire is supported: 'transverse', 'axial' or 'slope'",
                       Selection("transverse|axial|slope"));
     prm.add_parameter("Type", kind,
                       "'fixed': displacement prescribed; 'elastic': spring and damper",

@@ -5,6 +5,7 @@
 #include <taut/output/scene_report.h>
 #include <taut/output/series.h>
 #include <taut/partition/make_partition.h>
+#include <taut/scene/entries.h>
 #include <taut/simulation/simulation.h>
 #include <taut/time/choose_scheme.h>
 #include <taut/time/form_finding.h>
@@ -318,17 +319,15 @@ namespace taut
     if (links.size() == 0)
       return;
     CsvFile file(parameters.output.folder + "/start.csv",
-                 {"link", "x [m]", "force [N, N m]", "gap [m, rad]", "length [m]"});
+                 {"link", "x [m]", "y [m]", "force [N, N m]", "gap [m, rad]", "length [m]"});
     for (std::size_t i = 0; i < links.size(); ++i)
     {
       if (links[i].is_cut())
         continue;
       const Link &link = model.links[links[i].link];
       const Attachment &end = link.to.kind == Attachment::Kind::ground ? link.from : link.to;
-      const double x = end.kind == Attachment::Kind::wire
-                           ? model.wires[end.index].at(end.position).x
-                           : model.masses[end.index].position.x;
-      file << links[i].name << x << start.multiplier[i] << start.geometric_gap[i]
+      const Point at = place(model, end);
+      file << links[i].name << at.x << at.y << start.multiplier[i] << start.geometric_gap[i]
            << (link.length > 0. ? link.length : 0.);
       file.end_line();
     }

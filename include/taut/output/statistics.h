@@ -86,6 +86,9 @@ namespace taut
 
     ContactFigures figures(const Contact &contact) const;
 
+    /// Expected range of the largest displacement of a probe [mm]; none for a rotation.
+    const std::vector<double> *uplift_range(std::size_t probe) const;
+
     /// Rows of the table: figure, unit, value.
     struct Figure
     {
@@ -99,7 +102,8 @@ namespace taut
     std::vector<std::string> link_names, probe_names;
     std::vector<char> link_unilateral;
     std::vector<LinkFigures> link_figures;
-    std::vector<double> uplift, lowering;
+    std::vector<char> probe_rotates;
+    std::vector<double> uplift, lowering; ///< of the probes, from rest
     std::vector<double> times;
     Certificate worst;
     double worst_complementarity_time = 0., worst_balance_time = 0.;

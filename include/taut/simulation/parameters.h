@@ -23,7 +23,7 @@ namespace taut
   struct OutputParameters
   {
     std::string folder = "results";
-    double interval = 0., link_interval = 0.01, field_interval = 0.05;
+    double interval = 0., link_interval = 0.01, field_interval = 0.1;
     unsigned int subdivisions = 1;
     bool overwrite = false; ///< from the command line, not from the file
 
