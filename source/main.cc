@@ -76,8 +76,8 @@ int main(int argc, char **argv)
       "set,s", po::value<std::vector<std::string>>()->composing(),
       "change an entry of the file: Section.Entry=value (or Section/Entry=value); may be repeated")(
       "overwrite", "replace the results of an earlier run in the same folder")(
-      "version", "print the version")("help,h", "print this text")(
-      "file", po::value<std::string>(), "parameter file, .prm or .json");
+      "version", "print the version")("help,h", "print this text")("file", po::value<std::string>(),
+                                                                   "parameter file, .prm or .json");
   po::positional_options_description positional;
   positional.add("file", 1);
   try
@@ -110,11 +110,13 @@ int main(int argc, char **argv)
   }
   catch (const std::bad_alloc &)
   {
-    std::cerr << "taut: the scene needs more memory than there is; take larger elements or fewer links\n";
+    std::cerr
+        << "taut: the scene needs more memory than there is; take larger elements or fewer links\n";
   }
   catch (const std::length_error &)
   {
-    std::cerr << "taut: the scene needs more memory than there is; take larger elements or fewer links\n";
+    std::cerr
+        << "taut: the scene needs more memory than there is; take larger elements or fewer links\n";
   }
   catch (const std::exception &e)
   {
