@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "matrix_free_schur_complement.h"
 
-#include <AztecOO.h>
-#include <Epetra_LinearProblem.h>
-#include <Epetra_Vector.h>
-
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 namespace taut
 {
@@ -16,35 +14,55 @@ namespace taut
     /// solved.
     constexpr double wanted_residual = 1e-15, accepted_residual = 1e-11;
 
-    /// Division by the diagonal, as a preconditioner.
-    class DiagonalPreconditioner : public Epetra_Operator
-    {
-    public:
-      DiagonalPreconditioner(const Epetra_Operator &F, const std::vector<double> &diagonal)
-          : F(F), diagonal(diagonal)
-      {
-      }
-      int ApplyInverse(const Epetra_MultiVector &X, Epetra_MultiVector &Y) const override
-      {
-        for (int v = 0; v < X.NumVectors(); ++v)
-          for (std::size_t i = 0; i < diagonal.size(); ++i)
-            Y[v][i] = X[v][i] / diagonal[i];
-        return 0;
-      }
-      int Apply(const Epetra_MultiVector &, Epetra_MultiVector &) const override { return -1; }
-      int SetUseTranspose(bool) override { return 0; }
-      double NormInf() const override { return -1.; }
-      const char *Label() const override { return "diagonal"; }
-      bool UseTranspose() const override { return false; }
-      bool HasNormInf() const override { return false; }
-      const Epetra_Comm &Comm() const override { return F.Comm(); }
-      const Epetra_Map &OperatorDomainMap() const override { return F.OperatorDomainMap(); }
-      const Epetra_Map &OperatorRangeMap() const override { return F.OperatorRangeMap(); }
+    /// How often conjugate gradients start anew from the true residual.
+    constexpr int most_restarts = 4;
 
-    private:
-      const Epetra_Operator &F;
-      std::vector<double> diagonal;
-    };
+    /// The larger one; not-a-number if one is.
+    double larger(const double a, const double b)
+    {
+      return a > b || std::isnan(a) ? a : b;
+    }
+
+    double dot(const std::vector<double> &x, const std::vector<double> &y)
+    {
+      return std::inner_product(x.begin(), x.end(), y.begin(), 0.);
+    }
+
+    /**
+     * Conjugate gradients preconditioned by the diagonal, from x and its residual r = b - F x; ends
+     * when r^T diagonal^-1 r has fallen by the square of the wanted residual, after @p bound steps,
+     * or at a direction along which F is not positive.
+     */
+    void conjugate_gradients(const ContactSchurOperator &F, const std::vector<double> &diagonal,
+                             const int bound, std::vector<double> &x, std::vector<double> &r)
+    {
+      const std::size_t n = x.size();
+      std::vector<double> z(n), p(n, 0.), q(n);
+      double rz = 1., goal = 0.;
+      for (int iteration = 0; iteration <= bound; ++iteration)
+      {
+        for (std::size_t i = 0; i < n; ++i)
+          z[i] = r[i] / diagonal[i];
+        const double next = dot(r, z), beta = iteration == 0 ? 0. : next / rz;
+        rz = next;
+        if (iteration == 0)
+          goal = wanted_residual * wanted_residual * rz;
+        if (!(rz > goal))
+          return;
+        for (std::size_t i = 0; i < n; ++i)
+          p[i] = z[i] + beta * p[i];
+        F.apply(p.data(), q.data());
+        const double curvature = dot(p, q);
+        if (!(curvature > 0.))
+          return;
+        const double alpha = rz / curvature;
+        for (std::size_t i = 0; i < n; ++i)
+        {
+          x[i] += alpha * p[i];
+          r[i] -= alpha * q[i];
+        }
+      }
+    }
   } // namespace
 
   MatrixFreeSchurComplement::MatrixFreeSchurComplement(const FactoredStructure &solvers,
@@ -119,31 +137,35 @@ namespace taut
 
     F.restrict_to(set);
     F.set_shift(shift, diagonal_entries);
-    Epetra_Vector solution(View, F.OperatorDomainMap(), x.data()),
-        right_hand_side(View, F.OperatorRangeMap(), b.data());
-    Epetra_LinearProblem problem(&F, &solution, &right_hand_side);
-    DiagonalPreconditioner preconditioner(F, scale);
-    AztecOO solver(problem);
-    solver.SetAztecOption(AZ_solver, AZ_cg);
-    solver.SetPrecOperator(&preconditioner);
-    solver.SetAztecOption(AZ_output, AZ_none);
-    solver.SetAztecOption(AZ_conv, AZ_rhs);
     const int bound = 100 + 10 * static_cast<int>(set.size());
-    solver.Iterate(bound, wanted_residual);
 
     // What counts is the true residual, not the one of the recursion; rows are compared by their
     // own scale.
-    std::vector<double> Fx(rows.size());
-    F.apply(x.data(), Fx.data());
+    std::vector<double> r = b, Fx(rows.size());
+    double error = 0., size = 0., best = std::numeric_limits<double>::infinity();
+    std::vector<double> best_x = x;
+    for (int restart = 0; restart < most_restarts; ++restart)
+    {
+      conjugate_gradients(F, scale, bound, x, r);
+      F.apply(x.data(), Fx.data());
+      error = size = 0.;
+      for (const std::size_t i : set)
+      {
+        r[i] = b[i] - Fx[i];
+        const double root = std::sqrt(scale[i]);
+        error = larger(error, std::fabs(r[i]) / root);
+        size = larger(size, larger(std::fabs(b[i]) / root, root * std::fabs(x[i])));
+      }
+      if (!(error < .5 * best))
+        break;
+      best = error;
+      best_x = x;
+      if (error <= wanted_residual * size)
+        break;
+    }
+    x = best_x;
     F.unrestrict();
     F.set_shift(0., diagonal_entries);
-    double error = 0., size = 0.;
-    for (const std::size_t i : set)
-    {
-      error = std::max(error, std::fabs(Fx[i] - b[i]) / std::sqrt(scale[i]));
-      size = std::max(
-          {size, std::fabs(b[i]) / std::sqrt(scale[i]), std::sqrt(scale[i]) * std::fabs(x[i])});
-    }
-    return std::isfinite(error) && error <= accepted_residual * size;
+    return std::isfinite(best) && best <= accepted_residual * size;
   }
 } // namespace taut

@@ -9,8 +9,8 @@
 
 namespace taut
 {
-  /// F applied through the Epetra operator, its systems solved by AztecOO's conjugate gradients;
-  /// see SchurComplement.
+  /// F applied through the factors of the bodies, its systems solved by conjugate gradients; see
+  /// SchurComplement.
   class MatrixFreeSchurComplement : public SchurComplement, private ComplementarityOperator
   {
   public:
