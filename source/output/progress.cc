@@ -28,9 +28,9 @@ namespace taut
       constexpr int width = 40;
       const int filled = static_cast<int>(width * fraction);
       log << "\r  [" << std::string(filled, '=') << std::string(width - filled, ' ') << "] "
-          << std::setw(3) << static_cast<int>(100. * fraction + 1e-9) << " %  t = " << step.state.time
-          << " s  " << std::setprecision(3) << factor << " x real time   " << std::setprecision(6)
-          << (last ? "\n" : "") << std::flush;
+          << std::setw(3) << static_cast<int>(100. * fraction + 1e-9)
+          << " %  t = " << step.state.time << " s  " << std::setprecision(3) << factor
+          << " x real time   " << std::setprecision(6) << (last ? "\n" : "") << std::flush;
       return;
     }
     const int tenths = static_cast<int>(10. * fraction + 1e-9);
