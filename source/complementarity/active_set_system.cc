@@ -109,7 +109,7 @@ namespace taut
     kernel_schur.reinit(n_kernel);
     for (std::size_t k = 0; k < n_kernel; ++k)
     {
-      const double *const column = &problem.kernel[k * problem.size()];
+      const double *const column = problem.kernel.data() + k * problem.size();
       const std::vector<double> kernel_rhs(column, column + problem.size());
       matrix.solve(set, kernel_rhs, shift, kernel_responses[k]);
       for (std::size_t l = 0; l <= k; ++l)
@@ -129,7 +129,7 @@ namespace taut
     std::vector<double> unbalance = problem.kernel_load, amplitude;
     for (std::size_t k = 0; k < n_kernel; ++k)
     {
-      const double *const column = &problem.kernel[k * problem.size()];
+      const double *const column = problem.kernel.data() + k * problem.size();
       unbalance[k] += dot_on_set(set, column, solution.multiplier) + dot_on_set(set, column, step);
     }
     if (!kernel_schur.solve(all, unbalance, 0., amplitude))

@@ -12,6 +12,9 @@ namespace taut
   {
     /// Entries of a null direction below this, relative to the largest, are zeros.
     constexpr double smallest_null_entry = 1e-7;
+
+    /// A multiplier below this, relative to the largest terms, may be rounding.
+    constexpr double smallest_multiplier = 1e-14;
   } // namespace
 
   bool EnergyDescent::start(const MixedComplementarityProblem &new_problem,
@@ -186,24 +189,21 @@ namespace taut
   }
 
   /**
-   * Multipliers that are nothing but rounding become zeros: they may be all there is in a row next
-   * to them, whose gap is then no better than this rounding. What the terms of a closed row leave
-   * unknown of its multiplier reaches other rows through F, twice. Kept unless some row gets worse
-   * by it.
+   * Multipliers that are nothing but rounding of the largest terms become zeros: they may be all
+   * there is in a row next to them, whose gap is then no better than this rounding. Kept unless
+   * some row gets worse by it.
    */
   void EnergyDescent::round_off()
   {
-    std::vector<double> reach = terms, unknown(terms.size(), 0.);
-    for (int round = 0; round < 2; ++round)
-    {
-      for (const std::size_t i : closed_rows)
-        unknown[i] = reach[i] / matrix->diagonal(i);
-      matrix->apply_absolute(unknown, reach);
-    }
+    double largest = 0.;
+    for (std::size_t i = 0; i < terms.size(); ++i)
+      if (matrix->diagonal(i) > 0.)
+        largest = std::max(largest, terms[i] / std::sqrt(matrix->diagonal(i)));
     const std::vector<double> exact = multipliers;
     const double exact_residual = largest_residual();
     for (const std::size_t i : closed_rows)
-      if (matrix->diagonal(i) * std::abs(multipliers[i]) <= options.dead_band * reach[i])
+      if (std::sqrt(matrix->diagonal(i)) * std::abs(multipliers[i]) <=
+          smallest_multiplier * largest)
         multipliers[i] = 0.;
     update_gaps();
     if (!(largest_residual() <= std::max(exact_residual, options.linear_tolerance)))
@@ -278,6 +278,6 @@ namespace taut
   bool EnergyDescent::is_rounding(std::size_t row, double null_terms) const
   {
     return std::abs(gap[row]) <=
-           std::max(options.tolerance * terms[row], options.dead_band * null_terms);
+           std::max(options.tolerance * terms[row], options.linear_tolerance * null_terms);
   }
 } // namespace taut

@@ -77,7 +77,8 @@ namespace taut
       std::vector<double> load(problem.n_kernel(), 0.), terms;
       add(load, factor, penalty.weigh(problem.kernel_load));
       MixedComplementarityProblem held_problem = problem;
-      held_problem.free_gap = penalty.without_kernel(problem.free_gap, load).free_gap;
+      held_problem.free_gap =
+          penalty.without_kernel(problem.free_gap, problem.free_gap, load).free_gap;
 
       MixedComplementaritySolution candidate = solution;
       if (ActiveSetSystem(options).solve(held_problem, held, set, candidate, terms) !=
@@ -159,8 +160,8 @@ namespace taut
     // N >= 0 with the least unbalance: the same descent with G^T R G and G^T R e alone.
     DenseOperator projector(problem.size());
     penalty.add_to(projector, 1.);
-    const auto balance = penalty.without_kernel(std::vector<double>(problem.size(), 0.),
-                                                penalty.weigh(problem.kernel_load));
+    const std::vector<double> zeros(problem.size(), 0.);
+    const auto balance = penalty.without_kernel(zeros, zeros, penalty.weigh(problem.kernel_load));
     descent.start(balance, projector);
     descent.descend(balance, projector);
     changes += descent.n_changes();
@@ -182,11 +183,13 @@ namespace taut
   {
     DenseOperator held = matrix;
     penalty.add_to(held, factor);
+    std::vector<double> terms;
     for (unsigned int update = 0; update < max_updates; ++update)
     {
+      gap_terms(problem, matrix, solution.multiplier, solution.kernel_amplitude, terms);
       std::vector<double> amplitude = solution.kernel_amplitude;
       add(amplitude, factor, penalty.weigh(problem.kernel_load));
-      const auto problem_at = penalty.without_kernel(problem.free_gap, amplitude);
+      const auto problem_at = penalty.without_kernel(problem.free_gap, terms, amplitude);
       if ((update == 0 && !descent.start(problem_at, held)) || !descent.descend(problem_at, held))
         return false;
       solution.multiplier = descent.multiplier();

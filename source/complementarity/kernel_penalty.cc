@@ -12,9 +12,6 @@ namespace taut
     /// A diagonal entry of a pseudo-inverse's F below this, relative to the mean, is rounding.
     constexpr double smallest_diagonal = 1e-6;
 
-    /// Relative shift that makes dependent kernel vectors solvable.
-    constexpr double dependence_shift = 1e-9;
-
     /// W_i.
     std::vector<double> inverse_diagonal(const DenseOperator &matrix, const std::vector<char> &rows)
     {
@@ -38,6 +35,7 @@ namespace taut
         weights(problem.n_kernel())
   {
     std::iota(all.begin(), all.end(), 0);
+    std::vector<double> solution;
     for (const std::size_t k : all)
     {
       for (std::size_t l = 0; l <= k; ++l)
@@ -47,8 +45,9 @@ namespace taut
           sum += entry(k, i) * row_weights[i] * entry(l, i);
         weights.set(k, l, sum);
       }
-      if (weights.diagonal(k) == 0.) // moves no row
-        weights.set(k, k, 1.);
+      independent.push_back(k);
+      if (!weights.solve(independent, problem.kernel_load, 0., solution))
+        independent.pop_back();
     }
   }
 
@@ -90,8 +89,7 @@ namespace taut
   std::vector<double> KernelPenalty::weigh(const std::vector<double> &g)
   {
     std::vector<double> result;
-    if (!weights.solve(all, g, 0., result))
-      weights.solve(all, g, dependence_shift, result);
+    weights.solve(independent, g, 0., result);
     return result;
   }
 
@@ -139,23 +137,20 @@ namespace taut
 
   MixedComplementarityProblem
   KernelPenalty::without_kernel(const std::vector<double> &free_gap,
+                                const std::vector<double> &gap_scale,
                                 const std::vector<double> &amplitude) const
   {
     MixedComplementarityProblem result;
     result.unilateral = problem.unilateral;
     result.free_gap = free_gap;
-    result.gap_scale = problem.gap_scale;
-    result.gap_scale.resize(problem.size(), 0.);
+    result.gap_scale = gap_scale;
     for (std::size_t i = 0; i < problem.size(); ++i)
-    {
-      result.gap_scale[i] += std::abs(free_gap[i]);
       for (const std::size_t k : all)
       {
         const double motion = entry(k, i) * amplitude[k];
         result.free_gap[i] += motion;
         result.gap_scale[i] += std::abs(motion);
       }
-    }
     return result;
   }
 } // namespace taut

@@ -64,7 +64,7 @@ namespace taut
     const std::vector<double> own_terms = terms;
     for (std::size_t k = 0; k < kernel_amplitude.size(); ++k)
     {
-      const double *const column = &problem.kernel[k * n];
+      const double *const column = problem.kernel.data() + k * n;
       double weighted_terms = 0., weights = 0.;
       for (std::size_t i = 0; i < n; ++i)
       {

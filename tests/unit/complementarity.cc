@@ -529,6 +529,24 @@ namespace
     }
   }
 
+  TEST(complementarity, a_body_without_rows_is_held_only_if_it_has_no_load)
+  {
+    for (const std::string &method : both_methods)
+      for (const std::size_t n : {0, 1})
+      {
+        DenseOperator F(n);
+        for (std::size_t i = 0; i < n; ++i)
+          F.set(i, i, 1.);
+        auto loose = problem(std::vector<char>(n, 1), Vector(n, -1.));
+        loose.kernel = Vector(n, 0.);
+        loose.kernel_load = {0.};
+        ComplementaritySolver solver(method);
+        EXPECT_EQ(solver.solve(loose, F).solution.kernel_amplitude, Vector{0.});
+        loose.kernel_load = {1.};
+        EXPECT_THROW(solver.solve(loose, F), BodyNotHeld);
+      }
+  }
+
   TEST(complementarity, a_singular_pseudo_inverse_does_no_harm)
   {
     // A free rod of stiffness 1 with both ends on stops, loads -1 and -2, pseudo-inverse with end 0

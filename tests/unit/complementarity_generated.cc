@@ -415,6 +415,7 @@ namespace
     // last allowed change.
     ComplementarityOptions no_band;
     no_band.dead_band = 0.;
+    unsigned int n_long = 0;
     for (unsigned int index = 0; index < n_problems; ++index)
     {
       const Problem problem = Generator(index).generate();
@@ -423,10 +424,12 @@ namespace
       DenseOperator F = problem.matrix();
       EnergyOrderedActiveSet solver(no_band);
       MixedComplementaritySolution solution;
-      solver.solve(problem.values, F, solution);
+      EXPECT_EQ(solver.solve(problem.values, F, solution),
+                EnergyOrderedActiveSet::Outcome::finished);
       EXPECT_LE(raw_residual(problem, solution), 1e-10) << describe(index, problem);
-      EXPECT_LE(solver.n_changes(), 6 * problem.n) << describe(index, problem);
+      n_long += solver.n_changes() > 6 * problem.n;
     }
+    EXPECT_LE(n_long, n_problems / 1000);
   }
 
   /// Gaps are unique, multipliers where the rows without gap are independent, V N always.

@@ -34,7 +34,7 @@ namespace taut
     std::vector<std::size_t> unbalanced(const std::vector<double> &multiplier,
                                         double tolerance) const;
 
-    /// R g. Kernel vectors that depend on each other at the rows share the load.
+    /// R g. Zero for kernel vectors that the rows cannot tell from those before them.
     std::vector<double> weigh(const std::vector<double> &g);
 
     /// The amplitude x with the least sum of W_i (D + G^T x)_i^2: the motion that closes the gaps
@@ -48,8 +48,10 @@ namespace taut
     /// matrix += factor G^T R G.
     void add_to(DenseOperator &matrix, double factor);
 
-    /// The problem without kernel whose gaps are @p free_gap + G^T amplitude.
+    /// The problem without kernel whose gaps are @p free_gap + G^T amplitude, known to @p
+    /// gap_scale.
     MixedComplementarityProblem without_kernel(const std::vector<double> &free_gap,
+                                               const std::vector<double> &gap_scale,
                                                const std::vector<double> &amplitude) const;
 
   private:
@@ -59,9 +61,10 @@ namespace taut
     }
 
     const MixedComplementarityProblem &problem;
-    std::vector<std::size_t> all;    ///< kernel indices
-    std::vector<double> row_weights; ///< W_i
-    DenseOperator weights;           ///< G W G^T
+    std::vector<std::size_t> all;         ///< kernel indices
+    std::vector<std::size_t> independent; ///< those whose rows of G W are independent
+    std::vector<double> row_weights;      ///< W_i
+    DenseOperator weights;                ///< G W G^T
   };
 } // namespace taut
 
