@@ -78,6 +78,21 @@ namespace taut
       }
   }
 
+  void largest_contact_forces(const Structure &structure, const ContactRows &rows,
+                              const std::vector<double> &N, std::vector<PerKind> &result)
+  {
+    result.assign(structure.size(), PerKind{0., 0.});
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (N[i] != 0.)
+        for (const auto &[k, form] : rows[i].terms)
+          for (std::size_t j = 0; j < form.index.size(); ++j)
+          {
+            double &largest = result[k][structure[k].kind(form.index[j])];
+            const double force = std::fabs(form.value[j] * N[i]);
+            largest = force > largest || std::isnan(force) ? force : largest;
+          }
+  }
+
   KindNorm::KindNorm(const Substructure &body, const SymmetricMatrix &matrix)
   {
     std::vector<PerKind> rows(body.n_dofs(), PerKind{0., 0.});

@@ -72,11 +72,15 @@ namespace taut
       for (std::size_t k = 0; k < structure.size(); ++k)
         structure[k].external_force(t, r[k]);
       rows.add_forces(state.multiplier, r);
+      std::vector<PerKind> contact;
+      largest_contact_forces(structure, rows, state.multiplier, contact);
       for (std::size_t k = 0; k < structure.size(); ++k)
       {
         const Substructure &body = structure[k];
-        const PerKind force = largest(body, r[k]),
-                      displacement = largest(body, state.displacement[k]);
+        PerKind force = largest(body, r[k]);
+        for (int kind = 0; kind < 2; ++kind)
+          force[kind] += contact[k][kind];
+        const PerKind displacement = largest(body, state.displacement[k]);
         check_size(body, force, displacement, {0., 0.}, "static equilibrium: ");
         const PerKind stiffness = KindNorm(body, body.stiffness()).times(displacement);
         body.stiffness().vmult_add(-1., state.displacement[k].data(), r[k].data());

@@ -23,7 +23,7 @@ namespace taut
                            &old_balance, &increment})
       *v = structure.zero();
     const std::size_t n = rows.size();
-    for (auto *v : {&link_history, &reference_gap, &gap_terms, &motion})
+    for (auto *v : {&link_history, &reference_gap, &gap_terms, &gap_correction, &motion})
       v->assign(n, 0.);
     problem.unilateral.resize(n);
     problem.free_gap.resize(n);
@@ -33,6 +33,17 @@ namespace taut
     {
       problem.unilateral[i] = rows[i].unilateral;
       reference_gap[i] = rows[i].gap + evaluate(rows[i].terms, origin.displacement);
+      // A displacement rounds with the largest of its body.
+      gap_terms[i] = std::fabs(rows[i].gap);
+      for (const auto &[k, form] : rows[i].terms)
+      {
+        const PerKind size = largest(structure[k], origin.displacement[k]);
+        for (std::size_t j = 0; j < form.index.size(); ++j)
+          gap_terms[i] += std::fabs(form.value[j]) * size[structure[k].kind(form.index[j])];
+      }
+      if (rows[i].moving)
+        gap_correction[i] =
+            current.geometric_gap[i] - reference_gap[i] - evaluate(rows[i].terms, current.U);
     }
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
@@ -143,8 +154,7 @@ namespace taut
       double before = current.geometric_gap[i], scale = std::fabs(before);
       if (row.moving)
       {
-        before =
-            row.gap + evaluate(row.terms, origin.displacement) + evaluate(row.terms, current.U);
+        before = moving_gap(i);
         scale = std::fabs(row.gap) + magnitude(row.terms, origin.displacement) +
                 magnitude(row.terms, current.U);
       }
@@ -153,6 +163,12 @@ namespace taut
       problem.free_gap[i] = before + motion[i] + link_history[i];
       problem.gap_scale[i] = scale + std::fabs(motion[i]) + std::fabs(link_history[i]);
     }
+  }
+
+  double TimeStepper::moving_gap(const std::size_t i) const
+  {
+    return rows[i].gap + gap_correction[i] + evaluate(rows[i].terms, origin.displacement) +
+           evaluate(rows[i].terms, current.U);
   }
 
   void TimeStepper::solve_rows()
@@ -213,7 +229,7 @@ namespace taut
       const Row &row = rows[i];
       double &gap = current.geometric_gap[i];
       if (row.moving)
-        gap = row.gap + evaluate(row.terms, origin.displacement) + evaluate(row.terms, current.U);
+        gap = moving_gap(i);
       else
         gap += evaluate(row.terms, current.dU);
 
@@ -244,6 +260,7 @@ namespace taut
       body.stiffness().vmult_add(1., current.U[k].data(), current.KU[k].data());
     }
     rows.add_forces(current.multiplier, current.balance);
+    largest_contact_forces(structure, rows, current.multiplier, contact_force);
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       const Substructure &body = structure[k];
@@ -252,10 +269,9 @@ namespace taut
       const double *KU = current.KU[k].data(), *A = current.A[k].data(), *A0 = old_A[k].data(),
                    *r0 = old_balance[k].data();
       // P and B N may cancel, and both against the forces of the reference: each counts.
-      PerKind force = largest(body, current.balance[k]);
-      const PerKind external = largest(body, P[k]);
+      PerKind force = largest(body, P[k]);
       for (int kind = 0; kind < 2; ++kind)
-        force[kind] += external[kind] + reference_force[k][kind];
+        force[kind] += contact_force[k][kind] + reference_force[k][kind];
       body.damping().vmult_add(-1., current.V[k].data(), r);
       work.resize(n);
       double *residual = work.data();

@@ -2,7 +2,8 @@
 #ifndef taut_matrix_norms_h
 #define taut_matrix_norms_h
 
-#include <taut/substructure/substructure.h>
+#include <taut/interface/contact_rows.h>
+#include <taut/substructure/structure.h>
 
 #include <array>
 #include <string>
@@ -24,6 +25,10 @@ namespace taut
   /// largest_number. @p when begins the message.
   void check_size(const Substructure &body, const PerKind &force, const PerKind &displacement,
                   const PerKind &velocity, const std::string &when);
+
+  /// Largest force of a single row on each body, |B_i| |N_i|: their sum may cancel.
+  void largest_contact_forces(const Structure &structure, const ContactRows &rows,
+                              const std::vector<double> &N, std::vector<PerKind> &result);
 
   /**
    * Largest absolute row sums of a matrix by kind of row and column, free DoFs only: bounds |A| |x|

@@ -49,6 +49,7 @@ namespace taut
     void prepare(const StepCoefficients &c);
     void set_history(std::size_t k);
     void set_free_gaps();
+    double moving_gap(std::size_t i) const;
     void solve_rows();
     void accept(std::size_t k);
     void update_rows();
@@ -78,10 +79,14 @@ namespace taut
         link_history; ///< part of a link spring's compression that does not depend on N
     std::vector<double> reference_gap; ///< gap of the fixed rows at the reference
     std::vector<double> gap_terms;     ///< largest terms of the gaps of the fixed rows so far
-    std::vector<double> motion;        ///< B^T dU
+    /// Of the moving rows: gap of the start minus the one of its displacements, rounding that would
+    /// be a force over a small compliance.
+    std::vector<double> gap_correction;
+    std::vector<double> motion; ///< B^T dU
     std::vector<double> old_multiplier;
     std::vector<std::vector<KindNorm>> norms; ///< of M, C, K of each body
     std::vector<PerKind> reference_force;     ///< largest of K U_ref of each body [N, N m]
+    std::vector<PerKind> contact_force;       ///< largest of one row on each body [N, N m]
 
     BlockVector P; ///< external force minus the reference's [N]
     BlockVector right_hand_side;
