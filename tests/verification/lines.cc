@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: the static state of railway lines is that of strings under point loads, computed here by
+// sums of forces, and stays as it is when nothing moves. Reference values: string copy of the line
+// of EN 50318:2002, dropper forces 102.6, 79.5, 86.1, ... N, lengths 0.9856, 0.8041, 0.6473,
+// 0.5533, 0.5220 m; a published simple line of 55 m spans, lengths 1.017, 0.896, 0.810, 0.758,
+// 0.741 m.
+#include "run.h"
+
+#include <taut/time/time_stepper.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace verification;
+
+namespace
+{
+  constexpr double g = 9.81;
+
+  /// A line of strings, one inner span; droppers at p, contact wire at -sag below its supports.
+  struct StringLine
+  {
+    double span, encumbrance, contact_mass, contact_tension, messenger_mass, messenger_tension;
+    double dropper_mass = 0., messenger_clamp = 0., contact_clamp = 0.;
+    std::vector<double> p, sag;
+
+    /// Tensions of the droppers [N] and their lengths [m] by sums of forces.
+    void solve(std::vector<double> &tension, std::vector<double> &length) const
+    {
+      const std::size_t n = p.size();
+      length.assign(n, encumbrance);
+      tension.assign(n, 0.);
+      for (int iteration = 0; iteration < 50; ++iteration)
+      {
+        // Each dropper carries half of the contact wire to its neighbours and the kink of its
+        // tension; the neighbour across a mast hangs as deep.
+        std::vector<double> load(n);
+        for (std::size_t i = 0; i < n; ++i)
+        {
+          const double left = i > 0 ? p[i] - p[i - 1] : p[0] + span - p[n - 1],
+                       right = i + 1 < n ? p[i + 1] - p[i] : p[0] + span - p[n - 1],
+                       before = i > 0 ? sag[i - 1] : sag[n - 1],
+                       after = i + 1 < n ? sag[i + 1] : sag[0];
+          const double half = .5 * dropper_mass * length[i] * g;
+          tension[i] = contact_mass * g * .5 * (left + right) -
+                       contact_tension * ((sag[i] - before) / left - (after - sag[i]) / right) +
+                       contact_clamp * g + half;
+          load[i] = tension[i] + messenger_clamp * g + half;
+        }
+        for (std::size_t i = 0; i < n; ++i)
+        {
+          // Bending moment of a simple beam over the tension.
+          const double x = p[i];
+          double moment = .5 * messenger_mass * g * x * (span - x);
+          for (std::size_t j = 0; j < n; ++j)
+            moment += load[j] * std::min(x, p[j]) * (span - std::max(x, p[j])) / span;
+          length[i] = encumbrance - moment / messenger_tension + sag[i];
+        }
+      }
+    }
+  };
+
+  /// What the program found: forces and lengths of the droppers of one span (counted from 0).
+  struct Found
+  {
+    std::vector<double> force, length, height;
+    double residual = 0.;
+  };
+
+  Found find(const std::string &file, const std::size_t span, const std::size_t n_droppers,
+             const Overrides &more = {})
+  {
+    Found found;
+    Overrides overrides = {"Time.Step=1e-3", "Time.End=1e-3", "Time.Scheme=backward Euler"};
+    overrides.insert(overrides.end(), more.begin(), more.end());
+    run_scene(file, overrides,
+              [&](const taut::StepView &view)
+              {
+                if (view.state.time > 0.)
+                  return;
+                found.residual = view.certificate.complementarity;
+                for (std::size_t i = 0; i < n_droppers; ++i)
+                {
+                  const std::size_t link = span * n_droppers + i;
+                  const taut::Link &dropper = view.scene.links[link];
+                  found.force.push_back(view.state.multiplier[view.rows.row_of_link(link)]);
+                  found.length.push_back(dropper.length);
+                  found.height.push_back(displacement(view, 1, dropper.to.position));
+                }
+              });
+    return found;
+  }
+
+  const StringLine en50318 = {60.,
+                              1.2,
+                              1.35,
+                              20000.,
+                              1.07,
+                              16000.,
+                              0.,
+                              0.,
+                              0.,
+                              {5., 10.5, 17., 23.5, 30., 36.5, 43., 49.5, 55.},
+                              std::vector<double>(9, 0.)};
+} // namespace
+
+TEST(LineOfStrings, forces_and_lengths_are_those_of_sums_of_forces)
+{
+  std::vector<double> tension, length;
+  en50318.solve(tension, length);
+  const double printed_force[] = {102.6, 79.5, 86.1, 86.1, 86.1, 86.1, 86.1, 79.5, 102.6},
+               printed_length[] = {.9856, .8041, .6473, .5533, .5220, .5533, .6473, .8041, .9856};
+  const Found found = find(scene_file("en50318_2002_string"), 4, 9);
+  double force_error = 0., length_error = 0., height = 0., sum = 0.;
+  for (int i = 0; i < 9; ++i)
+  {
+    if (i < 5)
+    {
+      figure("line of strings, force of dropper " + std::to_string(i + 1), found.force[i], "N");
+      figure("line of strings, length of dropper " + std::to_string(i + 1), found.length[i], "m");
+    }
+    EXPECT_NEAR(found.force[i], printed_force[i], 1e-3 * printed_force[i]) << "dropper " << i + 1;
+    EXPECT_NEAR(found.length[i], printed_length[i], 1e-3 * printed_length[i])
+        << "dropper " << i + 1;
+    force_error = std::max(force_error, std::fabs(found.force[i] / tension[i] - 1.));
+    length_error = std::max(length_error, std::fabs(found.length[i] / length[i] - 1.));
+    height = std::max(height, std::fabs(found.height[i]));
+    sum += found.force[i];
+  }
+  figure("line of strings, forces against sums of forces, largest relative difference",
+         force_error);
+  figure("line of strings, lengths against sums of forces, largest relative difference",
+         length_error);
+  figure("line of strings, contact wire out of level at the droppers", 1e3 * height, "mm");
+  EXPECT_LT(force_error, 1e-9);
+  EXPECT_LT(length_error, 1e-9);
+  EXPECT_LT(height, 1e-10);
+  EXPECT_NEAR(sum, 60. * 1.35 * g, 1e-9 * sum);
+}
+
+TEST(LineOfStrings, two_spans_at_the_ends_are_mirror_images)
+{
+  const Found first = find(scene_file("en50318_2002_string"), 0, 9),
+              last = find(scene_file("en50318_2002_string"), 9, 9);
+  for (int i = 0; i < 9; ++i)
+  {
+    EXPECT_NEAR(first.force[i], last.force[8 - i], 1e-9 * first.force[i]);
+    EXPECT_NEAR(first.length[i], last.length[8 - i], 1e-9 * first.length[i]);
+  }
+  // At the anchor the contact wire ends: 5 m instead of 10 m to the next support.
+  EXPECT_NEAR(first.force[0], 1.35 * g * .5 * (5. + 5.5), 1e-7);
+}
+
+// Bending rounds the kinks of the messenger over sqrt(EI/T): at its support, load R, and at the
+// dropper, tension N, it lies (R + N) sqrt(EI/T)/(2 T) above the string: 4.3 mm, 0.43 % to 0.82 %.
+// Elements of 0.5 m are longer than these 0.09 m and make it 5.0 mm.
+TEST(LineOfBeams, bending_lengthens_the_droppers_by_the_rounding_of_the_kinks)
+{
+  std::vector<double> tension, length;
+  en50318.solve(tension, length);
+  double support = 1.07 * g * 60.;
+  for (const double N : tension)
+    support += N;
+  EXPECT_NEAR(support, 1424.4, .05);
+  const double T = 16000., rounding = std::sqrt(131.7 / T);
+  for (const double h : {.5, .05})
+  {
+    const std::string size = ", elements of " + std::string(h == .5 ? "0.5 m" : "0.05 m");
+    const Found found = find(scene_file("en50318_2002_250"), 4, 9,
+                             h == .5 ? Overrides()
+                                     : Overrides{"Catenary.Contact wire.Element size=0.05",
+                                                 "Catenary.Messenger wire.Element size=0.05"});
+    double least = 1., most = 0.;
+    for (int i = 0; i < 9; ++i)
+    {
+      const double growth = found.length[i] - length[i],
+                   exact = (support + tension[i]) * rounding / (2. * T);
+      if (i < 5)
+      {
+        const std::string name = "line of beams, dropper " + std::to_string(i + 1);
+        figure(name + ", length minus that with strings" + size, 1e3 * growth, "mm");
+        figure(name + ", growth" + size, 100. * growth / length[i], "%");
+        if (h != .5)
+          figure(name + ", length minus that with strings, rounding of kinks", 1e3 * exact, "mm");
+      }
+      least = std::min(least, growth);
+      most = std::max(most, growth);
+      if (h != .5)
+      {
+        // The contact wire bends as well, which moves a little of the load to other droppers.
+        EXPECT_NEAR(growth, exact, .02 * exact) << i;
+        EXPECT_GT(growth / length[i], .004) << i;
+        EXPECT_LT(growth / length[i], .0084) << i;
+      }
+    }
+    EXPECT_GT(least, .002) << size;
+    EXPECT_LT(most, .006) << size;
+  }
+}
+
+TEST(Line55m, lengths_and_forces_are_the_published_ones)
+{
+  const StringLine line = {55.,
+                           1.2,
+                           1.35,
+                           22000.,
+                           1.08,
+                           16000.,
+                           .117,
+                           .195,
+                           .165,
+                           {4.5, 10.25, 16., 21.75, 27.5, 33.25, 39., 44.75, 50.5},
+                           {0., .024, .041, .052, .055, .052, .041, .024, 0.}};
+  std::vector<double> tension, length;
+  line.solve(tension, length);
+  const double published[] = {1.017, .896, .810, .758, .741},
+               strings[] = {1.0166, .8956, .8089, .7587, .7404},
+               force[] = {191.1, 51.0, 54.8, 47.2, 54.8};
+  const Found found = find(scene_file("line_55m"), 4, 9);
+  double force_error = 0., length_error = 0., height = 0.;
+  for (int i = 0; i < 9; ++i)
+  {
+    force_error = std::max(force_error, std::fabs(found.force[i] / tension[i] - 1.));
+    length_error = std::max(length_error, std::fabs(found.length[i] / length[i] - 1.));
+    height = std::max(height, std::fabs(found.height[i] + line.sag[i]));
+    if (i > 4)
+      continue;
+    // The multiplier carries clamp and half a dropper; the published force the clamp alone.
+    const double with_clamp = found.force[i] - .5 * line.dropper_mass * found.length[i] * g;
+    const std::string name = "55 m line, dropper " + std::to_string(i + 1);
+    figure(name + ", length", found.length[i], "m");
+    figure(name + ", length minus the published one", 1e3 * (found.length[i] - published[i]), "mm");
+    figure(name + ", force on wire and clamp", with_clamp, "N");
+    figure(name + ", force with half the dropper", found.force[i], "N");
+    EXPECT_NEAR(found.length[i], published[i], 1.5e-3) << name;
+    EXPECT_NEAR(found.length[i], strings[i], 1.5e-3) << name;
+    EXPECT_NEAR(with_clamp, force[i], .06) << name;
+  }
+  figure("55 m line, forces against sums of forces, largest relative difference", force_error);
+  figure("55 m line, lengths against sums of forces, largest relative difference", length_error);
+  figure("55 m line, contact wire away from its prescribed height", 1e3 * height, "mm");
+  EXPECT_LT(force_error, 1e-9);
+  EXPECT_LT(length_error, 1e-9);
+  EXPECT_LT(height, 1e-10);
+}
+
+namespace
+{
+  /// Largest relative change of a contact force, forces smaller than 1 N counting as 1 N.
+  double change(const std::vector<double> &from, const std::vector<double> &to)
+  {
+    double largest = 0.;
+    for (std::size_t i = 0; i < from.size(); ++i)
+      largest = std::max(largest, std::fabs(to[i] - from[i]) / std::max(1., std::fabs(from[i])));
+    return largest;
+  }
+} // namespace
+
+TEST(Rest, nothing_moves_in_2000_steps_and_a_shorter_step_creates_no_force)
+{
+  for (const std::string scheme : {"generalised-alpha", "BDF2", "backward Euler", "Newmark"})
+  {
+    Session session(scene_file("en50318_2002_250"),
+                    {"Catenary.Pantograph pantograph.Speed=0", "Time.Scheme=" + scheme,
+                     "Time.Step=1e-3", "Time.End=2"});
+    std::vector<double> at_start;
+    double drift = 0., pantograph = 0., frame = 0.;
+    std::unique_ptr<taut::Reference> reference;
+    taut::State last;
+    session.run(
+        [&](const taut::StepView &view)
+        {
+          if (at_start.empty())
+          {
+            at_start = view.state.multiplier;
+            reference = std::make_unique<taut::Reference>(view.reference);
+          }
+          drift = std::max(drift, change(at_start, view.state.multiplier));
+          // 120 N on the frame, less what the base spring of 50 N/m takes.
+          frame = view.reference.displacement[2][1] + view.state.U[2][1];
+          pantograph = std::max(
+              pantograph, std::fabs(view.state.multiplier.back() / (120. - 50. * frame) - 1.));
+          last = view.state;
+        });
+    figure("EN 50318 line at rest, " + scheme + ", largest relative change of a force, 2000 steps",
+           drift);
+    EXPECT_LT(drift, 1e-8) << scheme;
+    EXPECT_LT(pantograph, 1e-8) << scheme;
+    EXPECT_NEAR(frame, .05, .01);
+
+    taut::ContactRows rows(session.simulation().scene(), session.simulation().structure());
+    taut::TimeStepper stepper(session.simulation().structure(), rows, session.parameters().solver,
+                              session.parameters().integrator(scheme), 1e-5, *reference, last,
+                              true);
+    double step_change = 0.;
+    for (int i = 0; i < 300; ++i)
+    {
+      stepper.advance();
+      step_change = std::max(step_change, change(at_start, stepper.state().multiplier));
+    }
+    figure("EN 50318 line at rest, " + scheme +
+               ", largest relative change of a force when the step falls from 1 ms to 10 us",
+           step_change);
+    EXPECT_LT(step_change, 1e-8) << scheme;
+  }
+}
+
+// Nothing but contact forces acts on the mass, and they cancel: a certificate that measures their
+// error by their sum would be of order 1.
+TEST(Rest, mass_held_by_stops_alone)
+{
+  const auto scene = [](const double k, const double gravity, const std::string &direction)
+  {
+    std::ostringstream text;
+    text << "set Generator = network\nset Gravity = 0, " << -gravity
+         << "\nset Start = equilibrium\nsubsection Network\n set Masses = mass\n"
+            " set Links = a, b, c\n subsection Mass mass\n  set Mass = 0.7\n  set Motions = y\n"
+            " end\n subsection Link a\n  set Type = stop\n  set To = mass\n"
+            "  set Direction = 0, 1\n  set Stiffness = 1013\n  set Gap = -0.013\n end\n"
+            " subsection Link b\n  set Type = stop\n  set To = mass\n  set Direction = "
+         << direction << "\n  set Stiffness = " << k
+         << "\n  set Gap = -0.017\n end\n subsection Link c\n  set Type = stop\n  set To = mass\n"
+            "  set Direction = 0, 1\n  set Stiffness = 331\n  set Gap = -0.011\n end\nend\n"
+            "subsection Time\n set Step = 1e-3\n set End = 0.05\nend\n";
+    return text.str();
+  };
+  double worst = 0., change_of_force = 0.;
+  for (const bool opposed : {false, true})
+    for (const double k : {300., 771., 1233., 1700., 4131.})
+    {
+      std::vector<double> at_start;
+      run_scene(scene(k, opposed ? 0. : 9.81, opposed ? "0, -1" : "0, 1"), {},
+                [&](const taut::StepView &view)
+                {
+                  if (at_start.empty())
+                    at_start = view.state.multiplier;
+                  worst = std::max(worst, view.certificate.max());
+                  change_of_force =
+                      std::max(change_of_force, change(at_start, view.state.multiplier));
+                });
+      const double c = opposed ? -1. : 1.,
+                   u = ((opposed ? 0. : -.7 * g) + 1013. * .013 + c * k * .017 + 331. * .011) /
+                       (1013. + k + 331.);
+      EXPECT_NEAR(at_start[0], 1013. * (.013 - u), 1e-10);
+    }
+  figure("mass on stops alone, largest certificate", worst);
+  figure("mass on stops alone, largest relative change of a force in 50 steps", change_of_force);
+  EXPECT_LT(worst, 1e-11);
+  EXPECT_LT(change_of_force, 1e-10);
+}

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: what a scene answers does not depend on how it is computed: both local solvers, assembled
+// and matrix-free interface operator, and both complementarity methods give the same forces and
+// displacements, to 1e-10 of the largest one or 10 eps cond(F), whichever is more.
+#include "run.h"
+
+#include <taut/interface/schur_complement.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+extern "C" void dsyev_(const char *jobz, const char *uplo, const int *n, double *a, const int *lda,
+                       double *w, double *work, const int *lwork, int *info);
+
+using namespace verification;
+
+namespace
+{
+  /// Forces and probes of a run, step by step.
+  struct Record
+  {
+    std::vector<std::vector<double>> forces, probes;
+    double condition = 1.;    ///< of F
+    double displacement = 0.; ///< largest of the start [m]
+    std::string log;
+  };
+
+  double condition_number(taut::SchurComplement &schur, const std::size_t n_rows)
+  {
+    const int n = n_rows;
+    if (n == 0)
+      return 1.;
+    std::vector<double> F, column, unit(n, 0.), w(n), work(40 * n);
+    for (int i = 0; i < n; ++i)
+    {
+      unit[i] = 1.;
+      schur.matrix().apply(unit, column);
+      unit[i] = 0.;
+      F.insert(F.end(), column.begin(), column.end());
+    }
+    const int lwork = work.size();
+    int info = 0;
+    dsyev_("N", "L", &n, F.data(), &n, w.data(), work.data(), &lwork, &info);
+    EXPECT_EQ(info, 0);
+    return w.back() / std::max(w.front(), std::numeric_limits<double>::min());
+  }
+
+  /// Condition number of F, of a step by backward Euler or, without one, of the static equilibrium.
+  double condition_number(const taut::Structure &structure, const taut::ContactRows &rows,
+                          const double step)
+  {
+    taut::FactoredStructure solvers(structure, "sparse direct");
+    if (step > 0.)
+      solvers.factor(1. / (step * step), 1. / step);
+    else
+    {
+      std::vector<taut::Substructure::Kernel> kernels;
+      for (std::size_t k = 0; k < structure.size(); ++k)
+        kernels.push_back(structure[k].kernel());
+      solvers.factor_stiffness(kernels);
+    }
+    std::vector<double> S(rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      S[i] = 1. / (rows[i].stiffness + (step > 0. ? rows[i].damping / step : 0.));
+    const auto schur = taut::make_schur_complement("assembled", solvers, rows);
+    schur->setup(S);
+    return condition_number(*schur, rows.size());
+  }
+
+  Record record(const std::string &scene, const Overrides &overrides)
+  {
+    Record r;
+    Session session(scene_file(scene), overrides);
+    session.run(
+        [&](const taut::StepView &view)
+        {
+          r.forces.push_back(view.state.multiplier);
+          r.probes.push_back(view.probes);
+          if (r.forces.size() == 1)
+            for (const std::vector<double> &u : view.reference.displacement)
+              for (const double value : u)
+                r.displacement = std::max(r.displacement, std::fabs(value));
+        });
+    const taut::Structure &structure = session.simulation().structure();
+    r.condition =
+        condition_number(structure, session.simulation().rows(), session.parameters().step);
+    // Scenes that start from an equilibrium start with the rounding of its forces.
+    if (session.simulation().scene().start == taut::Start::equilibrium)
+      r.condition =
+          std::max(r.condition, condition_number(structure, session.simulation().rows(), 0.));
+    r.log = session.log();
+    return r;
+  }
+
+  /// Largest difference over the largest entry, or over a given size if that is larger.
+  double difference(const std::vector<std::vector<double>> &a,
+                    const std::vector<std::vector<double>> &b, double size)
+  {
+    EXPECT_EQ(a.size(), b.size());
+    double largest = 0.;
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+      for (std::size_t j = 0; j < a[i].size(); ++j)
+      {
+        largest = std::max(largest, std::fabs(a[i][j] - b[i][j]));
+        size = std::max(size, std::fabs(a[i][j]));
+      }
+    return size > 0. ? largest / size : largest;
+  }
+
+  struct Case
+  {
+    std::string scene;
+    Overrides overrides;
+  };
+
+  void compare(const Case &c, const Overrides &other, const std::string &name)
+  {
+    Overrides overrides = c.overrides;
+    const Record one = record(c.scene, overrides);
+    overrides.insert(overrides.end(), other.begin(), other.end());
+    const Record two = record(c.scene, overrides);
+    const double forces = difference(one.forces, two.forces, 0.),
+                 probes = difference(one.probes, two.probes, one.displacement),
+                 tolerance =
+                     std::max(1e-10, 10. * std::numeric_limits<double>::epsilon() * one.condition);
+    figure(c.scene + ", " + name + ", difference of the forces", forces);
+    figure(c.scene + ", " + name + ", difference of the probes", probes);
+    figure(c.scene + ", cond F", one.condition);
+    EXPECT_LT(forces, tolerance) << c.scene << ", " << name << ", cond F " << one.condition;
+    EXPECT_LT(probes, tolerance) << c.scene << ", " << name << ", cond F " << one.condition;
+  }
+
+  const std::vector<Case> short_scenes = {
+      {"bar_on_wall", {}},
+      {"string_on_stop", {}},
+      {"oscillator_with_stop", {}},
+      {"inclined_cable", {}},
+      {"beam_angular_stop", {}},
+      {"beam_over_supports", {}},
+      {"en50318_2002_string", {"Time.Step=1e-3", "Time.End=0.01"}},
+      {"line_55m", {"Time.Step=1e-3", "Time.End=0.01"}},
+      {"en50318_2002_250", {"Time.End=0.3"}},
+      {"en50318_2002_300", {"Time.End=0.3"}},
+      {"en50318_2002_250_two", {"Time.End=0.3"}}};
+} // namespace
+
+TEST(SameAnswers, of_both_local_solvers)
+{
+  for (const Case &c : short_scenes)
+    compare(c, {"Solver.Local solver=sparse direct"}, "sparse direct");
+}
+
+TEST(SameAnswers, of_the_assembled_and_the_matrix_free_interface_operator)
+{
+  for (const Case &c : short_scenes)
+    compare(c, {"Solver.Interface operator=matrix-free"}, "matrix-free");
+}
+
+TEST(SameAnswers, of_both_complementarity_methods_on_every_scene)
+{
+  for (Case c : short_scenes)
+  {
+    if (c.scene.find("en50318_2002_2") == 0 || c.scene.find("en50318_2002_3") == 0)
+      c.overrides.clear();
+    compare(c, {"Solver.Complementarity=energy-ordered"}, "energy-ordered");
+  }
+}
