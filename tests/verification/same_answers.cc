@@ -25,6 +25,7 @@ namespace
     std::vector<std::vector<double>> forces, probes;
     double condition = 1.;    ///< of F
     double displacement = 0.; ///< largest of the start [m]
+    int n_fallbacks = 0;      ///< steps that the semismooth Newton method did not end
     std::string log;
   };
 
@@ -79,6 +80,7 @@ namespace
         {
           r.forces.push_back(view.state.multiplier);
           r.probes.push_back(view.probes);
+          r.n_fallbacks += view.certificate.fallback;
           if (r.forces.size() == 1)
             for (const std::vector<double> &u : view.reference.displacement)
               for (const double value : u)
@@ -122,6 +124,7 @@ namespace
     const Record one = record(c.scene, overrides);
     overrides.insert(overrides.end(), other.begin(), other.end());
     const Record two = record(c.scene, overrides);
+    EXPECT_EQ(one.n_fallbacks, 0) << c.scene << ": these scenes do not make Newton's method cycle";
     const double forces = difference(one.forces, two.forces, 0.),
                  probes = difference(one.probes, two.probes, one.displacement),
                  tolerance =

@@ -169,6 +169,32 @@ TEST(Beam, heavy_beam_lifts_off_a_floor)
   EXPECT_GE(least, -1e-12);
 }
 
+// Both ends of a beam of 4 m sink by 10 mm, the stop in its middle stays: N = 48 EI d/L^3 = 7.5 N.
+TEST(Beam, sunken_supports_bend_it_over_a_stop)
+{
+  const double EI = 1000., L = 4., d = .01;
+  double force = 0., end = 0.;
+  run_scene(one_wire(L,
+                     "  set Components = beam\n  set Mass per length = 2\n  set Weight = false\n"
+                     "  set Bending stiffness = 1000\n  set Element size = 0.5\n",
+                     " set Supports = ends\n subsection Support ends\n  set Wire = wire\n"
+                     "  set Positions = 0, 4\n  set Displacement = -0.01\n end\n"
+                     " set Links = stop\n subsection Link stop\n  set Type = stop\n"
+                     "  set From = ground\n  set To = wire @ 2\n  set Direction = 0, 1\n end\n"),
+            {},
+            [&](const taut::StepView &view)
+            {
+              if (view.state.time > 0.)
+                return;
+              force = view.state.multiplier[0];
+              end = displacement(view, 0, 0.);
+            });
+  const double exact = 48. * EI * d / (L * L * L);
+  figure("beam with sunken ends over a stop, force", force, "N");
+  EXPECT_NEAR(force, exact, 1e-9 * exact);
+  EXPECT_NEAR(end, -d, 1e-15);
+}
+
 // N = F s L^3/(3 EI)/(s^2 L^3/(3 EI) + c^2 L/EA + 1/k) = 0.48/0.0106036 = 45.2676 N; tip
 // -(F - N s) L^3/(3 EI) across and -N c L/EA along the beam.
 TEST(InclinedCable, force_and_tip_displacement_follow_from_flexibilities)

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: a sliding contact feels the height profile of its wire and the wire itself where it is.
+// Sources: on a wire that hardly yields, a mass on a contact spring is an oscillator shaken by the
+// profile, m x" + (k + k_0) x = k r(v t), solved here in closed form; a contact pressed by a
+// constant force without mass raises a string as a moving force does.
+#include "run.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace verification;
+
+// 5 kg, spring of 2 kN/m to the ground, contact spring of 10 kN/m, pressed by 60 N, at 4 m/s over
+// waves of 1 mm and 2 m. With Omega^2 = (k + k_0)/m, omega = 2 pi 4/2 1/s and r = a (1 - cos omega
+// t): x = k a/m [(1 - cos Omega t)/Omega^2 - (cos omega t - cos Omega t)/(Omega^2 - omega^2)].
+TEST(SlidingContact, wavy_wire_shakes_an_oscillator)
+{
+  const std::string scene =
+      "set Generator = network\nset Gravity = 0, 0\nset Start = equilibrium\n"
+      "subsection Network\n set Wires = wire\n set Supports = ends\n set Masses = mass\n"
+      " set Springs = spring\n set Links = contact\n set Loads = force\n"
+      " subsection Wire wire\n  set To = 10, 0\n  set Components = string\n"
+      "  set Mass per length = 1\n  set Tension = 1e9\n  set Element size = 0.5\n end\n"
+      " subsection Support ends\n  set Wire = wire\n  set Positions = 0, 10\n end\n"
+      " subsection Mass mass\n  set Position = 1, 0\n  set Mass = 5\n  set Motions = y\n end\n"
+      " subsection Spring spring\n  set From = ground\n  set To = mass\n  set Stiffness = 2000\n"
+      " end\n"
+      " subsection Link contact\n  set Type = sliding contact\n  set From = mass\n"
+      "  set To = wire @ 1\n  set Direction = 0, 1\n  set Stiffness = 10000\n  set Speed = 4\n"
+      "  set Height profile = 1e-3*(1-cos(pi*(s-1)))\n end\n"
+      " subsection Load force\n  set Type = point\n  set On = mass\n  set Magnitude = 60\n end\n"
+      "end\nsubsection Time\n set Scheme = generalised-alpha\n set Step = 1e-4\n set End = "
+      "2\nend\n";
+  const double m = 5., k0 = 2000., k = 1e4, a = 1e-3, omega = 4. * std::acos(-1.),
+               Omega = std::sqrt((k + k0) / m), at_rest = 60. / (k + k0);
+  double error = 0., force_error = 0., largest = 0., least_force = 1e9;
+  run_scene(scene, {},
+            [&](const taut::StepView &view)
+            {
+              const double t = view.state.time;
+              const double x =
+                  k * a / m *
+                  ((1. - std::cos(Omega * t)) / (Omega * Omega) -
+                   (std::cos(omega * t) - std::cos(Omega * t)) / (Omega * Omega - omega * omega));
+              const double r = a * (1. - std::cos(omega * t));
+              const double N = k * (at_rest + x - r),
+                           u = view.reference.displacement[1][0] + view.state.U[1][0];
+              error = std::max(error, std::fabs(u - at_rest - x));
+              force_error = std::max(force_error, std::fabs(view.state.multiplier[0] - N));
+              largest = std::max(largest, std::fabs(x));
+              least_force = std::min(least_force, view.state.multiplier[0]);
+            });
+  figure("oscillator shaken by a wavy wire, error of the motion over its largest", error / largest);
+  figure("oscillator shaken by a wavy wire, error of the force over 50 N", force_error / 50.);
+  EXPECT_GT(least_force, 10.) << "the contact must not open";
+  EXPECT_LT(error, 1e-3 * largest);
+  EXPECT_LT(force_error, .05);
+}
+
+// T = 20 kN, 1.35 kg/m, 250 km/h, 120 N: F v t/(T (1 + v/c)) under the contact, whatever its spring
+// is. The contact starts on the support.
+TEST(SlidingContact, constant_force_on_a_massless_contact_is_a_moving_force)
+{
+  const double v = 250. / 3.6;
+  std::ostringstream scene;
+  scene.precision(17);
+  scene << "set Generator = network\nset Gravity = 0, 0\nset Start = equilibrium\n"
+           "subsection Network\n set Wires = string\n set Supports = ends\n set Masses = mass\n"
+           " set Links = contact\n set Loads = force\n"
+           " subsection Wire string\n  set To = 60, 0\n  set Components = string\n"
+           "  set Mass per length = 1.35\n  set Tension = 20000\n  set Element size = 0.05\n"
+           "  set Degree = 2\n end\n"
+           " subsection Support ends\n  set Wire = string\n  set Positions = 0, 60\n end\n"
+           " subsection Mass mass\n  set Mass = 0.001\n  set Motions = y\n end\n"
+           " subsection Link contact\n  set Type = sliding contact\n  set From = mass\n"
+           "  set To = string @ 0\n  set Direction = 0, 1\n  set Stiffness = 50000\n"
+           "  set Damping = 20\n  set Speed = "
+        << v
+        << "\n end\n subsection Load force\n  set Type = point\n  set On = mass\n"
+           "  set Magnitude = 120\n end\nend\n"
+           "subsection Time\n set Scheme = BDF2\n set Step = 5e-4\n set End = 0.4\nend\n";
+  const double c = std::sqrt(20000. / 1.35);
+  double error = 0., force_error = 0., compression = 0.;
+  run_scene(scene.str(), {},
+            [&](const taut::StepView &view)
+            {
+              const double t = view.state.time;
+              if (t < .1)
+                return;
+              const double exact = 120. * v * t / (20000. * (1. + v / c)),
+                           w = displacement(view, 0, v * t);
+              error = std::max(error, std::fabs(w - exact) / exact);
+              force_error = std::max(force_error, std::fabs(view.state.multiplier[0] - 120.));
+              compression = -view.state.geometric_gap[0];
+            });
+  figure("sliding contact as a moving force, largest relative error under it, 0.1..0.4 s", error);
+  figure("sliding contact as a moving force, largest error of the force", force_error, "N");
+  figure("sliding contact as a moving force, compression of the contact spring at 0.4 s",
+         1e3 * compression, "mm");
+  EXPECT_LT(error, 2e-3);
+  EXPECT_LT(force_error, 1.);
+  EXPECT_NEAR(compression, 120. / 50000., .1 * 120. / 50000.);
+}
+
+namespace
+{
+  std::string chosen_scheme(const std::string &scene, const Overrides &more)
+  {
+    Overrides overrides = {"Time.Scheme=automatic"};
+    overrides.insert(overrides.end(), more.begin(), more.end());
+    Session session(scene_file(scene), overrides);
+    session.run([](const taut::StepView &) {});
+    const std::string log = session.log(), mark = "Scheme (automatic): ";
+    const std::size_t at = log.find(mark);
+    return at == std::string::npos ? "" : log.substr(at + mark.size(), 12);
+  }
+} // namespace
+
+// The rule of the documentation: rigid one-sided links want BDF2 where waves cross at least a
+// quarter of an element a step (here 30 m/s over 25 mm: 0.6 and 0.12), backward Euler below.
+TEST(Schemes, the_choice_follows_from_the_links)
+{
+  EXPECT_EQ(chosen_scheme("bar_on_wall", {"Time.End=1e-2"}).substr(0, 4), "BDF2");
+  EXPECT_EQ(chosen_scheme("bar_on_wall", {"Time.Step=1e-4", "Time.End=1e-3"}), "backward Eul");
+  EXPECT_EQ(chosen_scheme("inclined_cable", {"Time.End=1e-2"}), "generalised-");
+}
