@@ -14,7 +14,8 @@ file(RENAME ${FOLDER}/staged ${FOLDER}/moved)
 
 run(${FOLDER}/moved/bin/taut ${FOLDER}/moved/share/taut/prm/oscillator_with_stop.prm)
 
-run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${FOLDER}/build -G ${GENERATOR} -D CMAKE_PREFIX_PATH=${FOLDER}/moved
-  -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER} -D "CMAKE_CXX_FLAGS=-Wall -Wextra -Werror")
+run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${FOLDER}/build -G ${GENERATOR}
+  -D CMAKE_PREFIX_PATH=${FOLDER}/moved -D "CMAKE_CXX_FLAGS=-Wall -Wextra -Werror"
+  -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})
 run(${CMAKE_COMMAND} --build ${FOLDER}/build)
 run(${FOLDER}/build/weight_on_floor ${CMAKE_CURRENT_LIST_DIR}/weight_on_floor.prm)

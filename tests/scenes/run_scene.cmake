@@ -1,5 +1,5 @@
-# The program runs FILE to its end; RESULTS then holds tables with a head, at least one line and no nan, and no figure is
-# outside of a range that the file expects.
+# The program runs FILE to its end; RESULTS then holds tables with a head, at least one line and no nan, and no figure
+# is outside of a range that the file expects.
 file(REMOVE_RECURSE ${RESULTS})
 execute_process(COMMAND ${PROGRAM} ${FILE} --set Output.Folder=${RESULTS} RESULT_VARIABLE code)
 if(NOT code EQUAL 0)

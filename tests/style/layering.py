@@ -28,7 +28,7 @@ LIBRARIES = {
     "include/taut/scene": None,
     "source/scene": r"boost/.*|deal\.II/base/.*",
 }
-TRILINOS = r"(Epetra|AztecOO|Aztec|az_aztec|Belos|Teuchos|Ifpack|Amesos|Tpetra|ML|ml|Komplex|Isorropia)[A-Za-z_0-9]*\.(h|hpp)" \
+TRILINOS = r"(Epetra|Aztec|az_aztec|Belos|Teuchos|Ifpack|Amesos|Tpetra|ML|ml|Komplex|Isorropia)\w*\.(h|hpp)" \
            r"|deal\.II/lac/trilinos.*"
 TRILINOS_ROOM = "interface"
 
