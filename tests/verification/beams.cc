@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 extern "C" void dsygv_(const int *itype, const char *jobz, const char *uplo, const int *n,
@@ -163,4 +164,33 @@ TEST(Frequencies, point_mass_on_a_string)
          w[1] / (2. * std::acos(-1.) * c / L) - 1.);
   EXPECT_NEAR(w[0], exact, 1e-7 * exact);
   EXPECT_NEAR(w[1], 2. * std::acos(-1.) * c / L, 1e-7 * w[1]);
+}
+
+// A simply supported beam that starts in its first mode decays by exp(-d t), 2 d = alpha + beta
+// omega^2 with the factors alpha of the mass and beta of the stiffness in its damping, at the
+// frequency sqrt(omega^2 - d^2).
+TEST(Damping, first_mode_decays_as_rayleigh_damping_says)
+{
+  const double T = 60., EI = 20., m = 1.5, L = 4., alpha = .3, beta = .004, pi = std::acos(-1.);
+  const double q = pi / L, omega = std::sqrt((T * q * q + EI * q * q * q * q) / m),
+               d = .5 * (alpha + beta * omega * omega), damped = std::sqrt(omega * omega - d * d);
+  double error = 0.;
+  run_scene("set Generator = network\nset Gravity = 0, 0\nset Start = given\n"
+            "subsection Network\n set Wires = beam\n set Supports = ends\n"
+            " subsection Wire beam\n  set To = 4, 0\n  set Components = beam\n"
+            "  set Mass per length = 1.5\n  set Tension = 60\n  set Bending stiffness = 20\n"
+            "  set Element size = 0.2\n  set Mass damping = 0.3\n  set Stiffness damping = 0.004\n"
+            "  set Initial transverse displacement = 0.01*sin(pi*s/4)\n end\n"
+            " subsection Support ends\n  set Wire = beam\n  set Positions = 0, 4\n end\nend\n"
+            "subsection Time\n set Scheme = Newmark\n set Step = 2.5e-4\n set End = 4\nend\n",
+            {},
+            [&](const taut::StepView &view)
+            {
+              const double t = view.state.time,
+                           u = .01 * std::exp(-d * t) *
+                               (std::cos(damped * t) + d / damped * std::sin(damped * t));
+              error = std::max(error, std::fabs(displacement(view, 0, .5 * L) - u) / .01);
+            });
+  figure("damped beam, largest error of the first mode over its amplitude, 6 periods", error);
+  EXPECT_LT(error, 1e-4);
 }

@@ -195,6 +195,46 @@ TEST(Beam, sunken_supports_bend_it_over_a_stop)
   EXPECT_NEAR(end, -d, 1e-15);
 }
 
+// A load q sin(pi s/L) bends a simply supported tensioned beam by q sin(pi s/L)/(T k^2 + EI k^4),
+// k = pi/L; a spring K under the middle of a string of flexibility L/(4 T) takes F/(1 + 4 T/(K L)).
+TEST(Loads, distributed_load_and_elastic_support)
+{
+  const double T = 600., EI = 50., L = 30., k = std::acos(-1.) / L;
+  double error = 0., largest = 0.;
+  run_scene(one_wire(L,
+                     "  set Components = beam\n  set Mass per length = 2\n  set Weight = false\n"
+                     "  set Tension = 600\n  set Bending stiffness = 50\n  set Element size = 1\n",
+                     held_ends + " set Loads = load\n subsection Load load\n"
+                                 "  set Type = distributed\n  set On = wire\n"
+                                 "  set Magnitude = 10*sin(pi*s/30)\n end\n"),
+            {},
+            [&](const taut::StepView &view)
+            {
+              for (double s = 0.; s <= L; s += .5)
+              {
+                const double w = 10. * std::sin(k * s) / (T * k * k + EI * std::pow(k, 4));
+                largest = std::max(largest, w);
+                error = std::max(error, std::fabs(displacement(view, 0, s) - w));
+              }
+            });
+  figure("distributed load on a beam, largest error over the deflection", error / largest);
+  EXPECT_LT(error, 1e-5 * largest);
+
+  double down = 0.;
+  run_scene(one_wire(L,
+                     "  set Components = string\n  set Mass per length = 2\n  set Weight = false\n"
+                     "  set Tension = 600\n  set Element size = 1\n",
+                     " set Supports = ends, spring\n subsection Support ends\n  set Wire = wire\n"
+                     "  set Positions = 0, 30\n end\n subsection Support spring\n"
+                     "  set Wire = wire\n  set Positions = 15\n  set Type = elastic\n"
+                     "  set Stiffness = 70\n end\n set Loads = load\n"
+                     " subsection Load load\n  set Type = point\n  set On = wire @ 15\n"
+                     "  set Direction = 0, -1\n  set Magnitude = 90\n end\n"),
+            {}, [&](const taut::StepView &view) { down = -displacement(view, 0, 15.); });
+  figure("string on an elastic support, deflection", down, "m");
+  EXPECT_NEAR(down, 90. / (70. + 4. * T / L), 1e-12);
+}
+
 // N = F s L^3/(3 EI)/(s^2 L^3/(3 EI) + c^2 L/EA + 1/k) = 0.48/0.0106036 = 45.2676 N; tip
 // -(F - N s) L^3/(3 EI) across and -N c L/EA along the beam.
 TEST(InclinedCable, force_and_tip_displacement_follow_from_flexibilities)

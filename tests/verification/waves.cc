@@ -130,3 +130,35 @@ TEST(MovingForceOnString, whole_profile_is_exact_to_a_thousandth)
   EXPECT_GT(fitted_order(sizes, behind), .9);
   EXPECT_GT(fitted_order(sizes, ahead), .6) << "the front of the wave is a kink, O(h^(2/3))";
 }
+
+// A damper of sqrt(T m) at its end ends a string as if it went on: a wave that arrives there is
+// swallowed.
+TEST(Damper, of_the_wave_impedance_swallows_a_wave)
+{
+  double energy_before = 0., energy_after = 0.;
+  run_scene("set Generator = network\nset Gravity = 0, 0\nset Start = given\n"
+            "subsection Network\n set Wires = string\n set Supports = left, right\n"
+            " subsection Wire string\n  set To = 20, 0\n  set Components = string\n"
+            "  set Mass per length = 1\n  set Tension = 400\n  set Element size = 0.05\n"
+            "  set Initial transverse displacement = 0.01*exp(-(s-10)^2)\n"
+            "  set Initial transverse velocity = 0.4*(s-10)*exp(-(s-10)^2)\n end\n"
+            " subsection Support left\n  set Wire = string\n  set Positions = 0\n end\n"
+            " subsection Support right\n  set Wire = string\n  set Positions = 20\n"
+            "  set Type = elastic\n  set Damping = 20\n end\nend\n"
+            "subsection Time\n set Scheme = Newmark\n set Step = 5e-4\n set End = 0.9\nend\n",
+            {},
+            [&](const taut::StepView &view)
+            {
+              const taut::Substructure &body = view.structure[0];
+              std::vector<double> MV(body.n_dofs(), 0.), KU(body.n_dofs(), 0.);
+              body.mass().vmult_add(1., view.state.V[0].data(), MV.data());
+              body.stiffness().vmult_add(1., view.state.U[0].data(), KU.data());
+              energy_after = 0.;
+              for (std::size_t i = 0; i < MV.size(); ++i)
+                energy_after += .5 * (MV[i] * view.state.V[0][i] + KU[i] * view.state.U[0][i]);
+              if (energy_before == 0.)
+                energy_before = energy_after;
+            });
+  figure("string on a damper of its impedance, energy left over", energy_after / energy_before);
+  EXPECT_LT(energy_after, 1e-5 * energy_before);
+}
