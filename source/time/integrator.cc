@@ -66,6 +66,13 @@ namespace taut
     return newmark(step, beta, gamma, alpha_m, alpha_f);
   }
 
+  StepCoefficients hht(const double step, const double alpha)
+  {
+    if (!(alpha >= 0.) || !(alpha <= 1. / 3.))
+      throw UserError("alpha of the HHT method lies in [0, 1/3]");
+    return newmark(step, .25 * (1. + alpha) * (1. + alpha), .5 + alpha, 0., alpha);
+  }
+
   namespace
   {
     class BackwardEuler : public TimeIntegrator
@@ -146,6 +153,30 @@ namespace taut
       double rho = .8;
     };
 
+    class HHT : public TimeIntegrator
+    {
+    public:
+      void declare_parameters(dealii::ParameterHandler &prm) override
+      {
+        prm.enter_subsection("HHT");
+        prm.add_parameter("Alpha", alpha,
+                          "Weight of the old forces in the balance (minus the alpha of Hilber, "
+                          "Hughes and Taylor): 0 keeps all energy, 1/3 dissipates most [1]",
+                          dealii::Patterns::Double(0., 1. / 3.));
+        prm.leave_subsection();
+      }
+      StepCoefficients coefficients(const double step) const override { return hht(step, alpha); }
+      std::string description() const override
+      {
+        std::ostringstream out;
+        out << "HHT (alpha " << alpha << ")";
+        return out.str();
+      }
+
+    private:
+      double alpha = .1;
+    };
+
     const Register<TimeIntegrator, BackwardEuler>
         register_backward_euler("backward Euler", "first order, never chatters, dissipates");
     const Register<TimeIntegrator, BDF2>
@@ -156,5 +187,8 @@ namespace taut
     const Register<TimeIntegrator, GeneralisedAlpha>
         register_generalised_alpha("generalised-alpha",
                                    "second order, dissipation chosen by the spectral radius");
+    const Register<TimeIntegrator, HHT>
+        register_hht("HHT", "second order, dissipation chosen by alpha; for smooth problems and "
+                            "compliant one-sided links");
   } // namespace
 } // namespace taut

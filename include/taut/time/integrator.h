@@ -71,6 +71,13 @@ namespace taut
   /// Chung and Hulbert (1993), optimal dissipation with spectral radius rho in [0, 1] at infinite
   /// frequency.
   StepCoefficients generalised_alpha(double step, double rho);
+
+  /**
+   * Hilber, Hughes and Taylor (1977): Newmark with gamma = 1/2 + alpha and beta = (1 + alpha)^2/4,
+   * and the balance of forces taken at t_i - alpha step. @p alpha in [0, 1/3] is minus theirs; 0 is
+   * the trapezoidal rule, 1/3 dissipates most.
+   */
+  StepCoefficients hht(double step, double alpha);
 } // namespace taut
 
 #endif
