@@ -42,6 +42,7 @@ namespace taut
 
   void Catenary::declare_names(dealii::ParameterHandler &prm)
   {
+    check_item_names(pantographs, "Catenary/Pantographs");
     prm.enter_subsection("Catenary");
     prm.add_parameter("Pantographs", pantographs,
                       "Names, separated by commas; each has a section 'Pantograph <name>'. Empty: "
@@ -142,7 +143,7 @@ namespace taut
     pantograph_items.resize(pantographs.size());
     for (std::size_t i = 0; i < pantographs.size(); ++i)
     {
-      enter_item(prm, "Pantograph", pantographs, i, "Catenary/Pantographs");
+      enter_item(prm, "Pantograph", pantographs, i);
       pantograph_items[i].declare(prm);
       leave_item(prm);
     }

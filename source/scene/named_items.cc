@@ -8,6 +8,19 @@
 
 namespace taut
 {
+  void check_item_names(const std::vector<std::string> &names, const std::string &list_entry)
+  {
+    for (const std::string &name : names)
+    {
+      if (name.empty() || name.find_first_of("./@=#:") != std::string::npos)
+        throw EntryError(list_entry,
+                         "'" + name +
+                             "' cannot be a name: a name is not empty and has none of . / @ = # :");
+      if (std::count(names.begin(), names.end(), name) > 1)
+        throw EntryError(list_entry, "the name '" + name + "' comes twice");
+    }
+  }
+
   void declare_item_names(dealii::ParameterHandler &prm, const std::string &list,
                           const std::string &section, const std::string &help,
                           std::vector<std::string> &names)
@@ -20,17 +33,9 @@ namespace taut
   }
 
   void enter_item(dealii::ParameterHandler &prm, const std::string &section,
-                  const std::vector<std::string> &names, const std::size_t i,
-                  const std::string &list_entry)
+                  const std::vector<std::string> &names, const std::size_t i)
   {
-    const std::string &name = names[i];
-    if (name.empty() || name.find_first_of("./@=#:") != std::string::npos)
-      throw EntryError(list_entry,
-                       "'" + name +
-                           "' cannot be a name: a name is not empty and has none of . / @ = # :");
-    if (std::count(names.begin(), names.end(), name) > 1)
-      throw EntryError(list_entry, "the name '" + name + "' comes twice");
-    prm.enter_subsection(section + " " + name);
+    prm.enter_subsection(section + " " + names[i]);
   }
 
   void leave_item(dealii::ParameterHandler &prm)

@@ -13,16 +13,21 @@ namespace dealii
 
 namespace taut
 {
+  /**
+   * Throws an EntryError on @p list_entry if one of the names is unusable or repeated. To be called
+   * before the names are declared again: the handler writes its default value and reads it back,
+   * and an empty name does not survive that, so that there would be more names than sections.
+   */
+  void check_item_names(const std::vector<std::string> &names, const std::string &list_entry);
+
   /// Declares the entry with the names of a list of items.
   void declare_item_names(dealii::ParameterHandler &prm, const std::string &list,
                           const std::string &section, const std::string &help,
                           std::vector<std::string> &names);
 
-  /// Enters or leaves the section of an item. An unusable or repeated name is an EntryError on @p
-  /// list_entry.
+  /// Enters or leaves the section of an item.
   void enter_item(dealii::ParameterHandler &prm, const std::string &section,
-                  const std::vector<std::string> &names, std::size_t i,
-                  const std::string &list_entry);
+                  const std::vector<std::string> &names, std::size_t i);
   void leave_item(dealii::ParameterHandler &prm);
 
   /**
@@ -43,6 +48,7 @@ namespace taut
 
     void declare_names(dealii::ParameterHandler &prm)
     {
+      check_item_names(names, parent + "/" + list);
       declare_item_names(prm, list, section, help, names);
     }
 
@@ -51,7 +57,7 @@ namespace taut
       items.resize(names.size());
       for (std::size_t i = 0; i < names.size(); ++i)
       {
-        enter_item(prm, section, names, i, parent + "/" + list);
+        enter_item(prm, section, names, i);
         items[i].declare(prm);
         leave_item(prm);
       }
