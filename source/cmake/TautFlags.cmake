@@ -19,6 +19,12 @@ function(taut_setup_target target)
   if(TAUT_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
+  if(TAUT_SANITIZE)
+    target_compile_options(${target} PRIVATE
+      -fsanitize=${TAUT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    # PUBLIC: a program outside that uses the library must load the sanitizer's runtime before anything else.
+    target_link_options(${target} PUBLIC -fsanitize=${TAUT_SANITIZE})
+  endif()
   # deal.II's imported target does not pass its include folders on: without them a user of the library misses mpi.h.
   target_include_directories(${target} SYSTEM PUBLIC ${DEAL_II_INCLUDE_DIRS})
 endfunction()

@@ -14,6 +14,7 @@ parser.add_argument("--build", type=pathlib.Path, required=True)
 parser.add_argument("--type", required=True, help="Debug or Release")
 parser.add_argument("--native", type=int, required=True)
 parser.add_argument("--werror", type=int, required=True)
+parser.add_argument("--sanitize", default="", help="sanitizers, separated by commas")
 parser.add_argument("--own", default="", help="CMAKE_CXX_FLAGS: what the user asked for")
 arguments = parser.parse_args()
 
@@ -38,6 +39,8 @@ for entry in json.loads((arguments.build / "compile_commands.json").read_text())
     machines = [f for f in flags if f.startswith("-march=") and f not in own]
     require(machines == ["-march=native"] * arguments.native, f"machine flags {machines}")
     require(("-Werror" in flags) == bool(arguments.werror), "-Werror is not as TAUT_WERROR says")
+    sanitizers = [f for f in flags if f.startswith("-fsanitize=") and f not in own]
+    require(sanitizers == [f"-fsanitize={arguments.sanitize}"] * bool(arguments.sanitize), f"sanitizers {sanitizers}")
     for flag in ("-Wall", "-Wextra", "-std=c++17"):
         require(flag in flags, f"{flag} is missing")
 
