@@ -40,20 +40,21 @@ namespace
               << "Run it with 'taut " << default_file << "'; see 'taut --help'.\n";
   }
 
-  void run(const po::variables_map &arguments)
+  void run(const po::variables_map &arguments, const taut::Communicator &processes)
   {
     taut::Parameters parameters;
     parameters.read(arguments["file"].as<std::string>(),
                     arguments.count("set") ? arguments["set"].as<std::vector<std::string>>()
-                                           : std::vector<std::string>());
+                                           : std::vector<std::string>(),
+                    processes);
     parameters.output.overwrite = arguments.count("overwrite") > 0;
     try
     {
-      taut::Simulation simulation(parameters, std::cout);
+      taut::Simulation simulation(parameters, std::cout, processes);
       if (arguments.count("check"))
       {
         simulation.check();
-        if (arguments.count("sketch"))
+        if (arguments.count("sketch") && processes.is_root())
           taut::write_sketch(simulation.scene(), arguments["sketch"].as<std::string>());
         return;
       }
@@ -66,10 +67,26 @@ namespace
       throw taut::UserError(parameters.explain(e));
     }
   }
+
+  /// Says once what all ranks have to say. Returns the exit code.
+  int report(const taut::Communicator &processes, const std::string &message)
+  {
+    if (processes.is_root())
+      std::cerr << "taut: " << message << '\n';
+    return 1;
+  }
 } // namespace
 
 int main(int argc, char **argv)
 {
+  taut::Communicator processes;
+  if (taut::started_in_parallel())
+  {
+    taut::start_mpi();
+    processes = taut::Communicator(MPI_COMM_WORLD);
+  }
+  if (!processes.is_root())
+    std::cout.setstate(std::ios::failbit);
   po::options_description options("Options");
   options.add_options()("check", "read the file, check the scene and print it, without a run")(
       "sketch", po::value<std::string>(), "with --check: draw the undeformed scene, FILE.svg")(
@@ -94,33 +111,32 @@ int main(int argc, char **argv)
     else if (arguments.count("version"))
       std::cout << "taut " << taut::version() << '\n';
     else if (arguments.count("file"))
-      run(arguments);
-    else
+      run(arguments, processes);
+    else if (processes.is_root())
       write_default_file();
     std::cout.flush();
     return 0;
   }
   catch (const po::error &e)
   {
-    std::cerr << "taut: " << e.what() << "; see 'taut --help'\n";
+    return report(processes, e.what() + std::string("; see 'taut --help'"));
   }
   catch (const taut::UserError &e)
   {
-    std::cerr << "taut: " << e.what() << '\n';
-  }
-  catch (const std::bad_alloc &)
-  {
-    std::cerr
-        << "taut: the scene needs more memory than there is; take larger elements or fewer links\n";
-  }
-  catch (const std::length_error &)
-  {
-    std::cerr
-        << "taut: the scene needs more memory than there is; take larger elements or fewer links\n";
+    return report(processes, e.what());
   }
   catch (const std::exception &e)
   {
-    std::cerr << "taut: internal error: " << e.what() << '\n';
+    const bool too_large = dynamic_cast<const std::bad_alloc *>(&e) != nullptr ||
+                           dynamic_cast<const std::length_error *>(&e) != nullptr;
+    std::cerr << "taut: "
+              << (too_large ? "the scene needs more memory than there is; take larger elements or "
+                              "fewer links"
+                            : std::string("internal error: ") + e.what())
+              << '\n';
+    // The other ranks may not know of it, and would wait for this one.
+    if (processes.size() > 1)
+      MPI_Abort(MPI_COMM_WORLD, 1);
   }
   return 1;
 }

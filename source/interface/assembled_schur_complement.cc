@@ -65,10 +65,7 @@ namespace taut
     for (std::size_t i = 0; i < rows.n_fixed(); ++i)
       compute_column(i);
     for (std::size_t i = 0; i < rows.n_fixed(); ++i)
-    {
-      for (std::size_t j = 0; j <= i; ++j)
-        F.set(i, j, entry(i, rows[j].terms) + (i == j ? S[i] : 0.));
-    }
+      set_rows(i, i + 1);
 
     // Work of a solve: 4 products of b x b blocks a node, b of order 2; of a column: one product an
     // entry.
@@ -84,11 +81,22 @@ namespace taut
   void AssembledSchurComplement::update_moving()
   {
     for (std::size_t i = rows.n_fixed(); i < rows.size(); ++i)
-    {
       compute_column(i);
+    set_rows(rows.n_fixed(), rows.size());
+  }
+
+  /// The rows of F from the columns, left of the diagonal and on it.
+  void AssembledSchurComplement::set_rows(const std::size_t begin, const std::size_t end)
+  {
+    shares.clear();
+    for (std::size_t i = begin; i < end; ++i)
       for (std::size_t j = 0; j <= i; ++j)
-        F.set(i, j, entry(i, rows[j].terms) + (i == j ? compliance[i] : 0.));
-    }
+        shares.push_back(entry(i, rows[j].terms));
+    solvers.structure().communicator().sum(shares);
+    const double *share = shares.data();
+    for (std::size_t i = begin; i < end; ++i)
+      for (std::size_t j = 0; j <= i; ++j, ++share)
+        F.set(i, j, *share + (i == j ? compliance[i] : 0.));
   }
 
   void AssembledSchurComplement::free_motion(const BlockVector &P, std::vector<double> &d) const

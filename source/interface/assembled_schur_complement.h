@@ -30,11 +30,12 @@ namespace taut
 
     void compute_column(std::size_t i);
     double entry(std::size_t column, const std::vector<Term> &terms) const;
+    void set_rows(std::size_t begin, std::size_t end);
 
     const FactoredStructure &solvers;
     const ContactRows &rows;
     DenseOperator F;
-    std::vector<double> compliance;
+    std::vector<double> compliance, shares;
     std::vector<Column> columns;
     bool by_columns = false; ///< free_motion() from the stored columns is cheaper than a solve
     mutable BlockVector work;

@@ -81,6 +81,15 @@ namespace taut
       set_terms(rows[i], t);
   }
 
+  std::vector<double> ContactRows::motions(const BlockVector &U) const
+  {
+    std::vector<double> result(rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      result[i] = evaluate(rows[i].terms, U);
+    structure.communicator().sum(result);
+    return result;
+  }
+
   void ContactRows::add_forces(const std::vector<double> &N, BlockVector &P) const
   {
     for (std::size_t i = 0; i < rows.size(); ++i)

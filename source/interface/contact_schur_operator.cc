@@ -42,7 +42,10 @@ namespace taut
     rows.add_forces(multiplier, work);
     solvers.solve(work);
     for (std::size_t i = 0; i < active.size(); ++i)
-      y[i] = active[i] ? evaluate(rows[i].terms, work) + (compliance[i] + shift[i]) * x[i] : x[i];
+      multiplier[i] = active[i] ? evaluate(rows[i].terms, work) : 0.;
+    solvers.structure().communicator().sum(multiplier);
+    for (std::size_t i = 0; i < active.size(); ++i)
+      y[i] = active[i] ? multiplier[i] + (compliance[i] + shift[i]) * x[i] : x[i];
   }
 
   int ContactSchurOperator::Apply(const Epetra_MultiVector &X, Epetra_MultiVector &Y) const

@@ -72,16 +72,16 @@ namespace taut
     for (std::size_t w = 0; w < scene.wires.size(); ++w)
     {
       const std::vector<double> nodes = grid(scene, w);
-      std::vector<Sample> samples;
+      wire_begins.push_back(wires.size());
       for (std::size_t e = 0; e + 1 < nodes.size(); ++e)
         for (unsigned int k = e == 0 ? 0 : 1; k <= subdivisions; ++k)
         {
           const double s = nodes[e] + (nodes[e + 1] - nodes[e]) * k / subdivisions;
-          samples.push_back(sample(scene, structure, {Attachment::Kind::wire, w, s}));
-          samples.back().part = structure.part(w, s);
+          wires.push_back(sample(scene, structure, {Attachment::Kind::wire, w, s}));
+          wires.back().part = structure.part(w, s);
         }
-      wires.push_back(std::move(samples));
     }
+    wire_begins.push_back(wires.size());
     for (const Link &link : scene.links)
       if (!link.moving())
         link_ends.push_back(sample(scene, structure,
@@ -98,11 +98,31 @@ namespace taut
     return result;
   }
 
-  Point Fields::displacement(const Sample &sample, const StepView &step) const
+  std::vector<Point> Fields::displacements(const std::vector<Sample> &samples,
+                                           const StepView &step) const
   {
     const BlockVector &reference = step.reference.displacement, &U = step.state.U;
-    return {evaluate(sample.x, reference) + evaluate(sample.x, U),
-            evaluate(sample.y, reference) + evaluate(sample.y, U)};
+    std::vector<double> shares;
+    for (const Sample &sample : samples)
+      for (const std::vector<Term> *terms : {&sample.x, &sample.y})
+        shares.push_back(evaluate(*terms, reference) + evaluate(*terms, U));
+    step.structure.communicator().sum(shares);
+    std::vector<Point> result;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      result.push_back({shares[2 * i], shares[2 * i + 1]});
+    return result;
+  }
+
+  /// The fixed ends of the rows that are links, and where the moving ones are now.
+  std::vector<Fields::Sample> Fields::ends_of_links(const StepView &step) const
+  {
+    std::vector<Sample> ends = link_ends;
+    for (std::size_t i = 0; i < step.rows.size(); ++i)
+      if (step.rows[i].moving)
+        ends.push_back(sample(step.scene, step.structure,
+                              {Attachment::Kind::wire, step.scene.links[step.rows[i].link].to.index,
+                               step.rows.position(i, step.state.time)}));
+    return ends;
   }
 
   void Fields::record(const StepView &step)
@@ -111,42 +131,52 @@ namespace taut
     if (interval == 0. || step.state.time < next - 1e-9 * interval)
       return;
     next = step.state.time + interval;
-    if (!wires.empty())
+    const std::vector<Sample> ends = ends_of_links(step);
+    const std::vector<Point> wire_displacement = displacements(wires, step),
+                             link_displacement = displacements(ends, step);
+    const auto write = [&]
     {
-      wire_files.emplace_back(step.state.time, numbered("wires", wire_files.size()));
-      write_wires(step, wire_files.back().second);
-      write_collection("wires.pvd", wire_files);
-    }
-    if (step.rows.size() > 0)
-    {
-      link_files.emplace_back(step.state.time, numbered("links", link_files.size()));
-      write_links(step, link_files.back().second);
-      write_collection("links.pvd", link_files);
-    }
+      if (!step.structure.communicator().is_root())
+        return;
+      if (!wires.empty())
+      {
+        wire_files.emplace_back(step.state.time, numbered("wires", wire_files.size()));
+        write_wires(wire_displacement, wire_files.back().second);
+        write_collection("wires.pvd", wire_files);
+      }
+      if (!ends.empty())
+      {
+        link_files.emplace_back(step.state.time, numbered("links", link_files.size()));
+        write_links(step, ends, link_displacement, link_files.back().second);
+        write_collection("links.pvd", link_files);
+      }
+    };
+    step.structure.communicator().agree(write);
   }
 
-  void Fields::write_wires(const StepView &step, const std::string &name) const
+  void Fields::write_wires(const std::vector<Point> &displacement, const std::string &name) const
   {
     Patches<1> out;
     out.names = {"displacement", "displacement", "displacement", "wire", "part"};
     out.ranges = {
         {0, 2, "displacement", dealii::DataComponentInterpretation::component_is_part_of_vector}};
-    for (std::size_t w = 0; w < wires.size(); ++w)
+    for (std::size_t w = 0; w + 1 < wire_begins.size(); ++w)
     {
       // One patch a wire, with the coordinates of its points as the last rows of its data.
-      const std::size_t n = wires[w].size();
+      const std::size_t begin = wire_begins[w], n = wire_begins[w + 1] - begin;
+      const Point first = wires[begin].place, last = wires[begin + n - 1].place;
       dealii::DataOutBase::Patch<1, 3> patch;
       patch.reference_cell = dealii::ReferenceCells::Line;
       patch.n_subdivisions = n - 1;
       patch.patch_index = w;
       patch.points_are_available = true;
-      patch.vertices[0] = dealii::Point<3>(wires[w].front().place.x, 0., wires[w].front().place.y);
-      patch.vertices[1] = dealii::Point<3>(wires[w].back().place.x, 0., wires[w].back().place.y);
+      patch.vertices[0] = dealii::Point<3>(first.x, 0., first.y);
+      patch.vertices[1] = dealii::Point<3>(last.x, 0., last.y);
       patch.data.reinit(8, n);
       for (std::size_t k = 0; k < n; ++k)
       {
-        const Sample &at = wires[w][k];
-        const Point u = displacement(at, step);
+        const Sample &at = wires[begin + k];
+        const Point &u = displacement[begin + k];
         const double values[] = {
             u.x,        0., u.y,       static_cast<double>(w), static_cast<double>(at.part),
             at.place.x, 0., at.place.y};
@@ -158,7 +188,8 @@ namespace taut
     out.write(folder + "/" + name);
   }
 
-  void Fields::write_links(const StepView &step, const std::string &name) const
+  void Fields::write_links(const StepView &step, const std::vector<Sample> &ends,
+                           const std::vector<Point> &displacement, const std::string &name) const
   {
     Patches<0> out;
     out.names = {"displacement", "displacement", "displacement", "force", "gap", "open"};
@@ -168,15 +199,11 @@ namespace taut
     {
       if (step.rows[i].is_cut())
         continue;
-      Sample moving;
-      if (step.rows[i].moving)
-        moving = sample(step.scene, step.structure,
-                        {Attachment::Kind::wire, step.scene.links[step.rows[i].link].to.index,
-                         step.rows.position(i, step.state.time)});
-      const Sample &end = step.rows[i].moving ? moving : link_ends[i];
-      const Point u = displacement(end, step);
+      const std::size_t index = out.patches.size();
+      const Sample &end = ends[index];
+      const Point &u = displacement[index];
       dealii::DataOutBase::Patch<0, 3> patch;
-      patch.patch_index = out.patches.size();
+      patch.patch_index = index;
       patch.vertices[0] = dealii::Point<3>(end.place.x, 0., end.place.y);
       patch.data.reinit(6, 1);
       const double values[] = {u.x,

@@ -326,6 +326,42 @@ namespace taut
       add(entry);
   }
 
+  void ParameterFile::broadcast(const Communicator &processes)
+  {
+    if (processes.size() == 1)
+      return;
+    const auto as_json = [](const std::vector<Entry> &items)
+    {
+      nlohmann::json all = nlohmann::json::array();
+      for (const Entry &item : items)
+        all.push_back({item.path, item.value, item.place});
+      return all;
+    };
+    std::string text;
+    if (processes.is_root())
+      text = nlohmann::json({main_file, as_json(list), as_json(section_list)}).dump();
+    processes.broadcast(text);
+    if (processes.is_root())
+      return;
+
+    const nlohmann::json all = nlohmann::json::parse(text);
+    main_file = all[0].get<std::string>();
+    const auto take = [](const nlohmann::json &items, std::vector<Entry> &to,
+                         std::map<std::string, std::size_t> &names)
+    {
+      to.clear();
+      names.clear();
+      for (const auto &item : items)
+      {
+        to.push_back({item[0].get<std::vector<std::string>>(), item[1].get<std::string>(),
+                      item[2].get<std::string>()});
+        names.emplace(join(to.back().path), to.size() - 1);
+      }
+    };
+    take(all[1], list, index);
+    take(all[2], section_list, section_index);
+  }
+
   std::string ParameterFile::text() const
   {
     std::string result;

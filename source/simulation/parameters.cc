@@ -244,12 +244,20 @@ namespace taut
     }
   }
 
-  void Parameters::read(const std::string &name, const std::vector<std::string> &overrides)
+  void Parameters::read(const std::string &name, const std::vector<std::string> &overrides,
+                        const Communicator &processes)
   {
     dealii::deal_II_exceptions::suppress_stacktrace_in_exceptions();
-    file.read(name);
-    for (const std::string &o : overrides)
-      file.set(o);
+    processes.agree(
+        [&]
+        {
+          if (!processes.is_root())
+            return;
+          file.read(name);
+          for (const std::string &o : overrides)
+            file.set(o);
+        });
+    file.broadcast(processes);
     create_integrators();
     const std::string text = file.text();
     try

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numeric>
 #include <ostream>
 
 namespace taut
@@ -38,10 +39,11 @@ namespace taut
     }
   } // namespace
 
-  Simulation::Simulation(const Parameters &parameters, std::ostream &log)
-      : parameters(parameters), log(log),
+  Simulation::Simulation(const Parameters &parameters, std::ostream &log,
+                         const Communicator &processes)
+      : parameters(parameters), log(log), processes(processes),
         model(find_lengths(parameters.scene(), parameters.solver)),
-        bodies(model, make_partition(model, parameters.partition)), links(model, bodies)
+        bodies(model, make_partition(model, parameters.partition), processes), links(model, bodies)
   {
     for (const Probe &probe : model.probes)
     {
@@ -67,8 +69,12 @@ namespace taut
                                                    model.start == Start::equilibrium);
 
     // Nothing on the disk was touched until here, where the scene is known to make sense.
-    prepare_folder();
-    write_start();
+    on_root(
+        [&]
+        {
+          prepare_folder();
+          write_start();
+        });
     Fields fields(parameters.output.folder, model, bodies, parameters.output.field_interval,
                   parameters.output.subdivisions);
     if (!integrator)
@@ -80,27 +86,40 @@ namespace taut
     }
 
     TimeStepper &stepper = *time_stepper;
-    Series series(parameters.output.folder, model, links, parameters.output.interval,
-                  parameters.output.link_interval);
+    std::unique_ptr<Series> series;
+    on_root(
+        [&]
+        {
+          series =
+              std::make_unique<Series>(parameters.output.folder, model, links,
+                                       parameters.output.interval, parameters.output.link_interval);
+        });
     Statistics statistics(parameters.statistics, model, links);
-    std::vector<Observer *> observers = {&series, &statistics, &fields};
+    std::vector<Observer *> observers = {&statistics};
+    if (series)
+      observers.push_back(series.get());
     observers.insert(observers.end(), guests.begin(), guests.end());
 
     const auto begin = std::chrono::steady_clock::now();
     try
     {
-      advance(stepper, observers);
+      advance(stepper, observers, fields);
     }
     catch (const UserError &)
     {
       // What was computed before the error is kept; it may show the reason.
-      series.close();
+      if (series)
+        series->close();
       throw;
     }
     const double all =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    series.close();
-    statistics.write(parameters.output.folder + "/statistics.json");
+    on_root(
+        [&]
+        {
+          series->close();
+          statistics.write(parameters.output.folder + "/statistics.json");
+        });
     statistics.print(log);
     const long n_steps = stepper.n_steps_done();
     log << n_steps << " steps in " << all << " s, " << parameters.end_time / all
@@ -156,13 +175,29 @@ namespace taut
                                             "': no permission, or the disk is full");
   }
 
-  void Simulation::advance(TimeStepper &stepper, const std::vector<Observer *> &observers)
+  void Simulation::on_root(const std::function<void()> &work) const
+  {
+    processes.agree(
+        [&]
+        {
+          if (processes.is_root())
+            work();
+        });
+  }
+
+  void Simulation::advance(TimeStepper &stepper, const std::vector<Observer *> &observers,
+                           Fields &fields)
   {
     const auto show = [&](const State &state, const Certificate &certificate)
     {
       update_probes(state);
-      for (Observer *observer : observers)
-        observer->record(view(state, certificate));
+      processes.agree(
+          [&]
+          {
+            for (Observer *observer : observers)
+              observer->record(view(state, certificate));
+          });
+      fields.record(view(state, certificate));
     };
     show(start, start_certificate);
     const auto n_steps = std::lround(parameters.end_time / parameters.step);
@@ -183,15 +218,19 @@ namespace taut
       n_unilateral += links[i].unilateral;
       n_rigid += std::isinf(links[i].stiffness);
     }
+    const std::vector<Structure::Body> &all = bodies.all_bodies();
     log << "Scene '" << parameters.generator_name << "': " << model.wires.size() << " wires, "
         << model.masses.size() << " masses, " << model.links.size() << " links\n"
-        << "  " << bodies.size() << " bodies:";
+        << "  " << all.size() << " bodies:";
     constexpr std::size_t most_named = 6;
-    for (std::size_t k = 0; k < std::min(bodies.size(), most_named); ++k)
-      log << (k > 0 ? "," : "") << " '" << bodies[k].name() << "' " << bodies[k].n_dofs()
-          << " DoFs";
-    if (bodies.size() > most_named)
-      log << " and more, " << bodies.n_dofs() << " DoFs in all";
+    for (std::size_t k = 0; k < std::min(all.size(), most_named); ++k)
+      log << (k > 0 ? "," : "") << " '" << all[k].name << "' " << all[k].n_dofs << " DoFs";
+    if (all.size() > most_named)
+      log << " and more, "
+          << std::accumulate(all.begin(), all.end(), std::size_t(0),
+                             [](const std::size_t sum, const Structure::Body &body)
+                             { return sum + body.n_dofs; })
+          << " DoFs in all";
     if (!bodies.cut_rows().empty())
       log << "\n  wires cut in " << bodies.cut_rows().size() << " rows";
     log << "\n  " << links.size() << " multipliers: " << n_unilateral << " one-sided, "
@@ -235,28 +274,33 @@ namespace taut
           << " active-set iterations\n";
     }
     else if (model.start == Start::given)
-      for (std::size_t k = 0; k < bodies.size(); ++k)
-      {
-        bodies[k].initial_state(start.U[k], start.V[k]);
-        for (const ConstrainedDof &constraint : bodies[k].constraints())
-          start.U[k][constraint.dof] = constraint.motion(0., 0.);
-        bodies[k].stiffness().vmult_add(1., start.U[k].data(), start.KU[k].data());
-      }
+      processes.agree(
+          [&]
+          {
+            for (std::size_t k = 0; k < bodies.size(); ++k)
+            {
+              bodies[k].initial_state(start.U[k], start.V[k]);
+              for (const ConstrainedDof &constraint : bodies[k].constraints())
+                start.U[k][constraint.dof] = constraint.motion(0., 0.);
+              bodies[k].stiffness().vmult_add(1., start.U[k].data(), start.KU[k].data());
+            }
+          });
 
+    const std::vector<double> reference_motion = links.motions(reference.displacement),
+                              motion = links.motions(start.U), velocity = links.motions(start.V);
     start.geometric_gap.resize(links.size());
     start.gap.resize(links.size());
     for (std::size_t i = 0; i < links.size(); ++i)
     {
       const Row &row = links[i];
-      start.geometric_gap[i] =
-          row.gap + evaluate(row.terms, reference.displacement) + evaluate(row.terms, start.U);
+      start.geometric_gap[i] = row.gap + reference_motion[i] + motion[i];
       // The spring of a link starts as compressed as its ends stand, and a compressed one as fast
       // as they move; a rigid one is not compressed.
       double u = start.multiplier[i] / row.stiffness;
       if (model.start != Start::equilibrium && !std::isinf(row.stiffness))
       {
         u = row.unilateral ? std::max(0., -start.geometric_gap[i]) : -start.geometric_gap[i];
-        const double v = !row.unilateral || u > 0. ? -evaluate(row.terms, start.V) : 0.;
+        const double v = !row.unilateral || u > 0. ? -velocity[i] : 0.;
         start.link_springs[i].v = v;
         start.multiplier[i] = u * row.stiffness + v * row.damping;
         if (row.unilateral)
@@ -299,6 +343,7 @@ namespace taut
     }
     for (std::size_t i = 0; i < probe_terms.size(); ++i)
       probe_rest[i] = evaluate(probe_terms[i], rest);
+    processes.sum(probe_rest);
   }
 
   const TimeIntegrator &Simulation::choose_integrator() const
@@ -345,7 +390,10 @@ namespace taut
   void Simulation::update_probes(const State &state)
   {
     for (std::size_t i = 0; i < probe_terms.size(); ++i)
-      probe_values[i] = evaluate(probe_terms[i], reference.displacement) +
-                        evaluate(probe_terms[i], state.U) - probe_rest[i];
+      probe_values[i] =
+          evaluate(probe_terms[i], reference.displacement) + evaluate(probe_terms[i], state.U);
+    processes.sum(probe_values);
+    for (std::size_t i = 0; i < probe_terms.size(); ++i)
+      probe_values[i] -= probe_rest[i];
   }
 } // namespace taut

@@ -12,8 +12,7 @@ extern "C" void dsyev_(const char *jobz, const char *uplo, const int *n, double 
 namespace taut
 {
   Mechanism::Mechanism(const Scene &scene, const std::vector<std::size_t> &members)
-      : Substructure(scene.masses[members.front()].name + (members.size() > 1 ? " and others" : ""),
-                     scene.masses[members.front()].origin)
+      : Substructure(name_of(scene, members), scene.masses[members.front()].origin)
   {
     for (const std::size_t m : members)
       for (unsigned int motion = 0; motion < 3; ++motion)
@@ -38,6 +37,11 @@ namespace taut
     add_springs(scene);
     add_loads(scene);
     finish_constraints();
+  }
+
+  std::string Mechanism::name_of(const Scene &scene, const std::vector<std::size_t> &members)
+  {
+    return scene.masses[members.front()].name + (members.size() > 1 ? " and others" : "");
   }
 
   void Mechanism::add_springs(const Scene &scene)

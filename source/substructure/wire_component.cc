@@ -65,23 +65,20 @@ namespace taut
   }
 
   WireComponent::WireComponent(const Scene &scene, const std::size_t wire, const WireMotion motion)
-      : WireComponent(scene, wire, motion, 0, grid(scene, wire).size() - 1)
+      : WireComponent(scene, wire, motion, grid(scene, wire), 0, grid(scene, wire).size() - 1)
   {
   }
 
   WireComponent::WireComponent(const Scene &scene, const std::size_t wire_index,
-                               const WireMotion motion, const std::size_t first_node,
-                               const std::size_t last_node)
-      : Substructure(scene.wires[wire_index].name +
-                         (motion == WireMotion::axial ? " (axial)" : " (transverse)"),
-                     scene.wires[wire_index].origin),
+                               const WireMotion motion, const std::vector<double> &grid,
+                               const std::size_t first_node, const std::size_t last_node)
+      : Substructure(name_of(scene, wire_index, motion), scene.wires[wire_index].origin),
         motion(motion)
   {
     const Wire &wire = scene.wires[wire_index];
-    nodes = grid(scene, wire_index);
-    wire_length = nodes.back();
-    is_last = last_node + 1 == nodes.size();
-    nodes = {nodes.begin() + first_node, nodes.begin() + last_node + 1};
+    wire_length = grid.back();
+    is_last = last_node + 1 == grid.size();
+    nodes = {grid.begin() + first_node, grid.begin() + last_node + 1};
     axis = motion == WireMotion::axial ? wire.tangent() : wire.normal();
     beam = motion == WireMotion::transverse && wire.transverse == TransverseKind::beam;
     if (beam)
@@ -110,6 +107,12 @@ namespace taut
   }
 
   WireComponent::~WireComponent() = default;
+
+  std::string WireComponent::name_of(const Scene &scene, const std::size_t wire,
+                                     const WireMotion motion)
+  {
+    return scene.wires[wire].name + (motion == WireMotion::axial ? " (axial)" : " (transverse)");
+  }
 
   bool WireComponent::owns(const double s) const
   {

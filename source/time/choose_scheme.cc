@@ -50,22 +50,27 @@ namespace taut
 
     const StepCoefficients c = generalised_alpha(step, .8);
     FactoredStructure solvers(structure, parameters.local_solver);
-    solvers.factor(c.mass_factor(), c.velocity);
+    const Communicator &processes = structure.communicator();
+    processes.agree([&] { solvers.factor(c.mass_factor(), c.velocity); });
+    std::vector<double> flexibility(rows.size(), 0.);
+    WindowedVector column;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      for (const Term &term : rows[i].terms)
+        if (rows[i].unilateral)
+        {
+          solvers[term.substructure].column(term.form, column);
+          flexibility[i] += column.dot(term.form);
+        }
+    processes.sum(flexibility);
+
     double courant = std::numeric_limits<double>::infinity();
     std::string rigid;
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
       if (!rows[i].unilateral)
         continue;
-      double flexibility = 0.;
-      WindowedVector column;
-      for (const Term &term : rows[i].terms)
-      {
-        solvers[term.substructure].column(term.form, column);
-        flexibility += column.dot(term.form);
-      }
       const double compliance = 1. / (rows[i].stiffness + c.velocity * rows[i].damping);
-      if (compliance >= flexibility)
+      if (compliance >= flexibility[i])
         continue;
       if (rigid.empty())
         rigid = rows[i].name;

@@ -31,36 +31,55 @@ namespace taut
       }
     }
 
-    /// G_ki = R_k . B_i and e_k = R_k . P of the free motions of all bodies.
-    void set_kernel(const std::vector<Substructure::Kernel> &kernels, const ContactRows &rows,
-                    const BlockVector &P, MixedComplementarityProblem &problem)
+    /**
+     * G_ki = R_k . B_i and e_k = R_k . P of the free motions of all bodies, rank after rank.
+     * Returns the number of the first one of this rank.
+     */
+    std::size_t set_kernel(const std::vector<Substructure::Kernel> &kernels,
+                           const Communicator &processes, const ContactRows &rows,
+                           const BlockVector &P, MixedComplementarityProblem &problem)
     {
-      for (std::size_t k = 0; k < kernels.size(); ++k)
-        for (const std::vector<double> &R : kernels[k].vectors)
-        {
-          for (std::size_t i = 0; i < rows.size(); ++i)
-          {
-            double g = 0.;
-            for (const Term &term : rows[i].terms)
-              if (term.substructure == k)
-                g += term.form.dot(R);
-            problem.kernel.push_back(g);
-          }
-          problem.kernel_load.push_back(std::inner_product(R.begin(), R.end(), P[k].begin(), 0.));
-        }
-    }
+      std::size_t n_own = 0;
+      for (const Substructure::Kernel &kernel : kernels)
+        n_own += kernel.vectors.size();
+      const std::vector<std::size_t> n_kernel = processes.gather(n_own);
+      const auto own = n_kernel.begin() + processes.rank();
+      const std::size_t first = std::accumulate(n_kernel.begin(), own, std::size_t(0)),
+                        n_all = std::accumulate(own, n_kernel.end(), first), n = rows.size();
+      problem.kernel.assign(n_all * n, 0.);
+      problem.kernel_load.assign(n_all, 0.);
 
-    /// The body that kernel vector @p index belongs to.
-    const Substructure &body_of_kernel(const std::vector<Substructure::Kernel> &kernels,
-                                       const Structure &structure, std::size_t index)
-    {
+      std::vector<std::size_t> first_of_body;
+      std::size_t next = first;
       for (std::size_t k = 0; k < kernels.size(); ++k)
       {
-        if (index < kernels[k].vectors.size())
-          return structure[k];
-        index -= kernels[k].vectors.size();
+        first_of_body.push_back(next);
+        for (const std::vector<double> &R : kernels[k].vectors)
+          problem.kernel_load[next++] = std::inner_product(R.begin(), R.end(), P[k].begin(), 0.);
       }
-      throw std::logic_error("a kernel vector without a body");
+      for (std::size_t i = 0; i < n; ++i)
+        for (const auto &[k, form] : rows[i].terms)
+          for (std::size_t v = 0; v < kernels[k].vectors.size(); ++v)
+            problem.kernel[(first_of_body[k] + v) * n + i] += form.dot(kernels[k].vectors[v]);
+      processes.sum(problem.kernel);
+      processes.sum(problem.kernel_load);
+      return first;
+    }
+
+    /// The body that kernel vector @p index belongs to; null if it is on another rank, whose first
+    /// vector is not @p first.
+    const Substructure *body_of_kernel(const std::vector<Substructure::Kernel> &kernels,
+                                       const Structure &structure, const std::size_t first,
+                                       const std::size_t index)
+    {
+      std::size_t end = first;
+      for (std::size_t k = 0; k < kernels.size(); ++k)
+      {
+        end += kernels[k].vectors.size();
+        if (index >= first && index < end)
+          return &structure[k];
+      }
+      return nullptr;
     }
 
     /// Recomputes the balance K U = P + B N of each body, relative to the terms of each kind of
@@ -99,6 +118,34 @@ namespace taut
         }
       }
     }
+
+    /// Throws if the tolerance is missed, on all ranks what the rank of the worst body says.
+    void check_certificate(const Structure &structure, const ContactRows &rows,
+                           const SolverParameters &parameters, const Certificate &certificate,
+                           const double own_balance)
+    {
+      if (certificate.max() <= parameters.contact_tolerance)
+        return;
+      const auto fail = [&]
+      {
+        if (own_balance < certificate.balance || structure.size() == 0)
+          return;
+        std::ostringstream out;
+        out << "static equilibrium misses the contact tolerance: residual of the links "
+            << certificate.complementarity;
+        if (rows.size() > 0)
+          out << " (worst: '" << rows[certificate.worst_row].name << "')";
+        out << ", of the force balance " << certificate.balance << " (worst: '"
+            << structure[certificate.worst_body].name() << "'), allowed "
+            << parameters.contact_tolerance << ". Check stiffnesses for extreme ratios.";
+        const bool rows_are_worse =
+            rows.size() > 0 && !(certificate.complementarity <= parameters.contact_tolerance);
+        throw EntryError(rows_are_worse ? rows.origin(certificate.worst_row)
+                                        : structure[certificate.worst_body].origin(),
+                         out.str());
+      };
+      structure.communicator().agree(fail);
+    }
   } // namespace
 
   StaticState static_equilibrium(const Structure &structure, const ContactRows &rows,
@@ -107,8 +154,9 @@ namespace taut
     std::vector<Substructure::Kernel> kernels;
     for (std::size_t k = 0; k < structure.size(); ++k)
       kernels.push_back(structure[k].kernel());
+    const Communicator &processes = structure.communicator();
     FactoredStructure solvers(structure, parameters.local_solver);
-    solvers.factor_stiffness(kernels);
+    processes.agree([&] { solvers.factor_stiffness(kernels); });
 
     const std::size_t n = rows.size();
     std::vector<double> compliance(n);
@@ -118,20 +166,21 @@ namespace taut
     schur->setup(compliance);
 
     BlockVector P, lift;
-    set_loads(structure, t, P, lift);
+    processes.agree([&] { set_loads(structure, t, P, lift); });
 
     MixedComplementarityProblem problem;
     schur->free_motion(P, problem.free_gap);
     problem.free_gap.resize(n);
+    processes.sum(problem.free_gap);
+    const std::vector<double> lifted = rows.motions(lift);
     for (std::size_t i = 0; i < n; ++i)
     {
       problem.unilateral.push_back(rows[i].unilateral);
-      const double lifted = evaluate(rows[i].terms, lift);
-      problem.gap_scale.push_back(std::fabs(problem.free_gap[i]) + std::fabs(lifted) +
+      problem.gap_scale.push_back(std::fabs(problem.free_gap[i]) + std::fabs(lifted[i]) +
                                   std::fabs(rows[i].gap));
-      problem.free_gap[i] += lifted + rows[i].gap;
+      problem.free_gap[i] += lifted[i] + rows[i].gap;
     }
-    set_kernel(kernels, rows, P, problem);
+    const std::size_t first_kernel = set_kernel(kernels, processes, rows, P, problem);
 
     StaticState state;
     state.multiplier.assign(n, 0.);
@@ -157,12 +206,18 @@ namespace taut
     }
     catch (const BodyNotHeld &e)
     {
-      const Substructure &body = body_of_kernel(kernels, structure, e.kernel().front());
-      throw BodyNotHeld("static equilibrium: body '" + body.name() +
-                            "' is not held: no admissible contact force balances its loads. Add a "
-                            "support or a link, or "
-                            "start with 'Start = undeformed'.",
-                        {}, body.origin());
+      processes.agree(
+          [&]
+          {
+            if (const Substructure *body =
+                    body_of_kernel(kernels, structure, first_kernel, e.kernel().front()))
+              throw BodyNotHeld("static equilibrium: body '" + body->name() +
+                                    "' is not held: no admissible contact force balances its "
+                                    "loads. Add a support or a link, or start with 'Start = "
+                                    "undeformed'.",
+                                {}, body->origin());
+          });
+      throw;
     }
     state.multiplier = solution.multiplier;
 
@@ -170,7 +225,7 @@ namespace taut
     rows.add_forces(state.multiplier, P);
     solvers.solve(P);
     state.displacement = std::move(P);
-    std::size_t amplitude = 0;
+    std::size_t amplitude = first_kernel;
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       std::vector<double> &U = state.displacement[k];
@@ -184,9 +239,10 @@ namespace taut
       }
     }
 
+    state.geometric_gap = rows.motions(state.displacement);
     for (std::size_t i = 0; i < n; ++i)
     {
-      state.geometric_gap.push_back(rows[i].gap + evaluate(rows[i].terms, state.displacement));
+      state.geometric_gap[i] += rows[i].gap;
       state.gap.push_back(state.geometric_gap[i] + compliance[i] * state.multiplier[i]);
     }
     solution.gap = state.gap;
@@ -197,24 +253,10 @@ namespace taut
       state.certificate.worst_row =
           std::max_element(result.rows.begin(), result.rows.end()) - result.rows.begin();
     }
-    certify_balance(structure, rows, t, state);
-
-    if (!(state.certificate.max() <= parameters.contact_tolerance))
-    {
-      std::ostringstream out;
-      out << "static equilibrium misses the contact tolerance: residual of the links "
-          << state.certificate.complementarity;
-      if (n > 0)
-        out << " (worst: '" << rows[state.certificate.worst_row].name << "')";
-      out << ", of the force balance " << state.certificate.balance << " (worst: '"
-          << structure[state.certificate.worst_body].name() << "'), allowed "
-          << parameters.contact_tolerance << ". Check stiffnesses for extreme ratios.";
-      const bool rows_are_worse =
-          n > 0 && !(state.certificate.complementarity <= parameters.contact_tolerance);
-      throw EntryError(rows_are_worse ? rows.origin(state.certificate.worst_row)
-                                      : structure[state.certificate.worst_body].origin(),
-                       out.str());
-    }
+    processes.agree([&] { certify_balance(structure, rows, t, state); });
+    const double own_balance = state.certificate.balance;
+    state.certificate.balance = processes.max(own_balance);
+    check_certificate(structure, rows, parameters, state.certificate, own_balance);
     return state;
   }
 } // namespace taut

@@ -23,28 +23,32 @@ namespace taut
                            &old_balance, &increment})
       *v = structure.zero();
     const std::size_t n = rows.size();
-    for (auto *v : {&link_history, &reference_gap, &gap_terms, &gap_correction, &motion})
+    for (auto *v : {&link_history, &gap_terms, &gap_correction, &motion, &position, &terms_size,
+                    &velocity_size})
       v->assign(n, 0.);
     problem.unilateral.resize(n);
     problem.free_gap.resize(n);
     problem.gap_scale.resize(n);
     rows.update(current.time);
+    reference_gap = rows.motions(origin.displacement);
+    const std::vector<double> motions = rows.motions(current.U);
     for (std::size_t i = 0; i < n; ++i)
     {
       problem.unilateral[i] = rows[i].unilateral;
-      reference_gap[i] = rows[i].gap + evaluate(rows[i].terms, origin.displacement);
+      reference_gap[i] += rows[i].gap;
+      if (rows[i].moving)
+        gap_correction[i] = current.geometric_gap[i] - reference_gap[i] - motions[i];
       // A displacement rounds with the largest of its body.
-      gap_terms[i] = std::fabs(rows[i].gap);
       for (const auto &[k, form] : rows[i].terms)
       {
         const PerKind size = largest(structure[k], origin.displacement[k]);
         for (std::size_t j = 0; j < form.index.size(); ++j)
           gap_terms[i] += std::fabs(form.value[j]) * size[structure[k].kind(form.index[j])];
       }
-      if (rows[i].moving)
-        gap_correction[i] =
-            current.geometric_gap[i] - reference_gap[i] - evaluate(rows[i].terms, current.U);
     }
+    structure.communicator().sum(gap_terms);
+    for (std::size_t i = 0; i < n; ++i)
+      gap_terms[i] += std::fabs(rows[i].gap);
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       const Substructure &body = structure[k];
@@ -58,7 +62,7 @@ namespace taut
   void TimeStepper::prepare(const StepCoefficients &c)
   {
     coefficients = c;
-    solvers.factor(c.mass_factor(), c.velocity);
+    structure.communicator().agree([&] { solvers.factor(c.mass_factor(), c.velocity); });
     compliance.resize(rows.size());
     for (std::size_t i = 0; i < rows.size(); ++i)
       compliance[i] = 1. / (rows[i].stiffness + c.velocity * rows[i].damping);
@@ -74,8 +78,12 @@ namespace taut
     rows.update(current.time);
     schur->update_moving();
 
-    for (std::size_t k = 0; k < structure.size(); ++k)
-      set_history(k);
+    structure.communicator().agree(
+        [&]
+        {
+          for (std::size_t k = 0; k < structure.size(); ++k)
+            set_history(k);
+        });
     set_free_gaps();
     solve_rows();
     rows.add_forces(current.multiplier, right_hand_side);
@@ -85,6 +93,7 @@ namespace taut
       increment[k].swap(right_hand_side[k]);
       accept(k);
     }
+    share_motions();
     update_rows();
     certify();
   }
@@ -136,12 +145,10 @@ namespace taut
   void TimeStepper::set_free_gaps()
   {
     const StepCoefficients &c = coefficients;
-    schur->free_motion(right_hand_side, motion);
+    share_free_motion();
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
       const Row &row = rows[i];
-      motion[i] += evaluate(row.terms, lift);
-
       // Kelvin-Voigt: N = k u + c u' with u' = velocity du + known.
       const State::LinkSpring &spring = current.link_springs[i];
       link_history[i] = 0.;
@@ -155,11 +162,9 @@ namespace taut
       if (row.moving)
       {
         before = moving_gap(i);
-        scale = std::fabs(row.gap) + magnitude(row.terms, origin.displacement) +
-                magnitude(row.terms, current.U);
+        scale = std::fabs(row.gap) + terms_size[i];
       }
-      // The ends of a row move together most of the time: each of them rounds for itself.
-      scale += step * magnitude(row.terms, current.V);
+      scale += step * velocity_size[i];
       problem.free_gap[i] = before + motion[i] + link_history[i];
       problem.gap_scale[i] = scale + std::fabs(motion[i]) + std::fabs(link_history[i]);
     }
@@ -167,8 +172,61 @@ namespace taut
 
   double TimeStepper::moving_gap(const std::size_t i) const
   {
-    return rows[i].gap + gap_correction[i] + evaluate(rows[i].terms, origin.displacement) +
-           evaluate(rows[i].terms, current.U);
+    return rows[i].gap + gap_correction[i] + position[i];
+  }
+
+  /// Before the contact forces are known: how the rows would move without them, where the moving
+  /// ones are, and what these numbers round with.
+  void TimeStepper::share_free_motion()
+  {
+    schur->free_motion(right_hand_side, motion);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      const std::vector<Term> &terms = rows[i].terms;
+      motion[i] += evaluate(terms, lift);
+      // The ends of a row move together most of the time: each of them rounds for itself.
+      velocity_size[i] = magnitude(terms, current.V);
+      position[i] = terms_size[i] = 0.;
+      if (rows[i].moving)
+      {
+        position[i] = evaluate(terms, origin.displacement) + evaluate(terms, current.U);
+        terms_size[i] = magnitude(terms, origin.displacement) + magnitude(terms, current.U);
+      }
+    }
+    share({&motion, &velocity_size, &position, &terms_size});
+  }
+
+  /// After the step: increment of the rows, and their motion since the reference.
+  void TimeStepper::share_motions()
+  {
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      const std::vector<Term> &terms = rows[i].terms;
+      motion[i] = evaluate(terms, current.dU);
+      position[i] = evaluate(terms, current.U);
+      terms_size[i] = magnitude(terms, current.U);
+      if (rows[i].moving)
+        position[i] += evaluate(terms, origin.displacement);
+    }
+    share({&motion, &position, &terms_size});
+  }
+
+  /// Sums vectors over the rows, each with the shares of the bodies of this rank, over all ranks.
+  void TimeStepper::share(const std::initializer_list<std::vector<double> *> vectors)
+  {
+    const Communicator &processes = structure.communicator();
+    if (processes.size() == 1)
+      return;
+    work.clear();
+    for (const std::vector<double> *v : vectors)
+      work.insert(work.end(), v->begin(), v->end());
+    processes.sum(work);
+    const double *sums = work.data();
+    for (std::vector<double> *v : vectors)
+    {
+      std::copy(sums, sums + v->size(), v->begin());
+      sums += v->size();
+    }
   }
 
   void TimeStepper::solve_rows()
@@ -231,7 +289,7 @@ namespace taut
       if (row.moving)
         gap = moving_gap(i);
       else
-        gap += evaluate(row.terms, current.dU);
+        gap += motion[i];
 
       State::LinkSpring &spring = current.link_springs[i];
       const double known_v = c.v_V * spring.v + c.v_A * spring.a + c.v_dU * spring.du;
@@ -246,6 +304,22 @@ namespace taut
   }
 
   void TimeStepper::certify()
+  {
+    const Communicator &processes = structure.communicator();
+    processes.agree([&] { certify_balance(); });
+    const double own_balance = last.balance;
+    last.balance = processes.max(own_balance);
+    certify_rows();
+    if (!(last.balance <= parameters.contact_tolerance))
+      processes.agree(
+          [&]
+          {
+            if (!(own_balance < last.balance))
+              fail_balance();
+          });
+  }
+
+  void TimeStepper::certify_balance()
   {
     const StepCoefficients &c = coefficients;
     const double kappa = c.alpha_f / (1. - c.alpha_f);
@@ -313,7 +387,10 @@ namespace taut
         }
       }
     }
+  }
 
+  void TimeStepper::certify_rows()
+  {
     // Gaps from the increments of the displacements, not from F N + d; and gaps so carried must not
     // drift away from the displacements, measured by the terms that these are summed from.
     last.complementarity = 0.;
@@ -328,15 +405,8 @@ namespace taut
           std::max_element(result.rows.begin(), result.rows.end()) - result.rows.begin();
       for (std::size_t i = 0; i < rows.n_fixed(); ++i)
       {
-        double gap = reference_gap[i], terms = std::fabs(gap);
-        for (const Term &term : rows[i].terms)
-        {
-          const double u = term.form.dot(current.U[term.substructure]);
-          gap += u;
-          terms += std::fabs(u);
-        }
-        gap_terms[i] = std::max(gap_terms[i], terms);
-        const double drift = std::fabs(gap - current.geometric_gap[i]),
+        gap_terms[i] = std::max(gap_terms[i], std::fabs(reference_gap[i]) + terms_size[i]);
+        const double drift = std::fabs(reference_gap[i] + position[i] - current.geometric_gap[i]),
                      relative = drift == 0. ? 0. : drift / gap_terms[i];
         if (!(relative <= last.complementarity) && !std::isnan(last.complementarity))
         {
@@ -354,15 +424,16 @@ namespace taut
           << ". Take a smaller step or raise 'Contact tolerance'";
       fail(out.str(), rows.origin(last.worst_row));
     }
-    if (!(last.balance <= parameters.contact_tolerance))
-    {
-      std::ostringstream out;
-      out << "body '" << structure[last.worst_body].name()
-          << "' misses the contact tolerance in its equation of motion: residual " << last.balance
-          << " > " << parameters.contact_tolerance
-          << ". Check stiffness and mass for extreme ratios, or raise 'Contact tolerance'";
-      fail(out.str(), structure[last.worst_body].origin());
-    }
+  }
+
+  void TimeStepper::fail_balance() const
+  {
+    std::ostringstream out;
+    out << "body '" << structure[last.worst_body].name()
+        << "' misses the contact tolerance in its equation of motion: residual " << last.balance
+        << " > " << parameters.contact_tolerance
+        << ". Check stiffness and mass for extreme ratios, or raise 'Contact tolerance'";
+    fail(out.str(), structure[last.worst_body].origin());
   }
 
   void TimeStepper::fail(const std::string &what, const std::string &entry) const

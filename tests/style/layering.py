@@ -22,7 +22,7 @@ ROOMS["simulation"] = list(ROOMS)
 STANDARD = r"[a-z_0-9]+"  # <vector>
 # What is not std and not Taut, by folder: the longest match counts, no entry means anything but Trilinos.
 LIBRARIES = {
-    "include/taut/base": r"boost/.*|deal\.II/base/.*",
+    "include/taut/base": r"boost/.*|deal\.II/base/.*|mpi\.h",
     "include/taut/complementarity": None,
     "source/complementarity": None,
     "include/taut/scene": None,

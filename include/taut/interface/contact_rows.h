@@ -49,6 +49,9 @@ namespace taut
     /// Position on its wire of a moving row at time t [m].
     double position(std::size_t i, double t) const;
 
+    /// B^T U of each row: the motion of the rows, summed over all ranks [m, rad].
+    std::vector<double> motions(const BlockVector &U) const;
+
     /// P += B N.
     void add_forces(const std::vector<double> &N, BlockVector &P) const;
 

@@ -27,7 +27,7 @@ namespace taut
     /// After ContactRows::update(): the moving rows anew.
     virtual void update_moving() = 0;
 
-    /// d = B^T A^-1 P, the motion of the rows under forces P [m, rad].
+    /// d = B^T A^-1 P, the motion of the rows under forces P [m, rad]: the share of this rank.
     virtual void free_motion(const BlockVector &P, std::vector<double> &d) const = 0;
 
     /// F, for the complementarity solver.

@@ -24,7 +24,8 @@ namespace taut
     Fields(const std::string &folder, const Scene &scene, const Structure &structure,
            double interval, unsigned int subdivisions);
 
-    /// Throws UserError when a file cannot be written.
+    /// Called by all ranks together; the root writes. Throws UserError when a file cannot be
+    /// written.
     void record(const StepView &step) override;
 
   private:
@@ -36,16 +37,21 @@ namespace taut
       unsigned int part = 0; ///< of the partition
     };
     Sample sample(const Scene &scene, const Structure &structure, const Attachment &at) const;
-    Point displacement(const Sample &sample, const StepView &step) const;
-    void write_wires(const StepView &step, const std::string &name) const;
-    void write_links(const StepView &step, const std::string &name) const;
+    /// Displacements of samples along x and y from the undeformed line, summed over all ranks [m].
+    std::vector<Point> displacements(const std::vector<Sample> &samples,
+                                     const StepView &step) const;
+    std::vector<Sample> ends_of_links(const StepView &step) const;
+    void write_wires(const std::vector<Point> &displacement, const std::string &name) const;
+    void write_links(const StepView &step, const std::vector<Sample> &ends,
+                     const std::vector<Point> &displacement, const std::string &name) const;
     void write_collection(const std::string &name,
                           const std::vector<std::pair<double, std::string>> &files) const;
 
     std::string folder;
     double interval, next = 0.;
     unsigned int subdivisions;
-    std::vector<std::vector<Sample>> wires; ///< along each wire, `subdivisions` an element
+    std::vector<Sample> wires;            ///< along each wire, `subdivisions` an element
+    std::vector<std::size_t> wire_begins; ///< index of the first sample of each wire, and the end
     std::vector<Sample>
         link_ends; ///< the `to` end, or `from` if that is the ground; fixed rows only
     std::vector<std::pair<double, std::string>> wire_files, link_files;

@@ -2,6 +2,8 @@
 #ifndef taut_parameter_file_h
 #define taut_parameter_file_h
 
+#include <taut/base/communicator.h>
+
 #include <map>
 #include <string>
 #include <utility>
@@ -34,6 +36,9 @@ namespace taut
     /// Adds "A.B.Entry=value" or "A/B/Entry=value" from the command line; replaces the entry if it
     /// is there.
     void set(const std::string &assignment);
+
+    /// What the root has read becomes what all ranks have.
+    void broadcast(const Communicator &processes);
 
     const std::vector<Entry> &entries() const { return list; }
 

@@ -47,9 +47,11 @@ namespace taut
   public:
     /**
      * Reads a .prm or .json file; @p overrides are "Section.Entry=value" and replace entries of the
-     * file. Throws UserError with file, line, entry, value and what is allowed.
+     * file. Only the root of @p processes reads, and hands on to all ranks. Throws UserError with
+     * file, line, entry, value and what is allowed.
      */
-    void read(const std::string &file, const std::vector<std::string> &overrides = {});
+    void read(const std::string &file, const std::vector<std::string> &overrides = {},
+              const Communicator &processes = Communicator());
 
     /// Leaves all entries at their defaults, for print().
     void set_defaults();

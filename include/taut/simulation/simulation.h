@@ -7,17 +7,24 @@
 #include <taut/simulation/parameters.h>
 #include <taut/time/time_stepper.h>
 
+#include <functional>
 #include <iosfwd>
 #include <vector>
 
 namespace taut
 {
+  class Fields;
+
   /// A scene on its way through time: reads like the algorithm on paper.
   class Simulation
   {
   public:
-    /// @p parameters is kept by reference; what is said goes to @p log.
-    Simulation(const Parameters &parameters, std::ostream &log);
+    /**
+     * @p parameters is kept by reference; what is said goes to @p log. All ranks of @p processes
+     * call each function together, with the same parameters; the root writes the results.
+     */
+    Simulation(const Parameters &parameters, std::ostream &log,
+               const Communicator &processes = Communicator());
 
     /// Adds an observer of the start and of each step, called after those that write the results;
     /// kept by reference.
@@ -45,10 +52,12 @@ namespace taut
     void write_start() const;
     StepView view(const State &state, const Certificate &certificate) const;
     void update_probes(const State &state);
-    void advance(TimeStepper &stepper, const std::vector<Observer *> &observers);
+    void advance(TimeStepper &stepper, const std::vector<Observer *> &observers, Fields &fields);
+    void on_root(const std::function<void()> &work) const;
 
     const Parameters &parameters;
     std::ostream &log;
+    const Communicator processes;
     const Scene model;
     const Structure bodies;
     ContactRows links;

@@ -16,6 +16,8 @@ namespace taut
     /// @p members are indices of scene.masses.
     Mechanism(const Scene &scene, const std::vector<std::size_t> &members);
 
+    static std::string name_of(const Scene &scene, const std::vector<std::size_t> &members);
+
     void initial_state(std::vector<double> &U, std::vector<double> &V) const override;
     Kernel kernel() const override;
 

@@ -2,6 +2,7 @@
 #ifndef taut_structure_h
 #define taut_structure_h
 
+#include <taut/base/communicator.h>
 #include <taut/scene/partition.h>
 #include <taut/scene/scene.h>
 #include <taut/substructure/mechanism.h>
@@ -13,7 +14,7 @@
 
 namespace taut
 {
-  /// A linear form on the displacements of one substructure: a summand of a row.
+  /// A linear form on the displacements of one substructure of this rank: a summand of a row.
   struct Term
   {
     std::size_t substructure = 0;
@@ -30,24 +31,43 @@ namespace taut
     std::vector<Term> terms;
   };
 
-  /// All substructures of a scene, and where the scene's points are in them.
+  /**
+   * The substructures of a scene, and where the scene's points are in them. A part of the partition
+   * lives on one rank, with all its pieces: this one knows its own substructures only, and of a
+   * point on another rank no terms.
+   */
   class Structure
   {
   public:
-    /// All wires whole.
+    /// All wires whole, on this rank.
     explicit Structure(const Scene &scene) : Structure(scene, whole(scene)) {}
 
-    /// The wires cut as @p partition says.
-    Structure(const Scene &scene, const Partition &partition);
+    /// The wires cut as @p partition says, the parts shared out so that all ranks have about the
+    /// same number of DoFs. Called by all ranks together.
+    Structure(const Scene &scene, const Partition &partition,
+              const Communicator &processes = Communicator());
 
+    const Communicator &communicator() const { return processes; }
+
+    /// Substructures of this rank.
     std::size_t size() const { return substructures.size(); }
     const Substructure &operator[](std::size_t k) const { return *substructures[k]; }
     std::size_t n_dofs() const;
 
+    /// A substructure of any rank.
+    struct Body
+    {
+      std::string name;
+      std::size_t n_dofs = 0;
+    };
+
+    /// The substructures of all ranks, in the order of the scene.
+    const std::vector<Body> &all_bodies() const { return bodies; }
+
     /**
      * The displacement along @p direction, or the slope or rotation, of an attachment as linear
-     * forms: appends factor * form, nothing for the ground. A wire counts only the components it
-     * has.
+     * forms: appends factor * form, nothing for the ground or for a body of another rank. A wire
+     * counts only the components it has.
      */
     void motion(const Attachment &point, bool rotational, const Point &direction, double factor,
                 std::vector<Term> &terms) const;
@@ -62,6 +82,8 @@ namespace taut
     BlockVector zero() const;
 
   private:
+    static constexpr std::size_t elsewhere = -1; ///< a substructure of another rank
+
     /// Substructures of a wire's pieces, in order; none where it lacks the component.
     struct WireParts
     {
@@ -70,11 +92,15 @@ namespace taut
       std::vector<std::size_t> axial, transverse;
     };
 
+    void build(const Scene &scene, const Partition &partition);
     void add_pieces(const Scene &scene, std::size_t wire, WireMotion motion,
-                    const std::vector<Partition::Piece> &pieces, std::vector<std::size_t> &indices);
+                    const std::vector<Partition::Piece> &pieces,
+                    const std::vector<unsigned int> &owner, std::vector<std::size_t> &indices);
     std::size_t piece(const WireParts &parts, double s) const;
 
+    Communicator processes;
     std::vector<std::unique_ptr<Substructure>> substructures;
+    std::vector<Body> bodies;
     std::vector<WireParts> wires;
     std::vector<Point> tangents, normals;
     std::vector<double> lengths;

@@ -27,12 +27,15 @@ namespace taut
     WireComponent(const Scene &scene, std::size_t wire, WireMotion motion);
 
     /**
-     * The piece between two nodes of the wire's grid. What stands on the node where two pieces meet
-     * belongs to the second one.
+     * The piece between two nodes of the wire's @p grid. What stands on the node where two pieces
+     * meet belongs to the second one.
      */
-    WireComponent(const Scene &scene, std::size_t wire, WireMotion motion, std::size_t first_node,
-                  std::size_t last_node);
+    WireComponent(const Scene &scene, std::size_t wire, WireMotion motion,
+                  const std::vector<double> &grid, std::size_t first_node, std::size_t last_node);
     ~WireComponent() override;
+
+    /// Name of the component of a wire, the same for all its pieces.
+    static std::string name_of(const Scene &scene, std::size_t wire, WireMotion motion);
 
     /// True if a point of the wire is on this piece.
     bool owns(double s) const;

@@ -21,12 +21,17 @@ namespace taut
     /// Largest residual of the equation of motion of a body, over |P| + |B N| + |K||U| + |C||V| +
     /// |M||dU|/step^2.
     double balance = 0.;
-    std::size_t worst_body = 0;
+    std::size_t worst_body = 0; ///< of this rank
 
     unsigned int iterations = 0; ///< of the complementarity solver
     bool fallback = false;       ///< the energy-ordered active set finished the step
 
-    double max() const { return complementarity > balance ? complementarity : balance; }
+    /// The larger of both; not-a-number if one is.
+    double max() const
+    {
+      return complementarity > balance || complementarity != complementarity ? complementarity
+                                                                             : balance;
+    }
   };
 } // namespace taut
 

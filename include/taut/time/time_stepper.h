@@ -10,6 +10,7 @@
 #include <taut/time/solver_parameters.h>
 #include <taut/time/state.h>
 
+#include <initializer_list>
 #include <memory>
 #include <vector>
 
@@ -50,10 +51,16 @@ namespace taut
     void set_history(std::size_t k);
     void set_free_gaps();
     double moving_gap(std::size_t i) const;
+    void share_free_motion();
+    void share_motions();
+    void share(std::initializer_list<std::vector<double> *> vectors);
     void solve_rows();
     void accept(std::size_t k);
     void update_rows();
     void certify();
+    void certify_balance();
+    void certify_rows();
+    void fail_balance() const;
     void fail(const std::string &what, const std::string &entry = "") const;
 
     const Structure &structure;
@@ -82,7 +89,10 @@ namespace taut
     /// Of the moving rows: gap of the start minus the one of its displacements, rounding that would
     /// be a force over a small compliance.
     std::vector<double> gap_correction;
-    std::vector<double> motion; ///< B^T dU
+    std::vector<double> motion;        ///< B^T dU
+    std::vector<double> position;      ///< B^T U, with the reference's of a moving row
+    std::vector<double> terms_size;    ///< sum of the absolute terms of these
+    std::vector<double> velocity_size; ///< the same of B^T V
     std::vector<double> old_multiplier;
     std::vector<std::vector<KindNorm>> norms; ///< of M, C, K of each body
     std::vector<PerKind> reference_force;     ///< largest of K U_ref of each body [N, N m]
