@@ -103,6 +103,11 @@ namespace taut
       d[i] = evaluate(rows[i].terms, work);
   }
 
+  std::string MatrixFreeSchurComplement::description() const
+  {
+    return "matrix-free, " + std::to_string(rows.size()) + " rows";
+  }
+
   void MatrixFreeSchurComplement::apply(const std::vector<double> &x, std::vector<double> &y) const
   {
     y.resize(x.size());

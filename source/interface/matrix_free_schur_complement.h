@@ -20,6 +20,7 @@ namespace taut
     void update_moving() override;
     void free_motion(const BlockVector &P, std::vector<double> &d) const override;
     ComplementarityOperator &matrix() override { return *this; }
+    std::string description() const override;
 
   private:
     std::size_t size() const override { return rows.size(); }

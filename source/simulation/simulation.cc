@@ -67,6 +67,8 @@ namespace taut
       time_stepper = std::make_unique<TimeStepper>(bodies, links, parameters.solver, *integrator,
                                                    parameters.step, reference, start,
                                                    model.start == Start::equilibrium);
+    if (time_stepper && links.size() > 0)
+      log << "Interface operator: " << time_stepper->interface_description() << '\n';
 
     // Nothing on the disk was touched until here, where the scene is known to make sense.
     on_root(

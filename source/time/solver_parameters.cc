@@ -14,11 +14,14 @@ namespace taut
         "Factorisation of the matrix of each body. 'block tridiagonal': LDL^T along a "
         "wire, fastest. 'sparse direct': CHOLMOD. Mechanisms always use CHOLMOD.",
         Patterns::Selection("block tridiagonal|sparse direct"));
-    prm.add_parameter("Interface operator", interface_operator,
-                      "Contact Schur complement F. 'assembled': a dense matrix, fastest up to some "
-                      "hundred links. 'matrix-free': applied through the factors of the bodies, "
-                      "solved by conjugate gradients.",
-                      Patterns::Selection("assembled|matrix-free"));
+    prm.add_parameter(
+        "Interface operator", interface_operator,
+        "Contact Schur complement F. 'automatic': by number of rows and step; the log "
+        "names it. 'assembled dense': fastest up to some hundred rows. 'assembled "
+        "sparse': for many rows that act on each other only near by: small steps, "
+        "many bodies. 'matrix-free': applied through the factors of the bodies, "
+        "solved by conjugate gradients: least memory.",
+        Patterns::Selection("automatic|assembled dense|assembled sparse|matrix-free"));
     prm.add_parameter("Complementarity", complementarity,
                       "Search for the closed links. 'semismooth Newton': starts from the last step "
                       "and hands over to the other if it cycles. 'energy-ordered': one link at a "

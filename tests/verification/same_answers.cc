@@ -66,7 +66,7 @@ namespace
     std::vector<double> S(rows.size());
     for (std::size_t i = 0; i < rows.size(); ++i)
       S[i] = 1. / (rows[i].stiffness + (step > 0. ? rows[i].damping / step : 0.));
-    const auto schur = taut::make_schur_complement("assembled", solvers, rows);
+    const auto schur = taut::make_schur_complement("assembled dense", solvers, rows);
     schur->setup(S);
     return condition_number(*schur, rows.size());
   }
@@ -156,10 +156,11 @@ TEST(SameAnswers, of_both_local_solvers)
     compare(c, {"Solver.Local solver=sparse direct"}, "sparse direct");
 }
 
-TEST(SameAnswers, of_the_assembled_and_the_matrix_free_interface_operator)
+TEST(SameAnswers, of_all_forms_of_the_interface_operator)
 {
   for (const Case &c : short_scenes)
-    compare(c, {"Solver.Interface operator=matrix-free"}, "matrix-free");
+    for (const std::string form : {"assembled sparse", "matrix-free"})
+      compare(c, {"Solver.Interface operator=" + form}, form);
 }
 
 TEST(SameAnswers, of_both_complementarity_methods_on_every_scene)

@@ -13,8 +13,9 @@
 namespace taut
 {
   /**
-   * The contact Schur complement F = sum_k B_k^T A_k^-1 B_k + S of the rows, in one of two forms:
-   * assembled, with the columns A_k^-1 B_k of the fixed rows stored once, or matrix-free.
+   * The contact Schur complement F = sum_k B_k^T A_k^-1 B_k + S of the rows, in one of three
+   * forms: assembled dense or sparse, with the columns A_k^-1 B_k of the fixed rows stored once, or
+   * matrix-free.
    */
   class SchurComplement
   {
@@ -32,9 +33,13 @@ namespace taut
 
     /// F, for the complementarity solver.
     virtual ComplementarityOperator &matrix() = 0;
+
+    /// Form and size, for the log; after setup().
+    virtual std::string description() const = 0;
   };
 
-  /// @p form is "assembled" or "matrix-free". The arguments are kept by reference.
+  /// @p form is "assembled dense", "assembled sparse", "matrix-free", or "automatic" for the one
+  /// that suits number of rows and step. The other arguments are kept by reference.
   std::unique_ptr<SchurComplement> make_schur_complement(const std::string &form,
                                                          const FactoredStructure &solvers,
                                                          const ContactRows &rows);

@@ -15,7 +15,7 @@ namespace taut
   struct SolverParameters
   {
     std::string local_solver = "block tridiagonal";
-    std::string interface_operator = "assembled";
+    std::string interface_operator = "automatic";
     std::string complementarity = "semismooth Newton";
     double contact_tolerance = 1e-8;
 

@@ -46,6 +46,9 @@ namespace taut
     const Certificate &certificate() const { return last; }
     long n_steps_done() const { return n_steps; }
 
+    /// Form and size of the interface operator, for the log.
+    std::string interface_description() const { return schur->description(); }
+
   private:
     void prepare(const StepCoefficients &c);
     void set_history(std::size_t k);

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_sparse_cholesky_h
+#define taut_sparse_cholesky_h
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace taut
+{
+  /// Entries of the lower triangle of a symmetric matrix, in any order; those of one position add.
+  struct SymmetricEntries
+  {
+    std::vector<int> row, column;
+    std::vector<double> value;
+
+    void add(std::size_t i, std::size_t j, double v)
+    {
+      row.push_back(static_cast<int>(std::max(i, j)));
+      column.push_back(static_cast<int>(std::min(i, j)));
+      value.push_back(v);
+    }
+
+    std::size_t size() const { return value.size(); }
+  };
+
+  /**
+   * LDL^T of a sparse symmetric positive definite matrix by CHOLMOD's simplicial method with a
+   * fill-reducing order. The order and the pattern of the factor are kept as long as the pattern of
+   * the matrix stays the same, explicit zeros included.
+   */
+  class SparseCholesky
+  {
+  public:
+    SparseCholesky();
+    SparseCholesky(SparseCholesky &&) noexcept;
+    SparseCholesky &operator=(SparseCholesky &&) noexcept;
+    ~SparseCholesky();
+
+    /**
+     * Factors a matrix of @p n rows. Returns n, or the row whose pivot is not larger than @p
+     * smallest_pivot times its diagonal entry: the matrix is then not definite to working
+     * precision, and not factored.
+     */
+    std::size_t factor(std::size_t n, const SymmetricEntries &entries, double smallest_pivot);
+
+    /// x = A^-1 x of the matrix factored last.
+    void solve(std::vector<double> &x) const;
+
+    /// Entries of the factor.
+    std::size_t n_entries() const;
+
+  private:
+    struct Workspace; ///< CHOLMOD's
+    std::unique_ptr<Workspace> work;
+  };
+} // namespace taut
+
+#endif

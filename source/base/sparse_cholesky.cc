@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/sparse_cholesky.h>
+
+#include <cholmod.h>
+
+#include <new>
+#include <stdexcept>
+
+namespace taut
+{
+  struct SparseCholesky::Workspace
+  {
+    Workspace()
+    {
+      cholmod_start(&common);
+      common.supernodal = CHOLMOD_SIMPLICIAL;
+      common.final_ll = 0;
+      common.print = 0;
+    }
+    Workspace(const Workspace &) = delete;
+    Workspace &operator=(const Workspace &) = delete;
+    ~Workspace()
+    {
+      cholmod_free_sparse(&matrix, &common);
+      cholmod_free_dense(&result, &common);
+      cholmod_free_dense(&workspace_y, &common);
+      cholmod_free_dense(&workspace_e, &common);
+      cholmod_free_factor(&factors, &common);
+      cholmod_finish(&common);
+    }
+
+    /// True if @p other has its entries where the last matrix had them.
+    bool has_pattern_of(const cholmod_sparse &other) const
+    {
+      if (!matrix || matrix->nrow != other.nrow)
+        return false;
+      const auto *p = static_cast<const int *>(matrix->p), *q = static_cast<const int *>(other.p);
+      const auto *i = static_cast<const int *>(matrix->i), *j = static_cast<const int *>(other.i);
+      return std::equal(p, p + matrix->nrow + 1, q) && std::equal(i, i + p[matrix->nrow], j);
+    }
+
+    /// The row of the first pivot that is too small, or the number of rows.
+    std::size_t first_bad_pivot(const double smallest_pivot) const
+    {
+      const auto *permutation = static_cast<const int *>(factors->Perm);
+      const auto *start = static_cast<const int *>(factors->p);
+      const auto *value = static_cast<const double *>(factors->x);
+      for (std::size_t k = 0; k < factors->n; ++k)
+        // The first entry of a column of a simplicial LDL^T is D.
+        if (k >= factors->minor || !(value[start[k]] > smallest_pivot * diagonal[permutation[k]]))
+          return permutation[k];
+      return factors->n;
+    }
+
+    cholmod_common common;
+    cholmod_sparse *matrix = nullptr; ///< lower triangle of the matrix factored last
+    cholmod_factor *factors = nullptr;
+    cholmod_dense *result = nullptr, *workspace_y = nullptr, *workspace_e = nullptr;
+    std::vector<double> diagonal;
+  };
+
+  SparseCholesky::SparseCholesky() : work(std::make_unique<Workspace>()) {}
+  SparseCholesky::SparseCholesky(SparseCholesky &&) noexcept = default;
+  SparseCholesky &SparseCholesky::operator=(SparseCholesky &&) noexcept = default;
+  SparseCholesky::~SparseCholesky() = default;
+
+  std::size_t SparseCholesky::factor(const std::size_t n, const SymmetricEntries &entries,
+                                     const double smallest_pivot)
+  {
+    Workspace &w = *work;
+    w.diagonal.assign(n, 0.);
+    for (std::size_t k = 0; k < entries.size(); ++k)
+      if (entries.row[k] == entries.column[k])
+        w.diagonal[entries.row[k]] += entries.value[k];
+
+    cholmod_triplet triplet{};
+    triplet.nrow = triplet.ncol = n;
+    triplet.nzmax = triplet.nnz = entries.size();
+    triplet.i = const_cast<int *>(entries.row.data()); // CHOLMOD reads them only
+    triplet.j = const_cast<int *>(entries.column.data());
+    triplet.x = const_cast<double *>(entries.value.data());
+    triplet.stype = -1; // lower triangle
+    triplet.itype = CHOLMOD_INT;
+    triplet.xtype = CHOLMOD_REAL;
+    triplet.dtype = CHOLMOD_DOUBLE;
+    cholmod_sparse *matrix = cholmod_triplet_to_sparse(&triplet, entries.size(), &w.common);
+    if (!matrix)
+      throw std::bad_alloc();
+    if (!w.factors || !w.has_pattern_of(*matrix))
+    {
+      cholmod_free_factor(&w.factors, &w.common);
+      w.factors = cholmod_analyze(matrix, &w.common);
+    }
+    cholmod_free_sparse(&w.matrix, &w.common);
+    w.matrix = matrix;
+    if (w.factors)
+      cholmod_factorize(matrix, w.factors, &w.common);
+    if (!w.factors || w.common.status == CHOLMOD_OUT_OF_MEMORY)
+      throw std::bad_alloc();
+    return w.first_bad_pivot(smallest_pivot);
+  }
+
+  void SparseCholesky::solve(std::vector<double> &x) const
+  {
+    Workspace &w = *work;
+    cholmod_dense rhs{};
+    rhs.nrow = rhs.d = rhs.nzmax = x.size();
+    rhs.ncol = 1;
+    rhs.x = x.data();
+    rhs.xtype = CHOLMOD_REAL;
+    rhs.dtype = CHOLMOD_DOUBLE;
+    if (!cholmod_solve2(CHOLMOD_A, w.factors, &rhs, nullptr, &w.result, nullptr, &w.workspace_y,
+                        &w.workspace_e, &w.common))
+      throw std::runtime_error("CHOLMOD failed to solve");
+    const auto *solution = static_cast<const double *>(w.result->x);
+    std::copy(solution, solution + x.size(), x.begin());
+  }
+
+  std::size_t SparseCholesky::n_entries() const
+  {
+    return work->factors ? static_cast<std::size_t>(work->common.lnz) : 0;
+  }
+} // namespace taut

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "response_columns.h"
+
+#include <algorithm>
+
+namespace taut
+{
+  ResponseColumns::ResponseColumns(const FactoredStructure &solvers, const ContactRows &rows)
+      : solvers(solvers), rows(rows), columns(rows.size()), reach(solvers.structure().size()),
+        widest(solvers.structure().size(), 0)
+  {
+    for (std::size_t i = 0; i < rows.n_fixed(); ++i)
+      for (const auto &[k, form] : rows[i].terms)
+      {
+        const auto [first, last] = std::minmax_element(form.index.begin(), form.index.end());
+        reach[k].push_back({*first, *last, i});
+        widest[k] = std::max(widest[k], *last - *first);
+      }
+    for (std::vector<Reach> &list : reach)
+      std::sort(list.begin(), list.end(),
+                [](const Reach &a, const Reach &b) { return a.first < b.first; });
+  }
+
+  void ResponseColumns::setup()
+  {
+    std::size_t in_columns = 0;
+    for (std::size_t i = 0; i < rows.n_fixed(); ++i)
+    {
+      compute(i);
+      for (std::size_t p = 0; p < columns[i].substructure.size(); ++p)
+        in_columns += columns[i].part[p].value.size();
+    }
+    // Work of a solve: 4 products of b x b blocks a node, b of order 2; of a column: one product an
+    // entry.
+    by_columns = rows.size() > 0 && in_columns < 8 * solvers.structure().n_dofs();
+    work = solvers.structure().zero();
+  }
+
+  void ResponseColumns::compute(const std::size_t i)
+  {
+    Column &column = columns[i];
+    column.substructure.clear();
+    const std::vector<Term> &terms = rows[i].terms;
+    std::size_t used = 0;
+    for (std::size_t a = 0; a < terms.size(); ++a)
+    {
+      if (column.part.size() <= used)
+        column.part.emplace_back();
+      // Both ends of a row on one substructure: their columns add, as full vectors.
+      const auto known =
+          std::find(column.substructure.begin(), column.substructure.end(), terms[a].substructure);
+      if (known == column.substructure.end())
+      {
+        solvers[terms[a].substructure].column(terms[a].form, column.part[used]);
+        column.substructure.push_back(terms[a].substructure);
+        ++used;
+        continue;
+      }
+      WindowedVector &sum = column.part[known - column.substructure.begin()], second;
+      solvers[terms[a].substructure].column(terms[a].form, second);
+      std::vector<double> full(solvers.structure()[terms[a].substructure].n_dofs(), 0.);
+      for (const WindowedVector *part : {&std::as_const(sum), &std::as_const(second)})
+        for (std::size_t k = 0; k < part->value.size(); ++k)
+          full[part->first + k] += part->value[k];
+      sum.first = 0;
+      sum.value = std::move(full);
+    }
+  }
+
+  double ResponseColumns::entry(const std::size_t i, const std::size_t j) const
+  {
+    double sum = 0.;
+    const Column &c = columns[i];
+    for (const Term &term : rows[j].terms)
+      for (std::size_t p = 0; p < c.substructure.size(); ++p)
+        if (c.substructure[p] == term.substructure)
+          sum += c.part[p].dot(term.form);
+    return sum;
+  }
+
+  void ResponseColumns::visit_reached(const std::size_t i,
+                                      const std::function<void(std::size_t)> &visit) const
+  {
+    const Column &c = columns[i];
+    for (std::size_t p = 0; p < c.substructure.size(); ++p)
+    {
+      const std::size_t k = c.substructure[p];
+      const unsigned int begin = c.part[p].first,
+                         end = begin + static_cast<unsigned int>(c.part[p].value.size());
+      auto at = std::lower_bound(reach[k].begin(), reach[k].end(), begin,
+                                 [&](const Reach &r, const unsigned int dof)
+                                 { return r.first + widest[k] < dof; });
+      for (; at != reach[k].end() && at->first < end; ++at)
+        if (at->last >= begin && at->row <= i)
+          visit(at->row);
+    }
+  }
+
+  void ResponseColumns::free_motion(const BlockVector &P, std::vector<double> &d) const
+  {
+    d.resize(rows.size());
+    if (!by_columns)
+    {
+      work = P;
+      solvers.solve(work);
+    }
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      const Column &column = columns[i];
+      d[i] = by_columns ? 0. : evaluate(rows[i].terms, work);
+      for (std::size_t p = 0; by_columns && p < column.substructure.size(); ++p)
+        d[i] += column.part[p].dot(P[column.substructure[p]]);
+    }
+  }
+} // namespace taut

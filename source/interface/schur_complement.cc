@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "assembled_schur_complement.h"
+#include "matrix_free_schur_complement.h"
+
+#include <taut/base/exceptions.h>
+
+namespace taut
+{
+  namespace
+  {
+    /// Rows up to which a dense F is as fast as a sparse one.
+    constexpr std::size_t most_dense_rows = 150;
+
+    /// Entries of the stored columns for each DoF up to which F is assembled, some three times
+    /// those of the factors.
+    constexpr double most_stored_entries = 64.;
+
+    /// Columns that are computed to guess the length of all.
+    constexpr std::size_t n_samples = 16;
+
+    /// Entries that the columns of all rows would have over the DoFs, on all ranks.
+    double stored_entries_per_dof(const FactoredStructure &solvers, const ContactRows &rows)
+    {
+      WindowedVector column;
+      double sum = 0.;
+      const std::size_t n = std::min(n_samples, rows.n_fixed());
+      for (std::size_t s = 0; s < n; ++s)
+        for (const auto &[k, form] : rows[s * rows.n_fixed() / n].terms)
+        {
+          solvers[k].column(form, column);
+          sum += column.value.size();
+        }
+      std::vector<double> totals = {n > 0 ? sum * rows.size() / n : 0.,
+                                    static_cast<double>(solvers.structure().n_dofs())};
+      solvers.structure().communicator().sum(totals);
+      return totals[0] / std::max(1., totals[1]);
+    }
+
+    /// The form that suits the rows and the decay of their columns, known only once A_k is
+    /// factored.
+    class AutomaticSchurComplement : public SchurComplement
+    {
+    public:
+      AutomaticSchurComplement(const FactoredStructure &solvers, const ContactRows &rows)
+          : solvers(solvers), rows(rows)
+      {
+      }
+      void setup(const std::vector<double> &S) override
+      {
+        chosen = make_schur_complement(choice(), solvers, rows);
+        chosen->setup(S);
+      }
+      void update_moving() override { chosen->update_moving(); }
+      void free_motion(const BlockVector &P, std::vector<double> &d) const override
+      {
+        chosen->free_motion(P, d);
+      }
+      ComplementarityOperator &matrix() override { return chosen->matrix(); }
+      std::string description() const override { return chosen->description(); }
+
+    private:
+      std::string choice() const
+      {
+        if (rows.size() <= most_dense_rows)
+          return "assembled dense";
+        return stored_entries_per_dof(solvers, rows) <= most_stored_entries ? "assembled sparse"
+                                                                            : "matrix-free";
+      }
+
+      const FactoredStructure &solvers;
+      const ContactRows &rows;
+      std::unique_ptr<SchurComplement> chosen;
+    };
+  } // namespace
+
+  std::unique_ptr<SchurComplement> make_schur_complement(const std::string &form,
+                                                         const FactoredStructure &solvers,
+                                                         const ContactRows &rows)
+  {
+    if (form == "automatic")
+      return std::make_unique<AutomaticSchurComplement>(solvers, rows);
+    if (form == "assembled dense")
+      return std::make_unique<DenseSchurComplement>(solvers, rows);
+    if (form == "assembled sparse")
+      return std::make_unique<SparseSchurComplement>(solvers, rows);
+    if (form == "matrix-free")
+      return std::make_unique<MatrixFreeSchurComplement>(solvers, rows);
+    throw UserError("unknown form of the interface operator '" + form +
+                    "'; known are: automatic, assembled dense, assembled sparse, matrix-free. "
+                    "Correct the name");
+  }
+} // namespace taut

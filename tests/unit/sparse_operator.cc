@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: the sparse operator with its dense border gives the products, solutions and verdicts on
+// dependent rows of the dense operator, which a Cholesky factor of its own computes. Expected:
+// equal to 1e-12 of the largest entry (condition numbers are below 1e3).
+#include <taut/complementarity/dense_operator.h>
+#include <taut/complementarity/sparse_operator.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace
+{
+  constexpr std::size_t n = 60, n_border = 3, bandwidth = 4;
+
+  /// The same definite matrix in both forms: banded, with full rows at the end.
+  struct Pair
+  {
+    taut::DenseOperator dense;
+    taut::SparseOperator sparse;
+    std::mt19937 generator{7};
+
+    double number() { return std::uniform_real_distribution<double>(-1., 1.)(generator); }
+
+    Pair() : dense(n)
+    {
+      sparse.reinit(n, n_border);
+      taut::SymmetricEntries entries;
+      for (std::size_t i = 0; i < n - n_border; ++i)
+        for (std::size_t j = i < bandwidth ? 0 : i - bandwidth; j <= i; ++j)
+        {
+          const double value = i == j ? 10. : number();
+          dense.set(i, j, value);
+          // In two shares, as from two bodies.
+          entries.add(i, j, .25 * value);
+          entries.add(j, i, .75 * value);
+        }
+      sparse.set_interior(entries);
+      set_border();
+    }
+
+    void set_border()
+    {
+      for (std::size_t i = n - n_border; i < n; ++i)
+      {
+        std::vector<double> row(n);
+        for (std::size_t j = 0; j < n; ++j)
+          row[j] = i == j ? 12. : j < i ? number() : dense(i, j);
+        for (std::size_t j = 0; j < n; ++j)
+          dense.set(i, j, row[j]);
+        sparse.set_border(i, row);
+      }
+    }
+
+    std::vector<double> vector()
+    {
+      std::vector<double> x(n);
+      for (double &value : x)
+        value = number();
+      return x;
+    }
+  };
+
+  void expect_near(const std::vector<double> &a, const std::vector<double> &b)
+  {
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i)
+      EXPECT_NEAR(a[i], b[i], 1e-12) << i;
+  }
+} // namespace
+
+TEST(SparseOperator, multiplies_like_the_dense_one)
+{
+  Pair F;
+  const std::vector<double> x = F.vector();
+  std::vector<double> y, z;
+  F.dense.apply(x, y);
+  F.sparse.apply(x, z);
+  expect_near(y, z);
+  F.dense.apply_absolute(x, y);
+  F.sparse.apply_absolute(x, z);
+  expect_near(y, z);
+  for (std::size_t i = 0; i < n; ++i)
+    EXPECT_DOUBLE_EQ(F.dense.diagonal(i), F.sparse.diagonal(i));
+}
+
+TEST(SparseOperator, solves_like_the_dense_one_as_sets_and_border_change)
+{
+  Pair F;
+  std::vector<double> x, y;
+  std::vector<std::size_t> set;
+  for (int turn = 0; turn < 20; ++turn)
+  {
+    // The same set twice, then another; the border anew each time.
+    if (turn % 2 == 0)
+    {
+      set.clear();
+      for (std::size_t i = 0; i < n; ++i)
+        if (F.number() > -.5)
+          set.push_back(i);
+    }
+    for (const double shift : {0., 1e-2})
+    {
+      const std::vector<double> rhs = F.vector();
+      ASSERT_TRUE(F.dense.solve(set, rhs, shift, x));
+      ASSERT_TRUE(F.sparse.solve(set, rhs, shift, y));
+      expect_near(x, y);
+    }
+    F.set_border();
+  }
+}
+
+TEST(SparseOperator, tells_dependent_rows_inside_and_in_the_border)
+{
+  // Row 1 is row 0 again; the last row of the border is twice the row before.
+  taut::SparseOperator F;
+  F.reinit(4, 2);
+  taut::SymmetricEntries entries;
+  entries.add(0, 0, 2.);
+  entries.add(1, 0, 2.);
+  entries.add(1, 1, 2.);
+  F.set_interior(entries);
+  F.set_border(2, {1., 1., 3., 6.});
+  F.set_border(3, {2., 2., 6., 12.});
+  const std::vector<double> rhs = {1., 1., 1., 2.};
+  std::vector<double> x;
+  EXPECT_FALSE(F.solve({0, 1}, rhs, 0., x));
+  EXPECT_FALSE(F.solve({0, 2, 3}, rhs, 0., x));
+  EXPECT_TRUE(F.solve({0, 2}, rhs, 0., x));
+  // 2 x0 + x2 = 1, x0 + 3 x2 = 1
+  EXPECT_NEAR(x[0], .4, 1e-15);
+  EXPECT_NEAR(x[2], .2, 1e-15);
+  EXPECT_TRUE(F.solve({0, 1, 2, 3}, rhs, 1e-3, x));
+}
