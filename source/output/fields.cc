@@ -1,91 +1,118 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/exceptions.h>
 #include <taut/output/fields.h>
 #include <taut/scene/entries.h>
 
-#include <deal.II/base/data_out_base.h>
-#include <deal.II/grid/reference_cell.h>
-
 #include <cstdio>
-#include <fstream>
-#include <tuple>
 
 namespace taut
 {
   namespace
   {
-    using Ranges =
-        std::vector<std::tuple<unsigned int, unsigned int, std::string,
-                               dealii::DataComponentInterpretation::DataComponentInterpretation>>;
-
-    /// Patches made by hand, written by deal.II.
-    template <int dim>
-    class Patches : public dealii::DataOutInterface<dim, 3>
-    {
-    public:
-      std::vector<dealii::DataOutBase::Patch<dim, 3>> patches;
-      std::vector<std::string> names;
-      Ranges ranges;
-
-      void write(const std::string &path)
-      {
-        std::ofstream file(path);
-        dealii::DataOutBase::VtkFlags flags;
-        flags.compression_level = dealii::DataOutBase::VtkFlags::best_speed;
-        this->set_flags(flags);
-        try
-        {
-          if (!patches.empty())
-            this->write_vtu(file);
-        }
-        catch (const dealii::ExceptionBase &)
-        {
-          // deal.II throws as soon as the file fails; what the user can do is said below.
-          file.setstate(std::ios::failbit);
-        }
-        file.close();
-        if (!file)
-          throw UserError("cannot write '" + path + "': the disk may be full");
-      }
-
-    protected:
-      const std::vector<dealii::DataOutBase::Patch<dim, 3>> &get_patches() const override
-      {
-        return patches;
-      }
-      std::vector<std::string> get_dataset_names() const override { return names; }
-      Ranges get_nonscalar_data_ranges() const override { return ranges; }
-    };
-
     std::string numbered(const std::string &name, const std::size_t number)
     {
       char text[32];
       std::snprintf(text, sizeof text, "_%05zu.vtu", number);
       return name + text;
     }
+
+    /// Coordinates in space.
+    void append(const Point &p, std::vector<float> &values)
+    {
+      for (const double value : {p.x, 0., p.y})
+        values.push_back(static_cast<float>(value));
+    }
+
+    template <typename Samples>
+    std::vector<float> places(const Samples &samples)
+    {
+      std::vector<float> values;
+      values.reserve(3 * samples.size());
+      for (const auto &sample : samples)
+        append(sample.place, values);
+      return values;
+    }
   } // namespace
 
   Fields::Fields(const std::string &folder, const Scene &scene, const Structure &structure,
                  const double interval, const unsigned int subdivisions)
-      : folder(folder), interval(interval), subdivisions(subdivisions)
+      : folder(folder), interval(interval), wire_collection(folder + "/wires.pvd"),
+        link_collection(folder + "/links.pvd")
   {
+    if (interval == 0.)
+      return;
+    if (!scene.wires.empty())
+      add_wires(scene, structure, subdivisions);
+    if (!scene.links.empty())
+      add_links(scene, structure);
+  }
+
+  void Fields::add_wires(const Scene &scene, const Structure &structure,
+                         const unsigned int subdivisions)
+  {
+    std::vector<std::vector<std::int32_t>> lines;
+    std::vector<std::int32_t> numbers, parts;
+    std::vector<std::string> names;
     for (std::size_t w = 0; w < scene.wires.size(); ++w)
     {
       const std::vector<double> nodes = grid(scene, w);
-      wire_begins.push_back(wires.size());
       for (std::size_t e = 0; e + 1 < nodes.size(); ++e)
+      {
+        const std::int32_t part = structure.part(w, .5 * (nodes[e] + nodes[e + 1]));
+        if (e == 0 || part != parts.back())
+        {
+          lines.emplace_back();
+          if (e > 0)
+            lines.back().push_back(wires.size() - 1);
+          numbers.push_back(w);
+          parts.push_back(part);
+          names.push_back(scene.wires[w].name);
+        }
         for (unsigned int k = e == 0 ? 0 : 1; k <= subdivisions; ++k)
         {
           const double s = nodes[e] + (nodes[e + 1] - nodes[e]) * k / subdivisions;
+          lines.back().push_back(wires.size());
           wires.push_back(sample(scene, structure, {Attachment::Kind::wire, w, s}));
-          wires.back().part = structure.part(w, s);
         }
+      }
     }
-    wire_begins.push_back(wires.size());
-    for (const Link &link : scene.links)
-      if (!link.moving())
-        link_ends.push_back(sample(scene, structure,
-                                   link.to.kind == Attachment::Kind::ground ? link.from : link.to));
+    wire_file = std::make_unique<VtuFile>(wires.size(), lines);
+    wire_file->set(VtuFile::positions, places(wires));
+    wire_displacement = wire_file->add(VtuFile::Location::points, "displacement", 3);
+    wire_file->add(VtuFile::Location::cells, "wire", numbers);
+    wire_file->add(VtuFile::Location::cells, "part", parts);
+    wire_file->add(VtuFile::Location::cells, "name", names);
+  }
+
+  void Fields::add_links(const Scene &scene, const Structure &structure)
+  {
+    std::vector<std::vector<std::int32_t>> lines;
+    std::vector<std::string> names;
+    for (const bool moving : {false, true})
+    {
+      for (std::size_t i = 0; i < scene.links.size(); ++i)
+      {
+        const Link &link = scene.links[i];
+        if (link.moving() != moving)
+          continue;
+        lines.emplace_back();
+        names.push_back(link.name);
+        for (const Attachment &end : {link.from, link.to})
+          if (end.kind != Attachment::Kind::ground)
+          {
+            lines.back().push_back(ends.size());
+            ends.push_back(sample(scene, structure, end));
+            link_of_end.push_back(i);
+          }
+      }
+      if (!moving)
+        n_fixed_ends = ends.size();
+    }
+    link_file = std::make_unique<VtuFile>(ends.size(), lines);
+    link_displacement = link_file->add(VtuFile::Location::points, "displacement", 3);
+    force = link_file->add(VtuFile::Location::points, "force", 1);
+    gap = link_file->add(VtuFile::Location::points, "gap", 1);
+    open = link_file->add(VtuFile::Location::points, "open", 1);
+    link_file->add(VtuFile::Location::cells, "name", names);
   }
 
   Fields::Sample Fields::sample(const Scene &scene, const Structure &structure,
@@ -98,31 +125,21 @@ namespace taut
     return result;
   }
 
-  std::vector<Point> Fields::displacements(const std::vector<Sample> &samples,
+  std::vector<float> Fields::displacements(const std::vector<Sample> &samples,
                                            const StepView &step) const
   {
     const BlockVector &reference = step.reference.displacement, &U = step.state.U;
     std::vector<double> shares;
+    shares.reserve(2 * samples.size());
     for (const Sample &sample : samples)
       for (const std::vector<Term> *terms : {&sample.x, &sample.y})
         shares.push_back(evaluate(*terms, reference) + evaluate(*terms, U));
     step.structure.communicator().sum(shares);
-    std::vector<Point> result;
+    std::vector<float> values;
+    values.reserve(3 * samples.size());
     for (std::size_t i = 0; i < samples.size(); ++i)
-      result.push_back({shares[2 * i], shares[2 * i + 1]});
-    return result;
-  }
-
-  /// The fixed ends of the rows that are links, and where the moving ones are now.
-  std::vector<Fields::Sample> Fields::ends_of_links(const StepView &step) const
-  {
-    std::vector<Sample> ends = link_ends;
-    for (std::size_t i = 0; i < step.rows.size(); ++i)
-      if (step.rows[i].moving)
-        ends.push_back(sample(step.scene, step.structure,
-                              {Attachment::Kind::wire, step.scene.links[step.rows[i].link].to.index,
-                               step.rows.position(i, step.state.time)}));
-    return ends;
+      append({shares[2 * i], shares[2 * i + 1]}, values);
+    return values;
   }
 
   void Fields::record(const StepView &step)
@@ -131,108 +148,62 @@ namespace taut
     if (interval == 0. || step.state.time < next - 1e-9 * interval)
       return;
     next = step.state.time + interval;
-    const std::vector<Sample> ends = ends_of_links(step);
-    const std::vector<Point> wire_displacement = displacements(wires, step),
-                             link_displacement = displacements(ends, step);
-    const auto write = [&]
+    if (wire_file)
+      wire_file->set(wire_displacement, displacements(wires, step));
+    if (link_file)
+    {
+      move_ends(step);
+      link_file->set(link_displacement, displacements(ends, step));
+      set_links(step);
+    }
+    const auto write_files = [&]
     {
       if (!step.structure.communicator().is_root())
         return;
-      if (!wires.empty())
-      {
-        wire_files.emplace_back(step.state.time, numbered("wires", wire_files.size()));
-        write_wires(wire_displacement, wire_files.back().second);
-        write_collection("wires.pvd", wire_files);
-      }
-      if (!ends.empty())
-      {
-        link_files.emplace_back(step.state.time, numbered("links", link_files.size()));
-        write_links(step, ends, link_displacement, link_files.back().second);
-        write_collection("links.pvd", link_files);
-      }
+      if (wire_file)
+        write(step, "wires", *wire_file, wire_collection);
+      if (link_file)
+        write(step, "links", *link_file, link_collection);
     };
-    step.structure.communicator().agree(write);
+    step.structure.communicator().agree(write_files);
   }
 
-  void Fields::write_wires(const std::vector<Point> &displacement, const std::string &name) const
+  void Fields::move_ends(const StepView &step)
   {
-    Patches<1> out;
-    out.names = {"displacement", "displacement", "displacement", "wire", "part"};
-    out.ranges = {
-        {0, 2, "displacement", dealii::DataComponentInterpretation::component_is_part_of_vector}};
-    for (std::size_t w = 0; w + 1 < wire_begins.size(); ++w)
+    for (std::size_t e = n_fixed_ends; e < ends.size(); ++e)
     {
-      // One patch a wire, with the coordinates of its points as the last rows of its data.
-      const std::size_t begin = wire_begins[w], n = wire_begins[w + 1] - begin;
-      const Point first = wires[begin].place, last = wires[begin + n - 1].place;
-      dealii::DataOutBase::Patch<1, 3> patch;
-      patch.reference_cell = dealii::ReferenceCells::Line;
-      patch.n_subdivisions = n - 1;
-      patch.patch_index = w;
-      patch.points_are_available = true;
-      patch.vertices[0] = dealii::Point<3>(first.x, 0., first.y);
-      patch.vertices[1] = dealii::Point<3>(last.x, 0., last.y);
-      patch.data.reinit(8, n);
-      for (std::size_t k = 0; k < n; ++k)
-      {
-        const Sample &at = wires[begin + k];
-        const Point &u = displacement[begin + k];
-        const double values[] = {
-            u.x,        0., u.y,       static_cast<double>(w), static_cast<double>(at.part),
-            at.place.x, 0., at.place.y};
-        for (unsigned int c = 0; c < 8; ++c)
-          patch.data(c, k) = values[c];
-      }
-      out.patches.push_back(std::move(patch));
+      const Link &link = step.scene.links[link_of_end[e]];
+      const double s = step.rows.position(step.rows.row_of_link(link_of_end[e]), step.state.time);
+      const Attachment contact = {Attachment::Kind::wire, link.to.index, s};
+      // The `to` end is the last of its link. What slides along is drawn where it touches.
+      if (e + 1 == ends.size() || link_of_end[e + 1] != link_of_end[e])
+        ends[e] = sample(step.scene, step.structure, contact);
+      else
+        ends[e].place = place(step.scene, contact);
     }
-    out.write(folder + "/" + name);
   }
 
-  void Fields::write_links(const StepView &step, const std::vector<Sample> &ends,
-                           const std::vector<Point> &displacement, const std::string &name) const
+  void Fields::set_links(const StepView &step)
   {
-    Patches<0> out;
-    out.names = {"displacement", "displacement", "displacement", "force", "gap", "open"};
-    out.ranges = {
-        {0, 2, "displacement", dealii::DataComponentInterpretation::component_is_part_of_vector}};
-    for (std::size_t i = 0; i < step.rows.size(); ++i)
+    std::vector<float> forces, gaps, opened;
+    for (const std::size_t link : link_of_end)
     {
-      if (step.rows[i].is_cut())
-        continue;
-      const std::size_t index = out.patches.size();
-      const Sample &end = ends[index];
-      const Point &u = displacement[index];
-      dealii::DataOutBase::Patch<0, 3> patch;
-      patch.patch_index = index;
-      patch.vertices[0] = dealii::Point<3>(end.place.x, 0., end.place.y);
-      patch.data.reinit(6, 1);
-      const double values[] = {u.x,
-                               0.,
-                               u.y,
-                               step.state.multiplier[i],
-                               step.state.geometric_gap[i],
-                               step.state.multiplier[i] == 0. ? 1. : 0.};
-      for (unsigned int k = 0; k < 6; ++k)
-        patch.data(k, 0) = values[k];
-      out.patches.push_back(std::move(patch));
+      const std::size_t row = step.rows.row_of_link(link);
+      forces.push_back(static_cast<float>(step.state.multiplier[row]));
+      gaps.push_back(static_cast<float>(step.state.geometric_gap[row]));
+      opened.push_back(step.state.multiplier[row] == 0. ? 1.f : 0.f);
     }
-    out.write(folder + "/" + name);
+    link_file->set(VtuFile::positions, places(ends));
+    link_file->set(force, forces);
+    link_file->set(gap, gaps);
+    link_file->set(open, opened);
   }
 
-  void Fields::write_collection(const std::string &name,
-                                const std::vector<std::pair<double, std::string>> &files) const
+  void Fields::write(const StepView &step, const std::string &name, const VtuFile &file,
+                     PvdFile &collection) const
   {
-    std::ofstream file(folder + "/" + name);
-    try
-    {
-      dealii::DataOutBase::write_pvd_record(file, files);
-    }
-    catch (const dealii::ExceptionBase &)
-    {
-      file.setstate(std::ios::failbit);
-    }
-    file.close();
-    if (!file)
-      throw UserError("cannot write '" + folder + "/" + name + "': the disk may be full");
+    const std::string frame = numbered(name, collection.size());
+    file.write(folder + "/" + frame);
+    collection.add(step.state.time, frame);
   }
 } // namespace taut

@@ -10,6 +10,7 @@ import pathlib
 import shutil
 import subprocess
 import sys
+import time
 import xml.etree.ElementTree as xml
 from importlib.machinery import SourceFileLoader
 
@@ -52,15 +53,32 @@ def at(series, column, time):
     return series[column][row]
 
 
-def read(path):
-    reader = vtkXMLUnstructuredGridReader()
-    reader.SetFileName(str(path))
-    reader.Update()
-    grid = reader.GetOutput()
-    data = grid.GetPointData()
-    arrays = [data.GetArray(i) for i in range(data.GetNumberOfArrays())]
-    fields = {array.GetName(): vtk_to_numpy(array).astype(float) for array in arrays}
-    return vtk_to_numpy(grid.GetPoints().GetData()).astype(float), fields
+class Grid:
+    """Points, their data, and cells with theirs, as VTK reads them."""
+
+    def __init__(self, path):
+        reader = vtkXMLUnstructuredGridReader()
+        reader.SetFileName(str(path))
+        reader.Update()
+        grid = reader.GetOutput()
+        self.points = vtk_to_numpy(grid.GetPoints().GetData()).astype(float)
+        data = grid.GetPointData()
+        arrays = [data.GetArray(i) for i in range(data.GetNumberOfArrays())]
+        self.fields = {array.GetName(): vtk_to_numpy(array).astype(float) for array in arrays}
+        self.cells = []
+        for i in range(grid.GetNumberOfCells()):
+            ids = grid.GetCell(i).GetPointIds()  # VTK's own, until the next cell is asked for
+            self.cells.append([ids.GetId(k) for k in range(ids.GetNumberOfIds())])
+        names = grid.GetCellData().GetAbstractArray("name")
+        self.names = [names.GetValue(i) for i in range(grid.GetNumberOfCells())]
+
+    def wire(self, name):
+        """Indices of the points of a wire."""
+        return np.unique(np.concatenate([cell for cell, mine in zip(self.cells, self.names) if mine == name]))
+
+    def ends(self, which):
+        """Indices of the first (0) or last (-1) point of each cell."""
+        return np.array([cell[which] for cell in self.cells])
 
 
 def collection(path):
@@ -79,19 +97,23 @@ def run(name, *settings):
 
 
 def check_links(folder):
-    """Force, gap and state of every link: the fixed ones in the order of links.csv, then the moving ones."""
+    """Force, gap and state at the ends of every link: the fixed ones in the order of links.csv, then the moving."""
     tables = [table(folder / name) for name in ("links.csv", "sliding.csv") if (folder / name).exists()]
     columns = [(t, h, h.replace(" force [N]", " gap [m]")) for t in tables for h in t if h.endswith(" force [N]")]
     times = []
     for time, path in collection(folder / "links.pvd"):
         times.append(time)
-        _, fields = read(path)
+        grid = Grid(path)
         force = np.array([at(t, f, time) for t, f, _ in columns])
         gap = np.array([at(t, g, time) for t, _, g in columns])
-        compare(f"{path}: number of links", len(fields["force"]), len(force), 0)
-        compare(f"{path}: force", fields["force"], force, np.abs(force).max())
-        compare(f"{path}: gap", fields["gap"], gap, np.abs(gap).max())
-        compare(f"{path}: open", fields["open"], force == 0, 0)
+        if grid.names != [h.replace(" force [N]", "") for _, h, _ in columns]:
+            errors.append(f"{path}: the names of the links are not those of the tables")
+            continue
+        for end in (0, -1):
+            ends = grid.ends(end)
+            compare(f"{path}: force", grid.fields["force"][ends], force, np.abs(force).max())
+            compare(f"{path}: gap", grid.fields["gap"][ends], gap, np.abs(gap).max())
+            compare(f"{path}: open", grid.fields["open"][ends], force == 0, 0)
     return np.array(times)
 
 
@@ -99,13 +121,14 @@ def check_probes(folder, probes):
     """Motion of points of wires since the start: {name: (wire, x, z, direction)}."""
     series, start = table(folder / "probes.csv"), {}
     for time, path in collection(folder / "wires.pvd"):
-        points, fields = read(path)
+        grid = Grid(path)
         for name, (wire, x, z, direction) in probes.items():
-            there = np.flatnonzero((fields["wire"] == wire) & (np.abs(points - [x, 0, z]).max(axis=1) < 1e-4))
+            mine = grid.wire(wire)
+            there = mine[np.abs(grid.points[mine] - [x, 0, z]).max(axis=1) < 1e-4]
             if len(there) == 0:
                 errors.append(f"{path}: no point at {name}")
                 continue
-            u = fields["displacement"][there[0]] @ direction
+            u = grid.fields["displacement"][there[0]] @ direction
             first = start.setdefault(name, u)
             column = f"{name} [m]"
             motion = at(series, column, time) - series[column][0]
@@ -113,25 +136,65 @@ def check_probes(folder, probes):
 
 
 def check_droppers(folder):
-    """The gap of a dropper changes as its ends move: points of both wires at the same x."""
-    wires, links = collection(folder / "wires.pvd"), collection(folder / "links.pvd")
+    """The ends of a dropper move like the points of the wires at the same x, and its gap changes as they do."""
     first = None
-    for (_, wire_file), (_, link_file) in zip(wires, links):
-        points, fields = read(wire_file)
-        places, link_fields = read(link_file)
-        count = len(places) - 1  # the last one is the sliding contact
+    for (_, wire_path), (_, link_path) in zip(collection(folder / "wires.pvd"), collection(folder / "links.pvd")):
+        wires, links = Grid(wire_path), Grid(link_path)
+        count = len(links.names) - 1  # the last one is the sliding contact
         stretch, size = np.zeros(count), 0
-        for wire, sign in ((0, -1), (1, 1)):
-            mine = np.flatnonzero(fields["wire"] == wire)
-            node = mine[np.abs(points[mine, 0][:, None] - places[:count, 0]).argmin(axis=0)]
-            u = fields["displacement"][node, 2]
+        for wire, end, sign in (("messenger", 0, -1), ("contact", -1, 1)):
+            mine, ends = wires.wire(wire), links.ends(end)[:count]
+            node = mine[np.abs(wires.points[mine, 0][:, None] - links.points[ends, 0]).argmin(axis=0)]
+            compare(f"{link_path}: places on '{wire}'", links.points[ends], wires.points[node], 600)
+            u = wires.fields["displacement"][node, 2]
             size += np.abs(u).max()
             stretch += sign * u
-            if wire == 1:
-                compare(f"{link_file}: displacement", link_fields["displacement"][:count, 2], u, np.abs(u).max())
-        value = link_fields["gap"][:count] - stretch
+            compare(f"{link_path}: displacement", links.fields["displacement"][ends, 2], u, np.abs(u).max())
+        value = links.fields["gap"][links.ends(0)[:count]] - stretch
         first = value if first is None else first
-        compare(f"{link_file}: gap against the motion of the wires", value, first, 2 * size)
+        compare(f"{link_path}: gap against the motion of the wires", value, first, 2 * size)
+
+
+def check_contact(folder, speed, start):
+    """Both ends of the pantograph's link stand where the contact is, on the contact wire."""
+    for time, path in collection(folder / "links.pvd"):
+        grid = Grid(path)
+        for end in grid.cells[-1]:
+            compare(f"{path}: contact", grid.points[end], [start + speed * time, 0, 0], 600)
+
+
+def check_cuts(folder, parts):
+    """Lines of a cut wire: one after another, with all points of it, and each in its part."""
+    grid = Grid(folder / "wires_00000.vtu")
+    lines = [cell for cell, name in zip(grid.cells, grid.names) if name == "contact"]
+    if len(lines) < 2 or any(a[-1] != b[0] for a, b in zip(lines, lines[1:])):
+        errors.append(f"{folder}: the contact wire is not cut into lines that hang together")
+    if len(grid.wire("contact")) != 1201 or len(grid.wire("messenger")) != 1201:
+        errors.append(f"{folder}: points of the cut wires are missing")
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName(str(folder / "wires_00000.vtu"))
+    reader.Update()
+    part = vtk_to_numpy(reader.GetOutput().GetCellData().GetArray("part"))
+    if sorted(set(part)) != list(range(parts)):
+        errors.append(f"{folder}: parts are {sorted(set(part))}")
+
+
+def check_killed(name):
+    """A run that is killed leaves collections that name complete files."""
+    folder = arguments.results / f"{name}_killed"
+    shutil.rmtree(folder, ignore_errors=True)
+    command = [arguments.program, arguments.root / "prm" / f"{name}.prm", "--set", f"Output/Folder={folder}",
+               "--set", "Output/Field interval=0.001"]
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+    while process.poll() is None and not (folder / "links_00003.vtu").exists():
+        time.sleep(0.001)
+    process.kill()
+    process.wait()
+    frames = collection(folder / "wires.pvd")
+    for _, path in frames:
+        Grid(path)
+    if len(frames) < 3 or len(frames) > 6900:
+        errors.append(f"{folder}: {len(frames)} frames of a killed run")
 
 
 def check_pictures(folder, names, script):
@@ -167,19 +230,24 @@ plot_script = arguments.root / "source" / "plot" / "taut-plot"
 
 results = run("en50318_2002_250", "Time/End=0.2", "Output/Field interval=0.05", "Statistics/Window=61,72")
 compare("times of the fields", check_links(results), [0, 0.05, 0.1, 0.15, 0.2], 1)
-check_probes(results, {f"contact wire at {x} m": (1, x, 0, (0, 0, 1)) for x in (240, 300, 360)})
+check_probes(results, {f"contact wire at {x} m": ("contact", x, 0, (0, 0, 1)) for x in (240, 300, 360)})
 check_droppers(results)
+check_contact(results, 250 / 3.6, 60)
+check_killed("en50318_2002_250")
 check_filter(results, plot_script)
 check_pictures(results, ["contact_force", "probes", "link_forces", "link_map", "waterfall"], plot_script)
 
+results = run("en50318_2002_300", "Time/End=0", "Output/Field interval=1", "Partition/Number of substructures=3")
+check_cuts(results, 3)
+
 results = run("inclined_cable", "Time/End=2", "Output/Field interval=0.1")
 check_links(results)
-check_probes(results, {"tip": (0, 3, 0, (0, 0, 1))})
+check_probes(results, {"tip": ("beam", 3, 0, (0, 0, 1))})
 check_pictures(results, ["probes", "link_forces", "waterfall"], plot_script)
 forces = []
 for (_, wire_path), (_, link_path) in zip(collection(results / "wires.pvd"), collection(results / "links.pvd")):
-    tip = read(wire_path)[1]["displacement"][-1]
-    link = read(link_path)[1]
+    tip = Grid(wire_path).fields["displacement"][-1]
+    link = Grid(link_path).fields
     compare(f"{link_path}: slack of the cable", link["gap"][0], -(tip @ (0.6, 0, -0.8)), np.abs(tip).max())
     forces.append(link["force"][0])
 if not (max(forces) > 45 and min(forces) == 0):

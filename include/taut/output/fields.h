@@ -3,18 +3,21 @@
 #define taut_fields_h
 
 #include <taut/output/observer.h>
+#include <taut/output/vtu_file.h>
 
+#include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace taut
 {
   /**
-   * The motion of all wires for ParaView: wires_NNNN.vtu with the displacement from the undeformed
-   * line as a vector to warp by, links_NNNN.vtu with the ends of the links as points that carry
-   * force and gap, and wires.pvd and links.pvd that join them in time. Positions are x, 0, y: the
-   * plane stands upright.
+   * The motion for ParaView. wires_NNNNN.vtu: the wires as lines, cut where their parts meet, with
+   * the displacement of their points from the undeformed line as a vector to warp by, and with
+   * name, number and part of each line. links_NNNNN.vtu: each link as a line between its ends, or
+   * as a point if one end is the ground, with displacement, force, gap and whether it is open at
+   * the ends, and with its name. A sliding contact stands where its contact is. wires.pvd and
+   * links.pvd join the files in time. Positions are x, 0, y: the plane stands upright.
    */
   class Fields : public Observer
   {
@@ -34,27 +37,32 @@ namespace taut
     {
       Point place;
       std::vector<Term> x, y;
-      unsigned int part = 0; ///< of the partition
     };
     Sample sample(const Scene &scene, const Structure &structure, const Attachment &at) const;
-    /// Displacements of samples along x and y from the undeformed line, summed over all ranks [m].
-    std::vector<Point> displacements(const std::vector<Sample> &samples,
+
+    /// Displacements of samples along x, 0, y from the undeformed line, summed over all ranks [m].
+    std::vector<float> displacements(const std::vector<Sample> &samples,
                                      const StepView &step) const;
-    std::vector<Sample> ends_of_links(const StepView &step) const;
-    void write_wires(const std::vector<Point> &displacement, const std::string &name) const;
-    void write_links(const StepView &step, const std::vector<Sample> &ends,
-                     const std::vector<Point> &displacement, const std::string &name) const;
-    void write_collection(const std::string &name,
-                          const std::vector<std::pair<double, std::string>> &files) const;
+    void add_wires(const Scene &scene, const Structure &structure, unsigned int subdivisions);
+    void add_links(const Scene &scene, const Structure &structure);
+    void move_ends(const StepView &step);
+    void set_links(const StepView &step);
+    void write(const StepView &step, const std::string &name, const VtuFile &file,
+               PvdFile &collection) const;
 
     std::string folder;
     double interval, next = 0.;
-    unsigned int subdivisions;
-    std::vector<Sample> wires;            ///< along each wire, `subdivisions` an element
-    std::vector<std::size_t> wire_begins; ///< index of the first sample of each wire, and the end
-    std::vector<Sample>
-        link_ends; ///< the `to` end, or `from` if that is the ground; fixed rows only
-    std::vector<std::pair<double, std::string>> wire_files, link_files;
+    std::vector<Sample> wires; ///< along each wire, `subdivisions` an element
+
+    /// Ends of links on bodies: of the fixed ones, in the order of the scene, then of the moving.
+    std::vector<Sample> ends;
+    std::vector<std::size_t> link_of_end; ///< index in the scene
+    std::size_t n_fixed_ends = 0;
+
+    std::unique_ptr<VtuFile> wire_file, link_file; ///< none if there is nothing to show
+    std::size_t wire_displacement = 0;             ///< arrays of the files
+    std::size_t link_displacement = 0, force = 0, gap = 0, open = 0;
+    PvdFile wire_collection, link_collection;
   };
 } // namespace taut
 

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
+#include <taut/output/vtu_file.h>
+
+#include <charconv>
+#include <cstring>
+#include <sstream>
+
+namespace taut
+{
+  namespace
+  {
+    /// The memory of numbers, as it goes into the file.
+    template <typename Number>
+    std::string bytes_of(const std::vector<Number> &values)
+    {
+      std::string bytes(values.size() * sizeof(Number), '\0');
+      if (!values.empty())
+        std::memcpy(&bytes[0], values.data(), bytes.size());
+      return bytes;
+    }
+
+    const char *byte_order()
+    {
+      const std::uint16_t one = 1;
+      unsigned char first;
+      std::memcpy(&first, &one, 1);
+      return first == 1 ? "LittleEndian" : "BigEndian";
+    }
+
+    const char *section(const VtuFile::Location location)
+    {
+      return location == VtuFile::Location::points ? "PointData" : "CellData";
+    }
+
+    constexpr std::uint8_t vertex = 1, poly_line = 4; ///< types of cells in VTK
+  }                                                   // namespace
+
+  VtuFile::VtuFile(const std::size_t n_points, const std::vector<std::vector<std::int32_t>> &cells)
+      : n_points(n_points), n_cells(cells.size())
+  {
+    std::vector<std::int32_t> connectivity, offsets;
+    std::vector<std::uint8_t> types;
+    for (const std::vector<std::int32_t> &cell : cells)
+    {
+      connectivity.insert(connectivity.end(), cell.begin(), cell.end());
+      offsets.push_back(connectivity.size());
+      types.push_back(cell.size() == 1 ? vertex : poly_line);
+    }
+    arrays.push_back(
+        {"Points", "positions", "Float32", 3, bytes_of(std::vector<float>(3 * n_points))});
+    arrays.push_back({"Cells", "connectivity", "Int32", 1, bytes_of(connectivity)});
+    arrays.push_back({"Cells", "offsets", "Int32", 1, bytes_of(offsets)});
+    arrays.push_back({"Cells", "types", "UInt8", 1, bytes_of(types)});
+  }
+
+  std::size_t VtuFile::add(const Location location, const std::string &name,
+                           const unsigned int n_components)
+  {
+    const std::size_t n = (location == Location::points ? n_points : n_cells) * n_components;
+    arrays.push_back(
+        {section(location), name, "Float32", n_components, bytes_of(std::vector<float>(n))});
+    return arrays.size() - 1;
+  }
+
+  void VtuFile::add(const Location location, const std::string &name,
+                    const std::vector<std::int32_t> &values)
+  {
+    arrays.push_back({section(location), name, "Int32", 1, bytes_of(values)});
+  }
+
+  void VtuFile::add(const Location location, const std::string &name,
+                    const std::vector<std::string> &values)
+  {
+    // Characters as numbers, each text ended by a zero.
+    std::ostringstream text;
+    for (const std::string &value : values)
+    {
+      for (const unsigned char c : value)
+        text << static_cast<int>(c) << ' ';
+      text << "0\n";
+    }
+    arrays.push_back({section(location), name, "String", 1, text.str()});
+  }
+
+  void VtuFile::set(const std::size_t array, const std::vector<float> &values)
+  {
+    arrays[array].bytes = bytes_of(values);
+  }
+
+  void VtuFile::write(const std::string &path) const
+  {
+    std::string head =
+        std::string("<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"") +
+        byte_order() +
+        "\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
+        std::to_string(n_points) + "\" NumberOfCells=\"" + std::to_string(n_cells) + "\">\n";
+    std::uint64_t offset = 0;
+    for (const char *wanted : {"Points", "Cells", "PointData", "CellData"})
+    {
+      head += std::string("<") + wanted + ">\n";
+      for (const Array &array : arrays)
+      {
+        if (array.section != wanted)
+          continue;
+        const bool is_text = array.type == "String";
+        head += std::string(is_text ? "<Array" : "<DataArray") + " type=\"" + array.type +
+                "\" Name=\"" + array.name + "\" NumberOfComponents=\"" +
+                std::to_string(array.n_components) + "\" format=\"";
+        if (is_text)
+          head += "ascii\">\n" + array.bytes + "</Array>\n";
+        else
+        {
+          head += "appended\" offset=\"" + std::to_string(offset) + "\"/>\n";
+          offset += sizeof offset + array.bytes.size();
+        }
+      }
+      head += std::string("</") + wanted + ">\n";
+    }
+    head += "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
+
+    std::ofstream file(path, std::ios::binary);
+    file << head;
+    for (const char *wanted : {"Points", "Cells", "PointData", "CellData"})
+      for (const Array &array : arrays)
+        if (array.section == wanted && array.type != "String")
+        {
+          const std::uint64_t size = array.bytes.size();
+          file.write(reinterpret_cast<const char *>(&size), sizeof size);
+          file.write(array.bytes.data(), size);
+        }
+    file << "\n</AppendedData>\n</VTKFile>\n";
+    file.close();
+    if (!file)
+      throw UserError("cannot write '" + path + "': the disk may be full");
+  }
+
+  void PvdFile::add(const double time, const std::string &file)
+  {
+    static const std::string tail = "</Collection>\n</VTKFile>\n";
+    std::string text;
+    if (n_entries == 0)
+    {
+      stream.open(path, std::ios::binary);
+      text = std::string("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
+                         "byte_order=\"") +
+             byte_order() + "\">\n<Collection>\n";
+    }
+    else
+      // The new entry is longer than the end that it replaces, in one write.
+      stream.seekp(-static_cast<std::streamoff>(tail.size()), std::ios::end);
+    char digits[32];
+    const auto end = std::to_chars(digits, digits + sizeof digits, time);
+    text += "<DataSet timestep=\"" + std::string(digits, end.ptr) + "\" file=\"" + file + "\"/>\n" +
+            tail;
+    stream << text << std::flush;
+    if (!stream)
+      throw UserError("cannot write '" + path + "': the disk may be full");
+    ++n_entries;
+  }
+} // namespace taut
