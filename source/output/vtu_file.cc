@@ -90,46 +90,47 @@ namespace taut
 
   void VtuFile::write(const std::string &path) const
   {
-    std::string head =
+    std::string text =
         std::string("<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"") +
-        byte_order() +
-        "\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
+        byte_order() + "\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
         std::to_string(n_points) + "\" NumberOfCells=\"" + std::to_string(n_cells) + "\">\n";
     std::uint64_t offset = 0;
     for (const char *wanted : {"Points", "Cells", "PointData", "CellData"})
     {
-      head += std::string("<") + wanted + ">\n";
+      text += std::string("<") + wanted + ">\n";
       for (const Array &array : arrays)
       {
         if (array.section != wanted)
           continue;
         const bool is_text = array.type == "String";
-        head += std::string(is_text ? "<Array" : "<DataArray") + " type=\"" + array.type +
+        text += std::string(is_text ? "<Array" : "<DataArray") + " type=\"" + array.type +
                 "\" Name=\"" + array.name + "\" NumberOfComponents=\"" +
                 std::to_string(array.n_components) + "\" format=\"";
         if (is_text)
-          head += "ascii\">\n" + array.bytes + "</Array>\n";
+          text += "ascii\">\n" + array.bytes + "</Array>\n";
         else
         {
-          head += "appended\" offset=\"" + std::to_string(offset) + "\"/>\n";
+          text += "appended\" offset=\"" + std::to_string(offset) + "\"/>\n";
           offset += sizeof offset + array.bytes.size();
         }
       }
-      head += std::string("</") + wanted + ">\n";
+      text += std::string("</") + wanted + ">\n";
     }
-    head += "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
+    text += "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
 
-    std::ofstream file(path, std::ios::binary);
-    file << head;
+    // All in one write.
+    text.reserve(text.size() + offset + 64);
     for (const char *wanted : {"Points", "Cells", "PointData", "CellData"})
       for (const Array &array : arrays)
         if (array.section == wanted && array.type != "String")
         {
           const std::uint64_t size = array.bytes.size();
-          file.write(reinterpret_cast<const char *>(&size), sizeof size);
-          file.write(array.bytes.data(), size);
+          text.append(reinterpret_cast<const char *>(&size), sizeof size);
+          text += array.bytes;
         }
-    file << "\n</AppendedData>\n</VTKFile>\n";
+    text += "\n</AppendedData>\n</VTKFile>\n";
+    std::ofstream file(path, std::ios::binary);
+    file << text;
     file.close();
     if (!file)
       throw UserError("cannot write '" + path + "': the disk may be full");
