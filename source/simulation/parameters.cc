@@ -205,6 +205,10 @@ namespace taut
     prm.add_parameter("Step", step, "[s]", not_negative());
     prm.add_parameter("End", end_time, "0: the start only, e.g. a static equilibrium [s]",
                       not_negative());
+    prm.add_parameter("Massless contact", massless_contact,
+                      "Moves the mass of a wire's node at a rigid stop or dropper to its "
+                      "neighbours; total mass, its centre and its inertia stay. No impact then "
+                      "takes energy or makes a peak of the force, and any scheme suits such links");
     for (auto &[name, integrator] : integrators)
       integrator->declare_parameters(prm);
     prm.leave_subsection();
@@ -345,6 +349,8 @@ namespace taut
     scene.start = start == "equilibrium"  ? Start::equilibrium
                   : start == "undeformed" ? Start::undeformed
                                           : Start::given;
+    for (Link &link : scene.links)
+      link.massless = massless_contact && link.rigid() && link.unilateral() && !link.moving();
     for (std::size_t i = 0; i < output.probes.items.size(); ++i)
     {
       const OutputParameters::ProbeItem &item = output.probes.items[i];

@@ -15,6 +15,24 @@
 
 namespace taut
 {
+  namespace
+  {
+    /// A += factor (f g^T + g f^T), or factor f f^T if f and g are the same object.
+    void add_product(const double factor, const SparseVector &f, const SparseVector &g,
+                     SymmetricMatrix &A)
+    {
+      for (std::size_t i = 0; i < f.index.size(); ++i)
+        for (std::size_t j = 0; j < g.index.size(); ++j)
+        {
+          const double value = factor * f.value[i] * g.value[j];
+          if (&f != &g)
+            A.add(f.index[i], g.index[j], f.index[i] == g.index[j] ? 2. * value : value);
+          else if (j <= i)
+            A.add(f.index[i], f.index[j], value);
+        }
+    }
+  } // namespace
+
   struct WireComponent::Discretisation
   {
     dealii::Triangulation<1, 3> triangulation;
@@ -95,6 +113,7 @@ namespace taut
     K = make_block_tridiagonal(dofs_per_node, n);
     constant_force.assign(n, 0.);
     const double gravity = scene.gravity.x * axis.x + scene.gravity.y * axis.y;
+    find_massless_dofs(scene, wire_index);
     assemble(wire);
     add_supports(scene, wire_index);
     add_point_masses(scene, wire_index, gravity);
@@ -121,6 +140,116 @@ namespace taut
     return s >= nodes.front() - same && (is_last || s < nodes.back() - same);
   }
 
+  void WireComponent::find_massless_dofs(const Scene &scene, const std::size_t wire)
+  {
+    for (const Link &link : scene.links)
+    {
+      if (!link.massless || !link.unilateral() || !link.rigid() || link.moving())
+        continue;
+      if (link.rotational ? !beam : component(link.direction) == 0.)
+        continue;
+      for (const Attachment &end : {link.from, link.to})
+      {
+        if (end.kind != Attachment::Kind::wire || end.index != wire)
+          continue;
+        // Where two pieces meet, both have a share of the mass.
+        for (std::size_t i = 0; i < nodes.size(); ++i)
+          if (std::fabs(nodes[i] - end.position) <= 1e-12 * wire_length)
+            massless_dofs[dofs_per_node * i + (link.rotational ? 1 : 0)] = link.origin;
+      }
+    }
+  }
+
+  /**
+   * The DoFs of an element as the kinetic energy sees them: a DoF without mass is extrapolated from
+   * its neighbours on the element's side. A linear motion is extrapolated exactly, so that the
+   * total mass, its centre and its moment of inertia stay (H. B. Khenous, P. Laborde, Y. Renard,
+   * European Journal of Mechanics A 27 (2008), 918-932, state these conditions), and T^T M T is
+   * definite on the other DoFs whatever the element.
+   */
+  std::vector<SparseVector> WireComponent::inertial_forms(const std::size_t e) const
+  {
+    const unsigned int n = beam ? 4 : degree + 1;
+    const double h = nodes[e + 1] - nodes[e];
+    std::vector<unsigned int> dofs(n), with_mass;
+    std::vector<double> places(n);
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      // Hermite: value and slope at both vertices; otherwise both vertices, then the inner points.
+      dofs[i] = beam     ? 2 * e + i
+                : i == 0 ? degree * e
+                : i == 1 ? degree * (e + 1)
+                         : degree * e + i - 1;
+      if (!beam)
+        places[i] = nodes[e] + h * discretisation->element->unit_support_point(i)[0];
+      if (massless_dofs.count(dofs[i]) == 0)
+        with_mass.push_back(i);
+    }
+    std::vector<SparseVector> forms(n);
+    for (const unsigned int i : with_mass)
+      forms[i].add(dofs[i], 1.);
+    if (with_mass.size() == n)
+      return forms;
+
+    const auto fail = [&]()
+    {
+      throw EntryError(massless_dofs.lower_bound(dofs[0])->second,
+                       "'Massless contact' needs an element between two contacts whose nodes can "
+                       "take their mass; take a smaller Element size");
+    };
+    if (beam)
+    {
+      if (with_mass.size() + 1 < n)
+        fail();
+      for (unsigned int i = 0; i < n; ++i)
+        if (massless_dofs.count(dofs[i]) > 0)
+        {
+          // The parabola through the other three: w_1 - w_0 = h (slope_0 + slope_1) / 2.
+          const unsigned int other = i % 2 == 0 ? 2 - i : 4 - i;
+          const double sign = i == 0 ? -.5 * h : .5 * h;
+          if (i % 2 == 0)
+          {
+            forms[i].add(dofs[other], 1.);
+            forms[i].add(dofs[1], sign);
+            forms[i].add(dofs[3], sign);
+          }
+          else
+          {
+            forms[i].add(dofs[other], -1.);
+            forms[i].add(dofs[0], -2. / h);
+            forms[i].add(dofs[2], 2. / h);
+          }
+        }
+      return forms;
+    }
+
+    // Lagrange's polynomial through the DoFs with mass; of a linear element these are its other
+    // node and the one behind it.
+    std::vector<std::pair<unsigned int, double>> support;
+    for (const unsigned int i : with_mass)
+      support.emplace_back(dofs[i], places[i]);
+    if (degree == 1 && with_mass.size() == 1)
+    {
+      const bool left = massless_dofs.count(dofs[0]) > 0;
+      const std::size_t behind = left ? e + 2 : e - 1;
+      if (behind < nodes.size() && massless_dofs.count(behind) == 0)
+        support.emplace_back(behind, nodes[behind]);
+    }
+    if (support.empty())
+      fail();
+    for (unsigned int i = 0; i < n; ++i)
+      if (massless_dofs.count(dofs[i]) > 0)
+        for (const auto &[dof, s] : support)
+        {
+          double value = 1.;
+          for (const auto &[other, place] : support)
+            if (other != dof)
+              value *= (places[i] - place) / (s - place);
+          forms[i].add(dof, value);
+        }
+    return forms;
+  }
+
   void WireComponent::assemble(const Wire &wire)
   {
     const bool axial = motion == WireMotion::axial;
@@ -131,10 +260,14 @@ namespace taut
                                       dealii::update_JxW_values);
     const unsigned int n = discretisation->element->n_dofs_per_cell();
     std::vector<dealii::types::global_dof_index> dofs(n);
+    std::vector<SparseVector> inertial;
+    std::size_t e = 0;
     for (const auto &cell : discretisation->dof_handler.active_cell_iterators())
     {
       values.reinit(cell);
       cell->get_dof_indices(dofs);
+      if (!massless_dofs.empty())
+        inertial = inertial_forms(e++);
       const dealii::Tensor<1, 3> t = (cell->vertex(1) - cell->vertex(0)) / cell->diameter();
       for (unsigned int i = 0; i < n; ++i)
         for (unsigned int j = 0; j <= i; ++j)
@@ -149,7 +282,10 @@ namespace taut
               k += wire.bending_stiffness * (t * values.shape_hessian(i, q) * t) *
                    (t * values.shape_hessian(j, q) * t) * JxW;
           }
-          M->add(dofs[i], dofs[j], wire.mass_per_length * m);
+          if (massless_dofs.empty())
+            M->add(dofs[i], dofs[j], wire.mass_per_length * m);
+          else
+            add_product(wire.mass_per_length * m, inertial[i], inertial[j], *M);
           K->add(dofs[i], dofs[j], k);
         }
     }

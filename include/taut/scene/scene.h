@@ -182,6 +182,10 @@ namespace taut
     double mass_per_length = 0.;         ///< [kg/m]; half of the mass goes to each end
     double length = 0.;                  ///< geometric length in the static state, once known [m]
 
+    /// The DoFs of wires that a fixed rigid one-sided link acts on carry no mass: their inertia
+    /// goes to their neighbours.
+    bool massless = false;
+
     bool unilateral() const { return kind != LinkKind::joint; }
     bool moving() const { return kind == LinkKind::sliding_contact; }
     bool rigid() const { return stiffness == std::numeric_limits<double>::infinity(); }

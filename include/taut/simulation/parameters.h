@@ -75,6 +75,7 @@ namespace taut
 
     std::string scheme = "automatic";
     double step = 1e-3, end_time = 6.912;
+    bool massless_contact = false;
 
     SolverParameters solver;
     PartitionParameters partition;

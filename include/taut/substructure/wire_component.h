@@ -5,7 +5,9 @@
 #include <taut/scene/scene.h>
 #include <taut/substructure/substructure.h>
 
+#include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace taut
@@ -62,7 +64,9 @@ namespace taut
     class DistributedLoad;
     class MovingLoad;
 
+    void find_massless_dofs(const Scene &scene, std::size_t wire);
     void assemble(const Wire &wire);
+    std::vector<SparseVector> inertial_forms(std::size_t element) const;
     void add_supports(const Scene &scene, std::size_t wire);
     void add_point_masses(const Scene &scene, std::size_t wire, double gravity);
     void add_loads(const Scene &scene, std::size_t wire, double gravity);
@@ -80,6 +84,9 @@ namespace taut
     unsigned int degree = 1, dofs_per_node = 1;
     InitialMotion start;
     std::vector<unsigned int> sprung_dofs; ///< of elastic supports
+
+    /// DoFs without mass at contacts, with the section of the link for messages.
+    std::map<unsigned int, std::string> massless_dofs;
     std::unique_ptr<Discretisation> discretisation;
   };
 } // namespace taut
