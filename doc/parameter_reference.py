@@ -63,10 +63,18 @@ subsection Output
     set Point = mass
   end
 end
+subsection Study
+  set Ladders = ITEM
+  set Figures = ITEM
+  subsection Ladder ITEM
+    set Entries = Time/Step
+    set Values  = 1
+  end
+end
 """
 
 GROUPS = {"Time": "Time and integration", "Partition": "Cutting into substructures", "Solver": "Solvers",
-          "Output": "Output", "Statistics": "Statistics",
+          "Output": "Output", "Statistics": "Statistics", "Study": "Error against cost",
           "Catenary": "Generator `catenary`", "Network": "Generator `network`"}
 
 
@@ -100,7 +108,7 @@ def entries(text):
 
 def tidy(path):
     """Names of items are the reader's own."""
-    named = ("Wire", "Support", "Point mass", "Mass", "Spring", "Link", "Load", "Probe", "Pantograph")
+    named = ("Wire", "Support", "Point mass", "Mass", "Spring", "Link", "Load", "Probe", "Pantograph", "Ladder", "Figure")
     return tuple(re.sub(rf"^({'|'.join(named)}) (ITEM|mass|pantograph)$", r"\1 <name>", part) for part in path)
 
 

@@ -4,6 +4,7 @@
 #include <taut/output/progress.h>
 #include <taut/output/scene_report.h>
 #include <taut/simulation/simulation.h>
+#include <taut/study/study.h>
 
 #include <boost/program_options.hpp>
 
@@ -42,11 +43,17 @@ namespace
 
   void run(const po::variables_map &arguments, const taut::Communicator &processes)
   {
+    const std::string file = arguments["file"].as<std::string>();
+    const std::vector<std::string> overrides = arguments.count("set")
+                                                   ? arguments["set"].as<std::vector<std::string>>()
+                                                   : std::vector<std::string>();
+    if (arguments.count("study"))
+    {
+      taut::Study(file, overrides, arguments.count("overwrite") > 0, std::cout).run();
+      return;
+    }
     taut::Parameters parameters;
-    parameters.read(arguments["file"].as<std::string>(),
-                    arguments.count("set") ? arguments["set"].as<std::vector<std::string>>()
-                                           : std::vector<std::string>(),
-                    processes);
+    parameters.read(file, overrides, processes);
     parameters.output.overwrite = arguments.count("overwrite") > 0;
     try
     {
@@ -90,6 +97,8 @@ int main(int argc, char **argv)
   po::options_description options("Options");
   options.add_options()("check", "read the file, check the scene and print it, without a run")(
       "sketch", po::value<std::string>(), "with --check: draw the undeformed scene, FILE.svg")(
+      "study",
+      "run the scene with all settings of its section Study and measure cost and error of each")(
       "set,s", po::value<std::vector<std::string>>()->composing(),
       "change an entry of the file: Section.Entry=value (or Section/Entry=value); may be repeated")(
       "overwrite", "replace the results of an earlier run in the same folder")(

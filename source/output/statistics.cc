@@ -96,6 +96,7 @@ namespace taut
     }
     uplift.assign(probe_names.size(), 0.);
     lowering.assign(probe_names.size(), 0.);
+    last.assign(probe_names.size(), 0.);
   }
 
   void Statistics::record(const StepView &step)
@@ -114,6 +115,8 @@ namespace taut
       const double force = state.multiplier[i];
       if (force == 0.)
         link.open_time += dt;
+      else
+        link.closed_time += dt;
       link.impulse += force * dt;
       if (std::fabs(force) > std::fabs(link.largest_force))
         link.largest_force = force;
@@ -122,6 +125,7 @@ namespace taut
     {
       uplift[i] = std::max(uplift[i], step.probes[i]);
       lowering[i] = std::min(lowering[i], step.probes[i]);
+      last[i] = step.probes[i];
     }
     if (dt == 0.)
       return; // the start is no step
@@ -182,6 +186,34 @@ namespace taut
             {"Maximum", "N", m.maximum},
             {"Minimum", "N", m.minimum},
             {"Contact loss", "%", 100. * f.loss}};
+  }
+
+  std::vector<Statistics::NamedFigure> Statistics::named_figures() const
+  {
+    std::vector<NamedFigure> list;
+    for (const Contact &contact : contacts)
+    {
+      const ContactFigures f = figures(contact);
+      const Moments &m = f.filtered;
+      list.insert(list.end(), {{contact.name, "mean", m.mean},
+                               {contact.name, "standard deviation", m.deviation},
+                               {contact.name, "maximum", m.maximum},
+                               {contact.name, "minimum", m.minimum},
+                               {contact.name, "contact loss", f.loss}});
+    }
+    for (std::size_t i = 0; i < link_figures.size(); ++i)
+    {
+      const LinkFigures &f = link_figures[i];
+      list.insert(list.end(), {{link_names[i], "open time", f.open_time},
+                               {link_names[i], "closed time", f.closed_time},
+                               {link_names[i], "largest force", f.largest_force},
+                               {link_names[i], "impulse", f.impulse}});
+    }
+    for (std::size_t i = 0; i < probe_names.size(); ++i)
+      list.insert(list.end(), {{probe_names[i], "largest", uplift[i]},
+                               {probe_names[i], "smallest", lowering[i]},
+                               {probe_names[i], "last", last[i]}});
+    return list;
   }
 
   const std::vector<double> *Statistics::uplift_range(const std::size_t probe) const

@@ -3,6 +3,7 @@
 #include <taut/base/nearest_name.h>
 #include <taut/scene/entries.h>
 #include <taut/simulation/parameters.h>
+#include <taut/simulation/stored_study.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -10,6 +11,7 @@
 
 #include <cctype>
 #include <cmath>
+#include <functional>
 #include <sstream>
 
 namespace taut
@@ -217,6 +219,7 @@ namespace taut
     partition.declare_parameters(prm);
     output.declare_parameters(prm);
     statistics.declare_parameters(prm);
+    study.declare_parameters(prm);
     generator->declare_parameters(prm);
   }
 
@@ -250,6 +253,45 @@ namespace taut
 
   void Parameters::read(const std::string &name, const std::vector<std::string> &overrides,
                         const Communicator &processes)
+  {
+    choice.clear();
+    read_entries(name, overrides, processes);
+    if (!(study.accuracy > 0.))
+      return;
+    std::string text; // of the choice, a line each
+    processes.agree(
+        [&]()
+        {
+          if (!processes.is_root())
+            return;
+          try
+          {
+            const StudyChoice chosen =
+                choose_setting(study_folder() + "/study.json", study.accuracy, entry_values);
+            text = chosen.description + '\n';
+            for (const std::string &o : chosen.overrides)
+              text += o + '\n';
+          }
+          catch (const EntryError &e)
+          {
+            throw UserError(explain(e));
+          }
+        });
+    processes.broadcast(text);
+    std::istringstream lines(text);
+    std::string description;
+    std::getline(lines, description);
+    // The entries of the run are then those of the setting: a file with them runs alike.
+    std::vector<std::string> all = overrides;
+    for (std::string line; std::getline(lines, line);)
+      all.push_back(line);
+    all.push_back("Study/Accuracy=0");
+    read_entries(name, all, processes);
+    choice = description;
+  }
+
+  void Parameters::read_entries(const std::string &name, const std::vector<std::string> &overrides,
+                                const Communicator &processes)
   {
     dealii::deal_II_exceptions::suppress_stacktrace_in_exceptions();
     processes.agree(
@@ -290,6 +332,7 @@ namespace taut
         dealii::ParameterHandler prm;
         generator->declare_names(prm);
         output.declare_names(prm);
+        study.declare_names(prm);
         prm.parse_input_from_string(text, "", true);
       }
       dealii::ParameterHandler prm;
@@ -309,6 +352,7 @@ namespace taut
       check_pair(statistics.window, "Statistics/Window");
       for (const auto &[figure, range] : statistics.expected)
         check_pair(range, "Statistics/Expected ranges/" + figure);
+      study.ladders(entry_values);
     }
     catch (const EntryError &e)
     {
@@ -326,6 +370,20 @@ namespace taut
     prm.print_parameters(text, dealii::ParameterHandler::PRM |
                                    dealii::ParameterHandler::KeepDeclarationOrder);
     listing = text.str();
+
+    std::ostringstream json;
+    prm.print_parameters(json, dealii::ParameterHandler::JSON);
+    entry_values.clear();
+    const std::function<void(const nlohmann::json &, const std::string &)> walk =
+        [&](const nlohmann::json &node, const std::string &path)
+    {
+      for (const auto &[name, child] : node.items())
+        if (child.is_object() && child.contains("pattern_description"))
+          entry_values[path + name] = child.at("value").get<std::string>();
+        else if (child.is_object())
+          walk(child, path + name + "/");
+    };
+    walk(nlohmann::json::parse(json.str()), "");
   }
 
   void Parameters::set_defaults()

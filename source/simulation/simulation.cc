@@ -214,6 +214,8 @@ namespace taut
 
   void Simulation::describe() const
   {
+    if (!parameters.accuracy_choice().empty())
+      log << parameters.accuracy_choice() << '\n';
     std::size_t n_unilateral = 0, n_rigid = 0;
     for (std::size_t i = 0; i < links.size(); ++i)
     {

@@ -18,6 +18,7 @@ ROOMS = {
     "output": ["base", "complementarity", "scene", "substructure", "partition", "interface", "time"],
 }
 ROOMS["simulation"] = list(ROOMS)
+ROOMS["study"] = list(ROOMS)
 
 STANDARD = r"[a-z_0-9]+"  # <vector>
 # What is not std and not Taut, by folder: the longest match counts, no entry means anything but Trilinos.

@@ -64,6 +64,19 @@ namespace taut
     /// Largest displacement of a probe [m, rad].
     double largest_displacement(std::size_t probe) const { return uplift[probe]; }
 
+    /// A figure of a sliding contact, another link or a probe.
+    struct NamedFigure
+    {
+      std::string item, quantity;
+      double value; ///< [N, N m, m, rad, s, N s, N m s]; contact loss [1]
+    };
+
+    /// All figures that are one number; of a sliding contact of its filtered force.
+    std::vector<NamedFigure> named_figures() const;
+
+    /// Largest residuals of all steps.
+    const Certificate &worst_certificate() const { return worst; }
+
     /// The table, with the expected ranges beside the figures.
     void print(std::ostream &out) const;
 
@@ -81,7 +94,7 @@ namespace taut
     /// What a fixed link did.
     struct LinkFigures
     {
-      double open_time = 0., largest_force = 0., impulse = 0.;
+      double open_time = 0., closed_time = 0., largest_force = 0., impulse = 0.;
     };
 
     ContactFigures figures(const Contact &contact) const;
@@ -103,7 +116,7 @@ namespace taut
     std::vector<char> link_unilateral;
     std::vector<LinkFigures> link_figures;
     std::vector<char> probe_rotates;
-    std::vector<double> uplift, lowering; ///< of the probes, from rest
+    std::vector<double> uplift, lowering, last; ///< of the probes, from rest
     std::vector<double> times;
     Certificate worst;
     double worst_complementarity_time = 0., worst_balance_time = 0.;

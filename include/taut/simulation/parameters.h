@@ -8,6 +8,7 @@
 #include <taut/scene/named_items.h>
 #include <taut/scene/scene_generator.h>
 #include <taut/simulation/parameter_file.h>
+#include <taut/simulation/study_parameters.h>
 #include <taut/time/integrator.h>
 #include <taut/time/solver_parameters.h>
 
@@ -47,8 +48,9 @@ namespace taut
   public:
     /**
      * Reads a .prm or .json file; @p overrides are "Section.Entry=value" and replace entries of the
-     * file. Only the root of @p processes reads, and hands on to all ranks. Throws UserError with
-     * file, line, entry, value and what is allowed.
+     * file. With Study/Accuracy, entries that the stored study varied get the values it recommends.
+     * Only the root of @p processes reads, and hands on to all ranks. Throws UserError with file,
+     * line, entry, value and what is allowed.
      */
     void read(const std::string &file, const std::vector<std::string> &overrides = {},
               const Communicator &processes = Communicator());
@@ -81,6 +83,19 @@ namespace taut
     PartitionParameters partition;
     OutputParameters output;
     StatisticsParameters statistics;
+    StudyParameters study;
+
+    /// Where the stored study is, or goes.
+    std::string study_folder() const
+    {
+      return study.folder.empty() ? output.folder + "/study" : study.folder;
+    }
+
+    /// All entries by path, "Section/Entry", with their values as text; after read().
+    const std::map<std::string, std::string> &values() const { return entry_values; }
+
+    /// What a stored study chose for Study/Accuracy; empty if that was not asked for.
+    const std::string &accuracy_choice() const { return choice; }
 
     /// The scheme of this name with its parameters.
     const TimeIntegrator &integrator(const std::string &name) const
@@ -89,13 +104,16 @@ namespace taut
     }
 
   private:
+    void read_entries(const std::string &file, const std::vector<std::string> &overrides,
+                      const Communicator &processes);
     void keep_listing(const dealii::ParameterHandler &prm);
     void create_integrators();
     void declare(dealii::ParameterHandler &prm);
     void check_entries(dealii::ParameterHandler &prm) const;
 
     /// Entries and values for print(), as text.
-    std::string listing;
+    std::string listing, choice;
+    std::map<std::string, std::string> entry_values;
     ParameterFile file;
     std::unique_ptr<SceneGenerator> generator;
     std::map<std::string, std::unique_ptr<TimeIntegrator>> integrators;

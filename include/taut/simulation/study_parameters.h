@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_study_parameters_h
+#define taut_study_parameters_h
+
+#include <taut/scene/named_items.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace dealii
+{
+  class ParameterHandler;
+}
+
+namespace taut
+{
+  /// Entries of a scene that a study changes together, and the values they take in turn.
+  struct Ladder
+  {
+    std::string name;
+    std::vector<std::string> entries; ///< paths, "Section/Entry"
+    std::vector<std::string> values;
+    std::string reference; ///< value in the reference
+    bool refined = false;  ///< the reference takes halves of the least value
+  };
+
+  /// What a study varies and measures, and the accuracy that a run asks of a stored study.
+  struct StudyParameters
+  {
+    std::string folder;
+    double accuracy = 0.; ///< relative; 0: the scene is run as it is written
+    std::vector<double> accuracies = {0.05, 0.01, 0.001};
+    unsigned int repeats = 3, reference_levels = 5;
+
+    struct LadderItem
+    {
+      std::string entries, values, reference;
+      bool refined = false;
+      void declare(dealii::ParameterHandler &prm);
+    };
+    NamedItems<LadderItem> ladder_items{"Study", "Ladders", "Ladder", "lists of values to try"};
+
+    struct FigureItem
+    {
+      std::string of, quantity, exact;
+      double scale = 0.;
+      void declare(dealii::ParameterHandler &prm);
+    };
+    NamedItems<FigureItem> figures{"Study", "Figures", "Figure", "figures whose error is measured"};
+
+    void declare_names(dealii::ParameterHandler &prm);
+
+    /// Declares the members in subsection "Study".
+    void declare_parameters(dealii::ParameterHandler &prm);
+
+    /// The ladders, checked against all entries of the scene by path; throws EntryError.
+    std::vector<Ladder> ladders(const std::map<std::string, std::string> &scene) const;
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_study_h
+#define taut_study_h
+
+#include <taut/simulation/parameters.h>
+#include <taut/study/refined_reference.h>
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace taut
+{
+  /// One setting of a study: a value for each ladder, and what the runs with it gave.
+  struct StudySetting
+  {
+    std::vector<std::string> values;
+    std::string message;             ///< why it failed; empty if it ran
+    std::vector<double> figures;     ///< [the figure's unit]
+    std::vector<double> errors;      ///< relative, of each figure
+    double error = 0.;               ///< the largest of them
+    double reference_error = 0.;     ///< relative, the largest of the references'
+    std::vector<double> seconds;     ///< of the loop over the steps without output, of each run
+    double seconds_with_output = 0.; ///< least
+    double certificate = 0.;         ///< largest residual of any step [1]
+    long n_steps = 0;
+    bool is_on_front = false; ///< no other setting is both cheaper and more accurate
+
+    double least_seconds() const;
+    double median_seconds() const;
+  };
+
+  /// Everything that a study found out.
+  struct StudyResult
+  {
+    std::vector<Ladder> ladders;
+    std::vector<std::string> figure_names;
+    std::vector<FigureReference> references;
+    std::vector<StudySetting> settings;
+    double end_time = 0.; ///< [s]
+  };
+
+  /**
+   * Runs a scene with every combination of the values of the ladders in its section Study, and
+   * measures what each costs and how far its figures are from their references.
+   */
+  class Study
+  {
+  public:
+    /// @p overrides as for Parameters::read(). Throws UserError. What is said goes to @p log.
+    Study(const std::string &file, const std::vector<std::string> &overrides, bool overwrite,
+          std::ostream &log);
+
+    /// Runs everything and writes work_precision.csv and study.json. A setting that cannot be run
+    /// is a row with its error. Throws UserError.
+    const StudyResult &run();
+
+  private:
+    struct Run;
+    void prepare_folder() const;
+    void make_settings();
+    void check_figures() const;
+    void find_references();
+    std::vector<std::string> reference_values(unsigned int level) const;
+    Run run_once(const std::vector<std::string> &values) const;
+    void run_setting(StudySetting &setting, bool first) const;
+    void compare(StudySetting &setting, const std::vector<StudyFigure> &figures) const;
+
+    std::string file;
+    std::vector<std::string> overrides;
+    bool overwrite;
+    std::ostream &log;
+    Parameters parameters;
+    StudyResult result;
+  };
+
+  /// Sets StudySetting::is_on_front, by least seconds and error.
+  void find_front(std::vector<StudySetting> &settings);
+
+  /// The cheapest setting whose error and that of its reference are together at most @p accuracy,
+  /// or null.
+  const StudySetting *cheapest(const std::vector<StudySetting> &settings, double accuracy);
+} // namespace taut
+
+#endif

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
+#include <taut/base/nearest_name.h>
+#include <taut/simulation/study_parameters.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <sstream>
+
+namespace taut
+{
+  namespace
+  {
+    using namespace dealii::Patterns;
+
+    /// Parts between separators, without spaces around them.
+    std::vector<std::string> split(const std::string &text, const char separator)
+    {
+      std::vector<std::string> parts;
+      std::istringstream in(text);
+      for (std::string part; std::getline(in, part, separator);)
+      {
+        const std::size_t first = part.find_first_not_of(" \t"),
+                          last = part.find_last_not_of(" \t");
+        parts.push_back(first == std::string::npos ? "" : part.substr(first, last - first + 1));
+      }
+      return parts;
+    }
+
+    bool is_positive_number(const std::string &text)
+    {
+      std::istringstream in(text);
+      double value = 0.;
+      return in >> value && in.eof() && std::isfinite(value) && value > 0.;
+    }
+  } // namespace
+
+  void StudyParameters::LadderItem::declare(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter("Entries", entries,
+                      "Paths of the entries that take each value together, 'Section/Entry', "
+                      "separated by commas",
+                      Anything());
+    prm.add_parameter("Values", values,
+                      "Separated by commas, or by semicolons if a value is itself a list",
+                      Anything());
+    prm.add_parameter("Refined", refined,
+                      "Whether a smaller value is a finer model: the reference then starts from "
+                      "the least value and halves it, together with those of the other refined "
+                      "ladders");
+    prm.add_parameter("Reference", reference,
+                      "Value in the reference if it is not refined; empty: that of the scene",
+                      Anything());
+  }
+
+  void StudyParameters::FigureItem::declare(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter("Of", of, "Name of a sliding contact, another link or a probe", Anything());
+    prm.add_parameter(
+        "Quantity", quantity,
+        "Of a sliding contact: 'mean', 'standard deviation', 'maximum', 'minimum', 'contact "
+        "loss', of the filtered force in the window of the statistics. Of another link: 'open "
+        "time', 'closed time', 'largest force', 'impulse'. Of a probe: 'largest', 'smallest', "
+        "'last'. Of each: 'history', the root mean square over the run of the difference to the "
+        "reference, of force or displacement",
+        Anything());
+    prm.add_parameter("Exact", exact,
+                      "The exact value, a formula in t for a history; empty: from a reference "
+                      "that is refined [the figure's unit]",
+                      Anything());
+    prm.add_parameter("Scale", scale,
+                      "Errors are relative to it; 0: to the reference, of a history to its root "
+                      "mean square [the figure's unit]",
+                      Double(0., Double::max_double_value));
+  }
+
+  void StudyParameters::declare_names(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Study");
+    ladder_items.declare_names(prm);
+    figures.declare_names(prm);
+    prm.leave_subsection();
+  }
+
+  void StudyParameters::declare_parameters(dealii::ParameterHandler &prm)
+  {
+    declare_names(prm);
+    prm.enter_subsection("Study");
+    prm.add_parameter("Folder", folder,
+                      "Where 'taut --study' writes and where Accuracy looks for study.json; "
+                      "empty: the folder 'study' in that of the results",
+                      Anything());
+    prm.add_parameter("Accuracy", accuracy,
+                      "Largest relative error wanted of the figures: the run takes the cheapest "
+                      "setting of the stored study of this scene that has it; 0: as written [1]",
+                      Double(0., 1.));
+    prm.add_parameter("Accuracies", accuracies,
+                      "Relative errors for which a study names the cheapest setting [1]",
+                      List(Double(0., 1.)));
+    prm.add_parameter("Repeats", repeats, "Runs of each setting; the fastest counts [1]",
+                      Integer(1, 1000));
+    prm.add_parameter("Reference levels", reference_levels,
+                      "Most refinements of the reference; it ends earlier when its error is below "
+                      "a tenth of the least of Accuracies [1]",
+                      Integer(1, 20));
+    ladder_items.declare_parameters(prm);
+    figures.declare_parameters(prm);
+    prm.leave_subsection();
+  }
+
+  std::vector<Ladder>
+  StudyParameters::ladders(const std::map<std::string, std::string> &scene) const
+  {
+    std::vector<Ladder> result;
+    std::vector<std::string> known;
+    for (const auto &[path, value] : scene)
+      known.push_back(path);
+    std::set<std::string> taken;
+    for (std::size_t i = 0; i < ladder_items.names.size(); ++i)
+    {
+      const LadderItem &item = ladder_items.items[i];
+      const std::string title = ladder_items.title(i);
+      Ladder ladder;
+      ladder.name = ladder_items.names[i];
+      ladder.entries = split(item.entries, ',');
+      ladder.values = split(item.values, item.values.find(';') != std::string::npos ? ';' : ',');
+      ladder.refined = item.refined;
+      if (ladder.entries.empty())
+        throw EntryError(title + "/Entries", "name the entries that take the values");
+      for (const std::string &entry : ladder.entries)
+      {
+        if (scene.count(entry) == 0)
+          throw EntryError(title + "/Entries", "there is no entry '" + entry +
+                                                   "'; write its sections and its name, "
+                                                   "'Time/Step'" +
+                                                   suggestion(entry, known));
+        if (entry.compare(0, 6, "Study/") == 0 || entry.compare(0, 7, "Output/") == 0)
+          throw EntryError(title + "/Entries", "'" + entry +
+                                                   "' is not part of the scene or of "
+                                                   "how it is solved; take another entry");
+        if (!taken.insert(entry).second)
+          throw EntryError(title + "/Entries",
+                           "'" + entry + "' is varied twice; remove it from one of the ladders");
+      }
+      if (ladder.values.empty() ||
+          std::count(ladder.values.begin(), ladder.values.end(), std::string()) > 0)
+        throw EntryError(title + "/Values", "give one or more values, none of them empty");
+      if (ladder.refined)
+        for (const std::string &value : ladder.values)
+          if (!is_positive_number(value))
+            throw EntryError(title + "/Values", "'" + value +
+                                                    "' is no positive number, so it cannot be "
+                                                    "halved; set Refined = false");
+      ladder.reference = item.reference.empty() ? scene.at(ladder.entries[0]) : item.reference;
+      result.push_back(ladder);
+    }
+    return result;
+  }
+} // namespace taut

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
+#include <taut/base/nearest_name.h>
+#include <taut/study/figure_recorder.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace taut
+{
+  double distance(const StudyFigure &figure, const StudyFigure &reference)
+  {
+    if (!figure.is_history())
+      return std::fabs(figure.value - reference.value);
+    double sum = 0.;
+    std::size_t k = 0;
+    const std::vector<double> &t = reference.time, &u = reference.history;
+    for (std::size_t i = 0; i < figure.time.size(); ++i)
+    {
+      while (k + 2 < t.size() && t[k + 1] < figure.time[i])
+        ++k;
+      double there = u[k];
+      if (k + 1 < t.size() && t[k + 1] > t[k])
+      {
+        const double weight = std::clamp((figure.time[i] - t[k]) / (t[k + 1] - t[k]), 0., 1.);
+        there += weight * (u[k + 1] - u[k]);
+      }
+      sum += (figure.history[i] - there) * (figure.history[i] - there);
+    }
+    return std::sqrt(sum / figure.time.size());
+  }
+
+  FigureRecorder::FigureRecorder(const StudyParameters &study,
+                                 const StatisticsParameters &statistics, const Scene &scene,
+                                 const ContactRows &rows)
+      : statistics(statistics, scene, rows)
+  {
+    for (std::size_t i = 0; i < study.figures.items.size(); ++i)
+      sources.push_back(find(study.figures.items[i], study.figures.title(i), scene, rows));
+  }
+
+  FigureRecorder::Source FigureRecorder::find(const StudyParameters::FigureItem &item,
+                                              const std::string &title, const Scene &scene,
+                                              const ContactRows &rows) const
+  {
+    const std::vector<Statistics::NamedFigure> known = statistics.named_figures();
+    std::vector<std::string> items, quantities;
+    for (std::size_t i = 0; i < known.size(); ++i)
+    {
+      if (known[i].item == item.of)
+      {
+        if (known[i].quantity == item.quantity)
+          return {Source::Kind::number, i, {}};
+        quantities.push_back(known[i].quantity);
+      }
+      if (items.empty() || items.back() != known[i].item)
+        items.push_back(known[i].item);
+    }
+    if (quantities.empty())
+      throw EntryError(title + "/Of", "the scene has no contact, link or probe '" + item.of + "'" +
+                                          suggestion(item.of, items));
+    quantities.push_back("history");
+    if (item.quantity != "history")
+      throw EntryError(title + "/Quantity", "'" + item.of + "' has no '" + item.quantity + "'" +
+                                                suggestion(item.quantity, quantities));
+    for (std::size_t i = 0; i < scene.probes.size(); ++i)
+      if (scene.probes[i].name == item.of)
+        return {Source::Kind::probe, i, {}};
+    std::size_t row = 0;
+    while (rows[row].is_cut() || rows[row].name != item.of)
+      ++row;
+    return {Source::Kind::force_of_row, row, {}};
+  }
+
+  void FigureRecorder::record(const StepView &step)
+  {
+    statistics.record(step);
+    times.push_back(step.state.time);
+    for (Source &source : sources)
+      if (source.kind == Source::Kind::probe)
+        source.history.push_back(step.probes[source.index]);
+      else if (source.kind == Source::Kind::force_of_row)
+        source.history.push_back(step.state.multiplier[source.index]);
+  }
+
+  std::vector<StudyFigure> FigureRecorder::figures() const
+  {
+    const std::vector<Statistics::NamedFigure> numbers = statistics.named_figures();
+    std::vector<StudyFigure> list;
+    for (const Source &source : sources)
+    {
+      StudyFigure figure;
+      if (source.kind == Source::Kind::number)
+        figure.value = numbers[source.index].value;
+      else
+      {
+        figure.time = times;
+        figure.history = source.history;
+        double sum = 0.;
+        for (const double x : source.history)
+          sum += x * x;
+        figure.value = std::sqrt(sum / times.size());
+      }
+      list.push_back(std::move(figure));
+    }
+    return list;
+  }
+} // namespace taut

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/scene/expression.h>
+#include <taut/study/refined_reference.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace taut
+{
+  namespace
+  {
+    constexpr double highest_order = 2.;
+
+    FigureReference extrapolate_number(const std::vector<StudyFigure> &levels)
+    {
+      const std::size_t n = levels.size();
+      const double last = levels[n - 1].value, change = last - levels[n - 2].value,
+                   before = n > 2 ? levels[n - 2].value - levels[n - 3].value : 0.;
+      FigureReference reference;
+      reference.figure.value = last;
+      if (n == 2)
+        reference.error = std::fabs(change);
+      else if (change * before > 0. && std::fabs(change) < std::fabs(before))
+      {
+        reference.order = std::log2(before / change);
+        const double correction =
+            change / (std::exp2(std::min(highest_order, reference.order)) - 1.);
+        reference.figure.value += correction;
+        reference.error =
+            std::max({std::fabs(correction), std::fabs(change), .25 * std::fabs(before)});
+      }
+      else
+      {
+        const auto [low, high] = std::minmax({last, levels[n - 2].value, levels[n - 3].value});
+        reference.error = high - low;
+      }
+      return reference;
+    }
+
+    FigureReference last_history(const std::vector<StudyFigure> &levels)
+    {
+      const std::size_t n = levels.size();
+      const double change = distance(levels[n - 2], levels[n - 1]),
+                   before = n > 2 ? distance(levels[n - 3], levels[n - 2]) : 0.;
+      FigureReference reference;
+      reference.figure = levels[n - 1];
+      reference.error = std::max(change, before);
+      // Slower than the square root of the step, the sum of the changes is a guess.
+      constexpr double slowest = .75;
+      if (n > 2 && change < slowest * before)
+      {
+        reference.order = std::log2(before / change);
+        const double quotient = std::max(std::exp2(-highest_order), change / before);
+        reference.error = change * quotient / (1. - quotient);
+      }
+      return reference;
+    }
+  } // namespace
+
+  FigureReference extrapolate(const std::vector<StudyFigure> &levels)
+  {
+    if (levels.size() > 1)
+      return levels.back().is_history() ? last_history(levels) : extrapolate_number(levels);
+    FigureReference reference;
+    reference.figure = levels.back();
+    reference.error = std::numeric_limits<double>::infinity();
+    return reference;
+  }
+
+  StudyFigure exact_figure(const std::string &formula, const std::string &entry,
+                           const StudyFigure &figure)
+  {
+    const Expression exact(formula, entry);
+    StudyFigure result;
+    result.value = exact(0., 0.);
+    if (!figure.is_history())
+      return result;
+    result.time = figure.time;
+    double sum = 0.;
+    for (const double t : figure.time)
+    {
+      result.history.push_back(exact(0., t));
+      sum += result.history.back() * result.history.back();
+    }
+    result.value = std::sqrt(sum / figure.time.size());
+    return result;
+  }
+} // namespace taut

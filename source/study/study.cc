@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
+#include <taut/simulation/simulation.h>
+#include <taut/study/study.h>
+#include <taut/study/study_report.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <new>
+#include <ostream>
+#include <sstream>
+
+namespace taut
+{
+  namespace
+  {
+    /// Time from the start of a run to its last step, with output.
+    class Stopwatch : public Observer
+    {
+    public:
+      void record(const StepView &) override
+      {
+        end = std::chrono::steady_clock::now();
+        if (n_steps++ < 0)
+          begin = end;
+      }
+      double seconds() const { return std::chrono::duration<double>(end - begin).count(); }
+      long n_steps = -1;
+
+    private:
+      std::chrono::steady_clock::time_point begin, end;
+    };
+
+    /// As short as possible without loss.
+    std::string to_text(const double value)
+    {
+      char digits[32];
+      return std::string(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+    }
+
+    std::string on_one_line(std::string text)
+    {
+      std::replace(text.begin(), text.end(), '\n', ' ');
+      return text;
+    }
+  } // namespace
+
+  /// What one run gave.
+  struct Study::Run
+  {
+    std::vector<StudyFigure> figures;
+    double seconds = 0., seconds_with_output = 0., certificate = 0.;
+    long n_steps = 0;
+  };
+
+  double StudySetting::least_seconds() const
+  {
+    return *std::min_element(seconds.begin(), seconds.end());
+  }
+
+  double StudySetting::median_seconds() const
+  {
+    std::vector<double> sorted = seconds;
+    std::sort(sorted.begin(), sorted.end());
+    const std::size_t n = sorted.size();
+    return .5 * (sorted[(n - 1) / 2] + sorted[n / 2]);
+  }
+
+  Study::Study(const std::string &file, const std::vector<std::string> &overrides,
+               const bool overwrite, std::ostream &log)
+      : file(file), overrides(overrides), overwrite(overwrite), log(log)
+  {
+    this->overrides.push_back("Study/Accuracy=0");
+    parameters.read(file, this->overrides);
+    const StudyParameters &study = parameters.study;
+    const auto refuse = [&](const std::string &entry, const std::string &message)
+    { throw UserError(parameters.explain(EntryError(entry, message))); };
+    if (study.ladder_items.names.empty())
+      refuse("Study/Ladders", "a study needs one or more lists of values to try");
+    if (study.figures.names.empty())
+      refuse("Study/Figures", "a study needs one or more figures to measure the error of");
+    if (!(parameters.end_time > 0.))
+      refuse("Time/End", "a study measures runs in time; take a later end");
+    result.ladders = study.ladders(parameters.values());
+    result.figure_names = study.figures.names;
+    result.end_time = parameters.end_time;
+  }
+
+  const StudyResult &Study::run()
+  {
+    try
+    {
+      make_settings();
+      check_figures();
+      prepare_folder();
+      find_references();
+    }
+    catch (const EntryError &e)
+    {
+      throw UserError(parameters.explain(e));
+    }
+    log << result.settings.size() << " settings, " << parameters.study.repeats << " runs each\n";
+    // All settings in turn, and again: a busy spell of the machine then meets few runs of each.
+    for (unsigned int repeat = 0; repeat < parameters.study.repeats; ++repeat)
+      for (StudySetting &setting : result.settings)
+        run_setting(setting, repeat == 0);
+    find_front(result.settings);
+    std::filesystem::remove_all(parameters.study_folder() + "/run");
+
+    write_work_precision(result, parameters.study_folder() + "/work_precision.csv");
+    write_study(result, parameters.values(), parameters.study_folder() + "/study.json");
+    print_study(result, parameters.study.accuracies, log);
+    log << "Study in " << parameters.study_folder() << '\n';
+    return result;
+  }
+
+  void Study::prepare_folder() const
+  {
+    namespace fs = std::filesystem;
+    const std::string folder = parameters.study_folder();
+    std::error_code error;
+    if (fs::exists(folder + "/study.json", error) && !overwrite)
+      throw EntryError("Study/Folder", "'" + folder +
+                                           "' holds a study; name another folder, or run with "
+                                           "--overwrite");
+    fs::create_directories(folder, error);
+    if (error)
+      throw EntryError("Study/Folder", "cannot make '" + folder + "': " + error.message());
+  }
+
+  void Study::make_settings()
+  {
+    constexpr std::size_t most_settings = 10000;
+    std::size_t n = 1;
+    for (const Ladder &ladder : result.ladders)
+      n = std::min(n * ladder.values.size(), most_settings + 1);
+    if (n > most_settings)
+      throw EntryError("Study/Ladders", "they make more than 10000 settings; take fewer values");
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      StudySetting setting;
+      std::size_t rest = i;
+      for (const Ladder &ladder : result.ladders)
+      {
+        setting.values.push_back(ladder.values[rest % ladder.values.size()]);
+        rest /= ladder.values.size();
+      }
+      result.settings.push_back(std::move(setting));
+    }
+  }
+
+  void Study::check_figures() const
+  {
+    std::ostringstream silent;
+    const Simulation simulation(parameters, silent);
+    const FigureRecorder recorder(parameters.study, parameters.statistics, simulation.scene(),
+                                  simulation.rows());
+  }
+
+  std::vector<std::string> Study::reference_values(const unsigned int level) const
+  {
+    std::vector<std::string> values;
+    for (const Ladder &ladder : result.ladders)
+    {
+      double least = std::numeric_limits<double>::infinity();
+      if (ladder.refined)
+        for (const std::string &value : ladder.values)
+          least = std::min(least, std::stod(value));
+      values.push_back(ladder.refined ? to_text(std::ldexp(least, -static_cast<int>(level)))
+                                      : ladder.reference);
+    }
+    return values;
+  }
+
+  void Study::find_references()
+  {
+    const StudyParameters &study = parameters.study;
+    const std::size_t n = study.figures.items.size();
+    const double wanted =
+        study.accuracies.empty()
+            ? 0.
+            : .1 * *std::min_element(study.accuracies.begin(), study.accuracies.end());
+    result.references.assign(n, {});
+    bool all_exact = true;
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      result.references[i].is_exact = !study.figures.items[i].exact.empty();
+      all_exact = all_exact && result.references[i].is_exact;
+    }
+    std::vector<std::vector<StudyFigure>> levels(n); // of each figure
+    for (unsigned int level = 0; level < (all_exact ? 1 : study.reference_levels); ++level)
+    {
+      const std::vector<std::string> values = reference_values(level);
+      log << "Reference:";
+      for (std::size_t k = 0; k < values.size(); ++k)
+        log << (k > 0 ? ", " : " ") << result.ladders[k].name << " = " << values[k];
+      const Run run = run_once(values);
+      bool done = level > 0;
+      for (std::size_t i = 0; i < n; ++i)
+      {
+        FigureReference &reference = result.references[i];
+        const StudyParameters::FigureItem &item = study.figures.items[i];
+        const std::string title = study.figures.title(i);
+        levels[i].push_back(run.figures[i]);
+        if (reference.is_exact)
+          reference.figure = exact_figure(item.exact, title + "/Exact", run.figures[i]);
+        else
+          reference = extrapolate(levels[i]);
+        reference.scale = item.scale > 0. ? item.scale : std::fabs(reference.figure.value);
+        if (!(reference.scale > 0.))
+          throw EntryError(title + "/Scale", "the reference is 0: give a scale for its errors");
+        log << "; " << study.figures.names[i] << " " << run.figures[i].value;
+        done = done && reference.error <= wanted * reference.scale;
+      }
+      log << std::endl;
+      if (done)
+        break;
+    }
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      const FigureReference &reference = result.references[i];
+      log << "  " << study.figures.names[i] << ": " << to_text(reference.figure.value);
+      if (reference.is_exact)
+        log << ", exact\n";
+      else
+        log << " +- " << reference.error << ", relative " << reference.error / reference.scale
+            << ", observed order " << reference.order
+            << (reference.error <= wanted * reference.scale
+                    ? "\n"
+                    : ": not as accurate as wanted; more Reference levels or finer values\n");
+    }
+  }
+
+  Study::Run Study::run_once(const std::vector<std::string> &values) const
+  {
+    std::vector<std::string> all = overrides;
+    for (std::size_t k = 0; k < values.size(); ++k)
+      for (const std::string &entry : result.ladders[k].entries)
+        all.push_back(entry + "=" + values[k]);
+    all.push_back("Output/Folder=" + parameters.study_folder() + "/run");
+    Parameters chosen;
+    chosen.read(file, all);
+    chosen.output.overwrite = true;
+    std::ostringstream silent;
+    try
+    {
+      Simulation simulation(chosen, silent);
+      FigureRecorder recorder(chosen.study, chosen.statistics, simulation.scene(),
+                              simulation.rows());
+      Stopwatch stopwatch;
+      simulation.observe(stopwatch);
+      simulation.observe(recorder);
+      simulation.run();
+      const Certificate &worst = recorder.worst_certificate();
+      return {recorder.figures(), simulation.stepping_seconds(), stopwatch.seconds(),
+              std::max(worst.complementarity, worst.balance), stopwatch.n_steps};
+    }
+    catch (const EntryError &e)
+    {
+      throw UserError(chosen.explain(e));
+    }
+  }
+
+  void Study::run_setting(StudySetting &setting, const bool first) const
+  {
+    if (!setting.message.empty())
+      return;
+    try
+    {
+      const Run run = run_once(setting.values);
+      setting.seconds.push_back(run.seconds);
+      setting.seconds_with_output =
+          first ? run.seconds_with_output
+                : std::min(setting.seconds_with_output, run.seconds_with_output);
+      setting.certificate = run.certificate;
+      setting.n_steps = run.n_steps;
+      if (first)
+        compare(setting, run.figures);
+    }
+    catch (const UserError &e)
+    {
+      setting.message = on_one_line(e.what());
+    }
+    catch (const std::bad_alloc &)
+    {
+      setting.message = "more memory than there is";
+    }
+    if (!first)
+      return;
+    for (std::size_t k = 0; k < setting.values.size(); ++k)
+      log << (k > 0 ? ", " : "  ") << result.ladders[k].name << " = " << setting.values[k];
+    if (setting.message.empty())
+      log << ": error " << setting.error << ", " << setting.seconds[0] << " s" << std::endl;
+    else
+      log << ": " << setting.message << std::endl;
+  }
+
+  void Study::compare(StudySetting &setting, const std::vector<StudyFigure> &figures) const
+  {
+    for (std::size_t i = 0; i < figures.size(); ++i)
+    {
+      const FigureReference &reference = result.references[i];
+      const StudyFigure exact =
+          reference.is_exact
+              ? exact_figure(parameters.study.figures.items[i].exact,
+                             parameters.study.figures.title(i) + "/Exact", figures[i])
+              : reference.figure;
+      setting.figures.push_back(figures[i].value);
+      setting.errors.push_back(distance(figures[i], exact) / reference.scale);
+      setting.reference_error =
+          std::max(setting.reference_error, reference.error / reference.scale);
+    }
+    setting.error = *std::max_element(setting.errors.begin(), setting.errors.end());
+    if (!std::isfinite(setting.error))
+      setting.message = "the figures are not finite";
+  }
+
+  void find_front(std::vector<StudySetting> &settings)
+  {
+    std::vector<StudySetting *> sorted;
+    for (StudySetting &setting : settings)
+      if (setting.message.empty())
+        sorted.push_back(&setting);
+    std::sort(sorted.begin(), sorted.end(),
+              [](const StudySetting *a, const StudySetting *b)
+              {
+                const double x = a->least_seconds(), y = b->least_seconds();
+                return x != y ? x < y : a->error < b->error;
+              });
+    double least = std::numeric_limits<double>::infinity();
+    for (StudySetting *setting : sorted)
+    {
+      setting->is_on_front = setting->error < least;
+      least = std::min(least, setting->error);
+    }
+  }
+
+  const StudySetting *cheapest(const std::vector<StudySetting> &settings, const double accuracy)
+  {
+    const StudySetting *best = nullptr;
+    for (const StudySetting &setting : settings)
+      if (setting.message.empty() && setting.error + setting.reference_error <= accuracy &&
+          (!best || setting.least_seconds() < best->least_seconds()))
+        best = &setting;
+    return best;
+  }
+} // namespace taut

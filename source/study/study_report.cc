@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
+#include <taut/base/version.h>
+#include <taut/output/csv_file.h>
+#include <taut/simulation/stored_study.h>
+#include <taut/study/study_report.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <iomanip>
+#include <ostream>
+
+namespace taut
+{
+  namespace
+  {
+    std::string describe(const StudyResult &result, const StudySetting &setting)
+    {
+      std::string text;
+      for (std::size_t k = 0; k < setting.values.size(); ++k)
+        text += (k > 0 ? ", " : "") + result.ladders[k].name + " = " + setting.values[k];
+      return text;
+    }
+
+    /// A line of the table.
+    void print_setting(const StudyResult &result, const StudySetting &setting, std::ostream &out)
+    {
+      for (const std::string &value : setting.values)
+        out << "| " << value << ' ';
+      out << std::setprecision(2) << "| " << setting.error << " | " << std::fixed
+          << std::setprecision(1) << 1e6 * setting.least_seconds() / setting.n_steps << " | "
+          << result.end_time / setting.least_seconds() << " | "
+          << result.end_time / setting.seconds_with_output << " |\n"
+          << std::defaultfloat;
+    }
+  } // namespace
+
+  void print_study(const StudyResult &result, const std::vector<double> &accuracies,
+                   std::ostream &out)
+  {
+    const auto flags = out.flags();
+    const auto precision = out.precision();
+    std::string head = "|", rule = "|";
+    for (const Ladder &ladder : result.ladders)
+    {
+      head += " " + ladder.name + " |";
+      rule += "---|";
+    }
+    out << "The settings that nothing beats in both cost and error:\n\n"
+        << head << " error | us a step | x real time | with output |\n"
+        << rule << "---|---|---|---|\n";
+    std::vector<const StudySetting *> front;
+    std::size_t n_failed = 0;
+    for (const StudySetting &setting : result.settings)
+    {
+      if (setting.is_on_front)
+        front.push_back(&setting);
+      n_failed += !setting.message.empty();
+    }
+    std::sort(front.begin(), front.end(),
+              [](const StudySetting *a, const StudySetting *b)
+              { return a->least_seconds() < b->least_seconds(); });
+    for (const StudySetting *setting : front)
+      print_setting(result, *setting, out);
+    out << '\n';
+    for (const double accuracy : accuracies)
+    {
+      out << std::setprecision(6) << "Cheapest for an error of " << 100. * accuracy << " %: ";
+      const StudySetting *best = cheapest(result.settings, accuracy);
+      if (best)
+        out << describe(result, *best) << "; error " << std::setprecision(2) << best->error
+            << ", of the reference " << best->reference_error << "; " << std::setprecision(3)
+            << result.end_time / best->least_seconds() << " x real time\n";
+      else
+        out << "none of these settings\n";
+    }
+    if (n_failed > 0)
+      out << n_failed << " settings failed; the reasons are in work_precision.csv\n";
+    out.flags(flags);
+    out.precision(precision);
+  }
+
+  void write_work_precision(const StudyResult &result, const std::string &path)
+  {
+    std::vector<std::string> columns;
+    for (const Ladder &ladder : result.ladders)
+      columns.push_back(ladder.name);
+    for (const char *name :
+         {"error [1]", "error of the reference [1]", "seconds", "median seconds",
+          "seconds with output", "steps", "us a step", "x real time", "certificate [1]", "front"})
+      columns.push_back(name);
+    for (const std::string &name : result.figure_names)
+    {
+      columns.push_back(name);
+      columns.push_back(name + " error [1]");
+    }
+    columns.push_back("message");
+    CsvFile file(path, columns);
+    for (const StudySetting &setting : result.settings)
+    {
+      for (const std::string &value : setting.values)
+        file << value;
+      if (!setting.message.empty())
+      {
+        for (std::size_t i = setting.values.size(); i + 1 < columns.size(); ++i)
+          file << std::string();
+        file << setting.message;
+        file.end_line();
+        continue;
+      }
+      const double seconds = setting.least_seconds();
+      file << setting.error << setting.reference_error << seconds << setting.median_seconds()
+           << setting.seconds_with_output << static_cast<double>(setting.n_steps)
+           << 1e6 * seconds / setting.n_steps << result.end_time / seconds << setting.certificate
+           << static_cast<double>(setting.is_on_front);
+      for (std::size_t i = 0; i < setting.figures.size(); ++i)
+        file << setting.figures[i] << setting.errors[i];
+      file << std::string();
+      file.end_line();
+    }
+    file.close();
+  }
+
+  void write_study(const StudyResult &result, const std::map<std::string, std::string> &scene,
+                   const std::string &path)
+  {
+    using nlohmann::json;
+    json root;
+    root["taut"] = version();
+    root["end [s]"] = result.end_time;
+    root["scene"] = json::object();
+    for (const auto &[entry, value] : scene)
+      if (!is_irrelevant_for_study(entry))
+        root["scene"][entry] = value;
+    root["ladders"] = json::array();
+    for (const Ladder &ladder : result.ladders)
+      root["ladders"].push_back(
+          {{"name", ladder.name}, {"entries", ladder.entries}, {"values", ladder.values}});
+    root["figures"] = json::array();
+    for (std::size_t i = 0; i < result.figure_names.size(); ++i)
+    {
+      const FigureReference &reference = result.references[i];
+      root["figures"].push_back({{"name", result.figure_names[i]},
+                                 {"reference", reference.figure.value},
+                                 {"error of the reference", reference.error},
+                                 {"observed order", reference.order},
+                                 {"scale", reference.scale},
+                                 {"exact", reference.is_exact}});
+    }
+    root["settings"] = json::array();
+    for (const StudySetting &setting : result.settings)
+    {
+      json entry;
+      for (std::size_t k = 0; k < setting.values.size(); ++k)
+        entry["values"][result.ladders[k].name] = setting.values[k];
+      if (!setting.message.empty())
+        entry["message"] = setting.message;
+      else
+      {
+        entry["error"] = setting.error;
+        entry["error of the reference"] = setting.reference_error;
+        entry["seconds"] = setting.least_seconds();
+        entry["x real time"] = result.end_time / setting.least_seconds();
+      }
+      root["settings"].push_back(entry);
+    }
+    std::ofstream out(path);
+    out << root.dump(2) << '\n';
+    out.close();
+    if (!out)
+      throw UserError("cannot write '" + path +
+                      "': check that its folder is writable and the disk not full");
+  }
+} // namespace taut
