@@ -49,6 +49,8 @@ namespace
                                                    : std::vector<std::string>();
     if (arguments.count("study"))
     {
+      if (arguments.count("check"))
+        throw taut::UserError("--study and --check exclude each other; choose one");
       taut::Study(file, overrides, arguments.count("overwrite") > 0, std::cout).run();
       return;
     }

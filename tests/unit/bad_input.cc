@@ -722,6 +722,78 @@ end
           {"subsection Load push", "subsection Mass lost # here\nend\nsubsection Load push"}},
          {"Mass lost", "singular", "Give it mass"}},
 
+        // Study
+        {"accuracy_without_a_study",
+         network,
+         {{"subsection Statistics\n",
+           "subsection Study\nset Accuracy = 0.01 # here\nend\nsubsection Statistics\n"}},
+         {"Study/Accuracy = '0.01'", "no study 'results/study/study.json'", "taut --study"}},
+        {"accuracy_beyond_one",
+         network,
+         {{"subsection Statistics\n",
+           "subsection Study\nset Accuracy = 2 # here\nend\nsubsection Statistics\n"}},
+         {"Study/Accuracy = '2'", "v <= 1"}},
+        {"study_without_runs",
+         network,
+         {{"subsection Statistics\n",
+           "subsection Study\nset Repeats = 0 # here\nend\nsubsection Statistics\n"}},
+         {"Study/Repeats = '0'"}},
+        {"ladder_of_an_unknown_entry",
+         network,
+         {{"subsection Statistics\n",
+           "subsection Study\nset Ladders = step\nsubsection Ladder step\nset Entries = Time/Stop "
+           "# here\nset Values = 1, 2\nend\nend\nsubsection Statistics\n"}},
+         {"Study/Ladder step/Entries", "no entry 'Time/Stop'", "did you mean 'Time/Step'"}},
+        {"ladder_without_entries",
+         network,
+         {{"subsection Statistics\n",
+           "subsection Study\nset Ladders = step\nsubsection Ladder step\nset Entries =  # "
+           "here\nset Values = 1, 2\nend\nend\nsubsection Statistics\n"}},
+         {"Study/Ladder step/Entries", "name the entries"}},
+        {"ladder_of_the_results",
+         network,
+         {{"subsection Statistics\n",
+           "subsection Study\nset Ladders = step\nsubsection Ladder step\nset Entries = "
+           "Output/Folder # here\nset Values = a, b\nend\nend\nsubsection Statistics\n"}},
+         {"Study/Ladder step/Entries", "not part of the scene"}},
+        {"ladder_of_an_entry_twice",
+         network,
+         {{"subsection Statistics\n",
+           "subsection Study\nset Ladders = step\nsubsection Ladder step\nset Entries = Time/Step, "
+           "Time/Step # here\nset Values = 1, 2\nend\nend\nsubsection Statistics\n"}},
+         {"Study/Ladder step/Entries", "varied twice"}},
+        {"ladder_with_an_empty_value",
+         network,
+         {{"subsection Statistics\n",
+           "subsection Study\nset Ladders = step\nsubsection Ladder step\nset Entries = "
+           "Time/Step\nset Values = 1, , 2 # here\nend\nend\nsubsection Statistics\n"}},
+         {"Study/Ladder step/Values", "none of them empty"}},
+        {"ladder_without_values",
+         network,
+         {{"subsection Statistics\n",
+           "subsection Study\nset Ladders = step\nsubsection Ladder step\nset Entries = "
+           "Time/Step\nset Values =  # here\nend\nend\nsubsection Statistics\n"}},
+         {"Study/Ladder step/Values", "one or more values"}},
+        {"refined_ladder_of_names",
+         network,
+         {{"subsection Statistics\n",
+           "subsection Study\nset Ladders = step\nsubsection Ladder step\nset Entries = "
+           "Time/Scheme\nset Values = BDF2 # here\nset Refined = true\nend\nend\nsubsection "
+           "Statistics\n"}},
+         {"Study/Ladder step/Values = 'BDF2'", "cannot be halved", "Refined = false"}},
+        {"refined_ladder_of_zero",
+         network,
+         {{"subsection Statistics\n",
+           "subsection Study\nset Ladders = step\nsubsection Ladder step\nset Entries = "
+           "Time/Step\nset Values = 0.1, 0 # here\nset Refined = true\nend\nend\nsubsection "
+           "Statistics\n"}},
+         {"Study/Ladder step/Values", "'0' is no positive number"}},
+        {"figure_without_a_name",
+         network,
+         {{"subsection Statistics\n", "subsection Study\nset Figures = impulse\nsubsection Figure "
+                                      "impulze # here\nend\nend\nsubsection Statistics\n"}},
+         {"no section 'Figure impulze'", "did you mean 'Figure impulse'"}},
+
         // Time, output, statistics
         {"newmark_beta_zero",
          network,

@@ -1,0 +1,371 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: a study measures errors that are the real ones (free oscillator, u = cos(w t)), its
+// refined reference is as far from the exact value as it says, a setting that fails is a row, and
+// Accuracy takes the cheapest setting of a study of the same scene and of no other.
+#include <taut/base/exceptions.h>
+#include <taut/simulation/simulation.h>
+#include <taut/study/study.h>
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <sstream>
+
+namespace
+{
+  namespace fs = std::filesystem;
+  using Texts = std::vector<std::string>;
+
+  // w = 10 1/s; at t = 1.3 s the mass is at cos(13) m.
+  const char *const oscillator = R"(set Generator = network
+set Gravity   = 0, 0
+set Start     = given
+subsection Network
+  set Masses  = block
+  set Springs = spring
+  subsection Mass block
+    set Motions              = y
+    set Mass                 = 2
+    set Initial displacement = 0, 1, 0
+  end
+  subsection Spring spring
+    set To        = block
+    set Stiffness = 200
+  end
+end
+subsection Time
+  set Scheme = Newmark
+  set Step   = 0.01
+  set End    = 1.3
+end
+subsection Output
+  set Folder         = results
+  set Field interval = 0
+  set Probes         = place
+  subsection Probe place
+    set Point = block
+  end
+end
+subsection Study
+  set Repeats          = 1
+  set Reference levels = 5
+  set Ladders          = step, scheme
+  subsection Ladder step
+    set Entries = Time/Step
+    set Values  = 0.02, 0.01, 0.005, 0.0025
+    set Refined = true
+  end
+  subsection Ladder scheme
+    set Entries   = Time/Scheme
+    set Values    = Newmark, backward Euler
+    set Reference = Newmark
+  end
+  set Figures = end, motion
+  subsection Figure end
+    set Of       = place
+    set Quantity = last
+  end
+  subsection Figure motion
+    set Of       = place
+    set Quantity = history
+  end
+end
+)";
+
+  class StudyTest : public testing::Test
+  {
+  protected:
+    void SetUp() override
+    {
+      folder = fs::temp_directory_path() / ("taut_study_" + std::to_string(getpid()));
+      fs::create_directories(folder);
+      fs::current_path(folder);
+      std::ofstream("scene.prm") << oscillator;
+    }
+    void TearDown() override
+    {
+      fs::current_path(fs::temp_directory_path());
+      fs::remove_all(folder);
+    }
+
+    taut::StudyResult study(const Texts &overrides = {}, const bool overwrite = false)
+    {
+      log.str("");
+      return taut::Study("scene.prm", overrides, overwrite, log).run();
+    }
+
+    static std::string error_of(const std::function<void()> &action)
+    {
+      try
+      {
+        action();
+      }
+      catch (const taut::UserError &e)
+      {
+        return e.what();
+      }
+      return "";
+    }
+
+    static void expect_fragments(const std::string &message, const Texts &fragments)
+    {
+      for (const std::string &fragment : fragments)
+        EXPECT_NE(message.find(fragment), std::string::npos)
+            << "'" << fragment << "' is not in '" << message << "'";
+      EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    }
+
+    /// Of a run by itself [m].
+    static double displacement_at_the_end(const Texts &overrides)
+    {
+      class Last : public taut::Observer
+      {
+      public:
+        void record(const taut::StepView &step) override { u = step.probes[0]; }
+        double u = 0.;
+      } last;
+      std::ostringstream silent;
+      taut::Parameters parameters;
+      parameters.read("scene.prm", overrides);
+      taut::Simulation simulation(parameters, silent);
+      simulation.observe(last);
+      simulation.run();
+      return last.u;
+    }
+
+    fs::path folder;
+    std::ostringstream log;
+  };
+
+  taut::StudyFigure number(const double value)
+  {
+    taut::StudyFigure figure;
+    figure.value = value;
+    return figure;
+  }
+} // namespace
+
+// a + b h^p at h = 1, 1/2, 1/4: Richardson's value is a.
+TEST(Extrapolation, finds_the_limit_and_order_of_a_power)
+{
+  for (const double p : {1., 1.5, 2.})
+  {
+    std::vector<taut::StudyFigure> levels;
+    for (int k = 0; k < 3; ++k)
+      levels.push_back(number(3. + .1 * std::exp2(-p * k)));
+    const taut::FigureReference reference = taut::extrapolate(levels);
+    EXPECT_NEAR(reference.figure.value, 3., 1e-13);
+    EXPECT_NEAR(reference.order, p, 1e-10);
+    EXPECT_GE(reference.error, std::fabs(levels[2].value - reference.figure.value));
+  }
+}
+
+// A high order from errors that cancel is not believed, changes that do not fall even less.
+TEST(Extrapolation, doubts_what_does_not_converge_regularly)
+{
+  const taut::FigureReference fast = taut::extrapolate({number(1.), number(1.1), number(1.1001)});
+  EXPECT_GE(fast.error, .025);
+  const taut::FigureReference erratic = taut::extrapolate({number(1.), number(1.1), number(1.05)});
+  EXPECT_EQ(erratic.order, 0.);
+  EXPECT_NEAR(erratic.error, .1, 1e-12);
+  EXPECT_TRUE(std::isinf(taut::extrapolate({number(1.)}).error));
+  EXPECT_NEAR(taut::extrapolate({number(1.), number(1.5)}).error, .5, 1e-15);
+}
+
+// u = t on a coarse grid against u = t + 0.25 on a finer one: 0.25 everywhere.
+TEST(Distance, compares_histories_at_their_own_times)
+{
+  taut::StudyFigure coarse, fine;
+  for (int i = 0; i <= 4; ++i)
+  {
+    coarse.time.push_back(.3 * i);
+    coarse.history.push_back(.3 * i);
+  }
+  for (int i = 0; i <= 12; ++i)
+  {
+    fine.time.push_back(.1 * i);
+    fine.history.push_back(.1 * i + .25);
+  }
+  EXPECT_NEAR(taut::distance(coarse, fine), .25, 1e-14);
+  EXPECT_NEAR(taut::distance(fine, coarse), .25, 1e-14);
+}
+
+// Exact: cos(13). The stated error of the reference contains it.
+TEST_F(StudyTest, reference_is_as_far_from_the_exact_value_as_it_says)
+{
+  const taut::StudyResult result = study();
+  const taut::FigureReference &end = result.references[0], &motion = result.references[1];
+  EXPECT_LE(std::fabs(end.figure.value - std::cos(13.)), end.error);
+  EXPECT_LT(end.error, 1e-3);
+  EXPECT_NEAR(end.order, 2., .6);
+  EXPECT_NEAR(motion.order, 2., .05);
+  double sum = 0.;
+  for (std::size_t i = 0; i < motion.figure.time.size(); ++i)
+    sum += std::pow(motion.figure.history[i] - std::cos(10. * motion.figure.time[i]), 2);
+  const double rms = std::sqrt(sum / motion.figure.time.size());
+  EXPECT_NEAR(rms, motion.error, .05 * rms) << "the error of a history is estimated, not bounded";
+}
+
+// Exact values instead of a reference: the errors of the rows fall with the order of the scheme,
+// 2 (Newmark) and 1 (backward Euler), and are those of a run outside of the study.
+TEST_F(StudyTest, errors_are_the_real_ones)
+{
+  const taut::StudyResult result =
+      study({"Study/Figure end/Exact=cos(13)", "Study/Figure motion/Exact=cos(10*t)",
+             "Study/Figure end/Scale=1", "Study/Figure motion/Scale=1"});
+  ASSERT_EQ(result.settings.size(), 8u);
+  const auto error = [&](const std::string &step, const std::string &scheme)
+  {
+    for (const taut::StudySetting &setting : result.settings)
+      if (setting.values == Texts{step, scheme})
+        return setting.errors;
+    return std::vector<double>();
+  };
+  EXPECT_NEAR(std::log2(error("0.005", "Newmark")[1] / error("0.0025", "Newmark")[1]), 2., .05);
+  EXPECT_NEAR(std::log2(error("0.005", "backward Euler")[1] / error("0.0025", "backward Euler")[1]),
+              1., .25);
+  const double alone = displacement_at_the_end({"Time/Step=0.005", "Output/Folder=alone"});
+  EXPECT_EQ(error("0.005", "Newmark")[0], std::fabs(alone - std::cos(13.)));
+  for (const taut::StudySetting &setting : result.settings)
+  {
+    EXPECT_EQ(setting.error, std::max(setting.errors[0], setting.errors[1]));
+    EXPECT_EQ(setting.reference_error, 0.);
+    EXPECT_EQ(setting.n_steps, std::lround(1.3 / std::stod(setting.values[0])));
+    EXPECT_GT(setting.least_seconds(), 0.);
+    EXPECT_GE(setting.seconds_with_output, setting.least_seconds());
+  }
+}
+
+TEST_F(StudyTest, a_setting_that_fails_is_a_row_with_its_reason)
+{
+  const taut::StudyResult result =
+      study({"Study/Ladder step/Values=2, 0.01", "Study/Ladder scheme/Values=Newmark, Euler"});
+  int n_failed = 0;
+  for (const taut::StudySetting &setting : result.settings)
+  {
+    EXPECT_EQ(setting.message.empty(), setting.values == Texts({"0.01", "Newmark"}));
+    n_failed += !setting.message.empty();
+    if (setting.values == Texts({"2", "Newmark"}))
+      expect_fragments(setting.message, {"Time/End", "shorter than one step"});
+    if (setting.values == Texts({"0.01", "Euler"}))
+      expect_fragments(setting.message, {"Time/Scheme = 'Euler' is not allowed"});
+  }
+  EXPECT_EQ(n_failed, 3);
+  std::ifstream table("results/study/work_precision.csv");
+  const std::string text(std::istreambuf_iterator<char>(table), {});
+  EXPECT_NE(text.find("shorter than one step"), std::string::npos);
+}
+
+TEST(Front, holds_what_nothing_beats)
+{
+  std::vector<taut::StudySetting> settings(5);
+  const double seconds[] = {1., 2., 3., 4., 5.}, errors[] = {.1, .2, .01, .01, .001};
+  for (int i = 0; i < 5; ++i)
+  {
+    settings[i].seconds = {seconds[i] + 1., seconds[i]};
+    settings[i].error = errors[i];
+  }
+  settings[4].message = "failed";
+  taut::find_front(settings);
+  for (int i = 0; i < 5; ++i)
+    EXPECT_EQ(settings[i].is_on_front, i == 0 || i == 2) << i;
+  EXPECT_EQ(taut::cheapest(settings, .05), &settings[2]);
+  EXPECT_EQ(taut::cheapest(settings, .2), &settings[0]);
+  EXPECT_EQ(taut::cheapest(settings, .001), nullptr);
+  settings[2].reference_error = .045;
+  EXPECT_EQ(taut::cheapest(settings, .05), &settings[3]) << "the reference's error counts";
+}
+
+TEST_F(StudyTest, accuracy_takes_the_cheapest_setting_that_has_it)
+{
+  study({"Study/Ladder step/Values=0.05, 0.005, 0.00005", "Study/Figure end/Exact=cos(13)",
+         "Study/Figure motion/Exact=cos(10*t)"});
+  taut::Parameters parameters;
+  parameters.read("scene.prm", {"Study/Accuracy=0.02"});
+  EXPECT_EQ(parameters.step, .005);
+  EXPECT_EQ(parameters.scheme, "Newmark");
+  expect_fragments(parameters.accuracy_choice(), {"step = 0.005", "scheme = Newmark", "error"});
+  parameters.read("scene.prm", {"Study/Accuracy=1e-6"});
+  EXPECT_EQ(parameters.step, .00005);
+
+  // What used.prm says runs alike, without the study.
+  std::ostringstream used, said;
+  parameters.print(used);
+  std::ofstream("again.prm") << used.str();
+  fs::rename("results/study", "elsewhere");
+  taut::Parameters again;
+  again.read("again.prm");
+  EXPECT_EQ(again.step, .00005);
+  EXPECT_EQ(again.accuracy_choice(), "");
+
+  again.read("scene.prm", {"Study/Accuracy=0.02", "Study/Folder=elsewhere"});
+  taut::Simulation(again, said).check();
+  EXPECT_NE(said.str().find(again.accuracy_choice()), std::string::npos);
+}
+
+TEST_F(StudyTest, accuracy_refuses_a_study_of_another_scene)
+{
+  const auto read = [&](Texts overrides)
+  {
+    overrides.push_back("Study/Accuracy=0.1");
+    return error_of([&]() { taut::Parameters().read("scene.prm", overrides); });
+  };
+  expect_fragments(
+      read({}), {"Study/Accuracy", "there is no study 'results/study/study.json'", "taut --study"});
+  study();
+  EXPECT_EQ(read({}), "");
+  EXPECT_EQ(read({"Network/Spring spring/Stiffness=2e2", "Gravity=0.0,0"}), "") << "same numbers";
+  EXPECT_EQ(read({"Time/Step=0.5", "Output/Interval=0.1", "Study/Repeats=7"}), "")
+      << "varied by the study, or of no effect on it";
+  expect_fragments(read({"Network/Spring spring/Stiffness=201"}),
+                   {"another scene", "Network/Spring spring/Stiffness is '201' here and '200'"});
+  expect_fragments(read({"Gravity=0, 0, 0"}), {"Gravity"});
+  expect_fragments(read({"Network/Masses=block, two"}),
+                   {"Network/Mass two/Inertia is '0' here and missing in the study", "more"});
+  expect_fragments(read({"Output/Probe place/Direction=1, 1"}), {"Output/Probe place/Direction"});
+  expect_fragments(
+      error_of([&]() { taut::Parameters().read("scene.prm", {"Study/Accuracy=1e-9"}); }),
+      {"the best setting", "has an error of", "less accuracy"});
+
+  std::ofstream("results/study/study.json") << "{\"ladders\": [";
+  expect_fragments(read({}), {"is damaged"});
+  std::ofstream("results/study/study.json") << "{\"ladders\": [{\"entries\": 3}]}";
+  expect_fragments(read({}), {"not a study of this version"});
+}
+
+TEST_F(StudyTest, mistakes_are_named_before_anything_runs)
+{
+  const std::vector<std::pair<Texts, Texts>> cases = {
+      {{"Study/Figure end/Of=palce"}, {"Figure end/Of = 'palce'", "did you mean 'place'"}},
+      {{"Study/Figure end/Quantity=lost"}, {"Figure end/Quantity = 'lost'", "mean 'last'"}},
+      {{"Time/End=0"}, {"Time/End", "later end"}},
+      {{"Study/Ladder step/Values=1:2"}, {"Ladder step/Values", "'1:2' is no positive number"}},
+      {{"Study/Figure end/Exact=cos("}, {"Figure end/Exact"}},
+      {{"Study/Figure end/Exact=0"}, {"Figure end/Scale", "reference is 0"}},
+  };
+  for (const auto &[overrides, fragments] : cases)
+  {
+    SCOPED_TRACE(overrides[0]);
+    expect_fragments(error_of([&, o = overrides]() { study(o); }), fragments);
+    EXPECT_FALSE(fs::exists("results/study/study.json"));
+  }
+  std::ofstream("scene.prm")
+      << std::string(oscillator).substr(0, std::string(oscillator).find("subsection Study"));
+  expect_fragments(error_of([&]() { study(); }), {"Study/Ladders", "one or more lists"});
+  std::ofstream("scene.prm")
+      << std::string(oscillator).substr(0, std::string(oscillator).find("  set Figures = end"))
+      << "end\n";
+  expect_fragments(error_of([&]() { study(); }), {"Study/Figures", "one or more figures"});
+  std::ofstream("scene.prm") << oscillator;
+  study();
+  expect_fragments(error_of([&]() { study(); }), {"Study/Folder", "--overwrite"});
+  EXPECT_EQ(error_of([&]() { study({}, true); }), "");
+}
