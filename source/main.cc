@@ -49,6 +49,8 @@ namespace
                                                    : std::vector<std::string>();
     if (arguments.count("study"))
     {
+      if (processes.size() > 1)
+        throw taut::UserError("a study measures one process; run it without mpirun");
       if (arguments.count("check"))
         throw taut::UserError("--study and --check exclude each other; choose one");
       taut::Study(file, overrides, arguments.count("overwrite") > 0, std::cout).run();
