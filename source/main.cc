@@ -62,11 +62,12 @@ namespace
     try
     {
       taut::Simulation simulation(parameters, std::cout, processes);
+      // Before what may fail: the drawing shows why.
+      if (arguments.count("sketch") && processes.is_root())
+        taut::write_sketch(simulation.scene(), arguments["sketch"].as<std::string>());
       if (arguments.count("check"))
       {
         simulation.check();
-        if (arguments.count("sketch") && processes.is_root())
-          taut::write_sketch(simulation.scene(), arguments["sketch"].as<std::string>());
         return;
       }
       taut::Progress progress(std::cout, isatty(STDOUT_FILENO), parameters.end_time);
@@ -100,27 +101,30 @@ int main(int argc, char **argv)
     std::cout.setstate(std::ios::failbit);
   po::options_description options("Options");
   options.add_options()("check", "read the file, check the scene and print it, without a run")(
-      "sketch", po::value<std::string>(), "with --check: draw the undeformed scene, FILE.svg")(
+      "sketch", po::value<std::string>()->value_name("FILE.svg"),
+      "draw the undeformed scene before the check or the run")(
       "study",
       "run the scene with all settings of its section Study and measure cost and error of each")(
-      "set,s", po::value<std::vector<std::string>>()->composing(),
+      "set,s", po::value<std::vector<std::string>>()->composing()->value_name("ENTRY=VALUE"),
       "change an entry of the file: Section.Entry=value (or Section/Entry=value); may be repeated")(
       "overwrite", "replace the results of an earlier run in the same folder")(
-      "version", "print the version")("help,h", "print this text")("file", po::value<std::string>(),
-                                                                   "parameter file, .prm or .json");
+      "version", "print the version")("help,h", "print this text");
+  po::options_description all;
+  all.add(options).add_options()("file", po::value<std::string>());
   po::positional_options_description positional;
   positional.add("file", 1);
   try
   {
     po::variables_map arguments;
-    po::store(po::command_line_parser(argc, argv).options(options).positional(positional).run(),
+    po::store(po::command_line_parser(argc, argv).options(all).positional(positional).run(),
               arguments);
     po::notify(arguments);
     if (arguments.count("help"))
-      std::cout << "taut: mechanical systems whose parts touch through one-sided contacts\n\n"
-                << "Usage: taut FILE.prm [options]\n"
-                << "       taut              write an annotated parameter file, taut.prm\n\n"
-                << options;
+      std::cout
+          << "taut: mechanical systems whose parts touch through one-sided contacts\n\n"
+          << "Usage: taut FILE.prm [options]    run a parameter file, .prm or .json\n"
+          << "       taut                       write an annotated parameter file, taut.prm\n\n"
+          << options;
     else if (arguments.count("version"))
       std::cout << "taut " << taut::version() << '\n';
     else if (arguments.count("file"))

@@ -319,7 +319,8 @@ namespace taut
 
   void Statistics::write(const std::string &path) const
   {
-    using nlohmann::json;
+    // In the order of the scene.
+    using json = nlohmann::ordered_json;
     const auto moments = [](const Moments &m)
     {
       return json{{"mean [N]", m.mean},

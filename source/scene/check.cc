@@ -220,9 +220,12 @@ namespace taut
       const Wire &wire = scene.wires[link.to.index];
       const double length = wire.length();
       if (!(end >= -1e-9 * length && end <= (1. + 1e-9) * length))
+      {
+        const double last = ((link.speed > 0. ? length : 0.) - link.to.position) / link.speed;
         fail(link, "Speed", what, "it leaves wire '", wire.name,
              "' before the end: at t = ", end_time, " s it would be at ", end, " m of ", length,
-             " m. Shorten Time/End or lengthen the wire");
+             " m. Set Time/End to ", last, " s at most, or lengthen the wire");
+      }
     }
 
     void check_links(const Scene &scene, const double end_time)

@@ -147,6 +147,8 @@ namespace taut
       names.push_back(wire.name);
     }
     const std::string near = nearest_name(name, names);
+    if (name.empty())
+      throw EntryError(entry, "it says not where; write one of: " + known);
     throw EntryError(entry, "'" + text + "' is not known; known are: " + known +
                                 (near.empty() ? "" : "; did you mean '" + near + "'?"));
   }

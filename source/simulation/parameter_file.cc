@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/nearest_name.h>
 #include <taut/simulation/parameter_file.h>
 
 #include <nlohmann/json.hpp>
@@ -74,10 +75,22 @@ namespace taut
 
     std::string cannot_read(const std::string &file)
     {
+      namespace fs = std::filesystem;
       std::error_code error;
-      return "cannot read '" + file + "': " +
-             (std::filesystem::is_directory(file, error) ? "it is a folder; name a file in it"
-                                                         : "no such file, or no permission");
+      if (fs::is_directory(file, error))
+        return "cannot read '" + file + "': it is a folder; name a file in it";
+      if (fs::exists(file, error))
+        return "cannot read '" + file + "': no permission";
+      // Parameter files beside it; a folder that cannot be read has none.
+      const fs::path folder = fs::path(file).parent_path();
+      std::vector<std::string> names;
+      for (const auto &entry : fs::directory_iterator(folder.empty() ? "." : folder, error))
+        if (entry.path().extension() == ".prm" || entry.path().extension() == ".json")
+          names.push_back(entry.path().filename().string());
+      std::sort(names.begin(), names.end());
+      const std::string near = nearest_name(fs::path(file).filename().string(), names);
+      return "cannot read '" + file + "': no such file" +
+             (near.empty() ? "" : "; did you mean '" + (folder / near).string() + "'?");
     }
 
     /// The lines of a file without comments, continued ones joined, each with the number of its

@@ -11,6 +11,7 @@
 
 #include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <functional>
 #include <sstream>
 
@@ -80,13 +81,61 @@ namespace taut
           text.replace(at, from.size(), to);
       };
       replace(" v such that -MAX_DOUBLE <= v <= MAX_DOUBLE", "");
+      replace(" v such that 0 <= v <= MAX_DOUBLE", ", at least 0");
       replace(" <= MAX_DOUBLE", "");
       replace("1 to 4294967295 elements", "one or more elements");
       replace("0 to 4294967295 elements", "any number of elements");
-      replace("A floating", "a floating");
+      replace("2 to 2 elements", "2 elements");
+      replace("A floating point number", "a number");
+      replace(" where each element is [a number]", ", numbers with commas between them");
+      replace(" where each element is [a number, at least 0]",
+              ", numbers of at least 0 with commas between them");
       if (!text.empty())
         text[0] = std::tolower(static_cast<unsigned char>(text[0]));
       return text;
+    }
+
+    /// What is wrong with text that begins like a number, where a number is wanted; may be empty.
+    std::string hint(const std::string &value, const std::string &expected)
+    {
+      char *end = nullptr;
+      std::strtod(value.c_str(), &end);
+      const std::string rest = end;
+      if (end == value.c_str() || rest.empty() || expected.find("number") == std::string::npos)
+        return "";
+      if (rest[0] == ',' && expected.compare(0, 6, "a list") != 0)
+        return "; decimals have a point";
+      if (std::isalpha(static_cast<unsigned char>(rest[rest.find_first_not_of(' ')])))
+        return "; write the number alone, its unit is in the help of the entry";
+      return "";
+    }
+
+    /// Where else in the tree there is an entry or section of this name, or a section that begins
+    /// with it; at most two places.
+    void find_elsewhere(const nlohmann::json &node, const std::string &name, const bool section,
+                        const std::string &path, std::vector<std::string> &places)
+    {
+      for (const auto &[key, child] : node.items())
+      {
+        if (!child.is_object() || places.size() > 1)
+          continue;
+        const bool is_section = !child.contains("pattern_description");
+        if (is_section == section && (key == name || (section && key.rfind(name + " ", 0) == 0)))
+          places.push_back(path + key);
+        if (is_section)
+          find_elsewhere(child, name, section, path + key + "/", places);
+      }
+    }
+
+    /// " There is 'Catenary/Droppers/Positions'." for an entry that was sought in the wrong place.
+    std::string elsewhere(const nlohmann::json &root, const std::string &name, const bool section)
+    {
+      std::vector<std::string> places;
+      find_elsewhere(root, name, section, "", places);
+      std::string text;
+      for (const std::string &place : places)
+        text += (text.empty() ? " There is '" : " and '") + place + "'";
+      return text.empty() ? "" : text + ".";
     }
 
     /// The node of a path, or an error about the first section that does not exist.
@@ -101,7 +150,8 @@ namespace taut
         if (!node->contains(name) || (*node)[name].contains("pattern_description"))
           throw UserError(entry.place + ": there is no section '" + name + "'" +
                           (i > 0 ? " in '" + entry.path[i - 1] + "'" : "") +
-                          suggestion(name, names_in(*node, true)) + list_of(name, *node));
+                          suggestion(name, names_in(*node, true)) + list_of(name, *node) +
+                          elsewhere(root, name, true));
         node = &(*node)[name];
       }
       return *node;
@@ -238,7 +288,7 @@ namespace taut
         throw UserError(
             entry.place + ": there is no entry '" + name + "'" +
             (entry.path.size() > 1 ? " in '" + entry.path[entry.path.size() - 2] + "'" : "") +
-            suggestion(name, names_in(node, false)));
+            suggestion(name, names_in(node, false)) + elsewhere(root, name, false));
       const auto pattern = pattern_factory(node[name]["pattern_description"].get<std::string>());
       if (!pattern->match(entry.value))
       {
@@ -246,6 +296,7 @@ namespace taut
             entry.value, selection_of(node[name]["pattern_description"].get<std::string>()));
         throw UserError(entry.place + ": " + entry.name() + " = '" + entry.value +
                         "' is not allowed; expected " + expectation(*pattern) +
+                        hint(entry.value, expectation(*pattern)) +
                         (near.empty() ? "" : "; did you mean '" + near + "'?"));
       }
     }

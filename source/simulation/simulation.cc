@@ -37,6 +37,13 @@ namespace taut
       };
       return is_numbered("wires") || is_numbered("links");
     }
+
+    /// "1 wire", "2 wires", "no wires".
+    std::string counted(const std::size_t n, const std::string &one, const std::string &more = "")
+    {
+      const std::string many = more.empty() ? one + "s" : more;
+      return n == 0 ? "no " + many : std::to_string(n) + " " + (n == 1 ? one : many);
+    }
   } // namespace
 
   Simulation::Simulation(const Parameters &parameters, std::ostream &log,
@@ -223,9 +230,10 @@ namespace taut
       n_rigid += std::isinf(links[i].stiffness);
     }
     const std::vector<Structure::Body> &all = bodies.all_bodies();
-    log << "Scene '" << parameters.generator_name << "': " << model.wires.size() << " wires, "
-        << model.masses.size() << " masses, " << model.links.size() << " links\n"
-        << "  " << all.size() << " bodies:";
+    log << "Scene '" << parameters.generator_name << "': " << counted(model.wires.size(), "wire")
+        << ", " << counted(model.masses.size(), "mass", "masses") << ", "
+        << counted(model.links.size(), "link") << '\n'
+        << "  " << counted(all.size(), "body", "bodies") << ':';
     constexpr std::size_t most_named = 6;
     for (std::size_t k = 0; k < std::min(all.size(), most_named); ++k)
       log << (k > 0 ? "," : "") << " '" << all[k].name << "' " << all[k].n_dofs << " DoFs";
@@ -236,8 +244,8 @@ namespace taut
                              { return sum + body.n_dofs; })
           << " DoFs in all";
     if (!bodies.cut_rows().empty())
-      log << "\n  wires cut in " << bodies.cut_rows().size() << " rows";
-    log << "\n  " << links.size() << " multipliers: " << n_unilateral << " one-sided, "
+      log << "\n  wires cut in " << counted(bodies.cut_rows().size(), "row");
+    log << "\n  " << counted(links.size(), "multiplier") << ": " << n_unilateral << " one-sided, "
         << links.size() - n_unilateral << " bilateral; " << links.size() - links.n_fixed()
         << " moving; " << n_rigid << " rigid\n";
 
@@ -274,8 +282,8 @@ namespace taut
       start.multiplier = state.multiplier;
       start_certificate = state.certificate;
       log << "Static equilibrium: residual " << start_certificate.complementarity << " (links), "
-          << start_certificate.balance << " (balance), " << start_certificate.iterations
-          << " active-set iterations\n";
+          << start_certificate.balance << " (balance), "
+          << counted(start_certificate.iterations, "active-set iteration") << '\n';
     }
     else if (model.start == Start::given)
       processes.agree(

@@ -197,6 +197,15 @@ def check_killed(name):
         errors.append(f"{folder}: {len(frames)} frames of a killed run")
 
 
+def check_order(folder):
+    """statistics.json names links and probes in the order of the tables, which is that of the scene."""
+    statistics = json.loads((folder / "statistics.json").read_text())
+    for name, key, ending in (("links.csv", "links", " force [N]"), ("probes.csv", "probes", " [m]")):
+        columns = [column[:-len(ending)] for column in table(folder / name) if column.endswith(ending)]
+        if list(statistics[key]) != columns or len(columns) < 2:
+            errors.append(f"{folder}: the {key} in statistics.json are not in the order of {name}")
+
+
 def check_pictures(folder, names, script):
     """Every picture there, as PNG and as PDF."""
     command = [sys.executable, script, folder, "--output", folder / "pictures"]
@@ -233,6 +242,7 @@ compare("times of the fields", check_links(results), [0, 0.05, 0.1, 0.15, 0.2], 
 check_probes(results, {f"contact wire at {x} m": ("contact", x, 0, (0, 0, 1)) for x in (240, 300, 360)})
 check_droppers(results)
 check_contact(results, 250 / 3.6, 60)
+check_order(results)
 check_killed("en50318_2002_250")
 check_filter(results, plot_script)
 check_pictures(results, ["contact_force", "probes", "link_forces", "link_map", "waterfall"], plot_script)

@@ -58,7 +58,7 @@ namespace taut
     std::string all;
     for (const std::string &k : known)
       all += (all.empty() ? "" : ", ") + k;
-    return all.empty() ? "; there is none here" : "; known here: " + all;
+    return all.empty() ? "; there is none here" : "; known here: " + all + ".";
   }
 } // namespace taut
 
