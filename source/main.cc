@@ -53,6 +53,8 @@ namespace
         throw taut::UserError("a study measures one process; run it without mpirun");
       if (arguments.count("check"))
         throw taut::UserError("--study and --check exclude each other; choose one");
+      if (arguments.count("sketch"))
+        throw taut::UserError("--study draws no --sketch; draw it with --check");
       taut::Study(file, overrides, arguments.count("overwrite") > 0, std::cout).run();
       return;
     }
