@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: the certificate sees a step that is wrong. Source: matrices, rows and gaps are changed
+// behind the back of the factors, by the amount that the residual then has to have, and the step is
+// refused with the name of what is wrong.
+#include "run.h"
+
+#include <taut/base/exceptions.h>
+#include <taut/time/static_equilibrium.h>
+#include <taut/time/time_stepper.h>
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+using namespace verification;
+
+namespace
+{
+  // A mass of 2 kg hangs from a string by a dropper of 10 kN/m, and stays where it is.
+  const char *const scene =
+      "set Generator = network\nset Gravity = 0, -9.81\nset Start = equilibrium\n"
+      "subsection Network\n set Wires = wire\n set Supports = ends\n set Masses = mass\n"
+      " set Links = hanger\n"
+      " subsection Wire wire\n  set To = 4, 0\n  set Components = string\n"
+      "  set Mass per length = 1\n  set Tension = 1000\n  set Element size = 0.5\n end\n"
+      " subsection Support ends\n  set Wire = wire\n  set Positions = 0, 4\n end\n"
+      " subsection Mass mass\n  set Position = 2, -1\n  set Mass = 2\n  set Motions = y\n end\n"
+      " subsection Link hanger\n  set Type = dropper\n  set From = wire @ 2\n  set To = mass\n"
+      "  set Stiffness = 10000\n end\nend\n"
+      "subsection Time\n set Scheme = BDF2\n set Step = 1e-3\n set End = 1e-3\nend\n";
+
+  /// A stepper that has factored the matrices of the scene, and what it was made from.
+  class Steps
+  {
+  public:
+    /// The middle of the string starts with @p velocity [m/s], the gap is @p gap_error [m] off the
+    /// displacements.
+    explicit Steps(const double velocity, const double gap_error = 0.) : session(scene)
+    {
+      taut::Reference reference;
+      taut::State start;
+      session.run(
+          [&](const taut::StepView &view)
+          {
+            if (view.state.time > 0.)
+              return;
+            reference = view.reference;
+            start = view.state;
+          });
+      start.V[0][start.V[0].size() / 2] = velocity;
+      start.geometric_gap[0] += gap_error;
+      rows = std::make_unique<taut::ContactRows>(session.simulation().scene(), structure());
+      stepper = std::make_unique<taut::TimeStepper>(structure(), *rows, session.parameters().solver,
+                                                    session.parameters().integrator("BDF2"), 1e-3,
+                                                    reference, start, false);
+    }
+
+    const taut::Structure &structure() { return session.simulation().structure(); }
+
+    /// What is said about the first step that is refused; empty if ten are accepted.
+    std::string refusal()
+    {
+      try
+      {
+        for (int i = 0; i < 10; ++i)
+          stepper->advance();
+      }
+      catch (const taut::UserError &e)
+      {
+        return e.what();
+      }
+      return "";
+    }
+
+    std::unique_ptr<taut::ContactRows> rows;
+    std::unique_ptr<taut::TimeStepper> stepper;
+
+  private:
+    Session session;
+  };
+
+  bool says(const std::string &text, const std::string &part)
+  {
+    return text.find(part) != std::string::npos;
+  }
+} // namespace
+
+TEST(Certificate, right_steps_pass)
+{
+  for (const double velocity : {0., .1})
+  {
+    Steps steps(velocity);
+    EXPECT_EQ(steps.refusal(), "");
+    EXPECT_LT(steps.stepper->certificate().max(), 1e-13);
+    figure("certificate of a mass on a string, first velocity " + std::to_string(velocity) + " m/s",
+           steps.stepper->certificate().max());
+  }
+}
+
+TEST(Certificate, a_stiffness_that_was_not_factored_misses_the_balance)
+{
+  Steps steps(.1);
+  const taut::Substructure &string = steps.structure()[0];
+  const unsigned int middle = string.n_dofs() / 2;
+  // 4 of 4000 N/m
+  const_cast<taut::SymmetricMatrix &>(string.stiffness()).add(middle, middle, 4.);
+  const std::string refusal = steps.refusal();
+  EXPECT_TRUE(
+      says(refusal, "body 'wire (transverse)' misses the contact tolerance in its equation"))
+      << refusal;
+}
+
+TEST(Certificate, a_row_that_is_not_in_F_misses_the_gaps)
+{
+  Steps steps(.1);
+  auto &row = const_cast<taut::Row &>((*steps.rows)[0]);
+  for (taut::Term &term : row.terms)
+    for (double &value : term.form.value)
+      value *= 1.001;
+  const std::string refusal = steps.refusal();
+  EXPECT_TRUE(says(refusal, "link 'hanger' misses the contact tolerance: residual")) << refusal;
+}
+
+TEST(Certificate, a_gap_away_from_its_displacements_is_seen)
+{
+  Steps steps(0., 1e-4);
+  const std::string refusal = steps.refusal();
+  EXPECT_TRUE(says(refusal, "link 'hanger' misses the contact tolerance: residual")) << refusal;
+}
+
+// Without a link there is nothing but the balance to measure; its rounding is more than 1e-30.
+TEST(Certificate, statics_measure_their_balance)
+{
+  Session session(scene);
+  taut::Scene alone = session.simulation().scene();
+  alone.links.clear();
+  alone.masses.clear();
+  const taut::Structure structure(alone);
+  const taut::ContactRows rows(alone, structure);
+  taut::SolverParameters parameters;
+  const taut::Certificate certificate =
+      taut::static_equilibrium(structure, rows, parameters, 0.).certificate;
+  EXPECT_GT(certificate.balance, 1e-18);
+  EXPECT_LT(certificate.balance, 1e-14);
+  parameters.contact_tolerance = 1e-30;
+  EXPECT_THROW(taut::static_equilibrium(structure, rows, parameters, 0.), taut::UserError);
+}
