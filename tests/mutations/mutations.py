@@ -77,7 +77,9 @@ if errors or arguments.check:
 
 if not arguments.folder:
     sys.exit("--folder is missing")
-source, build = arguments.folder.resolve() / "source", arguments.folder.resolve() / "build"
+# The build lies in the copy as in a fresh clone: a compiler cache then knows most of it.
+source = arguments.folder.resolve() / "taut"
+build = source / "build"
 shutil.rmtree(source, ignore_errors=True)
 source.mkdir(parents=True)
 for name in ("CMakeLists.txt", "README.md"):
@@ -109,7 +111,7 @@ def test(change):
     return (failed[0], len(failed)) if failed else (f"{change['filter']} (ends with {result.returncode})", 1)
 
 
-configured = run(["cmake", "-S", source, "-B", build, "-G", "Ninja", "-D", "TAUT_TESTS=ON"])
+configured = run(["cmake", "-S", source, "-B", build, "-G", "Ninja"])
 if configured.returncode:
     sys.exit(configured.stdout)
 wanted = [c for c in changes if re.search(arguments.only, c["change"] + " " + c["file"])]

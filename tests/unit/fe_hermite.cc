@@ -26,6 +26,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <iostream>
 #include <set>
 #include <vector>
 
@@ -677,6 +678,10 @@ namespace
     }
     for (unsigned int level = 1; level < value_errors.size(); ++level)
     {
+      std::cout << "figure | interpolation in " << spacedim << " dimensions, refinement " << level
+                << ", order of displacement, curvature | "
+                << order(value_errors[level - 1], value_errors[level]) << ", "
+                << order(curvature_errors[level - 1], curvature_errors[level]) << '\n';
       EXPECT_NEAR(order(value_errors[level - 1], value_errors[level]), 4., 0.1);
       EXPECT_NEAR(order(curvature_errors[level - 1], curvature_errors[level]), 2., 0.1);
     }
@@ -735,7 +740,11 @@ namespace
         EXPECT_GT(errors.back(), 0.) << "a conforming element is too stiff, never too soft";
       }
       for (unsigned int level = 1; level < errors.size(); ++level)
+      {
+        std::cout << "figure | frequency " << mode << ", refinement " << level << ", order | "
+                  << order(errors[level - 1], errors[level]) << '\n';
         EXPECT_NEAR(order(errors[level - 1], errors[level]), 4., 0.2) << "mode " << mode;
+      }
     }
   }
 } // namespace
