@@ -39,7 +39,8 @@ namespace verification
     return std::string(TAUT_PRM_FOLDER) + "/" + name + ".prm";
   }
 
-  Session::Session(const std::string &file_or_text, const Overrides &overrides)
+  Session::Session(const std::string &file_or_text, const Overrides &overrides,
+                   const taut::Communicator &processes)
       : scratch(new_folder())
   {
     std::string file = file_or_text;
@@ -52,7 +53,7 @@ namespace verification
                      "Output.Link interval=1e9"};
     all.insert(all.end(), overrides.begin(), overrides.end());
     values.read(file, all);
-    runner = std::make_unique<taut::Simulation>(values, text);
+    runner = std::make_unique<taut::Simulation>(values, text, processes);
   }
 
   Session::~Session()

@@ -27,7 +27,9 @@ namespace verification
   {
   public:
     /// @p file_or_text is the path of a .prm file, or the text of one if it has more than one line.
-    explicit Session(const std::string &file_or_text, const Overrides &overrides = {});
+    /// All ranks of @p processes make and run it together.
+    explicit Session(const std::string &file_or_text, const Overrides &overrides = {},
+                     const taut::Communicator &processes = taut::Communicator());
     ~Session();
 
     /// Runs to the end; @p callback sees the start and each step.

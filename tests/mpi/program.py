@@ -1,0 +1,149 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Every scene of prm/ gives on several ranks the output, the files and the numbers of one process; so do mistakes."""
+import argparse
+import csv
+import math
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+parser = argparse.ArgumentParser(description=__doc__)
+parser.add_argument("--program", required=True)
+parser.add_argument("--mpiexec", required=True)
+parser.add_argument("--prm", type=pathlib.Path, required=True)
+arguments = parser.parse_args()
+
+# Times of the computer, residuals of rounding, where mpirun has its say.
+VOLATILE = re.compile(r"real time|Results in|residual|Certificate|^\s*\d+ %|with output|without output")
+SHORT = {  # what makes a long scene short
+    "bouncing_bar": ["Time/End=1.3"],
+}
+errors = []
+
+
+def run(ranks, options):
+    command = [arguments.program, *options]
+    if ranks > 1:
+        command = [arguments.mpiexec, "-np", str(ranks), *command]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=300)
+    return done
+
+
+def words(text):
+    """Lines that must not differ, with numbers apart, so that they may differ by rounding."""
+    lines = [line for line in text.splitlines() if line.strip() and not VOLATILE.search(line)]
+    return [re.split(r"(?<![\w.])(-?\d+(?:\.\d*)?(?:e[-+]?\d+)?)(?![\w.])", line) for line in lines]
+
+
+def same_word(a, b):
+    try:
+        x, y = float(a), float(b)
+    except ValueError:
+        return a == b
+    return math.isclose(x, y, rel_tol=1e-5, abs_tol=1e-9) or abs(x - y) <= 0.011 * (x != int(x))
+
+
+def same_text(a, b):
+    first, second = words(a), words(b)
+    return len(first) == len(second) and all(
+        len(p) == len(q) and all(map(same_word, p, q)) for p, q in zip(first, second))
+
+
+def largest_difference(one, many):
+    """Of the numbers of a table, each over the largest one of its column's unit."""
+    with open(one) as f, open(many) as g:
+        a, b = list(csv.reader(f)), list(csv.reader(g))
+    if a[0] != b[0] or len(a) != len(b):
+        return math.inf
+    worst = 0.
+    units = {}
+    for c, title in enumerate(a[0]):
+        unit = title[title.rfind("["):]
+        for row in a[1:]:
+            try:
+                units[unit] = max(units.get(unit, 0.), abs(float(row[c])))
+            except ValueError:
+                pass
+    for p, q in zip(a[1:], b[1:]):
+        for c, title in enumerate(a[0]):
+            size = units.get(title[title.rfind("["):], 0.)
+            if p[c] == q[c] or size == 0.:
+                continue
+            try:
+                error = abs(float(p[c]) - float(q[c]))
+                if error > 1e-15 or math.isnan(error):  # what stands still does so up to rounding
+                    worst = math.inf if math.isnan(error) else max(worst, error / size)
+            except ValueError:
+                return math.inf
+    return worst
+
+
+def check_scene(scene, folder):
+    options = [str(scene), "--overwrite"]
+    for setting in SHORT.get(scene.stem, []):
+        options += ["--set", setting]
+    outputs = {}
+    for ranks in (1, 2, 3):
+        results = folder / f"{scene.stem}_{ranks}"
+        cuts = [] if ranks == 1 else ["--set", "Partition/Number of substructures=4"]
+        if "wire" not in scene.read_text().lower():
+            cuts = []
+        done = run(ranks, [*options, "--set", f"Output/Folder={results}", *cuts])
+        if done.returncode != 0:
+            errors.append(f"{scene.stem} on {ranks} ranks: {done.stderr.strip()}")
+            return
+        outputs[ranks] = results
+    one = outputs[1]
+    names = sorted(p.name for p in one.iterdir())
+    worst = 0.
+    for ranks in (2, 3):
+        if sorted(p.name for p in outputs[ranks].iterdir()) != names:
+            errors.append(f"{scene.stem} on {ranks} ranks: other files")
+        for name in names:
+            if name.endswith(".csv") and name != "certificate.csv":
+                difference = largest_difference(one / name, outputs[ranks] / name)
+                worst = max(worst, difference)
+                if not difference < 1e-7:
+                    errors.append(f"{scene.stem} on {ranks} ranks: {name} differs by {difference:.1e}")
+    print(f"figure | {scene.stem}, 2 and 3 ranks and 4 parts, tables | {worst:.1e} 1")
+
+
+def check_same_words(options, code):
+    one, two = run(1, options), run(2, options)
+    if one.returncode != code or two.returncode != code:
+        errors.append(f"{options}: exit codes {one.returncode} and {two.returncode}, expected {code}")
+    if not same_text(one.stdout, two.stdout):
+        errors.append(f"{options}: other text\n{one.stdout}\n---\n{two.stdout}")
+    # mpirun adds lines of its own about an exit code.
+    said = [line for line in two.stderr.splitlines() if line.startswith("taut:")]
+    if said != [line for line in one.stderr.splitlines() if line.startswith("taut:")]:
+        errors.append(f"{options}: {one.stderr!r} and {two.stderr!r}")
+
+
+with tempfile.TemporaryDirectory() as name:
+    scratch = pathlib.Path(name)
+    for scene in sorted(arguments.prm.glob("*.prm")):
+        text = scene.read_text()
+        if "Generator = catenary" in text and scene.stem != "en50318_2002_250":
+            continue  # the same kind of scene again, and long
+        if scene.stem == "en50318_2002_250":
+            SHORT[scene.stem] = ["Time/End=0.3", "Statistics/Window="]
+        check_scene(scene, scratch)
+    line = str(arguments.prm / "en50318_2002_250.prm")
+    stop = str(arguments.prm / "oscillator_with_stop.prm")
+    out = ["--set", f"Output/Folder={scratch}/words", "--overwrite"]
+    check_same_words([stop, *out], 0)
+    check_same_words([stop, "--check"], 0)
+    check_same_words([str(scratch / "missing.prm")], 1)
+    check_same_words([stop, "--set", "Time/Stepp=1"], 1)
+    check_same_words([stop, "--unknown"], 1)
+    check_same_words([line, *out, "--set", "Time/End=9", "--set", "Time/Step=0.1"], 1)  # leaves its wire
+    check_same_words([stop, "--set", "Output/Folder=/proc/none"], 1)  # only the root fails
+    check_same_words([line, *out, "--set", "Catenary/Pantograph pantograph/Masses=7.2, 0",
+                      "--set", "Catenary/Pantograph pantograph/Stiffnesses=4200, 0",
+                      "--set", "Catenary/Pantograph pantograph/Dampings=10, 0"], 1)  # only its owner fails
+
+sys.exit("\n".join(error[:2000] for error in errors) or None)

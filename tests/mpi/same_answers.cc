@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "../verification/run.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace verification;
+
+namespace
+{
+  taut::Communicator world()
+  {
+    return taut::Communicator(MPI_COMM_WORLD);
+  }
+
+  /// What must not depend on ranks and parts, at rest or in motion: of the links and of points
+  /// along the wires.
+  struct Record
+  {
+    std::vector<double> force, gap, displacement;
+  };
+  struct Records
+  {
+    Record rest, motion; ///< displacements of the motion count from the rest
+  };
+
+  /// Displacements of points along the wires, summed over the ranks [m].
+  void add_displacements(const taut::StepView &view, const taut::BlockVector &U,
+                         std::vector<double> &result)
+  {
+    constexpr unsigned int n = 200;
+    std::vector<double> shares;
+    for (std::size_t w = 0; w < view.scene.wires.size(); ++w)
+      for (unsigned int i = 0; i <= n; ++i)
+        shares.push_back(evaluate(point_on_wire(view, w, view.scene.wires[w].length() * i / n), U));
+    view.structure.communicator().sum(shares);
+    result.insert(result.end(), shares.begin(), shares.end());
+  }
+
+  Records record(const std::string &scene, const Overrides &overrides,
+                 const taut::Communicator &processes)
+  {
+    Records result;
+    bool is_start = true;
+    Session session(scene, overrides, processes);
+    session.run(
+        [&](const taut::StepView &view)
+        {
+          Record &now = is_start ? result.rest : result.motion;
+          for (std::size_t i = 0; i < view.rows.size(); ++i)
+            if (!view.rows[i].is_cut())
+            {
+              now.force.push_back(view.state.multiplier[i]);
+              now.gap.push_back(view.state.geometric_gap[i]);
+            }
+          add_displacements(view, is_start ? view.reference.displacement : view.state.U,
+                            now.displacement);
+          is_start = false;
+        });
+    return result;
+  }
+
+  double largest(const std::vector<double> &x)
+  {
+    double size = 0.;
+    for (const double v : x)
+      size = std::max(size, std::fabs(v));
+    return size;
+  }
+
+  double difference(const std::vector<double> &a, const std::vector<double> &b)
+  {
+    EXPECT_EQ(a.size(), b.size());
+    double error = 0.;
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+      error = std::isnan(b[i]) ? INFINITY : std::max(error, std::fabs(a[i] - b[i]));
+    return error;
+  }
+
+  /// Links whose state differs although they are clearly open or closed in one of the runs.
+  std::size_t n_other_states(const Record &a, const Record &b)
+  {
+    const double band = 1e-9 * largest(a.force);
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < a.force.size(); ++i)
+      n += (a.force[i] == 0.) != (b.force[i] == 0.) &&
+           std::max(std::fabs(a.force[i]), std::fabs(b.force[i])) > band;
+    return n;
+  }
+
+  /// The railway line of EN 50318 with a number of spans, and with a speed that keeps the contact
+  /// on the wire for some steps.
+  Overrides line(const unsigned int n_spans, const double step, const unsigned int n_steps,
+                 const double element_size)
+  {
+    const double room = 60. * n_spans - 120., time = step * n_steps,
+                 speed = std::min(250., 3.6 * .9 * room / time);
+    return {"Catenary/Number of spans=" + std::to_string(n_spans),
+            "Catenary/Contact wire/Element size=" + std::to_string(element_size),
+            "Catenary/Messenger wire/Element size=" + std::to_string(element_size),
+            "Catenary/Pantograph pantograph/Speed=" + std::to_string(speed),
+            "Catenary/Uplift positions=120",
+            "Statistics/Window=",
+            "Time/Step=" + std::to_string(step),
+            "Time/End=" + std::to_string(time),
+            "Output/Field interval=0"};
+  }
+
+  /// So many that the wires have moved by more than rounding.
+  unsigned int n_steps(const double step)
+  {
+    return step < 1e-4 ? 400 : 20;
+  }
+
+  void expect_same(const std::string &where, const Record &one, const Record &many,
+                   const double tolerance)
+  {
+    const double way = largest(one.displacement);
+    const double u = difference(one.displacement, many.displacement) / way,
+                 d = difference(one.gap, many.gap) / std::max(way, largest(one.gap)),
+                 f = difference(one.force, many.force) / largest(one.force);
+    EXPECT_LT(u, tolerance);
+    EXPECT_LT(d, tolerance);
+    EXPECT_LT(f, 100. * tolerance);
+    EXPECT_EQ(n_other_states(one, many), 0u);
+    figure(where + "displacement", u);
+    figure(where + "gap", d);
+    figure(where + "force", f);
+  }
+
+  void expect_same(const std::string &title, const Overrides &overrides,
+                   const std::vector<unsigned int> &numbers)
+  {
+    const std::string scene = scene_file("en50318_2002_250");
+    const Records one = record(scene, overrides, taut::Communicator());
+    for (const unsigned int n : numbers)
+    {
+      Overrides cut = overrides;
+      cut.push_back("Partition/Number of substructures=" + std::to_string(n));
+      const std::string where = title + ", " + std::to_string(n) + " parts, " +
+                                std::to_string(world().size()) + " ranks, ";
+      SCOPED_TRACE(where);
+      const Records many = record(scene, cut, world());
+      expect_same(where + "rest, ", one.rest, many.rest, 1e-9);
+      expect_same(where + "motion, ", one.motion, many.motion, 1e-9);
+    }
+  }
+} // namespace
+
+// Claim: forces, gaps and displacements do not depend on the number of ranks and parts. Expected:
+// the run of one process without cuts, U and gaps to 1e-9 of the largest, forces to 1e-7.
+TEST(Ranks, the_reference_line_is_the_same)
+{
+  expect_same("5 spans, 2 ms", line(5, 2e-3, 200, .75), {1, 7, 64});
+}
+
+// Claim: so for steps from 10 us to 10 s, on the reference line and on one of 100 spans. Expected:
+// as above.
+TEST(Ranks, every_step_size_on_the_reference_line_is_the_same)
+{
+  for (const double step : {1e-5, 1e-3, 1e-1, 1., 10.})
+    expect_same("10 spans, step " + std::to_string(step), line(10, step, n_steps(step), .5),
+                {1, 2, 7, 64, 256});
+}
+
+TEST(Ranks, every_step_size_on_a_hundred_spans_is_the_same)
+{
+  for (const double step : {1e-5, 1e-3, 1e-1, 10.})
+    expect_same("100 spans, step " + std::to_string(step), line(100, step, n_steps(step) / 4, 1.),
+                {1, 2, 7, 64, 256});
+}
