@@ -58,8 +58,11 @@ namespace taut
     /// Index of the row of a link.
     std::size_t row_of_link(std::size_t link) const { return row_index[link]; }
 
-    /// Path in the parameter file of the link of a row, for messages; may be empty.
-    const std::string &origin(std::size_t i) const { return scene.links[rows[i].link].origin; }
+    /// Path in the parameter file of the link of a row, for messages; empty for a cut.
+    std::string origin(std::size_t i) const
+    {
+      return rows[i].is_cut() ? "" : scene.links[rows[i].link].origin;
+    }
 
     /// Names of rows for a message: "a, b and 3 more".
     std::string names(const std::vector<std::size_t> &indices) const;
