@@ -42,9 +42,10 @@ namespace taut
         F.set(i, j, *share + (i == j ? compliance[i] : 0.));
   }
 
-  void DenseSchurComplement::free_motion(const BlockVector &P, std::vector<double> &d) const
+  void DenseSchurComplement::free_motion(const BlockVector &P, std::vector<double> &d,
+                                         std::vector<double> &terms_size) const
   {
-    columns.free_motion(P, d);
+    columns.free_motion(P, d, terms_size);
   }
 
   std::string DenseSchurComplement::description() const
@@ -104,9 +105,10 @@ namespace taut
     }
   }
 
-  void SparseSchurComplement::free_motion(const BlockVector &P, std::vector<double> &d) const
+  void SparseSchurComplement::free_motion(const BlockVector &P, std::vector<double> &d,
+                                          std::vector<double> &terms_size) const
   {
-    columns.free_motion(P, d);
+    columns.free_motion(P, d, terms_size);
   }
 
   std::string SparseSchurComplement::description() const

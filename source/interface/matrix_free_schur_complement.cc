@@ -94,13 +94,18 @@ namespace taut
       compute_diagonal(i);
   }
 
-  void MatrixFreeSchurComplement::free_motion(const BlockVector &P, std::vector<double> &d) const
+  void MatrixFreeSchurComplement::free_motion(const BlockVector &P, std::vector<double> &d,
+                                              std::vector<double> &terms_size) const
   {
     work = P;
     solvers.solve(work);
     d.resize(rows.size());
+    terms_size.resize(rows.size());
     for (std::size_t i = 0; i < rows.size(); ++i)
+    {
       d[i] = evaluate(rows[i].terms, work);
+      terms_size[i] = magnitude(rows[i].terms, work);
+    }
   }
 
   std::string MatrixFreeSchurComplement::description() const

@@ -18,7 +18,8 @@ namespace taut
 
     void setup(const std::vector<double> &S) override;
     void update_moving() override;
-    void free_motion(const BlockVector &P, std::vector<double> &d) const override;
+    void free_motion(const BlockVector &P, std::vector<double> &d,
+                     std::vector<double> &terms_size) const override;
     ComplementarityOperator &matrix() override { return *this; }
     std::string description() const override;
 

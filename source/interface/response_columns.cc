@@ -96,9 +96,11 @@ namespace taut
     }
   }
 
-  void ResponseColumns::free_motion(const BlockVector &P, std::vector<double> &d) const
+  void ResponseColumns::free_motion(const BlockVector &P, std::vector<double> &d,
+                                    std::vector<double> &terms_size) const
   {
     d.resize(rows.size());
+    terms_size.resize(rows.size());
     if (!by_columns)
     {
       work = P;
@@ -108,8 +110,13 @@ namespace taut
     {
       const Column &column = columns[i];
       d[i] = by_columns ? 0. : evaluate(rows[i].terms, work);
+      terms_size[i] = by_columns ? 0. : magnitude(rows[i].terms, work);
       for (std::size_t p = 0; by_columns && p < column.substructure.size(); ++p)
-        d[i] += column.part[p].dot(P[column.substructure[p]]);
+      {
+        const auto [sum, size] = column.part[p].dot_and_size(P[column.substructure[p]]);
+        d[i] += sum;
+        terms_size[i] += size;
+      }
     }
   }
 } // namespace taut

@@ -32,7 +32,8 @@ namespace taut
     void visit_reached(std::size_t i, const std::function<void(std::size_t)> &visit) const;
 
     /// The share of the substructures here in d = B^T A^-1 P.
-    void free_motion(const BlockVector &P, std::vector<double> &d) const;
+    void free_motion(const BlockVector &P, std::vector<double> &d,
+                     std::vector<double> &terms_size) const;
 
   private:
     /// A_k^-1 B_k of one row, for the substructures that it touches.

@@ -51,9 +51,10 @@ namespace taut
         chosen->setup(S);
       }
       void update_moving() override { chosen->update_moving(); }
-      void free_motion(const BlockVector &P, std::vector<double> &d) const override
+      void free_motion(const BlockVector &P, std::vector<double> &d,
+                       std::vector<double> &terms_size) const override
       {
-        chosen->free_motion(P, d);
+        chosen->free_motion(P, d, terms_size);
       }
       ComplementarityOperator &matrix() override { return chosen->matrix(); }
       std::string description() const override { return chosen->description(); }

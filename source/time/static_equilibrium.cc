@@ -169,15 +169,14 @@ namespace taut
     processes.agree([&] { set_loads(structure, t, P, lift); });
 
     MixedComplementarityProblem problem;
-    schur->free_motion(P, problem.free_gap);
-    problem.free_gap.resize(n);
+    schur->free_motion(P, problem.free_gap, problem.gap_scale);
     processes.sum(problem.free_gap);
+    processes.sum(problem.gap_scale);
     const std::vector<double> lifted = rows.motions(lift);
     for (std::size_t i = 0; i < n; ++i)
     {
       problem.unilateral.push_back(rows[i].unilateral);
-      problem.gap_scale.push_back(std::fabs(problem.free_gap[i]) + std::fabs(lifted[i]) +
-                                  std::fabs(rows[i].gap));
+      problem.gap_scale[i] += std::fabs(lifted[i]) + std::fabs(rows[i].gap);
       problem.free_gap[i] += lifted[i] + rows[i].gap;
     }
     const std::size_t first_kernel = set_kernel(kernels, processes, rows, P, problem);

@@ -24,7 +24,7 @@ namespace taut
       *v = structure.zero();
     const std::size_t n = rows.size();
     for (auto *v : {&link_history, &gap_terms, &gap_correction, &motion, &position, &terms_size,
-                    &velocity_size})
+                    &motion_size})
       v->assign(n, 0.);
     problem.unilateral.resize(n);
     problem.free_gap.resize(n);
@@ -164,7 +164,7 @@ namespace taut
         before = moving_gap(i);
         scale = std::fabs(row.gap) + terms_size[i];
       }
-      scale += step * velocity_size[i];
+      scale += motion_size[i];
       problem.free_gap[i] = before + motion[i] + link_history[i];
       problem.gap_scale[i] = scale + std::fabs(motion[i]) + std::fabs(link_history[i]);
     }
@@ -179,13 +179,13 @@ namespace taut
   /// ones are, and what these numbers round with.
   void TimeStepper::share_free_motion()
   {
-    schur->free_motion(right_hand_side, motion);
+    schur->free_motion(right_hand_side, motion, motion_size);
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
       const std::vector<Term> &terms = rows[i].terms;
       motion[i] += evaluate(terms, lift);
       // The ends of a row move together most of the time: each of them rounds for itself.
-      velocity_size[i] = magnitude(terms, current.V);
+      motion_size[i] += step * magnitude(terms, current.V);
       position[i] = terms_size[i] = 0.;
       if (rows[i].moving)
       {
@@ -193,7 +193,7 @@ namespace taut
         terms_size[i] = magnitude(terms, origin.displacement) + magnitude(terms, current.U);
       }
     }
-    share({&motion, &velocity_size, &position, &terms_size});
+    share({&motion, &motion_size, &position, &terms_size});
   }
 
   /// After the step: increment of the rows, and their motion since the reference.

@@ -155,7 +155,7 @@ namespace
       schur->setup(std::vector<double>(rows.size(), 0.));
       taut::MixedComplementarityProblem problem;
       problem.unilateral.assign(rows.size(), 0);
-      schur->free_motion(U, problem.free_gap);
+      schur->free_motion(U, problem.free_gap, problem.gap_scale);
       taut::ComplementaritySolver solver;
       rows.add_forces(solver.solve(problem, schur->matrix()).solution.multiplier, U);
     }

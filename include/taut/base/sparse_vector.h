@@ -2,7 +2,9 @@
 #ifndef taut_sparse_vector_h
 #define taut_sparse_vector_h
 
+#include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace taut
@@ -57,16 +59,19 @@ namespace taut
       return sum;
     }
 
-    /// Scalar product with a full vector.
-    double dot(const std::vector<double> &x) const
+    /// Scalar product with a full vector, and the sum of its absolute terms, which it rounds with.
+    std::pair<double, double> dot_and_size(const std::vector<double> &x) const
     {
       const double *a = value.data(), *b = x.data() + first;
       const std::size_t n = value.size();
-      double sum = 0.;
-#pragma omp simd reduction(+ : sum)
+      double sum = 0., size = 0.;
+#pragma omp simd reduction(+ : sum, size)
       for (std::size_t k = 0; k < n; ++k)
+      {
         sum += a[k] * b[k];
-      return sum;
+        size += std::fabs(a[k] * b[k]);
+      }
+      return {sum, size};
     }
   };
 } // namespace taut

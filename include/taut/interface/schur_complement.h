@@ -28,8 +28,10 @@ namespace taut
     /// After ContactRows::update(): the moving rows anew.
     virtual void update_moving() = 0;
 
-    /// d = B^T A^-1 P, the motion of the rows under forces P [m, rad]: the share of this rank.
-    virtual void free_motion(const BlockVector &P, std::vector<double> &d) const = 0;
+    /// d = B^T A^-1 P, the motion of the rows under forces P, and the sum of the absolute terms
+    /// that each d_i was summed from and rounds with [m, rad]: the shares of this rank.
+    virtual void free_motion(const BlockVector &P, std::vector<double> &d,
+                             std::vector<double> &terms_size) const = 0;
 
     /// F, for the complementarity solver.
     virtual ComplementarityOperator &matrix() = 0;

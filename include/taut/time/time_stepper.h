@@ -92,10 +92,10 @@ namespace taut
     /// Of the moving rows: gap of the start minus the one of its displacements, rounding that would
     /// be a force over a small compliance.
     std::vector<double> gap_correction;
-    std::vector<double> motion;        ///< B^T dU
-    std::vector<double> position;      ///< B^T U, with the reference's of a moving row
-    std::vector<double> terms_size;    ///< sum of the absolute terms of these
-    std::vector<double> velocity_size; ///< the same of B^T V
+    std::vector<double> motion;      ///< B^T dU
+    std::vector<double> position;    ///< B^T U, with the reference's of a moving row
+    std::vector<double> terms_size;  ///< sum of the absolute terms of these
+    std::vector<double> motion_size; ///< what B^T dU rounds with
     std::vector<double> old_multiplier;
     std::vector<std::vector<KindNorm>> norms; ///< of M, C, K of each body
     std::vector<PerKind> reference_force;     ///< largest of K U_ref of each body [N, N m]
