@@ -6,8 +6,8 @@
 
 #include <algorithm>
 #include <charconv>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <filesystem>
 #include <limits>
 #include <new>
@@ -18,21 +18,27 @@ namespace taut
 {
   namespace
   {
-    /// Time from the start of a run to its last step, with output.
+    /// Processor time from the start of a run to its last step [s].
     class Stopwatch : public Observer
     {
     public:
+      explicit Stopwatch(const long n_steps) : n_steps(n_steps) {}
       void record(const StepView &) override
       {
-        end = std::chrono::steady_clock::now();
-        if (n_steps++ < 0)
-          begin = end;
+        if (n_done == 0)
+          begin = std::clock();
+        if (n_done++ == n_steps)
+          end = std::clock();
       }
-      double seconds() const { return std::chrono::duration<double>(end - begin).count(); }
-      long n_steps = -1;
+      /// At least one tick of the clock.
+      double seconds() const
+      {
+        return static_cast<double>(std::max<std::clock_t>(end - begin, 1)) / CLOCKS_PER_SEC;
+      }
 
     private:
-      std::chrono::steady_clock::time_point begin, end;
+      long n_steps, n_done = 0;
+      std::clock_t begin = 0, end = 0;
     };
 
     /// As short as possible without loss.
@@ -53,7 +59,7 @@ namespace taut
   struct Study::Run
   {
     std::vector<StudyFigure> figures;
-    double seconds = 0., seconds_with_output = 0., certificate = 0.;
+    double seconds = 0., certificate = 0.;
     long n_steps = 0;
   };
 
@@ -105,9 +111,10 @@ namespace taut
     }
     log << result.settings.size() << " settings, " << parameters.study.repeats << " runs each\n";
     // All settings in turn, and again: a busy spell of the machine then meets few runs of each.
-    for (unsigned int repeat = 0; repeat < parameters.study.repeats; ++repeat)
+    for (unsigned int repeat = 0; repeat <= parameters.study.repeats; ++repeat)
       for (StudySetting &setting : result.settings)
         run_setting(setting, repeat == 0);
+    find_bounds(result.ladders, result.settings);
     find_front(result.settings);
     std::filesystem::remove_all(parameters.study_folder() + "/run");
 
@@ -198,7 +205,7 @@ namespace taut
       log << "Reference:";
       for (std::size_t k = 0; k < values.size(); ++k)
         log << (k > 0 ? ", " : " ") << result.ladders[k].name << " = " << values[k];
-      const Run run = run_once(values);
+      const Run run = run_once(values, false, true);
       bool done = level > 0;
       for (std::size_t i = 0; i < n; ++i)
       {
@@ -235,7 +242,8 @@ namespace taut
     }
   }
 
-  Study::Run Study::run_once(const std::vector<std::string> &values) const
+  Study::Run Study::run_once(const std::vector<std::string> &values, const bool with_output,
+                             const bool with_figures) const
   {
     std::vector<std::string> all = overrides;
     for (std::size_t k = 0; k < values.size(); ++k)
@@ -244,6 +252,11 @@ namespace taut
     all.push_back("Output/Folder=" + parameters.study_folder() + "/run");
     Parameters chosen;
     chosen.read(file, all);
+    if (!with_output)
+    {
+      chosen.output.interval = chosen.output.link_interval = 2. * chosen.end_time;
+      chosen.output.field_interval = 0.;
+    }
     chosen.output.overwrite = true;
     std::ostringstream silent;
     try
@@ -251,13 +264,15 @@ namespace taut
       Simulation simulation(chosen, silent);
       FigureRecorder recorder(chosen.study, chosen.statistics, simulation.scene(),
                               simulation.rows());
-      Stopwatch stopwatch;
+      const long n_steps = std::lround(chosen.end_time / chosen.step);
+      Stopwatch stopwatch(n_steps);
       simulation.observe(stopwatch);
-      simulation.observe(recorder);
+      if (with_figures)
+        simulation.observe(recorder);
       simulation.run();
       const Certificate &worst = recorder.worst_certificate();
-      return {recorder.figures(), simulation.stepping_seconds(), stopwatch.seconds(),
-              std::max(worst.complementarity, worst.balance), stopwatch.n_steps};
+      return {with_figures ? recorder.figures() : std::vector<StudyFigure>(), stopwatch.seconds(),
+              std::max(worst.complementarity, worst.balance), n_steps};
     }
     catch (const EntryError &e)
     {
@@ -271,15 +286,16 @@ namespace taut
       return;
     try
     {
-      const Run run = run_once(setting.values);
-      setting.seconds.push_back(run.seconds);
-      setting.seconds_with_output =
-          first ? run.seconds_with_output
-                : std::min(setting.seconds_with_output, run.seconds_with_output);
+      const Run run = run_once(setting.values, first, first);
+      if (!first)
+      {
+        setting.seconds.push_back(run.seconds);
+        return;
+      }
+      setting.seconds_with_output = run.seconds;
       setting.certificate = run.certificate;
       setting.n_steps = run.n_steps;
-      if (first)
-        compare(setting, run.figures);
+      compare(setting, run.figures);
     }
     catch (const UserError &e)
     {
@@ -294,7 +310,8 @@ namespace taut
     for (std::size_t k = 0; k < setting.values.size(); ++k)
       log << (k > 0 ? ", " : "  ") << result.ladders[k].name << " = " << setting.values[k];
     if (setting.message.empty())
-      log << ": error " << setting.error << ", " << setting.seconds[0] << " s" << std::endl;
+      log << ": error " << setting.error << ", " << setting.seconds_with_output << " s"
+          << std::endl;
     else
       log << ": " << setting.message << std::endl;
   }
@@ -319,6 +336,29 @@ namespace taut
       setting.message = "the figures are not finite";
   }
 
+  void find_bounds(const std::vector<Ladder> &ladders, std::vector<StudySetting> &settings)
+  {
+    const auto is_finer = [&](const StudySetting &finer, const StudySetting &setting)
+    {
+      for (std::size_t k = 0; k < ladders.size(); ++k)
+        if (ladders[k].refined ? std::stod(finer.values[k]) > std::stod(setting.values[k])
+                               : finer.values[k] != setting.values[k])
+          return false;
+      return finer.message.empty();
+    };
+    for (StudySetting &setting : settings)
+    {
+      setting.bounds = setting.errors;
+      if (!setting.message.empty())
+        continue;
+      for (const StudySetting &other : settings)
+        if (is_finer(other, setting))
+          for (std::size_t i = 0; i < setting.bounds.size(); ++i)
+            setting.bounds[i] = std::max(setting.bounds[i], other.errors[i]);
+      setting.bound = *std::max_element(setting.bounds.begin(), setting.bounds.end());
+    }
+  }
+
   void find_front(std::vector<StudySetting> &settings)
   {
     std::vector<StudySetting *> sorted;
@@ -329,13 +369,13 @@ namespace taut
               [](const StudySetting *a, const StudySetting *b)
               {
                 const double x = a->least_seconds(), y = b->least_seconds();
-                return x != y ? x < y : a->error < b->error;
+                return x != y ? x < y : a->bound < b->bound;
               });
     double least = std::numeric_limits<double>::infinity();
     for (StudySetting *setting : sorted)
     {
-      setting->is_on_front = setting->error < least;
-      least = std::min(least, setting->error);
+      setting->is_on_front = setting->bound < least;
+      least = std::min(least, setting->bound);
     }
   }
 
@@ -343,7 +383,20 @@ namespace taut
   {
     const StudySetting *best = nullptr;
     for (const StudySetting &setting : settings)
-      if (setting.message.empty() && setting.error + setting.reference_error <= accuracy &&
+      if (setting.message.empty() && setting.bound + setting.reference_error <= accuracy &&
+          (!best || setting.least_seconds() < best->least_seconds()))
+        best = &setting;
+    return best;
+  }
+
+  const StudySetting *cheapest(const StudyResult &result, const std::size_t figure,
+                               const double accuracy)
+  {
+    const FigureReference &reference = result.references[figure];
+    const StudySetting *best = nullptr;
+    for (const StudySetting &setting : result.settings)
+      if (setting.message.empty() &&
+          setting.bounds[figure] + reference.error / reference.scale <= accuracy &&
           (!best || setting.least_seconds() < best->least_seconds()))
         best = &setting;
     return best;

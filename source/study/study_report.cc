@@ -29,9 +29,9 @@ namespace taut
     {
       for (const std::string &value : setting.values)
         out << "| " << value << ' ';
-      out << std::setprecision(2) << "| " << setting.error << " | " << std::fixed
-          << std::setprecision(1) << 1e6 * setting.least_seconds() / setting.n_steps << " | "
-          << result.end_time / setting.least_seconds() << " | "
+      out << std::setprecision(2) << "| " << setting.error << " | " << setting.bound << " | "
+          << std::fixed << std::setprecision(1) << 1e6 * setting.least_seconds() / setting.n_steps
+          << " | " << result.end_time / setting.least_seconds() << " | "
           << result.end_time / setting.seconds_with_output << " |\n"
           << std::defaultfloat;
     }
@@ -49,8 +49,8 @@ namespace taut
       rule += "---|";
     }
     out << "The settings that nothing beats in both cost and error:\n\n"
-        << head << " error | us a step | x real time | with output |\n"
-        << rule << "---|---|---|---|\n";
+        << head << " error | of finer ones too | us a step | x real time | with output |\n"
+        << rule << "---|---|---|---|---|\n";
     std::vector<const StudySetting *> front;
     std::size_t n_failed = 0;
     for (const StudySetting &setting : result.settings)
@@ -65,16 +65,23 @@ namespace taut
     for (const StudySetting *setting : front)
       print_setting(result, *setting, out);
     out << '\n';
-    for (const double accuracy : accuracies)
+    const auto name_cheapest = [&](const std::string &of, const StudySetting *best)
     {
-      out << std::setprecision(6) << "Cheapest for an error of " << 100. * accuracy << " %: ";
-      const StudySetting *best = cheapest(result.settings, accuracy);
+      out << "  " << of << ": ";
       if (best)
-        out << describe(result, *best) << "; error " << std::setprecision(2) << best->error
-            << ", of the reference " << best->reference_error << "; " << std::setprecision(3)
+        out << describe(result, *best) << "; " << std::setprecision(3)
             << result.end_time / best->least_seconds() << " x real time\n";
       else
         out << "none of these settings\n";
+    };
+    for (const double accuracy : accuracies)
+    {
+      out << "Cheapest for an error of " << std::setprecision(6) << 100. * accuracy
+          << " %, its own, that of all finer settings and that of the reference:\n";
+      name_cheapest("all figures", cheapest(result.settings, accuracy));
+      if (result.figure_names.size() > 1)
+        for (std::size_t i = 0; i < result.figure_names.size(); ++i)
+          name_cheapest(result.figure_names[i], cheapest(result, i, accuracy));
     }
     if (n_failed > 0)
       out << n_failed << " settings failed; the reasons are in work_precision.csv\n";
@@ -88,8 +95,9 @@ namespace taut
     for (const Ladder &ladder : result.ladders)
       columns.push_back(ladder.name);
     for (const char *name :
-         {"error [1]", "error of the reference [1]", "seconds", "median seconds",
-          "seconds with output", "steps", "us a step", "x real time", "certificate [1]", "front"})
+         {"error [1]", "error of finer ones too [1]", "error of the reference [1]", "seconds",
+          "median seconds", "seconds with output", "steps", "us a step", "x real time",
+          "certificate [1]", "front"})
       columns.push_back(name);
     for (const std::string &name : result.figure_names)
     {
@@ -111,9 +119,10 @@ namespace taut
         continue;
       }
       const double seconds = setting.least_seconds();
-      file << setting.error << setting.reference_error << seconds << setting.median_seconds()
-           << setting.seconds_with_output << static_cast<double>(setting.n_steps)
-           << 1e6 * seconds / setting.n_steps << result.end_time / seconds << setting.certificate
+      file << setting.error << setting.bound << setting.reference_error << seconds
+           << setting.median_seconds() << setting.seconds_with_output
+           << static_cast<double>(setting.n_steps) << 1e6 * seconds / setting.n_steps
+           << result.end_time / seconds << setting.certificate
            << static_cast<double>(setting.is_on_front);
       for (std::size_t i = 0; i < setting.figures.size(); ++i)
         file << setting.figures[i] << setting.errors[i];
@@ -159,7 +168,7 @@ namespace taut
         entry["message"] = setting.message;
       else
       {
-        entry["error"] = setting.error;
+        entry["error"] = setting.bound;
         entry["error of the reference"] = setting.reference_error;
         entry["seconds"] = setting.least_seconds();
         entry["x real time"] = result.end_time / setting.least_seconds();

@@ -15,16 +15,17 @@ namespace taut
   struct StudySetting
   {
     std::vector<std::string> values;
-    std::string message;             ///< why it failed; empty if it ran
-    std::vector<double> figures;     ///< [the figure's unit]
-    std::vector<double> errors;      ///< relative, of each figure
-    double error = 0.;               ///< the largest of them
-    double reference_error = 0.;     ///< relative, the largest of the references'
-    std::vector<double> seconds;     ///< of the loop over the steps without output, of each run
-    double seconds_with_output = 0.; ///< least
-    double certificate = 0.;         ///< largest residual of any step [1]
+    std::string message;         ///< why it failed; empty if it ran
+    std::vector<double> figures; ///< [the figure's unit]
+    std::vector<double> errors;  ///< relative, of each figure
+    double error = 0.;           ///< the largest of the errors
+    double bound = 0.;           ///< the largest of the bounds
+    double reference_error = 0.; ///< relative, the largest of the references'
+    std::vector<double> seconds; ///< of the loop over the steps without output, of each run
+    double seconds_with_output = 0.;
+    double certificate = 0.; ///< largest residual of any step [1]
     long n_steps = 0;
-    bool is_on_front = false; ///< no other setting is both cheaper and more accurate
+    bool is_on_front = false; ///< no other setting is both cheaper and surely more accurate
 
     double least_seconds() const;
     double median_seconds() const;
@@ -42,7 +43,8 @@ namespace taut
 
   /**
    * Runs a scene with every combination of the values of the ladders in its section Study, and
-   * measures what each costs and how far its figures are from their references.
+   * measures what each costs and how far its figures are from their references. Cost is processor
+   * time: other work on the machine then matters less.
    */
   class Study
   {
@@ -62,7 +64,7 @@ namespace taut
     void check_figures() const;
     void find_references();
     std::vector<std::string> reference_values(unsigned int level) const;
-    Run run_once(const std::vector<std::string> &values) const;
+    Run run_once(const std::vector<std::string> &values, bool with_output, bool with_figures) const;
     void run_setting(StudySetting &setting, bool first) const;
     void compare(StudySetting &setting, const std::vector<StudyFigure> &figures) const;
 
@@ -74,12 +76,23 @@ namespace taut
     StudyResult result;
   };
 
-  /// Sets StudySetting::is_on_front, by least seconds and error.
+  /**
+   * Sets StudySetting::bounds and bound. A setting is finer than another if its values on the
+   * refined ladders are at most those of the other, and equal elsewhere. Errors of step and mesh
+   * can cancel by chance, and a scheme can fail at small steps: an error counts once all finer
+   * settings that ran have it too.
+   */
+  void find_bounds(const std::vector<Ladder> &ladders, std::vector<StudySetting> &settings);
+
+  /// Sets StudySetting::is_on_front, by least seconds and bound.
   void find_front(std::vector<StudySetting> &settings);
 
-  /// The cheapest setting whose error and that of its reference are together at most @p accuracy,
-  /// or null.
+  /// The cheapest setting whose bound and the error of its reference are together at most
+  /// @p accuracy, or null.
   const StudySetting *cheapest(const std::vector<StudySetting> &settings, double accuracy);
+
+  /// The same for one figure alone.
+  const StudySetting *cheapest(const StudyResult &result, std::size_t figure, double accuracy);
 } // namespace taut
 
 #endif
