@@ -18,6 +18,7 @@ namespace taut
     std::string message;         ///< why it failed; empty if it ran
     std::vector<double> figures; ///< [the figure's unit]
     std::vector<double> errors;  ///< relative, of each figure
+    std::vector<double> bounds;  ///< largest of these of the setting and of all finer ones
     double error = 0.;           ///< the largest of the errors
     double bound = 0.;           ///< the largest of the bounds
     double reference_error = 0.; ///< relative, the largest of the references'
