@@ -1,13 +1,25 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/output/reactions.h>
 #include <taut/output/series.h>
 
 namespace taut
 {
+  namespace
+  {
+    void write_line(CsvFile &file, const double time, const std::vector<double> &values)
+    {
+      file << time;
+      for (const double value : values)
+        file << value;
+      file.end_line();
+    }
+  } // namespace
+
   Series::Series(const std::string &folder, const Scene &scene, const ContactRows &rows,
                  const double interval, const double link_interval)
       : folder(folder), interval(interval), link_interval(link_interval)
   {
-    std::vector<std::string> sliding_columns, link_columns, probe_columns;
+    std::vector<std::string> sliding_columns, link_columns, support_columns, probe_columns;
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
       if (rows[i].is_cut())
@@ -21,12 +33,16 @@ namespace taut
       columns.push_back(force);
       columns.push_back(gap);
     }
+    for (const SupportPoint &point : support_points(scene))
+      support_columns.push_back(support_column(point));
     for (const Probe &probe : scene.probes)
       probe_columns.push_back(probe.name + (probe.rotational ? " [rad]" : " [m]"));
     if (!sliding_columns.empty())
       open(sliding, "sliding.csv", sliding_columns);
     if (!link_columns.empty())
       open(links, "links.csv", link_columns);
+    if (!support_columns.empty())
+      open(supports, "supports.csv", support_columns);
     if (!probe_columns.empty())
       open(probes, "probes.csv", probe_columns);
     open(certificate, "certificate.csv", {"complementarity [1]", "balance [1]", "iterations [1]"});
@@ -60,6 +76,8 @@ namespace taut
     };
     if (links && links_due)
       write(*links, false);
+    if (supports && links_due)
+      write_line(*supports, state.time, step.supports);
     if (links_due)
       next_link = state.time + link_interval;
     if (!due)
@@ -68,12 +86,7 @@ namespace taut
     if (sliding)
       write(*sliding, true);
     if (probes)
-    {
-      *probes << state.time;
-      for (const double value : step.probes)
-        *probes << value;
-      probes->end_line();
-    }
+      write_line(*probes, state.time, step.probes);
     *certificate << state.time << step.certificate.complementarity << step.certificate.balance
                  << step.certificate.iterations;
     certificate->end_line();
@@ -81,7 +94,7 @@ namespace taut
 
   void Series::close()
   {
-    for (CsvFile *file : {sliding.get(), links.get(), probes.get(), certificate.get()})
+    for (CsvFile *file : {sliding.get(), links.get(), supports.get(), probes.get(), certificate.get()})
       if (file)
         file->close();
   }

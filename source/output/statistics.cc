@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
 #include <taut/output/low_pass.h>
+#include <taut/output/reactions.h>
 #include <taut/output/statistics.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -94,6 +95,8 @@ namespace taut
       probe_names.push_back(probe.name);
       probe_rotates.push_back(probe.rotational);
     }
+    for (const SupportPoint &point : support_points(scene))
+      support_names.push_back(point.name);
     uplift.assign(probe_names.size(), 0.);
     lowering.assign(probe_names.size(), 0.);
     last.assign(probe_names.size(), 0.);
@@ -126,6 +129,16 @@ namespace taut
       uplift[i] = std::max(uplift[i], step.probes[i]);
       lowering[i] = std::min(lowering[i], step.probes[i]);
       last[i] = step.probes[i];
+    }
+    support_figures.resize(support_names.size());
+    for (std::size_t i = 0; i < support_figures.size(); ++i)
+    {
+      SupportFigures &support = support_figures[i];
+      const double force = step.supports[i];
+      if (times.size() == 1)
+        support = {force, force, force};
+      support.largest = std::max(support.largest, force);
+      support.smallest = std::min(support.smallest, force);
     }
     if (dt == 0.)
       return; // the start is no step
@@ -368,6 +381,12 @@ namespace taut
       root["links"][link_names[i]] = {{"open time [s]", link_figures[i].open_time},
                                       {"largest force [N, N m]", link_figures[i].largest_force},
                                       {"impulse [N s, N m s]", link_figures[i].impulse}};
+    root["supports"] = json::object();
+    for (std::size_t i = 0; i < support_figures.size(); ++i)
+      root["supports"][support_names[i]] = {
+          {"force at the start [N, N m]", support_figures[i].start},
+          {"largest force [N, N m]", support_figures[i].largest},
+          {"smallest force [N, N m]", support_figures[i].smallest}};
     root["certificate"] = {
         {"complementarity", worst.complementarity},
         {"complementarity, worst at [s]", worst_complementarity_time},

@@ -177,11 +177,11 @@ namespace taut
       masts.push_back(i * span_length);
 
     Support ends;
-    ends.name = "ends";
     ends.origin = "Catenary";
     ends.positions = {0., length};
     for (const std::size_t wire : {messenger_wire, contact_wire})
     {
+      ends.name = scene.wires[wire].name + " ends";
       ends.wire = wire;
       scene.supports.push_back(ends);
     }

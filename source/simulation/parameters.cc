@@ -216,7 +216,7 @@ namespace taut
         "every step [s]",
         not_negative());
     prm.add_parameter("Link interval", link_interval,
-                      "Least time between two lines of links.csv; 0: every step [s]",
+                      "Least time between two lines of links.csv and supports.csv; 0: every step [s]",
                       not_negative());
     prm.add_parameter(
         "Field interval", field_interval,

@@ -27,7 +27,7 @@ namespace taut
     bool is_result(const std::string &name)
     {
       for (const char *fixed : {"used.prm", "start.csv", "sliding.csv", "links.csv", "probes.csv",
-                                "certificate.csv", "statistics.json", "wires.pvd", "links.pvd"})
+                                "supports.csv", "certificate.csv", "statistics.json", "wires.pvd", "links.pvd"})
         if (name == fixed)
           return true;
       const auto is_numbered = [&](const std::string &stem)
@@ -50,7 +50,7 @@ namespace taut
                          const Communicator &processes)
       : parameters(parameters), log(log), processes(processes),
         model(find_lengths(parameters.scene(), parameters.solver)),
-        bodies(model, make_partition(model, parameters.partition), processes), links(model, bodies)
+        bodies(model, make_partition(model, parameters.partition), processes), links(model, bodies), reactions(model, bodies)
   {
     for (const Probe &probe : model.probes)
     {
@@ -66,6 +66,7 @@ namespace taut
     describe();
     find_start();
     find_rest_of_probes();
+    reactions.update_start(reference, start, links);
     const TimeIntegrator *integrator = parameters.end_time > 0. ? &choose_integrator() : nullptr;
 
     // The first factorisation, which finds the bodies that nothing holds.
@@ -200,6 +201,8 @@ namespace taut
     const auto show = [&](const State &state, const Certificate &certificate)
     {
       update_probes(state);
+      if (&state != &start)
+        reactions.update(reference, state);
       processes.agree(
           [&]
           {
@@ -209,14 +212,21 @@ namespace taut
       fields.record(view(state, certificate));
     };
     show(start, start_certificate);
-    const auto n_steps = std::lround(parameters.end_time / parameters.step);
-    for (long i = 1; i <= n_steps; ++i)
+    for (long i = 1; i <= n_steps(); ++i)
     {
       const auto before = std::chrono::steady_clock::now();
       stepper.advance();
       seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
       show(stepper.state(), stepper.certificate());
     }
+  }
+
+  /// The steps that fit into the time of the run: what was checked up to its end stays true.
+  long Simulation::n_steps() const
+  {
+    constexpr double rounding = 1e-9;
+    return static_cast<long>(
+        std::floor(parameters.end_time / parameters.step * (1. + rounding) + rounding));
   }
 
   void Simulation::describe() const
@@ -262,6 +272,11 @@ namespace taut
       log << "  only bilateral links: one linear solve a step, no active set\n";
     if (links.size() > 0 && links.n_fixed() == links.size())
       log << "  no moving link: the interface operator is constant\n";
+    if (parameters.end_time > 0. &&
+        std::fabs(n_steps() * parameters.step - parameters.end_time) > 1e-6 * parameters.step)
+      log << "  Time/End = " << parameters.end_time << " s is no multiple of Time/Step = "
+          << parameters.step << " s: the last step ends at " << n_steps() * parameters.step
+          << " s\n";
   }
 
   void Simulation::find_start()
@@ -376,6 +391,20 @@ namespace taut
 
   void Simulation::write_start() const
   {
+    const std::vector<SupportPoint> supports = support_points(model);
+    if (parameters.end_time == 0. && !supports.empty())
+    {
+      // The only line; a run in time writes it with the others.
+      std::vector<std::string> columns = {"time [s]"};
+      for (const SupportPoint &point : supports)
+        columns.push_back(support_column(point));
+      CsvFile file(parameters.output.folder + "/supports.csv", columns);
+      file << 0.;
+      for (const double force : reactions.forces())
+        file << force;
+      file.end_line();
+      file.close();
+    }
     if (links.size() == 0)
       return;
     CsvFile file(parameters.output.folder + "/start.csv",
@@ -396,7 +425,8 @@ namespace taut
 
   StepView Simulation::view(const State &state, const Certificate &certificate) const
   {
-    return {model, bodies, links, reference, state, certificate, probe_values};
+    return {model,       bodies,       links, reference, state, certificate, probe_values,
+            reactions.forces()};
   }
 
   void Simulation::update_probes(const State &state)

@@ -23,6 +23,9 @@ namespace taut
     /// Displacement of each probe from the equilibrium without sliding contacts, if the run starts
     /// from an equilibrium; otherwise from the undeformed position [m, rad].
     const std::vector<double> &probes;
+
+    /// Force of each of the support_points() on its wire [N, N m].
+    const std::vector<double> &supports;
   };
 
   /// Receives the start of a run and each accepted step, in order.

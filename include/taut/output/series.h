@@ -13,7 +13,8 @@ namespace taut
 {
   /**
    * Time series as CSV: sliding.csv (each sliding contact: position, force, gap), links.csv (force
-   * and gap of every fixed link), probes.csv, certificate.csv. A file without content is not made.
+   * and gap of every fixed link), supports.csv (force of every support on its wire), probes.csv,
+   * certificate.csv. A file without content is not made.
    */
   class Series : public Observer
   {
@@ -34,7 +35,7 @@ namespace taut
     std::string folder;
     double interval, link_interval;
     double next = 0., next_link = 0.;
-    std::unique_ptr<CsvFile> sliding, links, probes, certificate;
+    std::unique_ptr<CsvFile> sliding, links, supports, probes, certificate;
   };
 } // namespace taut
 

@@ -39,7 +39,7 @@ namespace taut
   /**
    * Statistics of a run: contact forces of sliding contacts, raw and low-passed, in a window;
    * contact loss; uplift of the probes; open time, largest force and impulse of the fixed links;
-   * certificates.
+   * extremes of the forces of supports; certificates.
    */
   class Statistics : public Observer
   {
@@ -97,6 +97,12 @@ namespace taut
       double open_time = 0., closed_time = 0., largest_force = 0., impulse = 0.;
     };
 
+    /// Force of a support.
+    struct SupportFigures
+    {
+      double start = 0., largest = 0., smallest = 0.;
+    };
+
     ContactFigures figures(const Contact &contact) const;
 
     /// Expected range of the largest displacement of a probe [mm]; none for a rotation.
@@ -117,6 +123,8 @@ namespace taut
     std::vector<LinkFigures> link_figures;
     std::vector<char> probe_rotates;
     std::vector<double> uplift, lowering, last; ///< of the probes, from rest
+    std::vector<std::string> support_names;
+    std::vector<SupportFigures> support_figures;
     std::vector<double> times;
     Certificate worst;
     double worst_complementarity_time = 0., worst_balance_time = 0.;

@@ -4,6 +4,7 @@
 
 #include <taut/interface/contact_rows.h>
 #include <taut/output/observer.h>
+#include <taut/output/reactions.h>
 #include <taut/simulation/parameters.h>
 #include <taut/time/time_stepper.h>
 
@@ -49,6 +50,7 @@ namespace taut
     void find_start();
     void find_rest_of_probes();
     const TimeIntegrator &choose_integrator() const;
+    long n_steps() const;
     void write_start() const;
     StepView view(const State &state, const Certificate &certificate) const;
     void update_probes(const State &state);
@@ -67,6 +69,7 @@ namespace taut
     Certificate start_certificate;
     std::vector<std::vector<Term>> probe_terms;
     std::vector<double> probe_rest, probe_values;
+    Reactions reactions;
     std::vector<Observer *> guests;
     double seconds = 0.;
   };

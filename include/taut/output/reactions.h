@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_reactions_h
+#define taut_reactions_h
+
+#include <taut/interface/contact_rows.h>
+#include <taut/time/state.h>
+
+#include <string>
+#include <vector>
+
+namespace taut
+{
+  /// One position of a support of the scene.
+  struct SupportPoint
+  {
+    std::string name;        ///< of the support, with a number from 1 if it has several positions
+    std::size_t support = 0; ///< index in the scene
+    double position = 0.;    ///< on its wire [m]
+    bool is_moment = false;  ///< it holds a slope
+  };
+
+  /// Header of the column of a support in tables.
+  inline std::string support_column(const SupportPoint &point)
+  {
+    return point.name + (point.is_moment ? " moment [N m]" : " force [N]");
+  }
+
+  /// All positions of all supports, in the order of the scene.
+  std::vector<SupportPoint> support_points(const Scene &scene);
+
+  /**
+   * The forces with which supports act on their wires [N], or moments [N m]: positive from the
+   * wire's first end to its second (axial), to the left of that way (transverse),
+   * counterclockwise (slope). Of a support that prescribes the motion u it is what the equation of
+   * motion of its DoF lacks, M u" + C u' + K u - P - B N with the state at the time in question; of
+   * an elastic one -(k u + c u').
+   */
+  class Reactions
+  {
+  public:
+    /// @p scene and @p structure are kept by reference.
+    Reactions(const Scene &scene, const Structure &structure);
+
+    /// In a state whose balance is known: an accepted step. Called by all ranks together.
+    void update(const Reference &reference, const State &state);
+
+    /// In a state whose balance is not known: the start. Called by all ranks together.
+    void update_start(const Reference &reference, State state, const ContactRows &rows);
+
+    /// One for each of the support_points() [N, N m].
+    const std::vector<double> &forces() const { return values; }
+
+  private:
+    /// Where a support acts.
+    struct Place
+    {
+      bool is_here = false; ///< on this rank
+      std::size_t body = 0;
+      unsigned int dof = 0;
+      SparseVector mass; ///< row of M, of a support that prescribes the motion
+      double stiffness = 0., damping = 0.;
+      bool fixed = false;
+    };
+
+    const Structure &structure;
+    std::vector<Place> places;
+    std::vector<double> values;
+  };
+} // namespace taut
+
+#endif
