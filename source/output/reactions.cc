@@ -22,8 +22,8 @@ namespace taut
             for (const auto &[row, column] : {std::make_pair(i, j), std::make_pair(j, i)})
             {
               const auto found = rows.find(row);
-              if (found != rows.end() && (i != j || found->second.index.empty() ||
-                                          found->second.index.back() != column))
+              if (found != rows.end() &&
+                  (i != j || found->second.index.empty() || found->second.index.back() != column))
                 found->second.add(column, value);
             }
           });
@@ -65,9 +65,9 @@ namespace taut
       {
         // Supports are at nodes, where one shape function is 1 and all others are 0.
         const SparseVector &form = terms[0].form;
-        const auto one =
-            std::max_element(form.value.begin(), form.value.end(), [](const double a, const double b)
-                             { return std::fabs(a) < std::fabs(b); });
+        const auto one = std::max_element(form.value.begin(), form.value.end(),
+                                          [](const double a, const double b)
+                                          { return std::fabs(a) < std::fabs(b); });
         place.body = terms[0].substructure;
         place.dof = form.index[one - form.value.begin()];
         if (place.fixed)

@@ -94,7 +94,8 @@ namespace taut
 
   void Series::close()
   {
-    for (CsvFile *file : {sliding.get(), links.get(), supports.get(), probes.get(), certificate.get()})
+    for (CsvFile *file :
+         {sliding.get(), links.get(), supports.get(), probes.get(), certificate.get()})
       if (file)
         file->close();
   }

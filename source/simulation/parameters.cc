@@ -215,9 +215,10 @@ namespace taut
         "Least time between two lines of sliding.csv, probes.csv, certificate.csv; 0: "
         "every step [s]",
         not_negative());
-    prm.add_parameter("Link interval", link_interval,
-                      "Least time between two lines of links.csv and supports.csv; 0: every step [s]",
-                      not_negative());
+    prm.add_parameter(
+        "Link interval", link_interval,
+        "Least time between two lines of links.csv and supports.csv; 0: every step [s]",
+        not_negative());
     prm.add_parameter(
         "Field interval", field_interval,
         "Least time between two files of the motion of all wires for ParaView; 0: none "

@@ -26,8 +26,9 @@ namespace taut
     /// True for the name of a file that a run writes.
     bool is_result(const std::string &name)
     {
-      for (const char *fixed : {"used.prm", "start.csv", "sliding.csv", "links.csv", "probes.csv",
-                                "supports.csv", "certificate.csv", "statistics.json", "wires.pvd", "links.pvd"})
+      for (const char *fixed :
+           {"used.prm", "start.csv", "sliding.csv", "links.csv", "probes.csv", "supports.csv",
+            "certificate.csv", "statistics.json", "wires.pvd", "links.pvd"})
         if (name == fixed)
           return true;
       const auto is_numbered = [&](const std::string &stem)
@@ -50,7 +51,8 @@ namespace taut
                          const Communicator &processes)
       : parameters(parameters), log(log), processes(processes),
         model(find_lengths(parameters.scene(), parameters.solver)),
-        bodies(model, make_partition(model, parameters.partition), processes), links(model, bodies), reactions(model, bodies)
+        bodies(model, make_partition(model, parameters.partition), processes), links(model, bodies),
+        reactions(model, bodies)
   {
     for (const Probe &probe : model.probes)
     {
@@ -274,9 +276,9 @@ namespace taut
       log << "  no moving link: the interface operator is constant\n";
     if (parameters.end_time > 0. &&
         std::fabs(n_steps() * parameters.step - parameters.end_time) > 1e-6 * parameters.step)
-      log << "  Time/End = " << parameters.end_time << " s is no multiple of Time/Step = "
-          << parameters.step << " s: the last step ends at " << n_steps() * parameters.step
-          << " s\n";
+      log << "  Time/End = " << parameters.end_time
+          << " s is no multiple of Time/Step = " << parameters.step << " s: the last step ends at "
+          << n_steps() * parameters.step << " s\n";
   }
 
   void Simulation::find_start()
@@ -425,8 +427,7 @@ namespace taut
 
   StepView Simulation::view(const State &state, const Certificate &certificate) const
   {
-    return {model,       bodies,       links, reference, state, certificate, probe_values,
-            reactions.forces()};
+    return {model, bodies, links, reference, state, certificate, probe_values, reactions.forces()};
   }
 
   void Simulation::update_probes(const State &state)

@@ -129,8 +129,7 @@ end
                   {"Time.End=0"});
   session.run([](const taut::StepView &) {});
   const std::string table = file_text(session.folder() + "/supports.csv");
-  ASSERT_EQ(table.substr(0, table.find('\n')),
-            "time [s],clamp force [N],clamp slope moment [N m]");
+  ASSERT_EQ(table.substr(0, table.find('\n')), "time [s],clamp force [N],clamp slope moment [N m]");
   double time, force, moment;
   ASSERT_EQ(std::sscanf(table.c_str() + table.find('\n'), "%lf,%lf,%lf", &time, &force, &moment),
             3);
