@@ -3,6 +3,7 @@
 #include <taut/base/nearest_name.h>
 #include <taut/scene/entries.h>
 #include <taut/simulation/parameters.h>
+#include <taut/simulation/shared_libraries.h>
 #include <taut/simulation/stored_study.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -239,6 +240,11 @@ namespace taut
 
   void Parameters::declare(dealii::ParameterHandler &prm)
   {
+    prm.add_parameter(
+        "Additional shared libraries", shared_libraries,
+        "Paths of libraries that are loaded before anything else; what they register, "
+        "generators and schemes, has its entries here",
+        List(Anything()));
     prm.add_parameter("Generator", generator_name,
                       "What fills the scene. " +
                           Registry<SceneGenerator>::instance().descriptions(),
@@ -356,17 +362,19 @@ namespace taut
             file.set(o);
         });
     file.broadcast(processes);
-    create_integrators();
     const std::string text = file.text();
     try
     {
-      // The generator's name, then the names of items, then everything: each pass knows what to
-      // declare for the next one, and only the last is strict.
+      // Plugins and the generator's name, then the names of items, then everything: each pass knows
+      // what to declare for the next one, and only the last is strict.
       {
         dealii::ParameterHandler prm;
+        prm.add_parameter("Additional shared libraries", shared_libraries);
         prm.add_parameter("Generator", generator_name);
         prm.parse_input_from_string(text, "", true);
       }
+      load_shared_libraries(shared_libraries, "Additional shared libraries");
+      create_integrators();
       const auto &generators = Registry<SceneGenerator>::instance();
       if (!generators.knows(generator_name))
       {

@@ -218,12 +218,31 @@ def check_pictures(folder, names, script):
                 errors.append(f"{path} is missing or empty")
 
 
-def check_filter(folder, script):
-    """The filtered figures of statistics.json from sliding.csv."""
+def load_plot(script):
+    """taut-plot as a module."""
     loader = SourceFileLoader("taut_plot", str(script))
     plot = importlib.util.module_from_spec(importlib.util.spec_from_loader("taut_plot", loader))
     sys.dont_write_bytecode = True
     loader.exec_module(plot)
+    return plot
+
+
+def check_plot_reads(folder, script):
+    """taut-plot reads the same of a cut wire as VTK does."""
+    path = folder / "wires_00000.vtu"
+    points, displacement, wires, names = load_plot(script).read_vtu(path)
+    grid = Grid(path)
+    for number, name in names.items():
+        mine = grid.wire(name)
+        if list(wires[number]) != list(mine):
+            errors.append(f"{path}: taut-plot reads {len(wires[number])} points of '{name}', VTK {len(mine)}")
+    compare(f"{path}: points in taut-plot", points, grid.points, 0)
+    compare(f"{path}: displacement in taut-plot", displacement, grid.fields["displacement"], 0)
+
+
+def check_filter(folder, script):
+    """The filtered figures of statistics.json from sliding.csv."""
+    plot = load_plot(script)
     figures = json.loads((folder / "statistics.json").read_text())["sliding contacts"]["pantograph"]
     series = table(folder / "sliding.csv")
     time, x, force = (series[c] for c in ("time [s]", "pantograph position [m]", "pantograph force [N]"))
@@ -249,6 +268,7 @@ check_pictures(results, ["contact_force", "probes", "link_forces", "link_map", "
 
 results = run("en50318_2002_300", "Time/End=0", "Output/Field interval=1", "Partition/Number of substructures=3")
 check_cuts(results, 3)
+check_plot_reads(results, plot_script)
 
 results = run("inclined_cable", "Time/End=2", "Output/Field interval=0.1")
 check_links(results)

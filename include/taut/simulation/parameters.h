@@ -71,6 +71,7 @@ namespace taut
       return file.locate(error.entry()) + ": " + error.message();
     }
 
+    std::vector<std::string> shared_libraries;
     std::string generator_name = "catenary";
     std::vector<double> gravity = {0., -9.81};
     std::string start = "equilibrium";
