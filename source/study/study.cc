@@ -264,15 +264,14 @@ namespace taut
       Simulation simulation(chosen, silent);
       FigureRecorder recorder(chosen.study, chosen.statistics, simulation.scene(),
                               simulation.rows());
-      const long n_steps = std::lround(chosen.end_time / chosen.step);
-      Stopwatch stopwatch(n_steps);
+      Stopwatch stopwatch(simulation.n_steps());
       simulation.observe(stopwatch);
       if (with_figures)
         simulation.observe(recorder);
       simulation.run();
       const Certificate &worst = recorder.worst_certificate();
       return {with_figures ? recorder.figures() : std::vector<StudyFigure>(), stopwatch.seconds(),
-              std::max(worst.complementarity, worst.balance), n_steps};
+              std::max(worst.complementarity, worst.balance), simulation.n_steps()};
     }
     catch (const EntryError &e)
     {

@@ -264,6 +264,14 @@ TEST_F(StudyTest, a_setting_that_fails_is_a_row_with_its_reason)
   EXPECT_NE(text.find("shorter than one step"), std::string::npos);
 }
 
+TEST_F(StudyTest, a_step_that_does_not_divide_the_run_is_measured_to_its_last_step)
+{
+  const taut::StudyResult odd =
+      study({"Study/Ladder step/Values=0.017, 0.0005", "Study/Ladder scheme/Values=Newmark"});
+  EXPECT_EQ(odd.settings[0].n_steps, 76);
+  EXPECT_GT(odd.settings[0].least_seconds(), .002 * odd.settings[1].least_seconds());
+}
+
 TEST(Front, holds_what_nothing_beats)
 {
   std::vector<taut::StudySetting> settings(5);

@@ -41,6 +41,9 @@ namespace taut
     const Structure &structure() const { return bodies; }
     const ContactRows &rows() const { return links; }
 
+    /// Steps of a run: those that fit into its time.
+    long n_steps() const;
+
     /// Seconds that the loop over the steps took, without output.
     double stepping_seconds() const { return seconds; }
 
@@ -50,7 +53,6 @@ namespace taut
     void find_start();
     void find_rest_of_probes();
     const TimeIntegrator &choose_integrator() const;
-    long n_steps() const;
     void write_start() const;
     StepView view(const State &state, const Certificate &certificate) const;
     void update_probes(const State &state);
