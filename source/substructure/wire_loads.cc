@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What acts on a wire: supports, point masses, loads.
+#include <taut/substructure/wire_component.h>
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace taut
+{
+  void WireComponent::add_supports(const Scene &scene, const std::size_t wire)
+  {
+    SparseVector row;
+    for (const Support &support : scene.supports)
+    {
+      const bool mine = motion == WireMotion::axial ? support.motion == WireMotion::axial
+                                                    : support.motion != WireMotion::axial;
+      if (support.wire != wire || !mine)
+        continue;
+      const unsigned int offset = support.motion == WireMotion::slope ? 1 : 0;
+      for (const double s : support.positions)
+      {
+        if (!owns(s))
+          continue;
+        const auto node = std::min_element(nodes.begin(), nodes.end(),
+                                           [s](const double p, const double q)
+                                           { return std::fabs(p - s) < std::fabs(q - s); });
+        const unsigned int dof = dofs_per_node * (node - nodes.begin()) + offset;
+        if (support.fixed)
+          constrained.push_back({dof, support.prescribed});
+        else
+        {
+          K->add(dof, dof, support.stiffness);
+          C->add(dof, dof, support.damping);
+          if (support.stiffness > 0.)
+            sprung_dofs.push_back(dof);
+        }
+      }
+    }
+  }
+
+  void WireComponent::add_point_masses(const Scene &scene, const std::size_t wire,
+                                       const double gravity)
+  {
+    SparseVector row;
+    for (const PointMass &mass : scene.point_masses)
+      if (mass.wire == wire)
+        for (const double s : mass.positions)
+        {
+          if (!owns(s))
+            continue;
+          value_at(s, row);
+          for (std::size_t i = 0; i < row.index.size(); ++i)
+            for (std::size_t j = 0; j <= i; ++j)
+              M->add(row.index[i], row.index[j], mass.mass * row.value[i] * row.value[j]);
+          if (mass.weight)
+            row.add_to(mass.mass * gravity, constant_force);
+        }
+  }
+
+  double WireComponent::component(const Point &direction) const
+  {
+    return direction.x * axis.x + direction.y * axis.y;
+  }
+
+  /// A force per length f(s, t), integrated with the rule of the element at each call.
+  class WireComponent::DistributedLoad : public TimeLoad
+  {
+  public:
+    struct QuadraturePoint
+    {
+      double s;
+      SparseVector shape; ///< weighted
+    };
+
+    DistributedLoad(const WireComponent &wire, const double factor, const Expression &magnitude)
+        : magnitude(magnitude)
+    {
+      const dealii::QGauss<1> rule(4);
+      for (std::size_t e = 0; e + 1 < wire.nodes.size(); ++e)
+        for (unsigned int q = 0; q < rule.size(); ++q)
+        {
+          const double h = wire.nodes[e + 1] - wire.nodes[e];
+          QuadraturePoint point;
+          point.s = wire.nodes[e] + h * rule.point(q)[0];
+          wire.value_at(point.s, point.shape);
+          for (double &v : point.shape.value)
+            v *= factor * h * rule.weight(q);
+          points.push_back(std::move(point));
+        }
+    }
+
+    void add(const double t, std::vector<double> &P) const override
+    {
+      for (const QuadraturePoint &point : points)
+        point.shape.add_to(magnitude(point.s, t), P);
+    }
+
+  private:
+    Expression magnitude;
+    std::vector<QuadraturePoint> points;
+  };
+
+  /// A point force that travels; it acts while it is on the wire.
+  class WireComponent::MovingLoad : public TimeLoad
+  {
+  public:
+    MovingLoad(const WireComponent &wire, const Load &load, const double factor)
+        : wire(wire), load(load), factor(factor)
+    {
+    }
+
+    void add(const double t, std::vector<double> &P) const override
+    {
+      const double s = load.target.position + load.speed * t;
+      if (s < 0. || s > wire.wire_length || !wire.owns(s))
+        return;
+      SparseVector shape;
+      if (load.rotational)
+        wire.slope_at(s, shape);
+      else
+        wire.value_at(s, shape);
+      shape.add_to(factor * load.magnitude(s, t), P);
+    }
+
+  private:
+    const WireComponent &wire;
+    Load load;
+    double factor;
+  };
+
+  void WireComponent::add_loads(const Scene &scene, const std::size_t wire, const double gravity)
+  {
+    if (scene.wires[wire].weight && gravity != 0.)
+      DistributedLoad(*this, scene.wires[wire].mass_per_length * gravity, Expression(1.))
+          .add(0., constant_force);
+
+    for (const Load &load : scene.loads)
+    {
+      if (load.target.kind != Attachment::Kind::wire || load.target.index != wire)
+        continue;
+      if (load.rotational && motion == WireMotion::axial)
+        continue;
+      if (load.kind == Load::Kind::point && !owns(load.target.position))
+        continue;
+      const double factor = load.rotational ? 1. : component(load.direction);
+      if (factor == 0.)
+        continue;
+      if (load.kind == Load::Kind::moving)
+        time_loads.push_back(std::make_unique<MovingLoad>(*this, load, factor));
+      else
+      {
+        std::unique_ptr<TimeLoad> force;
+        if (load.kind == Load::Kind::distributed)
+          force = std::make_unique<DistributedLoad>(*this, factor, load.magnitude);
+        else
+        {
+          SparseVector shape;
+          evaluate(load.target.position, load.rotational, shape);
+          for (double &v : shape.value)
+            v *= factor;
+          force = std::make_unique<PointLoad>(shape, load.magnitude, load.target.position);
+        }
+        if (load.magnitude.depends_on_time())
+          time_loads.push_back(std::move(force));
+        else
+          force->add(0., constant_force);
+      }
+    }
+  }
+} // namespace taut
