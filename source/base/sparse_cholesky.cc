@@ -4,10 +4,38 @@
 #include <cholmod.h>
 
 #include <new>
+#include <numeric>
 #include <stdexcept>
+#include <utility>
 
 namespace taut
 {
+  void MatrixEntries::compress()
+  {
+    std::vector<std::size_t> order(size());
+    std::iota(order.begin(), order.end(), 0);
+    const auto position = [&](const std::size_t k) { return std::make_pair(row[k], column[k]); };
+    std::stable_sort(order.begin(), order.end(), [&](const std::size_t a, const std::size_t b)
+                     { return position(a) < position(b); });
+    MatrixEntries sorted;
+    for (std::size_t k = 0; k < order.size(); ++k)
+      if (k > 0 && position(order[k]) == position(order[k - 1]))
+        sorted.value.back() += value[order[k]];
+      else
+        sorted.add(row[order[k]], column[order[k]], value[order[k]]);
+    *this = std::move(sorted);
+  }
+
+  void SymmetricEntries::vmult_add(const std::vector<double> &x, std::vector<double> &y) const
+  {
+    for (std::size_t k = 0; k < size(); ++k)
+    {
+      y[row[k]] += value[k] * x[column[k]];
+      if (row[k] != column[k])
+        y[column[k]] += value[k] * x[row[k]];
+    }
+  }
+
   struct SparseCholesky::Workspace
   {
     Workspace()

@@ -24,26 +24,12 @@ namespace taut
 
   void SparseOperator::set_interior(const SymmetricEntries &entries)
   {
-    std::vector<std::size_t> order(entries.size());
-    std::iota(order.begin(), order.end(), 0);
-    const auto position = [&](const std::size_t k)
-    { return std::make_pair(entries.row[k], entries.column[k]); };
-    std::sort(order.begin(), order.end(),
-              [&](const std::size_t a, const std::size_t b) { return position(a) < position(b); });
-
-    interior = {};
+    interior = entries;
+    interior.compress();
     std::fill(diagonal_entries.begin(), diagonal_entries.begin() + n_interior, 0.);
-    for (std::size_t k = 0; k < order.size(); ++k)
-    {
-      const auto [i, j] = position(order[k]);
-      const double value = entries.value[order[k]];
-      if (k > 0 && position(order[k]) == position(order[k - 1]))
-        interior.value.back() += value;
-      else
-        interior.add(i, j, value);
-      if (i == j)
-        diagonal_entries[i] = interior.value.back();
-    }
+    for (std::size_t k = 0; k < interior.size(); ++k)
+      if (interior.row[k] == interior.column[k])
+        diagonal_entries[interior.row[k]] = interior.value[k];
     factor.active.clear();
     shifted_factor.active.clear();
   }

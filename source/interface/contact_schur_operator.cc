@@ -8,18 +8,10 @@
 namespace taut
 {
   ContactSchurOperator::ContactSchurOperator(const FactoredStructure &solvers,
-                                             const ContactRows &rows)
-      : solvers(solvers), rows(rows), map(static_cast<int>(rows.size()), 0, communicator),
-        compliance(rows.size(), 0.), shift(rows.size(), 0.), active(rows.size(), 1),
-        multiplier(rows.size()), work(solvers.structure().zero())
+                                             const BodyRows &body_rows, const std::size_t n_rows)
+      : solvers(solvers), body_rows(body_rows), map(static_cast<int>(n_rows), 0, communicator),
+        compliance(n_rows, 0.), shift(n_rows, 0.), active(n_rows, 1)
   {
-  }
-
-  void ContactSchurOperator::restrict_to(const std::vector<std::size_t> &set)
-  {
-    std::fill(active.begin(), active.end(), 0);
-    for (const std::size_t i : set)
-      active[i] = 1;
   }
 
   void ContactSchurOperator::unrestrict()
@@ -35,17 +27,31 @@ namespace taut
 
   void ContactSchurOperator::apply(const double *x, double *y) const
   {
+    ++applications;
+    share.assign(active.size(), 0.);
+    for (std::size_t k = 0; k < body_rows.size(); ++k)
+    {
+      // One body after the other: its vector stays in the cache between loads, solve and motions.
+      bool is_loaded = false;
+      for (const BodyRows::Entry &entry : body_rows[k])
+        if (active[entry.row] && x[entry.row] != 0.)
+        {
+          if (!is_loaded)
+            work.assign(solvers.structure()[k].n_dofs(), 0.);
+          is_loaded = true;
+          entry.form.add_to(x[entry.row], work);
+        }
+      if (!is_loaded)
+        continue;
+      solvers[k].solve(work);
+      ++local_solves;
+      for (const BodyRows::Entry &entry : body_rows[k])
+        if (active[entry.row])
+          share[entry.row] += entry.form.dot(work);
+    }
+    solvers.structure().communicator().sum(share);
     for (std::size_t i = 0; i < active.size(); ++i)
-      multiplier[i] = active[i] ? x[i] : 0.;
-    for (auto &block : work)
-      std::fill(block.begin(), block.end(), 0.);
-    rows.add_forces(multiplier, work);
-    solvers.solve(work);
-    for (std::size_t i = 0; i < active.size(); ++i)
-      multiplier[i] = active[i] ? evaluate(rows[i].terms, work) : 0.;
-    solvers.structure().communicator().sum(multiplier);
-    for (std::size_t i = 0; i < active.size(); ++i)
-      y[i] = active[i] ? multiplier[i] + (compliance[i] + shift[i]) * x[i] : x[i];
+      y[i] = active[i] ? share[i] + (compliance[i] + shift[i]) * x[i] : x[i];
   }
 
   int ContactSchurOperator::Apply(const Epetra_MultiVector &X, Epetra_MultiVector &Y) const

@@ -9,7 +9,7 @@ namespace taut
 {
   /// The entries that each rank has of a matrix over rows: those of all ranks, in the order of the
   /// ranks, on all of them.
-  inline void gather(const Communicator &processes, SymmetricEntries &entries)
+  inline void gather(const Communicator &processes, MatrixEntries &entries)
   {
     if (processes.size() == 1)
       return;

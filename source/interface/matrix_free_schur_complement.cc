@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "matrix_free_schur_complement.h"
 
+#include "conjugate_gradients.h"
+
+#include <taut/base/exceptions.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace taut
 {
   namespace
   {
-    /// Relative residual at which conjugate gradients stop, and the one that still counts as
-    /// solved.
-    constexpr double wanted_residual = 1e-15, accepted_residual = 1e-11;
+    /// Relative residual at which a solve ends, and the one that still counts as solved.
+    constexpr double wanted_residual = 1e-14, accepted_residual = 1e-11;
 
     /// How often conjugate gradients start anew from the true residual.
     constexpr int most_restarts = 4;
@@ -23,75 +25,96 @@ namespace taut
       return a > b || std::isnan(a) ? a : b;
     }
 
-    double dot(const std::vector<double> &x, const std::vector<double> &y)
+    double largest(const std::vector<double> &x)
     {
-      return std::inner_product(x.begin(), x.end(), y.begin(), 0.);
+      double result = 0.;
+      for (const double value : x)
+        result = larger(std::fabs(value), result);
+      return result;
     }
 
-    /**
-     * Conjugate gradients preconditioned by the diagonal, from x and its residual r = b - F x; ends
-     * when r^T diagonal^-1 r has fallen by the square of the wanted residual, after @p bound steps,
-     * or at a direction along which F is not positive.
-     */
-    void conjugate_gradients(const ContactSchurOperator &F, const std::vector<double> &diagonal,
-                             const int bound, std::vector<double> &x, std::vector<double> &r)
+    double norm(const std::vector<double> &x)
     {
-      const std::size_t n = x.size();
-      std::vector<double> z(n), p(n, 0.), q(n);
-      double rz = 1., goal = 0.;
-      for (int iteration = 0; iteration <= bound; ++iteration)
-      {
-        for (std::size_t i = 0; i < n; ++i)
-          z[i] = r[i] / diagonal[i];
-        const double next = dot(r, z), beta = iteration == 0 ? 0. : next / rz;
-        rz = next;
-        if (iteration == 0)
-          goal = wanted_residual * wanted_residual * rz;
-        if (!(rz > goal))
-          return;
-        for (std::size_t i = 0; i < n; ++i)
-          p[i] = z[i] + beta * p[i];
-        F.apply(p.data(), q.data());
-        const double curvature = dot(p, q);
-        if (!(curvature > 0.))
-          return;
-        const double alpha = rz / curvature;
-        for (std::size_t i = 0; i < n; ++i)
-        {
-          x[i] += alpha * p[i];
-          r[i] -= alpha * q[i];
-        }
-      }
+      double sum = 0.;
+      for (const double value : x)
+        sum += value * value;
+      return std::sqrt(sum);
     }
   } // namespace
 
-  MatrixFreeSchurComplement::MatrixFreeSchurComplement(const FactoredStructure &solvers,
+  MatrixFreeSchurComplement::MatrixFreeSchurComplement(const InterfaceParameters &parameters,
+                                                       const FactoredStructure &solvers,
                                                        const ContactRows &rows)
-      : solvers(solvers), rows(rows), F(solvers, rows), diagonal_entries(rows.size(), 0.),
-        work(solvers.structure().zero())
+      : parameters(parameters), solvers(solvers), rows(rows),
+        body_rows(solvers.structure(), rows), F(solvers, body_rows, rows.size()),
+        preconditioner(parameters.preconditioner, solvers, body_rows),
+        flexibilities(body_rows.size()), work(solvers.structure().zero())
   {
-  }
-
-  void MatrixFreeSchurComplement::compute_diagonal(const std::size_t i)
-  {
-    std::vector<double> unit(rows.size(), 0.), column(rows.size());
-    unit[i] = 1.;
-    F.apply(unit.data(), column.data());
-    diagonal_entries[i] = column[i];
+    if (parameters.coarse_space != "kernels" && parameters.coarse_space != "none")
+      throw UserError("unknown coarse space '" + parameters.coarse_space +
+                      "'; known are: kernels, none. Correct the name");
   }
 
   void MatrixFreeSchurComplement::setup(const std::vector<double> &S)
   {
     compliance = S;
     F.set_compliance(S);
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      compute_diagonal(i);
+    if (parameters.coarse_space == "kernels" && !solvers.is_generalised_inverse())
+      coarse_space = std::make_unique<CoarseSpace>(solvers, body_rows);
+    is_changed.assign(body_rows.size(), 1);
+    is_stale = true;
+    body_rows.update();
+    for (std::size_t k = 0; k < body_rows.size(); ++k)
+      compute_flexibilities(k);
+    compute_diagonal();
   }
 
   void MatrixFreeSchurComplement::update_moving()
   {
-    for (std::size_t i = rows.n_fixed(); i < rows.size(); ++i)
-      compute_diagonal(i);
+    if (rows.n_fixed() == rows.size())
+      return;
+    is_stale = true;
+    const auto mark = [&]
+    {
+      std::vector<std::size_t> marked;
+      for (std::size_t k = 0; k < body_rows.size(); ++k)
+        if (!body_rows[k].empty() && body_rows[k].back().moving)
+        {
+          is_changed[k] = 1;
+          marked.push_back(k);
+        }
+      return marked;
+    };
+    std::vector<std::size_t> touched = mark();
+    body_rows.update();
+    for (const std::size_t k : mark())
+      touched.push_back(k);
+    for (const std::size_t k : touched)
+      compute_flexibilities(k);
+    compute_diagonal();
+  }
+
+  void MatrixFreeSchurComplement::compute_flexibilities(const std::size_t k)
+  {
+    flexibilities[k].clear();
+    for (const BodyRows::Entry &entry : body_rows[k])
+      flexibilities[k].push_back(solvers[k].flexibility(entry.form));
+  }
+
+  void MatrixFreeSchurComplement::compute_diagonal()
+  {
+    diagonal_entries.assign(rows.size(), 0.);
+    for (std::size_t k = 0; k < body_rows.size(); ++k)
+      for (std::size_t e = 0; e < body_rows[k].size(); ++e)
+        diagonal_entries[body_rows[k][e].row] += flexibilities[k][e];
+    solvers.structure().communicator().sum(diagonal_entries);
+    scale.assign(rows.size(), 1.);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      diagonal_entries[i] += compliance[i];
+      if (diagonal_entries[i] > 0.)
+        scale[i] = 1. / std::sqrt(diagonal_entries[i]);
+    }
   }
 
   void MatrixFreeSchurComplement::free_motion(const BlockVector &P, std::vector<double> &d,
@@ -110,7 +133,19 @@ namespace taut
 
   std::string MatrixFreeSchurComplement::description() const
   {
-    return "matrix-free, " + std::to_string(rows.size()) + " rows";
+    return "matrix-free, " + std::to_string(rows.size()) + " rows, preconditioner " +
+           parameters.preconditioner + ", coarse space " + parameters.coarse_space +
+           (coarse_space ? " (" + std::to_string(coarse_space->size()) + ")" : "");
+  }
+
+  InterfaceStatistics MatrixFreeSchurComplement::statistics() const
+  {
+    InterfaceStatistics result = counts;
+    result.n_applications = F.n_applications();
+    result.n_local_solves = F.n_local_solves();
+    result.n_coarse_solves = coarse_space ? coarse_space->n_local_solves() : 0;
+    result.n_factorisations = preconditioner.n_factorisations();
+    return result;
   }
 
   void MatrixFreeSchurComplement::apply(const std::vector<double> &x, std::vector<double> &y) const
@@ -119,15 +154,81 @@ namespace taut
     F.apply(x.data(), y.data());
   }
 
+  /// Body by body: |F_ij| <= sum_k sqrt(f_ik f_jk) over the bodies that both rows act on.
   void MatrixFreeSchurComplement::apply_absolute(const std::vector<double> &x,
                                                  std::vector<double> &y) const
   {
-    double sum = 0.;
-    for (std::size_t i = 0; i < x.size(); ++i)
-      sum += std::sqrt(diagonal_entries[i]) * std::fabs(x[i]);
+    share.assign(x.size(), 0.);
+    for (std::size_t k = 0; k < body_rows.size(); ++k)
+    {
+      double sum = 0.;
+      for (std::size_t e = 0; e < body_rows[k].size(); ++e)
+        sum += std::sqrt(flexibilities[k][e]) * std::fabs(x[body_rows[k][e].row]);
+      for (std::size_t e = 0; e < body_rows[k].size(); ++e)
+        share[body_rows[k][e].row] += std::sqrt(flexibilities[k][e]) * sum;
+    }
+    solvers.structure().communicator().sum(share);
     y.resize(x.size());
     for (std::size_t i = 0; i < x.size(); ++i)
-      y[i] = std::sqrt(diagonal_entries[i]) * sum;
+      y[i] = share[i] + compliance[i] * std::fabs(x[i]);
+  }
+
+  /// Preconditioner and coarse space for a set, as far as it is new.
+  void MatrixFreeSchurComplement::prepare(const std::vector<std::size_t> &set, const double shift)
+  {
+    std::vector<char> wanted(rows.size(), 0);
+    for (const std::size_t i : set)
+      wanted[i] = 1;
+    F.restrict_to(wanted);
+    F.set_shift(shift, diagonal_entries);
+    if (!is_stale && active == wanted)
+      return;
+    for (std::size_t k = 0; k < body_rows.size(); ++k)
+      for (const BodyRows::Entry &entry : body_rows[k])
+        if (!active.empty() && active[entry.row] != wanted[entry.row])
+          is_changed[k] = 1;
+    active = wanted;
+    is_stale = false;
+    preconditioner.setup(active, is_changed, compliance, diagonal_entries);
+    if (coarse_space)
+      coarse_space->setup(active, is_changed, compliance);
+    std::fill(is_changed.begin(), is_changed.end(), 0);
+  }
+
+  void MatrixFreeSchurComplement::scaled_apply(const std::vector<double> &x, std::vector<double> &y)
+  {
+    row_work.resize(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i)
+      row_work[i] = active[i] ? scale[i] * x[i] : x[i];
+    y.resize(x.size());
+    F.apply(row_work.data(), y.data());
+    for (std::size_t i = 0; i < x.size(); ++i)
+      y[i] = active[i] ? scale[i] * y[i] : x[i];
+  }
+
+  /// The preconditioner, balanced by the coarse space.
+  void MatrixFreeSchurComplement::scaled_precondition(const std::vector<double> &r,
+                                                      std::vector<double> &z)
+  {
+    row_work.assign(r.size(), 0.);
+    for (std::size_t i = 0; i < r.size(); ++i)
+      if (active[i])
+        row_work[i] = r[i] / scale[i];
+    if (coarse_space)
+    {
+      coarse_space->solve(row_work, coarse_part, coarse_motion);
+      for (std::size_t i = 0; i < r.size(); ++i)
+        row_work[i] -= coarse_motion[i];
+    }
+    preconditioner.apply(row_work, z);
+    if (coarse_space)
+    {
+      coarse_space->project(z);
+      for (std::size_t i = 0; i < r.size(); ++i)
+        z[i] += coarse_part[i];
+    }
+    for (std::size_t i = 0; i < r.size(); ++i)
+      z[i] = active[i] ? z[i] / scale[i] : r[i];
   }
 
   bool MatrixFreeSchurComplement::solve(const std::vector<std::size_t> &set,
@@ -135,47 +236,51 @@ namespace taut
                                         std::vector<double> &x)
   {
     x.assign(rows.size(), 0.);
-    std::vector<double> b(rows.size(), 0.), scale(rows.size(), 1.);
+    std::vector<double> b(rows.size(), 0.);
     for (const std::size_t i : set)
-    {
-      b[i] = rhs[i];
-      if (diagonal_entries[i] > 0.)
-        scale[i] = (1. + shift) * diagonal_entries[i];
-    }
-    if (std::all_of(b.begin(), b.end(), [](const double v) { return v == 0.; }))
+      b[i] = scale[i] * rhs[i];
+    if (largest(b) == 0.)
       return true;
+    prepare(set, shift);
+    const bool is_solved = refine(set, b, x);
+    for (const std::size_t i : set)
+      x[i] *= scale[i];
+    F.unrestrict();
+    F.set_shift(0., diagonal_entries);
+    ++counts.n_systems;
+    return is_solved;
+  }
 
-    F.restrict_to(set);
-    F.set_shift(shift, diagonal_entries);
+  /// In scaled rows. What counts is the true residual, not the one of the recursion.
+  bool MatrixFreeSchurComplement::refine(const std::vector<std::size_t> &set,
+                                         const std::vector<double> &b, std::vector<double> &x)
+  {
     const int bound = 100 + 10 * static_cast<int>(set.size());
-
-    // What counts is the true residual, not the one of the recursion; rows are compared by their
-    // own scale.
-    std::vector<double> r = b, Fx(rows.size());
-    double error = 0., size = 0., best = std::numeric_limits<double>::infinity();
-    std::vector<double> best_x = x;
+    std::vector<double> r = b, step, image, candidate = x;
+    double best = std::numeric_limits<double>::infinity(), size = largest(b);
     for (int restart = 0; restart < most_restarts; ++restart)
     {
-      conjugate_gradients(F, scale, bound, x, r);
-      F.apply(x.data(), Fx.data());
-      error = size = 0.;
-      for (const std::size_t i : set)
-      {
-        r[i] = b[i] - Fx[i];
-        const double root = std::sqrt(scale[i]);
-        error = larger(error, std::fabs(r[i]) / root);
-        size = larger(size, larger(std::fabs(b[i]) / root, root * std::fabs(x[i])));
-      }
+      const double tolerance =
+          std::min(.1, std::max(1e-15, .5 * wanted_residual * size / norm(r)));
+      counts.n_iterations += conjugate_gradients(
+          [&](const std::vector<double> &in, std::vector<double> &out) { scaled_apply(in, out); },
+          [&](const std::vector<double> &in, std::vector<double> &out)
+          { scaled_precondition(in, out); },
+          r, tolerance, bound, step);
+      for (std::size_t i = 0; i < x.size(); ++i)
+        candidate[i] = x[i] + step[i];
+      scaled_apply(candidate, image);
+      for (std::size_t i = 0; i < x.size(); ++i)
+        r[i] = b[i] - image[i];
+      const double error = largest(r);
+      size = larger(largest(b), largest(candidate));
       if (!(error < .5 * best))
         break;
       best = error;
-      best_x = x;
+      x = candidate;
       if (error <= wanted_residual * size)
         break;
     }
-    x = best_x;
-    F.unrestrict();
-    F.set_shift(0., diagonal_entries);
     return std::isfinite(best) && best <= accepted_residual * size;
   }
 } // namespace taut

@@ -2,19 +2,27 @@
 #ifndef taut_matrix_free_schur_complement_h
 #define taut_matrix_free_schur_complement_h
 
+#include "coarse_space.h"
+#include "row_preconditioner.h"
+
 #include <taut/interface/contact_schur_operator.h>
 #include <taut/interface/schur_complement.h>
 
+#include <memory>
 #include <vector>
 
 namespace taut
 {
-  /// F applied through the factors of the bodies, its systems solved by conjugate gradients; see
-  /// SchurComplement.
+  /**
+   * F applied through the factors of the bodies, its systems solved by preconditioned conjugate
+   * gradients; see SchurComplement. Rows are scaled by F_ii^-1/2: forces and moments, stiff and
+   * soft rows then have one norm.
+   */
   class MatrixFreeSchurComplement : public SchurComplement, private ComplementarityOperator
   {
   public:
-    MatrixFreeSchurComplement(const FactoredStructure &solvers, const ContactRows &rows);
+    MatrixFreeSchurComplement(const InterfaceParameters &parameters,
+                              const FactoredStructure &solvers, const ContactRows &rows);
 
     void setup(const std::vector<double> &S) override;
     void update_moving() override;
@@ -22,6 +30,7 @@ namespace taut
                      std::vector<double> &terms_size) const override;
     ComplementarityOperator &matrix() override { return *this; }
     std::string description() const override;
+    InterfaceStatistics statistics() const override;
 
   private:
     std::size_t size() const override { return rows.size(); }
@@ -31,12 +40,30 @@ namespace taut
     bool solve(const std::vector<std::size_t> &set, const std::vector<double> &rhs, double shift,
                std::vector<double> &x) override;
 
-    void compute_diagonal(std::size_t i);
+    void compute_flexibilities(std::size_t k);
+    void compute_diagonal();
+    void prepare(const std::vector<std::size_t> &set, double shift);
+    void scaled_apply(const std::vector<double> &x, std::vector<double> &y);
+    void scaled_precondition(const std::vector<double> &r, std::vector<double> &z);
+    bool refine(const std::vector<std::size_t> &set, const std::vector<double> &b,
+                std::vector<double> &x);
 
+    const InterfaceParameters parameters;
     const FactoredStructure &solvers;
     const ContactRows &rows;
+    BodyRows body_rows;
     ContactSchurOperator F;
+    RowPreconditioner preconditioner;
+    std::unique_ptr<CoarseSpace> coarse_space; ///< null: none, or in statics
     std::vector<double> compliance, diagonal_entries;
+    std::vector<std::vector<double>> flexibilities; ///< B_ik^T A_k^-1 B_ik, by body
+    std::vector<double> scale;                      ///< F_ii^-1/2
+    std::vector<char> active;                       ///< rows that everything is prepared for
+    std::vector<char> is_changed;                   ///< bodies that it is not prepared for
+    bool is_stale = true;                           ///< a matrix or a moving row has changed
+    InterfaceStatistics counts;
+    std::vector<double> row_work, coarse_part, coarse_motion;
+    mutable std::vector<double> share;
     mutable BlockVector work;
   };
 } // namespace taut

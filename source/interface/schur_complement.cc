@@ -41,13 +41,15 @@ namespace taut
     class AutomaticSchurComplement : public SchurComplement
     {
     public:
-      AutomaticSchurComplement(const FactoredStructure &solvers, const ContactRows &rows)
-          : solvers(solvers), rows(rows)
+      AutomaticSchurComplement(const InterfaceParameters &parameters,
+                               const FactoredStructure &solvers, const ContactRows &rows)
+          : parameters(parameters), solvers(solvers), rows(rows)
       {
       }
       void setup(const std::vector<double> &S) override
       {
-        chosen = make_schur_complement(choice(), solvers, rows);
+        parameters.form = choice();
+        chosen = make_schur_complement(parameters, solvers, rows);
         chosen->setup(S);
       }
       void update_moving() override { chosen->update_moving(); }
@@ -58,6 +60,7 @@ namespace taut
       }
       ComplementarityOperator &matrix() override { return chosen->matrix(); }
       std::string description() const override { return chosen->description(); }
+      InterfaceStatistics statistics() const override { return chosen->statistics(); }
 
     private:
       std::string choice() const
@@ -68,25 +71,26 @@ namespace taut
                                                                             : "matrix-free";
       }
 
+      InterfaceParameters parameters;
       const FactoredStructure &solvers;
       const ContactRows &rows;
       std::unique_ptr<SchurComplement> chosen;
     };
   } // namespace
 
-  std::unique_ptr<SchurComplement> make_schur_complement(const std::string &form,
+  std::unique_ptr<SchurComplement> make_schur_complement(const InterfaceParameters &parameters,
                                                          const FactoredStructure &solvers,
                                                          const ContactRows &rows)
   {
-    if (form == "automatic")
-      return std::make_unique<AutomaticSchurComplement>(solvers, rows);
-    if (form == "assembled dense")
+    if (parameters.form == "automatic")
+      return std::make_unique<AutomaticSchurComplement>(parameters, solvers, rows);
+    if (parameters.form == "assembled dense")
       return std::make_unique<DenseSchurComplement>(solvers, rows);
-    if (form == "assembled sparse")
+    if (parameters.form == "assembled sparse")
       return std::make_unique<SparseSchurComplement>(solvers, rows);
-    if (form == "matrix-free")
-      return std::make_unique<MatrixFreeSchurComplement>(solvers, rows);
-    throw UserError("unknown form of the interface operator '" + form +
+    if (parameters.form == "matrix-free")
+      return std::make_unique<MatrixFreeSchurComplement>(parameters, solvers, rows);
+    throw UserError("unknown form of the interface operator '" + parameters.form +
                     "'; known are: automatic, assembled dense, assembled sparse, matrix-free. "
                     "Correct the name");
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 namespace taut
@@ -141,8 +142,11 @@ namespace taut
                   const std::vector<unsigned int> &constrained_dofs) override;
       void solve(std::vector<double> &x) const override;
       void column(const SparseVector &rhs, WindowedVector &x) const override;
+      double flexibility(const SparseVector &rhs) const override;
 
     private:
+      bool element_of(const SparseVector &rhs, unsigned int &node,
+                      std::array<double, 2 * b> &r) const;
       void solve_element(unsigned int node, const std::array<double, 2 * b> &rhs, double *x) const;
 
       std::size_t n = 0, middle = 0;
@@ -287,6 +291,40 @@ namespace taut
       multiply<b>(left_inverse[node], r0, x);
     }
 
+    /// The element that @p rhs lives on, by its first node, and the entries there; false if it is
+    /// more than one.
+    template <int b>
+    bool BlockTridiagonalSolver<b>::element_of(const SparseVector &rhs, unsigned int &node,
+                                               std::array<double, 2 * b> &r) const
+    {
+      node = rhs.index.empty() ? 0 : *std::min_element(rhs.index.begin(), rhs.index.end()) / b;
+      node = std::min<unsigned int>(node, n - 2);
+      for (std::size_t k = 0; k < rhs.index.size(); ++k)
+      {
+        if (rhs.index[k] / b > node + 1)
+          return false;
+        if (!std::binary_search(constrained.begin(), constrained.end(), rhs.index[k]))
+          r[rhs.index[k] - b * node] += rhs.value[k];
+      }
+      return true;
+    }
+
+    template <int b>
+    double BlockTridiagonalSolver<b>::flexibility(const SparseVector &rhs) const
+    {
+      unsigned int node;
+      std::array<double, 2 * b> r{}, x{};
+      if (n > 1 && element_of(rhs, node, r))
+      {
+        solve_element(node, r, x.data());
+        return std::inner_product(r.begin(), r.end(), x.begin(), 0.);
+      }
+      std::vector<double> full(b * n, 0.);
+      rhs.add_to(1., full);
+      solve(full);
+      return rhs.dot(full);
+    }
+
     template <int b>
     void BlockTridiagonalSolver<b>::column(const SparseVector &rhs, WindowedVector &x) const
     {
@@ -303,17 +341,10 @@ namespace taut
         return;
       }
 
-      unsigned int node =
-          rhs.index.empty() ? 0 : *std::min_element(rhs.index.begin(), rhs.index.end()) / b;
-      node = std::min<unsigned int>(node, n - 2);
+      unsigned int node;
       std::array<double, 2 * b> r{};
-      for (std::size_t k = 0; k < rhs.index.size(); ++k)
-      {
-        if (rhs.index[k] / b > node + 1)
-          throw std::logic_error("the right-hand side of a column spans more than one element");
-        if (!std::binary_search(constrained.begin(), constrained.end(), rhs.index[k]))
-          r[rhs.index[k] - b * node] += rhs.value[k];
-      }
+      if (!element_of(rhs, node, r))
+        throw std::logic_error("the right-hand side of a column spans more than one element");
       double *p = full.data();
       solve_element(node, r, p + b * node);
 

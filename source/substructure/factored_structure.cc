@@ -3,21 +3,84 @@
 #include <taut/substructure/factored_structure.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace taut
 {
+  namespace
+  {
+    /// K with a spring as stiff as the diagonal on each of the DoFs.
+    std::unique_ptr<SymmetricMatrix> with_springs(const SymmetricMatrix &stiffness,
+                                                  const std::vector<unsigned int> &dofs)
+    {
+      auto held = stiffness.clone();
+      std::vector<double> diagonal(stiffness.size(), 0.);
+      double largest = 0.;
+      held->visit(
+          [&](unsigned int i, unsigned int j, double value)
+          {
+            if (i == j)
+              largest = std::max(largest, diagonal[i] = value);
+          });
+      for (const unsigned int dof : dofs)
+        held->add(dof, dof, diagonal[dof] > 0. ? diagonal[dof] : largest > 0. ? largest : 1.);
+      return held;
+    }
+
+    /// True if no combination of the vectors is zero, to working precision, on all of the DoFs.
+    bool are_held(std::vector<std::vector<double>> vectors, const std::vector<unsigned int> &dofs)
+    {
+      const auto norm = [&](const std::vector<double> &v)
+      {
+        double sum = 0.;
+        for (const unsigned int dof : dofs)
+          sum += v[dof] * v[dof];
+        return std::sqrt(sum);
+      };
+      for (std::size_t i = 0; i < vectors.size(); ++i)
+      {
+        const double before = norm(vectors[i]);
+        for (std::size_t j = 0; j < i; ++j)
+        {
+          double product = 0.;
+          for (const unsigned int dof : dofs)
+            product += vectors[i][dof] * vectors[j][dof];
+          for (const unsigned int dof : dofs)
+            vectors[i][dof] -= product * vectors[j][dof];
+        }
+        const double after = norm(vectors[i]);
+        if (!(after > 1e-8 * before))
+          return false;
+        for (const unsigned int dof : dofs)
+          vectors[i][dof] /= after;
+      }
+      return true;
+    }
+  } // namespace
+
   FactoredStructure::FactoredStructure(const Structure &structure, const std::string &solver_name)
-      : bodies(structure)
+      : bodies(structure), solver_name(solver_name)
   {
     for (std::size_t k = 0; k < structure.size(); ++k)
       solvers.push_back(make_local_solver(solver_name, structure[k].stiffness()));
   }
 
-  void FactoredStructure::factor(const std::size_t k, const std::vector<ScaledMatrix> &summands)
+  std::vector<ScaledMatrix> FactoredStructure::summands(const std::size_t k) const
+  {
+    if (is_static)
+      return {{1., &bodies[k].stiffness()}};
+    return {{mass_factor, &bodies[k].mass()},
+            {damping_factor, &bodies[k].damping()},
+            {1., &bodies[k].stiffness()}};
+  }
+
+  void FactoredStructure::factor(const std::size_t k, LocalSolver &solver,
+                                 const std::vector<ScaledMatrix> &summands,
+                                 const std::vector<unsigned int> &held) const
   {
     try
     {
-      solvers[k]->factor(summands, bodies[k].constrained_dofs());
+      solver.factor(summands, held);
     }
     catch (const BodyNotHeld &e)
     {
@@ -29,32 +92,51 @@ namespace taut
 
   void FactoredStructure::factor(const double mass, const double damping)
   {
+    mass_factor = mass;
+    damping_factor = damping;
+    is_static = false;
     for (std::size_t k = 0; k < solvers.size(); ++k)
-      factor(k, {{mass, &bodies[k].mass()},
-                 {damping, &bodies[k].damping()},
-                 {1., &bodies[k].stiffness()}});
+      factor(k, *solvers[k], summands(k), bodies[k].constrained_dofs());
   }
 
   void FactoredStructure::factor_stiffness(const std::vector<Substructure::Kernel> &kernels)
   {
+    is_static = true;
     for (std::size_t k = 0; k < solvers.size(); ++k)
     {
-      const auto held = bodies[k].stiffness().clone();
-      if (!kernels[k].fixing_dofs.empty())
-      {
-        std::vector<double> diagonal(bodies[k].n_dofs(), 0.);
-        double largest = 0.;
-        held->visit(
-            [&](unsigned int i, unsigned int j, double value)
-            {
-              if (i == j)
-                largest = std::max(largest, diagonal[i] = value);
-            });
-        for (const unsigned int dof : kernels[k].fixing_dofs)
-          held->add(dof, dof, diagonal[dof] > 0. ? diagonal[dof] : largest > 0. ? largest : 1.);
-      }
-      factor(k, {{1., held.get()}});
+      const auto held = with_springs(bodies[k].stiffness(), kernels[k].fixing_dofs);
+      factor(k, *solvers[k], {{1., held.get()}}, bodies[k].constrained_dofs());
     }
+  }
+
+  void FactoredStructure::visit(const std::size_t k, const SymmetricMatrix::Visitor &visitor) const
+  {
+    for (const auto &[factor, matrix] : summands(k))
+      matrix->visit([&, factor = factor](unsigned int i, unsigned int j, double value)
+                    { visitor(i, j, factor * value); });
+  }
+
+  std::unique_ptr<LocalSolver>
+  FactoredStructure::solver_with_held(const std::size_t k,
+                                      const std::vector<unsigned int> &held) const
+  {
+    std::vector<unsigned int> all = bodies[k].constrained_dofs();
+    all.insert(all.end(), held.begin(), held.end());
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    auto solver = make_local_solver(solver_name, bodies[k].stiffness());
+    if (is_static)
+    {
+      const Substructure::Kernel kernel = bodies[k].kernel();
+      if (!are_held(kernel.vectors, held))
+      {
+        const auto sprung = with_springs(bodies[k].stiffness(), kernel.fixing_dofs);
+        factor(k, *solver, {{1., sprung.get()}}, all);
+        return solver;
+      }
+    }
+    factor(k, *solver, summands(k), all);
+    return solver;
   }
 
   void FactoredStructure::solve(BlockVector &X) const

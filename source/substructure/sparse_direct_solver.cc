@@ -16,6 +16,7 @@ namespace taut
                   const std::vector<unsigned int> &constrained_dofs) override;
       void solve(std::vector<double> &x) const override;
       void column(const SparseVector &rhs, WindowedVector &x) const override;
+      double flexibility(const SparseVector &rhs) const override;
 
     private:
       std::size_t n = 0;
@@ -62,6 +63,13 @@ namespace taut
       x.value.assign(n, 0.);
       rhs.add_to(1., x.value);
       solve(x.value);
+    }
+
+    double SparseDirectSolver::flexibility(const SparseVector &rhs) const
+    {
+      WindowedVector x;
+      column(rhs, x);
+      return x.dot(rhs);
     }
   } // namespace
 

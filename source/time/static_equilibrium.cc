@@ -162,7 +162,7 @@ namespace taut
     std::vector<double> compliance(n);
     for (std::size_t i = 0; i < n; ++i)
       compliance[i] = 1. / rows[i].stiffness;
-    const auto schur = make_schur_complement(parameters.interface_operator, solvers, rows);
+    const auto schur = make_schur_complement(parameters.interface, solvers, rows);
     schur->setup(compliance);
 
     BlockVector P, lift;

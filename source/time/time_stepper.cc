@@ -16,7 +16,7 @@ namespace taut
         step(step), origin(std::move(reference)), current(std::move(start)),
         first_step_by_source(!at_rest), start_time(current.time),
         solvers(structure, parameters.local_solver),
-        schur(make_schur_complement(parameters.interface_operator, solvers, rows)),
+        schur(make_schur_complement(parameters.interface, solvers, rows)),
         complementarity(parameters.complementarity)
   {
     for (BlockVector *v : {&P, &right_hand_side, &lift, &predictor_v, &predictor_a, &old_A,

@@ -151,7 +151,7 @@ namespace
       std::fill(block.begin(), block.end(), 1.);
     if (rows.size() > 0)
     {
-      const auto schur = taut::make_schur_complement("automatic", solvers, rows);
+      const auto schur = taut::make_schur_complement({}, solvers, rows);
       schur->setup(std::vector<double>(rows.size(), 0.));
       taut::MixedComplementarityProblem problem;
       problem.unilateral.assign(rows.size(), 0);

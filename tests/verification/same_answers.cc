@@ -66,7 +66,7 @@ namespace
     std::vector<double> S(rows.size());
     for (std::size_t i = 0; i < rows.size(); ++i)
       S[i] = 1. / (rows[i].stiffness + (step > 0. ? rows[i].damping / step : 0.));
-    const auto schur = taut::make_schur_complement("assembled dense", solvers, rows);
+    const auto schur = taut::make_schur_complement({"assembled dense"}, solvers, rows);
     schur->setup(S);
     return condition_number(*schur, rows.size());
   }

@@ -9,20 +9,35 @@
 
 namespace taut
 {
-  /// Entries of the lower triangle of a symmetric matrix, in any order; those of one position add.
-  struct SymmetricEntries
+  /// Entries of a sparse matrix, in any order; those of one position add.
+  struct MatrixEntries
   {
     std::vector<int> row, column;
     std::vector<double> value;
 
     void add(std::size_t i, std::size_t j, double v)
     {
-      row.push_back(static_cast<int>(std::max(i, j)));
-      column.push_back(static_cast<int>(std::min(i, j)));
+      row.push_back(static_cast<int>(i));
+      column.push_back(static_cast<int>(j));
       value.push_back(v);
     }
 
     std::size_t size() const { return value.size(); }
+
+    /// Orders by row and column, with each position once.
+    void compress();
+  };
+
+  /// Entries of the lower triangle of a symmetric matrix.
+  struct SymmetricEntries : MatrixEntries
+  {
+    void add(std::size_t i, std::size_t j, double v)
+    {
+      MatrixEntries::add(std::max(i, j), std::min(i, j), v);
+    }
+
+    /// y += A x.
+    void vmult_add(const std::vector<double> &x, std::vector<double> &y) const;
   };
 
   /**

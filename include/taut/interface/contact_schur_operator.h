@@ -2,7 +2,7 @@
 #ifndef taut_contact_schur_operator_h
 #define taut_contact_schur_operator_h
 
-#include <taut/interface/contact_rows.h>
+#include <taut/interface/body_rows.h>
 #include <taut/substructure/factored_structure.h>
 
 #include <Epetra_LocalMap.h>
@@ -16,19 +16,21 @@ namespace taut
   /**
    * The interface operator of FETI, F = sum_k B_k^T A_k^-1 B_k + S, applied through the factors of
    * A_k without being formed. Restricted to an active set it acts as the identity on the other
-   * rows, so that it stays definite and an iterative solver sees vectors of one length.
+   * rows, so that it stays definite and an iterative solver sees vectors of one length. Its vectors
+   * are the same on all ranks.
    */
   class ContactSchurOperator : public Epetra_Operator
   {
   public:
     /// The arguments are kept by reference.
-    ContactSchurOperator(const FactoredStructure &solvers, const ContactRows &rows);
+    ContactSchurOperator(const FactoredStructure &solvers, const BodyRows &body_rows,
+                         std::size_t n_rows);
 
     /// Diagonal S [m/N, rad/(N m)].
     void set_compliance(const std::vector<double> &S) { compliance = S; }
 
-    /// Rows on which F acts; the identity elsewhere.
-    void restrict_to(const std::vector<std::size_t> &set);
+    /// Rows on which F acts: those that are not 0; the identity elsewhere.
+    void restrict_to(const std::vector<char> &set) { active = set; }
     void unrestrict();
 
     /// Adds shift * diagonal, one entry a row.
@@ -39,6 +41,10 @@ namespace taut
 
     /// y = F x; both have one entry a row.
     void apply(const double *x, double *y) const;
+
+    /// Products so far, and systems of one A_k solved for them on this rank.
+    long n_applications() const { return applications; }
+    long n_local_solves() const { return local_solves; }
 
     int SetUseTranspose(bool) override { return 0; } // symmetric
     int ApplyInverse(const Epetra_MultiVector &, Epetra_MultiVector &) const override { return -1; }
@@ -52,13 +58,13 @@ namespace taut
 
   private:
     const FactoredStructure &solvers;
-    const ContactRows &rows;
+    const BodyRows &body_rows;
     Epetra_SerialComm communicator;
     Epetra_LocalMap map;
     std::vector<double> compliance, shift;
     std::vector<char> active;
-    mutable std::vector<double> multiplier;
-    mutable BlockVector work;
+    mutable std::vector<double> share, work;
+    mutable long applications = 0, local_solves = 0;
   };
 } // namespace taut
 

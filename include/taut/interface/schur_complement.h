@@ -12,6 +12,31 @@
 
 namespace taut
 {
+  /// How systems with F are solved, by name.
+  struct InterfaceParameters
+  {
+    /// "assembled dense", "assembled sparse", "matrix-free", or "automatic" for the one that suits
+    /// number of rows and step.
+    std::string form = "automatic";
+
+    /// Of the matrix-free form: "diagonal", "lumped", "Dirichlet".
+    std::string preconditioner = "Dirichlet";
+
+    /// Of the matrix-free form: "kernels" of the floating bodies, or "none".
+    std::string coarse_space = "kernels";
+  };
+
+  /// What the iterative solution of systems with F has cost so far; all 0 where F is assembled.
+  struct InterfaceStatistics
+  {
+    long n_systems = 0;        ///< solved
+    long n_iterations = 0;     ///< of conjugate gradients
+    long n_applications = 0;   ///< products with F
+    long n_local_solves = 0;   ///< systems of one A_k for these products, on this rank
+    long n_coarse_solves = 0;  ///< systems of one A_k for the coarse space, on this rank
+    long n_factorisations = 0; ///< of one A_k for the preconditioner, on this rank
+  };
+
   /**
    * The contact Schur complement F = sum_k B_k^T A_k^-1 B_k + S of the rows, in one of three
    * forms: assembled dense or sparse, with the columns A_k^-1 B_k of the fixed rows stored once, or
@@ -38,11 +63,12 @@ namespace taut
 
     /// Form and size, for the log; after setup().
     virtual std::string description() const = 0;
+
+    virtual InterfaceStatistics statistics() const { return {}; }
   };
 
-  /// @p form is "assembled dense", "assembled sparse", "matrix-free", or "automatic" for the one
-  /// that suits number of rows and step. The other arguments are kept by reference.
-  std::unique_ptr<SchurComplement> make_schur_complement(const std::string &form,
+  /// Throws UserError for unknown names. The references are kept.
+  std::unique_ptr<SchurComplement> make_schur_complement(const InterfaceParameters &parameters,
                                                          const FactoredStructure &solvers,
                                                          const ContactRows &rows);
 } // namespace taut

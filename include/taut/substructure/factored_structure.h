@@ -34,12 +34,30 @@ namespace taut
     /// X_k = A_k^-1 X_k for all k.
     void solve(BlockVector &X) const;
 
+    /// True after factor_stiffness().
+    bool is_generalised_inverse() const { return is_static; }
+
+    /// Calls the visitor for the entries of A_k, without the springs of factor_stiffness().
+    void visit(std::size_t k, const SymmetricMatrix::Visitor &visitor) const;
+
+    /**
+     * A solver for A_k with more DoFs held at zero. In statics springs hold it, as in
+     * factor_stiffness(), only if a kernel vector is left that moves none of these DoFs.
+     */
+    std::unique_ptr<LocalSolver> solver_with_held(std::size_t k,
+                                                  const std::vector<unsigned int> &held) const;
+
     const Structure &structure() const { return bodies; }
 
   private:
-    void factor(std::size_t k, const std::vector<ScaledMatrix> &summands);
+    std::vector<ScaledMatrix> summands(std::size_t k) const;
+    void factor(std::size_t k, LocalSolver &solver, const std::vector<ScaledMatrix> &summands,
+                const std::vector<unsigned int> &held) const;
 
     const Structure &bodies;
+    const std::string solver_name;
+    double mass_factor = 0., damping_factor = 0.; ///< of A_k; both 0 in statics
+    bool is_static = false;
     std::vector<std::unique_ptr<LocalSolver>> solvers;
   };
 } // namespace taut

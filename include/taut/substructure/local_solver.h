@@ -40,6 +40,9 @@ namespace taut
      * same kind. @p rhs lives on the DoFs of one element.
      */
     virtual void column(const SparseVector &rhs, WindowedVector &x) const = 0;
+
+    /// rhs^T A^-1 rhs, the flexibility of the body under one row.
+    virtual double flexibility(const SparseVector &rhs) const = 0;
   };
 
   /**

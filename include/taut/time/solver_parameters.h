@@ -2,6 +2,8 @@
 #ifndef taut_solver_parameters_h
 #define taut_solver_parameters_h
 
+#include <taut/interface/schur_complement.h>
+
 #include <string>
 
 namespace dealii
@@ -15,7 +17,7 @@ namespace taut
   struct SolverParameters
   {
     std::string local_solver = "block tridiagonal";
-    std::string interface_operator = "automatic";
+    InterfaceParameters interface;
     std::string complementarity = "semismooth Newton";
     double contact_tolerance = 1e-8;
 
