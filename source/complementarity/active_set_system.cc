@@ -30,14 +30,6 @@ namespace taut
       return largest;
     }
 
-    double dot_on_set(const std::vector<std::size_t> &set, const double *a,
-                      const std::vector<double> &b)
-    {
-      double sum = 0.;
-      for (const std::size_t i : set)
-        sum += a[i] * b[i];
-      return sum;
-    }
   } // namespace
 
   ActiveSetSystem::Outcome ActiveSetSystem::solve(const MixedComplementarityProblem &problem,
@@ -79,6 +71,8 @@ namespace taut
                                 MixedComplementaritySolution &solution)
   {
     std::transform(solution.gap.begin(), solution.gap.end(), rhs.begin(), std::negate<double>());
+    if (problem.n_kernel() > 0 && matrix.has_kernel_solver())
+      return correct_with_kernel(problem, matrix, set, solution);
     if (!matrix.solve(set, rhs, shift, step))
     {
       if (shift != 0.)
@@ -100,6 +94,32 @@ namespace taut
     return true;
   }
 
+  /// The same where the operator solves for multipliers and amplitudes at once.
+  bool ActiveSetSystem::correct_with_kernel(const MixedComplementarityProblem &problem,
+                                            ComplementarityOperator &matrix,
+                                            const std::vector<std::size_t> &set,
+                                            MixedComplementaritySolution &solution)
+  {
+    std::vector<double> load(problem.n_kernel()), amplitude;
+    for (std::size_t k = 0; k < problem.n_kernel(); ++k)
+      load[k] = -problem.kernel_load[k] - problem.kernel[k].dot(solution.multiplier);
+    const auto solve = [&]
+    { return matrix.solve_with_kernel(set, rhs, problem.kernel, load, shift, step, amplitude); };
+    if (!solve())
+    {
+      if (shift != 0.)
+        return false;
+      shift = options.redundancy_shift;
+      if (!solve())
+        return false;
+    }
+    for (const std::size_t i : set)
+      solution.multiplier[i] += step[i];
+    for (std::size_t k = 0; k < problem.n_kernel(); ++k)
+      solution.kernel_amplitude[k] += amplitude[k];
+    return true;
+  }
+
   void ActiveSetSystem::prepare_kernel(const MixedComplementarityProblem &problem,
                                        ComplementarityOperator &matrix,
                                        const std::vector<std::size_t> &set)
@@ -109,11 +129,11 @@ namespace taut
     kernel_schur.reinit(n_kernel);
     for (std::size_t k = 0; k < n_kernel; ++k)
     {
-      const double *const column = problem.kernel.data() + k * problem.size();
-      const std::vector<double> kernel_rhs(column, column + problem.size());
+      std::vector<double> kernel_rhs(problem.size(), 0.);
+      problem.kernel[k].add_to(1., kernel_rhs);
       matrix.solve(set, kernel_rhs, shift, kernel_responses[k]);
       for (std::size_t l = 0; l <= k; ++l)
-        kernel_schur.set(k, l, dot_on_set(set, column, kernel_responses[l]));
+        kernel_schur.set(k, l, problem.kernel[k].dot(kernel_responses[l]));
     }
     kernel_is_ready = true;
   }
@@ -128,10 +148,7 @@ namespace taut
     std::iota(all.begin(), all.end(), 0);
     std::vector<double> unbalance = problem.kernel_load, amplitude;
     for (std::size_t k = 0; k < n_kernel; ++k)
-    {
-      const double *const column = problem.kernel.data() + k * problem.size();
-      unbalance[k] += dot_on_set(set, column, solution.multiplier) + dot_on_set(set, column, step);
-    }
+      unbalance[k] += problem.kernel[k].dot(solution.multiplier) + problem.kernel[k].dot(step);
     if (!kernel_schur.solve(all, unbalance, 0., amplitude))
       return false;
     for (std::size_t k = 0; k < n_kernel; ++k)

@@ -31,10 +31,13 @@ namespace taut
 
   KernelPenalty::KernelPenalty(const MixedComplementarityProblem &problem,
                                const DenseOperator &matrix, const std::vector<char> &rows)
-      : problem(problem), all(problem.n_kernel()), row_weights(inverse_diagonal(matrix, rows)),
+      : problem(problem), kernel(problem.n_kernel() * problem.size(), 0.), all(problem.n_kernel()), row_weights(inverse_diagonal(matrix, rows)),
         weights(problem.n_kernel())
   {
     std::iota(all.begin(), all.end(), 0);
+    for (const std::size_t k : all)
+      for (std::size_t e = 0; e < problem.kernel[k].index.size(); ++e)
+        kernel[k * problem.size() + problem.kernel[k].index[e]] += problem.kernel[k].value[e];
     std::vector<double> solution;
     for (const std::size_t k : all)
     {

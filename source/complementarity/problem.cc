@@ -24,18 +24,26 @@ namespace taut
     }
   } // namespace
 
-  bool MixedComplementarityProblem::in_kernel(std::size_t i) const
+  std::vector<char> MixedComplementarityProblem::rows_in_kernel() const
   {
-    for (std::size_t k = 0; k < n_kernel(); ++k)
-      if (kernel[k * size() + i] != 0.)
-        return true;
-    return false;
+    std::vector<char> result(n_kernel() > 0 ? size() : 0, 0);
+    for (const SparseVector &vector : kernel)
+      for (std::size_t e = 0; e < vector.index.size(); ++e)
+        if (vector.value[e] != 0.)
+          result[vector.index[e]] = 1;
+    return result;
   }
 
   void MixedComplementarityProblem::check(const ComplementarityOperator &matrix) const
   {
     if (matrix.size() != size() || free_gap.size() != size() ||
-        (!gap_scale.empty() && gap_scale.size() != size()) || kernel.size() != n_kernel() * size())
+        (!gap_scale.empty() && gap_scale.size() != size()) || kernel.size() != n_kernel() ||
+        std::any_of(kernel.begin(), kernel.end(),
+                    [&](const SparseVector &vector)
+                    {
+                      return std::any_of(vector.index.begin(), vector.index.end(),
+                                         [&](const unsigned int i) { return i >= size(); });
+                    }))
       throw std::invalid_argument("the arrays of a complementarity problem differ in size");
   }
 
@@ -64,16 +72,17 @@ namespace taut
     const std::vector<double> own_terms = terms;
     for (std::size_t k = 0; k < kernel_amplitude.size(); ++k)
     {
-      const double *const column = problem.kernel.data() + k * n;
+      const SparseVector &vector = problem.kernel[k];
       double weighted_terms = 0., weights = 0.;
-      for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t e = 0; e < vector.index.size(); ++e)
       {
-        weighted_terms += std::abs(column[i]) * own_terms[i];
-        weights += column[i] * column[i];
+        weighted_terms += std::abs(vector.value[e]) * own_terms[vector.index[e]];
+        weights += vector.value[e] * vector.value[e];
       }
       const double fit = weights > 0. ? weighted_terms / weights : 0.;
-      for (std::size_t i = 0; i < n; ++i)
-        terms[i] += std::abs(column[i]) * std::max(std::abs(kernel_amplitude[k]), fit);
+      const double size = std::max(std::abs(kernel_amplitude[k]), fit);
+      for (std::size_t e = 0; e < vector.index.size(); ++e)
+        terms[vector.index[e]] += std::abs(vector.value[e]) * size;
     }
   }
 
@@ -86,8 +95,7 @@ namespace taut
     for (std::size_t i = 0; i < n; ++i)
       gap[i] += problem.free_gap[i];
     for (std::size_t k = 0; k < kernel_amplitude.size(); ++k)
-      for (std::size_t i = 0; i < n; ++i)
-        gap[i] += problem.kernel[k * n + i] * kernel_amplitude[k];
+      problem.kernel[k].add_to(kernel_amplitude[k], gap);
   }
 
   void multiplier_weights(const MixedComplementarityProblem &problem,
@@ -105,9 +113,12 @@ namespace taut
     for (const double value : multiplier)
       largest = std::max(largest, std::abs(value));
     if (largest > 0.)
+    {
+      const std::vector<char> in_kernel = problem.rows_in_kernel();
       for (std::size_t i = 0; i < problem.size(); ++i)
-        if (problem.in_kernel(i))
+        if (in_kernel[i])
           weights[i] = std::max(weights[i], terms[i] / largest);
+    }
   }
 
   void residual(const MixedComplementarityProblem &problem,
@@ -130,9 +141,11 @@ namespace taut
     {
       double balance = problem.kernel_load[k];
       double scale = std::abs(balance);
-      for (std::size_t i = 0; i < n; ++i)
+      const SparseVector &vector = problem.kernel[k];
+      for (std::size_t e = 0; e < vector.index.size(); ++e)
       {
-        const double g = problem.kernel[k * n + i];
+        const std::size_t i = vector.index[e];
+        const double g = vector.value[e];
         const double known_to = weights[i] > 0. ? terms[i] / weights[i] : 0.;
         balance += g * solution.multiplier[i];
         scale += std::abs(g) * (std::abs(solution.multiplier[i]) + known_to);

@@ -53,9 +53,10 @@ namespace taut
                                      MixedComplementaritySolution &solution)
   {
     set.clear();
+    const std::vector<char> in_kernel = problem.rows_in_kernel();
     for (std::size_t i = 0; i < problem.size(); ++i)
     {
-      const bool inert = matrix.diagonal(i) == 0. && !problem.in_kernel(i);
+      const bool inert = matrix.diagonal(i) == 0. && (in_kernel.empty() || !in_kernel[i]);
       solution.closed[i] = !inert && (!problem.unilateral[i] || solution.closed[i]);
       if (solution.closed[i])
         set.push_back(i);

@@ -56,12 +56,13 @@ namespace taut
                                                const ComplementarityOperator &matrix) const
   {
     std::vector<std::size_t> violated;
+    const std::vector<char> in_kernel = problem.rows_in_kernel();
     for (std::size_t i = 0; i < problem.size(); ++i)
     {
       const double d = problem.free_gap[i];
       const double scale = problem.gap_scale.empty() ? 0. : problem.gap_scale[i];
       const bool is_open = d > 0. && problem.unilateral[i];
-      if (matrix.diagonal(i) == 0. && !problem.in_kernel(i) && !is_open &&
+      if (matrix.diagonal(i) == 0. && (in_kernel.empty() || !in_kernel[i]) && !is_open &&
           std::abs(d) > options.tolerance * (std::abs(d) + scale))
         violated.push_back(i);
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "assembled_schur_complement.h"
 
-#include "gather_entries.h"
+#include <taut/base/gather_entries.h>
 
 namespace taut
 {

@@ -242,44 +242,93 @@ namespace taut
     if (largest(b) == 0.)
       return true;
     prepare(set, shift);
-    const bool is_solved = refine(set, b, x);
+    const bool is_solved = refine(nullptr, b, x);
     for (const std::size_t i : set)
       x[i] *= scale[i];
     F.unrestrict();
     F.set_shift(0., diagonal_entries);
-    ++counts.n_systems;
     return is_solved;
   }
 
-  /// In scaled rows. What counts is the true residual, not the one of the recursion.
-  bool MatrixFreeSchurComplement::refine(const std::vector<std::size_t> &set,
+  bool MatrixFreeSchurComplement::solve_with_kernel(
+      const std::vector<std::size_t> &set, const std::vector<double> &rhs,
+      const std::vector<SparseVector> &kernel, const std::vector<double> &load, const double shift,
+      std::vector<double> &x, std::vector<double> &alpha)
+  {
+    prepare(set, shift);
+    const NaturalCoarseProblem coarse_problem(kernel, scale, active);
+    x.assign(rows.size(), 0.);
+    bool is_solved = coarse_problem.holds_the_bodies();
+    if (is_solved)
+    {
+      std::vector<double> b(rows.size(), 0.), image;
+      for (const std::size_t i : set)
+        b[i] = scale[i] * rhs[i];
+      coarse_problem.balance(load, x);
+      is_solved = refine(&coarse_problem, b, x);
+      scaled_apply(x, image);
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        image[i] = b[i] - image[i];
+      alpha = coarse_problem.amplitudes(image);
+      for (const std::size_t i : set)
+        x[i] *= scale[i];
+    }
+    F.unrestrict();
+    F.set_shift(0., diagonal_entries);
+    return is_solved;
+  }
+
+  /// In scaled rows, from x on. What counts is the true residual, not the one of the recursion.
+  bool MatrixFreeSchurComplement::refine(const NaturalCoarseProblem *kernel,
                                          const std::vector<double> &b, std::vector<double> &x)
   {
-    const int bound = 100 + 10 * static_cast<int>(set.size());
-    std::vector<double> r = b, step, image, candidate = x;
-    double best = std::numeric_limits<double>::infinity(), size = largest(b);
-    for (int restart = 0; restart < most_restarts; ++restart)
+    const auto project = [&](std::vector<double> &v)
+    {
+      if (kernel)
+        kernel->project(v);
+    };
+    std::vector<double> projected;
+    const RowOperator matrix = [&](const std::vector<double> &in, std::vector<double> &out)
+    {
+      projected = in;
+      project(projected);
+      scaled_apply(projected, out);
+      project(out);
+    };
+    const RowOperator inverse = [&](const std::vector<double> &in, std::vector<double> &out)
+    {
+      projected = in;
+      project(projected);
+      scaled_precondition(projected, out);
+      project(out);
+    };
+    std::vector<double> r, step, image, candidate = x;
+    const auto residual = [&]
+    {
+      scaled_apply(candidate, image);
+      r.resize(b.size());
+      for (std::size_t i = 0; i < b.size(); ++i)
+        r[i] = b[i] - image[i];
+      project(r);
+      return largest(r);
+    };
+    ++counts.n_systems;
+    const int bound = 100 + 10 * static_cast<int>(rows.size());
+    double best = residual(), size = larger(largest(b), largest(x));
+    for (int restart = 0; restart < most_restarts && best > wanted_residual * size; ++restart)
     {
       const double tolerance =
           std::min(.1, std::max(1e-15, .5 * wanted_residual * size / norm(r)));
-      counts.n_iterations += conjugate_gradients(
-          [&](const std::vector<double> &in, std::vector<double> &out) { scaled_apply(in, out); },
-          [&](const std::vector<double> &in, std::vector<double> &out)
-          { scaled_precondition(in, out); },
-          r, tolerance, bound, step);
+      counts.n_iterations += conjugate_gradients(matrix, inverse, r, tolerance, bound, step);
+      project(step);
       for (std::size_t i = 0; i < x.size(); ++i)
         candidate[i] = x[i] + step[i];
-      scaled_apply(candidate, image);
-      for (std::size_t i = 0; i < x.size(); ++i)
-        r[i] = b[i] - image[i];
-      const double error = largest(r);
+      const double error = residual();
       size = larger(largest(b), largest(candidate));
       if (!(error < .5 * best))
         break;
       best = error;
       x = candidate;
-      if (error <= wanted_residual * size)
-        break;
     }
     return std::isfinite(best) && best <= accepted_residual * size;
   }

@@ -3,6 +3,7 @@
 #define taut_matrix_free_schur_complement_h
 
 #include "coarse_space.h"
+#include "natural_coarse_problem.h"
 #include "row_preconditioner.h"
 
 #include <taut/interface/contact_schur_operator.h>
@@ -40,12 +41,18 @@ namespace taut
     bool solve(const std::vector<std::size_t> &set, const std::vector<double> &rhs, double shift,
                std::vector<double> &x) override;
 
+    bool solve_with_kernel(const std::vector<std::size_t> &set, const std::vector<double> &rhs,
+                           const std::vector<SparseVector> &kernel, const std::vector<double> &load,
+                           double shift, std::vector<double> &x,
+                           std::vector<double> &alpha) override;
+    bool has_kernel_solver() const override { return parameters.coarse_space == "kernels"; }
+
     void compute_flexibilities(std::size_t k);
     void compute_diagonal();
     void prepare(const std::vector<std::size_t> &set, double shift);
     void scaled_apply(const std::vector<double> &x, std::vector<double> &y);
     void scaled_precondition(const std::vector<double> &r, std::vector<double> &z);
-    bool refine(const std::vector<std::size_t> &set, const std::vector<double> &b,
+    bool refine(const NaturalCoarseProblem *kernel, const std::vector<double> &b,
                 std::vector<double> &x);
 
     const InterfaceParameters parameters;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "row_preconditioner.h"
 
-#include "gather_entries.h"
-
 #include <taut/base/exceptions.h>
+#include <taut/base/gather_entries.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/gather_entries.h>
 #include <taut/complementarity/solver.h>
 #include <taut/interface/schur_complement.h>
 #include <taut/time/matrix_norms.h>
@@ -45,8 +46,8 @@ namespace taut
       const std::vector<std::size_t> n_kernel = processes.gather(n_own);
       const auto own = n_kernel.begin() + processes.rank();
       const std::size_t first = std::accumulate(n_kernel.begin(), own, std::size_t(0)),
-                        n_all = std::accumulate(own, n_kernel.end(), first), n = rows.size();
-      problem.kernel.assign(n_all * n, 0.);
+                        n_all = std::accumulate(own, n_kernel.end(), first);
+      problem.kernel.assign(n_all, {});
       problem.kernel_load.assign(n_all, 0.);
 
       std::vector<std::size_t> first_of_body;
@@ -57,11 +58,16 @@ namespace taut
         for (const std::vector<double> &R : kernels[k].vectors)
           problem.kernel_load[next++] = std::inner_product(R.begin(), R.end(), P[k].begin(), 0.);
       }
-      for (std::size_t i = 0; i < n; ++i)
+      MatrixEntries G;
+      for (std::size_t i = 0; i < rows.size(); ++i)
         for (const auto &[k, form] : rows[i].terms)
           for (std::size_t v = 0; v < kernels[k].vectors.size(); ++v)
-            problem.kernel[(first_of_body[k] + v) * n + i] += form.dot(kernels[k].vectors[v]);
-      processes.sum(problem.kernel);
+            G.add(first_of_body[k] + v, i, form.dot(kernels[k].vectors[v]));
+      gather(processes, G);
+      G.compress();
+      for (std::size_t e = 0; e < G.size(); ++e)
+        if (G.value[e] != 0.)
+          problem.kernel[G.row[e]].add(G.column[e], G.value[e]);
       processes.sum(problem.kernel_load);
       return first;
     }

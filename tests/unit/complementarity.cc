@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claims about the complementarity solvers on small problems whose answers are exact and found by
 // hand.
+#include "complementarity_reference.h"
+
 #include <taut/base/exceptions.h>
 #include <taut/complementarity/solver.h>
 
@@ -430,7 +432,7 @@ namespace
   MixedComplementarityProblem beam_on_stops(double load, double position, const Vector &gaps)
   {
     auto result = problem({1, 1, 1}, gaps);
-    result.kernel = {1., 1., 1., 0., 1., 2.};
+    result.kernel = kernel_rows(3, {1., 1., 1., 0., 1., 2.});
     result.kernel_load = {-load, -load * position};
     return result;
   }
@@ -514,7 +516,7 @@ namespace
     {
       DenseOperator F(2);
       auto two = problem({1, 1}, {0., 0.});
-      two.kernel = {1., 0., 0., 1.};
+      two.kernel = kernel_rows(2, {1., 0., 0., 1.});
       two.kernel_load = {-5., 5.};
       ComplementaritySolver solver(method);
       try
@@ -538,7 +540,7 @@ namespace
         for (std::size_t i = 0; i < n; ++i)
           F.set(i, i, 1.);
         auto loose = problem(std::vector<char>(n, 1), Vector(n, -1.));
-        loose.kernel = Vector(n, 0.);
+        loose.kernel = {{}};
         loose.kernel_load = {0.};
         ComplementaritySolver solver(method);
         EXPECT_EQ(solver.solve(loose, F).solution.kernel_amplitude, Vector{0.});
@@ -557,7 +559,7 @@ namespace
       {
         DenseOperator F = dense({{0., 0.}, {0., 1.}});
         auto rod = problem({unilateral, unilateral}, {0., -2.});
-        rod.kernel = {1., 1.};
+        rod.kernel = kernel_rows(2, {1., 1.});
         rod.kernel_load = {-3.};
         ComplementaritySolver solver(method);
         const auto &result = solver.solve(rod, F);
@@ -580,8 +582,8 @@ namespace
                                {-15., -12., -12., 0., 19., 7.},
                                {-11., 0., -4., -4., 7., 11.}});
       auto touching = problem({1, 0, 1, 1, 0, 1}, {-50., -26., -35., -7., 62., 36.});
-      touching.kernel = {-1., -1., -2., -2., 0., -2., -2., -1., 0.,
-                         2.,  -1., 2.,  -2., 1., -1., -1., -2., 0.};
+      touching.kernel = kernel_rows(6, {-1., -1., -2., -2., 0., -2., -2., -1., 0.,
+                         2.,  -1., 2.,  -2., 1., -1., -1., -2., 0.});
       touching.kernel_load = {-3., -8., -7.};
       ComplementaritySolver solver(method);
       const auto &result = solver.solve(touching, F);
@@ -597,7 +599,7 @@ namespace
     {
       DenseOperator F = dense({{0., 0., 0.}, {0., 0., 0.}, {0., 0., 1.}});
       auto torn = problem({0, 0, 1}, {-1., -2., -1.});
-      torn.kernel = {1., 1., 0.};
+      torn.kernel = kernel_rows(3, {1., 1., 0.});
       torn.kernel_load = {-3.};
       ComplementaritySolver solver(method);
       try

@@ -600,9 +600,10 @@ namespace
           problem.F[i * n + j] += problem.V[k * n + i] * problem.V[k * n + j];
 
     MixedComplementarityProblem &values = problem.values;
-    values.kernel.resize(n_kernel * n);
-    for (double &entry : values.kernel)
+    Vector G(n_kernel * n);
+    for (double &entry : G)
       entry = generator.integer(5) - 2;
+    values.kernel = kernel_rows(n, G);
     values.kernel_load.assign(n_kernel, 0.);
     Vector N(n), alpha(n_kernel);
     for (double &amplitude : alpha)
@@ -621,8 +622,8 @@ namespace
         values.free_gap[i] -= problem.F[i * n + j] * N[j];
       for (std::size_t k = 0; k < n_kernel; ++k)
       {
-        values.free_gap[i] -= values.kernel[k * n + i] * alpha[k];
-        values.kernel_load[k] -= values.kernel[k * n + i] * N[i];
+        values.free_gap[i] -= G[k * n + i] * alpha[k];
+        values.kernel_load[k] -= G[k * n + i] * N[i];
       }
     }
     return problem;

@@ -8,6 +8,17 @@
 #include <cmath>
 #include <vector>
 
+/// G row by row from its entries, row-major, zeros left out.
+inline std::vector<taut::SparseVector> kernel_rows(std::size_t n_rows,
+                                                   const std::vector<double> &entries)
+{
+  std::vector<taut::SparseVector> result(entries.size() / n_rows);
+  for (std::size_t e = 0; e < entries.size(); ++e)
+    if (entries[e] != 0.)
+      result[e / n_rows].add(e % n_rows, entries[e]);
+  return result;
+}
+
 /**
  * Methods that share nothing with the library, for tests: all sets by enumeration up to 12
  * unilateral rows, Lemke's method with lexicographic pivots beyond. Everything in long double and

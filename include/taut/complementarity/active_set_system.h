@@ -41,6 +41,9 @@ namespace taut
   private:
     bool correct(const MixedComplementarityProblem &problem, ComplementarityOperator &matrix,
                  const std::vector<std::size_t> &set, MixedComplementaritySolution &solution);
+    bool correct_with_kernel(const MixedComplementarityProblem &problem,
+                             ComplementarityOperator &matrix, const std::vector<std::size_t> &set,
+                             MixedComplementaritySolution &solution);
     void prepare_kernel(const MixedComplementarityProblem &problem, ComplementarityOperator &matrix,
                         const std::vector<std::size_t> &set);
     bool correct_kernel(const MixedComplementarityProblem &problem,

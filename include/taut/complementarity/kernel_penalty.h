@@ -57,10 +57,11 @@ namespace taut
   private:
     double entry(std::size_t k, std::size_t i) const
     {
-      return problem.kernel[k * problem.size() + i];
+      return kernel[k * problem.size() + i];
     }
 
     const MixedComplementarityProblem &problem;
+    std::vector<double> kernel;           ///< G, dense, row-major
     std::vector<std::size_t> all;         ///< kernel indices
     std::vector<std::size_t> independent; ///< those whose rows of G W are independent
     std::vector<double> row_weights;      ///< W_i

@@ -2,6 +2,8 @@
 #ifndef taut_complementarity_operator_h
 #define taut_complementarity_operator_h
 
+#include <taut/base/sparse_vector.h>
+
 #include <cstddef>
 #include <vector>
 
@@ -40,6 +42,25 @@ namespace taut
      */
     virtual bool solve(const std::vector<std::size_t> &set, const std::vector<double> &rhs,
                        double shift, std::vector<double> &x) = 0;
+
+    /**
+     * Solves
+     *
+     *     F_aa x_a + G_a^T alpha = rhs_a,    G_a x_a = load
+     *
+     * with one vector of @p kernel a row of G, otherwise like solve(); false, too, if the rows of
+     * the set do not hold a body. Only called where has_kernel_solver() is true; elsewhere one
+     * solve() a kernel vector has to do.
+     */
+    virtual bool solve_with_kernel(const std::vector<std::size_t> & /*set*/,
+                                   const std::vector<double> & /*rhs*/,
+                                   const std::vector<SparseVector> & /*kernel*/,
+                                   const std::vector<double> & /*load*/, double /*shift*/,
+                                   std::vector<double> & /*x*/, std::vector<double> & /*alpha*/)
+    {
+      return false;
+    }
+    virtual bool has_kernel_solver() const { return false; }
   };
 } // namespace taut
 

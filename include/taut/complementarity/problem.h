@@ -34,9 +34,9 @@ namespace taut
      */
     std::vector<double> gap_scale;
 
-    /// G, n_kernel x n, row-major: columns of the kernel vectors of floating bodies at the rows.
-    /// Empty otherwise.
-    std::vector<double> kernel;
+    /// G, n_kernel vectors over the rows: the motions of the rows with the kernel vectors of
+    /// floating bodies. Empty otherwise.
+    std::vector<SparseVector> kernel;
 
     /// e, n_kernel: load on each kernel vector, which G N has to balance [N, N m].
     std::vector<double> kernel_load;
@@ -44,8 +44,8 @@ namespace taut
     std::size_t size() const { return unilateral.size(); }
     std::size_t n_kernel() const { return kernel_load.size(); }
 
-    /// True if a kernel vector moves row i.
-    bool in_kernel(std::size_t i) const;
+    /// Rows that a kernel vector moves: not 0. Empty without kernel vectors.
+    std::vector<char> rows_in_kernel() const;
 
     /// Throws std::invalid_argument if the sizes of the arrays and of the operator do not fit
     /// together.
