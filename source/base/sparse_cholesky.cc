@@ -15,7 +15,8 @@ namespace taut
     std::vector<std::size_t> order(size());
     std::iota(order.begin(), order.end(), 0);
     const auto position = [&](const std::size_t k) { return std::make_pair(row[k], column[k]); };
-    std::stable_sort(order.begin(), order.end(), [&](const std::size_t a, const std::size_t b)
+    std::stable_sort(order.begin(), order.end(),
+                     [&](const std::size_t a, const std::size_t b)
                      { return position(a) < position(b); });
     MatrixEntries sorted;
     for (std::size_t k = 0; k < order.size(); ++k)

@@ -31,8 +31,8 @@ namespace taut
 
   KernelPenalty::KernelPenalty(const MixedComplementarityProblem &problem,
                                const DenseOperator &matrix, const std::vector<char> &rows)
-      : problem(problem), kernel(problem.n_kernel() * problem.size(), 0.), all(problem.n_kernel()), row_weights(inverse_diagonal(matrix, rows)),
-        weights(problem.n_kernel())
+      : problem(problem), kernel(problem.n_kernel() * problem.size(), 0.), all(problem.n_kernel()),
+        row_weights(inverse_diagonal(matrix, rows)), weights(problem.n_kernel())
   {
     std::iota(all.begin(), all.end(), 0);
     for (const std::size_t k : all)

@@ -12,9 +12,9 @@
 namespace taut
 {
   /**
-   * Deflation of an iteration on F_aa by the free motions of the bodies (Farhat, Chen, Mandel 1995):
-   * Z = G^T = B^T R on the active rows, with R the kernel vectors of all floating bodies. At large
-   * steps A_k has hardly any resistance against R_k, and F the large eigenvalues on Z that an
+   * Deflation of an iteration on F_aa by the free motions of the bodies (Farhat, Chen, Mandel
+   * 1995): Z = G^T = B^T R on the active rows, with R the kernel vectors of all floating bodies. At
+   * large steps A_k has hardly any resistance against R_k, and F the large eigenvalues on Z that an
    * iteration would have to find. With E = Z^T F Z the balancing preconditioner (Mandel 1993) is
    *
    *     M^-1 -> P^T M^-1 P + Z E^-1 Z^T,    P = 1 - F Z E^-1 Z^T.

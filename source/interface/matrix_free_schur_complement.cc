@@ -13,8 +13,9 @@ namespace taut
 {
   namespace
   {
-    /// Relative residual at which a solve ends, and the one that still counts as solved.
-    constexpr double wanted_residual = 1e-14, accepted_residual = 1e-11;
+    /// The smallest relative residual at which a solve ends, and how much more still counts as
+    /// solved.
+    constexpr double smallest_residual = 1e-14, accepted_excess = 1e3;
 
     /// How often conjugate gradients start anew from the true residual.
     constexpr int most_restarts = 4;
@@ -32,27 +33,25 @@ namespace taut
         result = larger(std::fabs(value), result);
       return result;
     }
-
-    double norm(const std::vector<double> &x)
-    {
-      double sum = 0.;
-      for (const double value : x)
-        sum += value * value;
-      return std::sqrt(sum);
-    }
   } // namespace
 
   MatrixFreeSchurComplement::MatrixFreeSchurComplement(const InterfaceParameters &parameters,
                                                        const FactoredStructure &solvers,
                                                        const ContactRows &rows)
-      : parameters(parameters), solvers(solvers), rows(rows),
-        body_rows(solvers.structure(), rows), F(solvers, body_rows, rows.size()),
+      : parameters(parameters), solvers(solvers), rows(rows), body_rows(solvers.structure(), rows),
+        F(solvers, body_rows, rows.size()),
         preconditioner(parameters.preconditioner, solvers, body_rows),
-        flexibilities(body_rows.size()), work(solvers.structure().zero())
+        flexibilities(body_rows.size()), tolerance(smallest_residual),
+        work(solvers.structure().zero())
   {
     if (parameters.coarse_space != "kernels" && parameters.coarse_space != "none")
       throw UserError("unknown coarse space '" + parameters.coarse_space +
                       "'; known are: kernels, none. Correct the name");
+  }
+
+  void MatrixFreeSchurComplement::set_tolerance(const double wanted)
+  {
+    tolerance = std::max(wanted, smallest_residual);
   }
 
   void MatrixFreeSchurComplement::setup(const std::vector<double> &S)
@@ -250,10 +249,12 @@ namespace taut
     return is_solved;
   }
 
-  bool MatrixFreeSchurComplement::solve_with_kernel(
-      const std::vector<std::size_t> &set, const std::vector<double> &rhs,
-      const std::vector<SparseVector> &kernel, const std::vector<double> &load, const double shift,
-      std::vector<double> &x, std::vector<double> &alpha)
+  bool MatrixFreeSchurComplement::solve_with_kernel(const std::vector<std::size_t> &set,
+                                                    const std::vector<double> &rhs,
+                                                    const std::vector<SparseVector> &kernel,
+                                                    const std::vector<double> &load,
+                                                    const double shift, std::vector<double> &x,
+                                                    std::vector<double> &alpha)
   {
     prepare(set, shift);
     const NaturalCoarseProblem coarse_problem(kernel, scale, active);
@@ -315,11 +316,10 @@ namespace taut
     ++counts.n_systems;
     const int bound = 100 + 10 * static_cast<int>(rows.size());
     double best = residual(), size = larger(largest(b), largest(x));
-    for (int restart = 0; restart < most_restarts && best > wanted_residual * size; ++restart)
+    for (int restart = 0; restart < most_restarts && best > tolerance * size; ++restart)
     {
-      const double tolerance =
-          std::min(.1, std::max(1e-15, .5 * wanted_residual * size / norm(r)));
-      counts.n_iterations += conjugate_gradients(matrix, inverse, r, tolerance, bound, step);
+      const double reduction = std::min(.1, std::max(1e-15, .3 * tolerance * size / largest(r)));
+      counts.n_iterations += conjugate_gradients(matrix, inverse, r, reduction, bound, step);
       project(step);
       for (std::size_t i = 0; i < x.size(); ++i)
         candidate[i] = x[i] + step[i];
@@ -330,6 +330,6 @@ namespace taut
       best = error;
       x = candidate;
     }
-    return std::isfinite(best) && best <= accepted_residual * size;
+    return std::isfinite(best) && best <= accepted_excess * tolerance * size;
   }
 } // namespace taut

@@ -47,6 +47,9 @@ namespace taut
                            std::vector<double> &alpha) override;
     bool has_kernel_solver() const override { return parameters.coarse_space == "kernels"; }
 
+    bool is_iterative() const override { return true; }
+    void set_tolerance(double wanted) override;
+
     void compute_flexibilities(std::size_t k);
     void compute_diagonal();
     void prepare(const std::vector<std::size_t> &set, double shift);
@@ -68,6 +71,7 @@ namespace taut
     std::vector<char> active;                       ///< rows that everything is prepared for
     std::vector<char> is_changed;                   ///< bodies that it is not prepared for
     bool is_stale = true;                           ///< a matrix or a moving row has changed
+    double tolerance;                               ///< relative residual at which a solve ends
     InterfaceStatistics counts;
     std::vector<double> row_work, coarse_part, coarse_motion;
     mutable std::vector<double> share;

@@ -5,9 +5,8 @@
 #include <taut/base/gather_entries.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <stdexcept>
+#include <numeric>
 #include <utility>
 
 namespace taut
@@ -17,6 +16,13 @@ namespace taut
     /// A Schur complement's diagonal below this part of the matrix's own is rounding: the body is
     /// free to follow.
     constexpr double smallest_stiffness = 1e-9;
+
+    /// An elastic row below this part of F_ii is as good as rigid.
+    constexpr double smallest_compliance = 1e-9;
+
+    /// Relative shift of T, which is singular if a group of bodies floats in statics. Springs
+    /// within the group do not feel that motion, so that it is not excited.
+    constexpr double kernel_shift = 1e-9;
 
     constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
 
@@ -45,8 +51,6 @@ namespace taut
                                 const std::vector<double> &compliance,
                                 const std::vector<double> &diagonal)
   {
-    L = {};
-    has_compliance = false;
     own.assign(active.size(), 0.);
     for (std::size_t i = 0; is_diagonal && i < active.size(); ++i)
       own[i] = active[i] && diagonal[i] > 0. ? 1. / diagonal[i] : 0.;
@@ -59,8 +63,9 @@ namespace taut
             if (is_changed[k])
               compute_block(k, active);
         });
-    assemble(active, diagonal);
-    factor_compliant_part(compliance);
+    gather_blocks(active);
+    add_springs(active, diagonal, compliance);
+    set_scaling(active, diagonal);
   }
 
   void RowPreconditioner::compute_block(const std::size_t k, const std::vector<char> &active)
@@ -90,13 +95,12 @@ namespace taut
     if (is_dirichlet && n > 0)
       condense(k, block);
     block.entries.compress();
-    block.inverse_diagonal.assign(n, 0.);
     for (std::size_t e = 0; e < block.entries.size(); ++e)
     {
       const int p = block.entries.row[e];
       if (p == block.entries.column[e] &&
-          block.entries.value[e] > smallest_stiffness * diagonal[p])
-        block.inverse_diagonal[p] = 1. / block.entries.value[e];
+          !(block.entries.value[e] > smallest_stiffness * diagonal[p]))
+        block.entries.value[e] = 0.;
     }
     factorisations += is_dirichlet && n > 0;
     blocks[k] = std::move(block);
@@ -145,8 +149,8 @@ namespace taut
         interior->column(side, response);
         const unsigned int end = response.first + static_cast<unsigned int>(response.value.size());
         const unsigned int begin = response.first > band ? response.first - band : 0;
-        for (std::size_t q = std::lower_bound(block.dofs.begin(), block.dofs.end(), begin) -
-                             block.dofs.begin();
+        for (std::size_t q =
+                 std::lower_bound(block.dofs.begin(), block.dofs.end(), begin) - block.dofs.begin();
              q <= p && block.dofs[q] < end + band; ++q)
         {
           const double product = response.dot(couplings[q]);
@@ -157,83 +161,101 @@ namespace taut
     }
   }
 
-  /// L, and what is to be done on rows that it does not reach.
-  void RowPreconditioner::assemble(const std::vector<char> &active,
-                                   const std::vector<double> &diagonal)
+  /// T without springs, and B, of all ranks.
+  void RowPreconditioner::gather_blocks(const std::vector<char> &active)
   {
     const Communicator &processes = solvers.structure().communicator();
-    std::vector<double> Q(active.size(), 0.);
+    std::size_t n_own = 0;
+    for (const Block &block : blocks)
+      n_own += block.dofs.size();
+    const std::vector<std::size_t> sizes = processes.gather(n_own);
+    std::size_t first =
+        std::accumulate(sizes.begin(), sizes.begin() + processes.rank(), std::size_t(0));
+    n_dofs = std::accumulate(sizes.begin(), sizes.end(), std::size_t(0));
 
-    // Of each body: the rows at each DoF, with D^-1 B.
-    std::vector<std::vector<std::vector<std::pair<std::size_t, double>>>> scaled(body_rows.size());
-    for (std::size_t k = 0; k < body_rows.size(); ++k)
+    T = {};
+    B = {};
+    for (std::size_t k = 0; k < blocks.size(); ++k)
     {
       const Block &block = blocks[k];
-      scaled[k].resize(block.dofs.size());
+      for (std::size_t e = 0; e < block.entries.size(); ++e)
+        T.add(first + block.entries.row[e], first + block.entries.column[e],
+              block.entries.value[e]);
       for (const BodyRows::Entry &entry : body_rows[k])
         for (std::size_t e = 0; active[entry.row] && e < entry.form.index.size(); ++e)
         {
           const auto at =
               std::lower_bound(block.dofs.begin(), block.dofs.end(), entry.form.index[e]);
-          if (at == block.dofs.end() || *at != entry.form.index[e])
-            continue;
-          const std::size_t p = at - block.dofs.begin();
-          auto &here = scaled[k][p];
-          if (here.empty() || here.back().first != entry.row)
-            here.emplace_back(entry.row, 0.);
-          here.back().second += block.inverse_diagonal[p] * entry.form.value[e];
+          if (at != block.dofs.end() && *at == entry.form.index[e])
+            B.add(entry.row, first + (at - block.dofs.begin()), entry.form.value[e]);
         }
-      for (std::size_t p = 0; p < block.dofs.size(); ++p)
-        for (const auto &[row, value] : scaled[k][p])
-          if (value != 0.)
-            Q[row] += value * value / block.inverse_diagonal[p];
+      first += block.dofs.size();
     }
-    processes.sum(Q);
-
-    for (std::size_t k = 0; k < body_rows.size(); ++k)
-      for (std::size_t e = 0; e < blocks[k].entries.size(); ++e)
-      {
-        const int p = blocks[k].entries.row[e], q = blocks[k].entries.column[e];
-        const double entry = blocks[k].entries.value[e];
-        for (const auto &[i, b_i] : scaled[k][p])
-          for (const auto &[j, b_j] : scaled[k][q])
-          {
-            if (b_i == 0. || b_j == 0. || (p == q && j > i))
-              continue;
-            // Off the diagonal of S_k each entry counts twice, above and below.
-            const double twice = p != q && i == j ? 2. : 1.;
-            L.add(i, j, twice * entry * b_i * b_j / (Q[i] * Q[j]));
-          }
-      }
-    gather(processes, L);
-    L.compress();
-    for (std::size_t i = 0; i < active.size(); ++i)
-      if (active[i] && Q[i] == 0. && diagonal[i] > 0.)
-        own[i] = 1. / diagonal[i];
+    gather(processes, T);
+    gather(processes, B);
+    B.compress();
   }
 
-  void RowPreconditioner::factor_compliant_part(const std::vector<double> &compliance)
+  /// The elastic rows as springs between the DoFs, and the factor of T with them.
+  void RowPreconditioner::add_springs(const std::vector<char> &active,
+                                      const std::vector<double> &diagonal,
+                                      const std::vector<double> &compliance)
   {
-    const std::size_t n = compliance.size();
-    root_compliance.resize(n);
-    for (std::size_t i = 0; i < n; ++i)
+    has_springs = false;
+    stiffness.assign(active.size(), 0.);
+    for (std::size_t i = 0; i < active.size(); ++i)
+      if (active[i] && compliance[i] > smallest_compliance * diagonal[i])
+      {
+        stiffness[i] = 1. / compliance[i];
+        has_springs = true;
+      }
+    for (std::size_t first = 0, end = 0; first < B.size(); first = end)
     {
-      root_compliance[i] = std::sqrt(compliance[i]);
-      has_compliance = has_compliance || compliance[i] > 0.;
+      const int i = B.row[first];
+      while (end < B.size() && B.row[end] == i)
+        ++end;
+      for (std::size_t e = first; stiffness[i] > 0. && e < end; ++e)
+        for (std::size_t f = first; f <= e; ++f)
+          T.add(B.column[e], B.column[f], stiffness[i] * B.value[e] * B.value[f]);
     }
-    if (!has_compliance)
+    T.compress();
+    if (!has_springs)
       return;
-    SymmetricEntries entries;
-    for (std::size_t e = 0; e < L.size(); ++e)
+    SymmetricEntries shifted = T;
+    std::vector<char> has_diagonal(n_dofs, 0);
+    for (std::size_t e = 0; e < shifted.size(); ++e)
+      if (shifted.row[e] == shifted.column[e] && shifted.value[e] > 0.)
+      {
+        shifted.value[e] *= 1. + kernel_shift;
+        has_diagonal[shifted.row[e]] = 1;
+      }
+    for (std::size_t p = 0; p < n_dofs; ++p)
+      if (!has_diagonal[p])
+        shifted.add(p, p, 1.);
+    inverse_T.factor(n_dofs, shifted, 0.);
+  }
+
+  /// D^-1 B_r Q^-1.
+  void RowPreconditioner::set_scaling(const std::vector<char> &active,
+                                      const std::vector<double> &diagonal)
+  {
+    std::vector<double> D(n_dofs, 0.), Q(active.size(), 0.);
+    for (std::size_t e = 0; e < T.size(); ++e)
+      if (T.row[e] == T.column[e])
+        D[T.row[e]] = T.value[e];
+    scaled_B = B;
+    for (std::size_t e = 0; e < B.size(); ++e)
     {
-      const int i = L.row[e], j = L.column[e];
-      if (compliance[i] > 0. && compliance[j] > 0.)
-        entries.add(i, j, root_compliance[i] * L.value[e] * root_compliance[j]);
+      const double d = D[B.column[e]];
+      scaled_B.value[e] = d > 0. && stiffness[B.row[e]] == 0. ? B.value[e] / d : 0.;
+      Q[B.row[e]] += scaled_B.value[e] * B.value[e];
     }
-    for (std::size_t i = 0; i < n; ++i)
-      entries.add(i, i, 1.);
-    if (compliant_part.factor(n, entries, 0.) != n)
-      throw std::logic_error("the preconditioner of the rows is not definite");
+    for (std::size_t e = 0; e < B.size(); ++e)
+      if (Q[B.row[e]] > 0.)
+        scaled_B.value[e] /= Q[B.row[e]];
+    for (std::size_t i = 0; i < active.size(); ++i)
+      if (active[i] && Q[i] == 0. && stiffness[i] == 0. && diagonal[i] > 0.)
+        own[i] = 1. / diagonal[i];
   }
 
   void RowPreconditioner::apply(const std::vector<double> &r, std::vector<double> &z) const
@@ -243,15 +265,39 @@ namespace taut
       z[i] = own[i] * r[i];
     if (is_diagonal)
       return;
-    L.vmult_add(r, z);
-    if (!has_compliance)
+
+    // T u = B_c S_c^-1 r_c, the motion that the elastic rows leave.
+    force.assign(n_dofs, 0.);
+    for (std::size_t e = 0; e < B.size(); ++e)
+      force[B.column[e]] += B.value[e] * stiffness[B.row[e]] * r[B.row[e]];
+    if (has_springs)
+      inverse_T.solve(force);
+
+    // The rigid rows.
+    jump = r;
+    for (std::size_t e = 0; e < B.size(); ++e)
+      jump[B.row[e]] -= B.value[e] * force[B.column[e]];
+    motion.assign(n_dofs, 0.);
+    for (std::size_t e = 0; e < B.size(); ++e)
+      motion[B.column[e]] += scaled_B.value[e] * jump[B.row[e]];
+    force.assign(n_dofs, 0.);
+    T.vmult_add(motion, force);
+    for (std::size_t e = 0; e < B.size(); ++e)
+      z[B.row[e]] += scaled_B.value[e] * force[B.column[e]];
+    if (!has_springs)
       return;
-    work.resize(r.size());
+
+    // And the elastic ones, with what the rigid ones move.
+    force.assign(n_dofs, 0.);
+    for (std::size_t e = 0; e < B.size(); ++e)
+    {
+      const int i = B.row[e];
+      force[B.column[e]] += B.value[e] * (stiffness[i] > 0. ? stiffness[i] * r[i] : z[i]);
+    }
+    inverse_T.solve(force);
     for (std::size_t i = 0; i < r.size(); ++i)
-      work[i] = own[i] > 0. ? 0. : root_compliance[i] * z[i];
-    compliant_part.solve(work);
-    for (std::size_t i = 0; i < r.size(); ++i)
-      work[i] *= -root_compliance[i];
-    L.vmult_add(work, z);
+      z[i] += stiffness[i] * r[i];
+    for (std::size_t e = 0; e < B.size(); ++e)
+      z[B.row[e]] -= stiffness[B.row[e]] * B.value[e] * force[B.column[e]];
   }
 } // namespace taut

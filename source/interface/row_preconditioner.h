@@ -13,20 +13,27 @@ namespace taut
 {
   /**
    * A cheap approximation of F^-1 on an active set, by name. With b the DoFs of body k that active
-   * rows act on and D the diagonal of S_k,
+   * rows act on,
    *
    *     "diagonal"   1 / F_ii
-   *     "lumped"     S_k = A_k on b
-   *     "Dirichlet"  S_k = the Schur complement of A_k on b: what b feels of the body when the rest
-   *                  of it follows
+   *     "lumped"     A_k on b in place of the body
+   *     "Dirichlet"  the Schur complement of A_k on b: what b feels of the body when the rest of it
+   *                  follows
    *
-   *     L = Q^-1 (sum_k B_k^T D^-1 S_k D^-1 B_k) Q^-1,    Q = diag(sum_k B_k^T D^-1 B_k).
+   * The last two make one sparse matrix T over all DoFs b, with the elastic rows c as springs in
+   * it: T = sum_k T_k + B_c S_c^-1 B_c^T. Of
    *
-   * Q makes the preconditioner split a jump between the bodies that meet there; where no two rows
-   * share a DoF and D is the same on both sides it is the (B^T B)^-1 scaling of FETI (Rixen and
-   * Farhat 1999 for unequal sides). L approximates F without compliance, so the whole is (L^-1 +
-   * S)^-1 = L - L S^1/2 (1 + S^1/2 L S^1/2)^-1 S^1/2 L with a sparse factor in row space: elastic
-   * and moving rows are treated like cuts.
+   *     [F_cc F_cr]         F = B^T (sum_k T_k)^-1 B + S
+   *     [F_rc F_rr],
+   *
+   * the elastic part is so inverted exactly, with a factor of T. What is left for the rigid rows r,
+   * B_r^T T^-1 B_r, is approximated by the preconditioner of FETI, which splits a jump between the
+   * two sides by their stiffness D = diag(T) (Rixen and Farhat 1999):
+   *
+   *     Q^-1 B_r^T D^-1 T D^-1 B_r Q^-1,    Q = diag(B_r^T D^-1 B_r),
+   *
+   * the (B^T B)^-1 scaling where D is the same on both sides and no two rows share a DoF. Moving
+   * rows are rows like the others.
    */
   class RowPreconditioner
   {
@@ -47,30 +54,36 @@ namespace taut
     long n_factorisations() const { return factorisations; }
 
   private:
-    /// S_k, by position in the list of DoFs b, and where it acts.
+    /// T_k, by position in the list of DoFs b.
     struct Block
     {
       std::vector<unsigned int> dofs;
       SymmetricEntries entries;
-      std::vector<double> inverse_diagonal; ///< D^-1; 0 where the body resists nothing
     };
 
     void compute_block(std::size_t k, const std::vector<char> &active);
     void condense(std::size_t k, Block &block) const;
-    void assemble(const std::vector<char> &active, const std::vector<double> &diagonal);
-    void factor_compliant_part(const std::vector<double> &compliance);
+    void gather_blocks(const std::vector<char> &active);
+    void add_springs(const std::vector<char> &active, const std::vector<double> &diagonal,
+                     const std::vector<double> &compliance);
+    void set_scaling(const std::vector<char> &active, const std::vector<double> &diagonal);
 
     const FactoredStructure &solvers;
     const BodyRows &body_rows;
     bool is_diagonal, is_dirichlet;
     std::vector<Block> blocks;
-    SymmetricEntries L;
-    std::vector<double> own; ///< 1 / F_ii of active rows that L does not reach
-    std::vector<double> root_compliance;
-    bool has_compliance = false;
-    SparseCholesky compliant_part; ///< of 1 + S^1/2 L S^1/2
     long factorisations = 0;
-    mutable std::vector<double> work, image;
+
+    // The same on all ranks.
+    std::size_t n_dofs = 0; ///< of all lists b
+    SymmetricEntries T;
+    SparseCholesky inverse_T;
+    MatrixEntries B;               ///< row of F, DoF
+    MatrixEntries scaled_B;        ///< D^-1 B_r Q^-1, in the same order
+    std::vector<double> own;       ///< 1 / F_ii of rows that nothing else is done for
+    std::vector<double> stiffness; ///< 1 / S_i of elastic rows, 0 of others
+    bool has_springs = false;
+    mutable std::vector<double> motion, force, jump;
   };
 } // namespace taut
 

@@ -582,8 +582,8 @@ namespace
                                {-15., -12., -12., 0., 19., 7.},
                                {-11., 0., -4., -4., 7., 11.}});
       auto touching = problem({1, 0, 1, 1, 0, 1}, {-50., -26., -35., -7., 62., 36.});
-      touching.kernel = kernel_rows(6, {-1., -1., -2., -2., 0., -2., -2., -1., 0.,
-                         2.,  -1., 2.,  -2., 1., -1., -1., -2., 0.});
+      touching.kernel = kernel_rows(
+          6, {-1., -1., -2., -2., 0., -2., -2., -1., 0., 2., -1., 2., -2., 1., -1., -1., -2., 0.});
       touching.kernel_load = {-3., -8., -7.};
       ComplementaritySolver solver(method);
       const auto &result = solver.solve(touching, F);

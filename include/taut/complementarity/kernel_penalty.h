@@ -55,10 +55,7 @@ namespace taut
                                                const std::vector<double> &amplitude) const;
 
   private:
-    double entry(std::size_t k, std::size_t i) const
-    {
-      return kernel[k * problem.size() + i];
-    }
+    double entry(std::size_t k, std::size_t i) const { return kernel[k * problem.size() + i]; }
 
     const MixedComplementarityProblem &problem;
     std::vector<double> kernel;           ///< G, dense, row-major

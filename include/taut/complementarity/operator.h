@@ -61,6 +61,13 @@ namespace taut
       return false;
     }
     virtual bool has_kernel_solver() const { return false; }
+
+    /// True if systems are solved by an iteration, to tolerance().
+    virtual bool is_iterative() const { return false; }
+
+    /// Residual of the iteration, relative to the terms of rows scaled to F_ii = 1; of no meaning
+    /// where is_iterative() is false.
+    virtual void set_tolerance(double /*tolerance*/) {}
   };
 } // namespace taut
 
