@@ -6,6 +6,7 @@
 #include <taut/output/series.h>
 #include <taut/partition/make_partition.h>
 #include <taut/scene/entries.h>
+#include <taut/simulation/free_bodies.h>
 #include <taut/simulation/simulation.h>
 #include <taut/time/choose_scheme.h>
 #include <taut/time/form_finding.h>
@@ -301,6 +302,7 @@ namespace taut
       log << "Static equilibrium: residual " << start_certificate.complementarity << " (links), "
           << start_certificate.balance << " (balance), "
           << counted(start_certificate.iterations, "active-set iteration") << '\n';
+      report_free_bodies();
     }
     else if (model.start == Start::given)
       processes.agree(
@@ -346,6 +348,33 @@ namespace taut
                                               ": a rigid one-sided link starts open or just "
                                               "touching. Change its Gap or the start.");
     }
+  }
+
+  /// Says which bodies are at rest only because nothing pushes them.
+  void Simulation::report_free_bodies() const
+  {
+    std::vector<Substructure::Kernel> kernels;
+    for (std::size_t k = 0; k < bodies.size(); ++k)
+      kernels.push_back(bodies[k].kernel());
+    const std::vector<char> free = free_bodies(kernels, links, start.multiplier);
+
+    const std::vector<Structure::Body> &all = bodies.all_bodies();
+    std::vector<double> flags(all.size(), 0.);
+    for (std::size_t k = 0; k < bodies.size(); ++k)
+      for (std::size_t i = 0; i < all.size(); ++i)
+        if (free[k] && all[i].name == bodies[k].name())
+          flags[i] = 1.;
+    processes.sum(flags);
+    std::string names;
+    std::size_t n = 0;
+    constexpr std::size_t most_named = 6;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (flags[i] > 0. && ++n <= most_named)
+        names += (n > 1 ? ", '" : "'") + all[i].name + "'";
+    if (n > 0)
+      log << "  nothing holds " << names
+          << (n > most_named ? " and " + std::to_string(n - most_named) + " more" : "")
+          << ": at rest only because no force moves " << (n > 1 ? "them" : "it") << '\n';
   }
 
   void Simulation::find_rest_of_probes()

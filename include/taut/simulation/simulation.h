@@ -51,6 +51,7 @@ namespace taut
     void describe() const;
     void prepare_folder() const;
     void find_start();
+    void report_free_bodies() const;
     void find_rest_of_probes();
     const TimeIntegrator &choose_integrator() const;
     void write_start() const;

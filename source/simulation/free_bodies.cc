@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/simulation/free_bodies.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+namespace taut
+{
+  namespace
+  {
+    using Vector = std::vector<double>;
+
+    /// Takes from @p v what a basis of orthogonal unit vectors has of it, and adds the rest to the
+    /// basis unless it is rounding.
+    void extend(std::vector<Vector> &basis, Vector v)
+    {
+      const auto dot = [](const Vector &a, const Vector &b)
+      { return std::inner_product(a.begin(), a.end(), b.begin(), 0.); };
+      const double size = std::sqrt(dot(v, v));
+      // Twice, because once leaves the rounding of what was taken away.
+      for (int pass = 0; pass < 2; ++pass)
+        for (const Vector &b : basis)
+        {
+          const double part = dot(v, b);
+          for (std::size_t i = 0; i < v.size(); ++i)
+            v[i] -= part * b[i];
+        }
+      const double rest = std::sqrt(dot(v, v));
+      if (!(rest > 1e-9 * size))
+        return;
+      for (double &x : v)
+        x /= rest;
+      basis.push_back(std::move(v));
+    }
+
+    /// The work of a row on the free motions of a body.
+    Vector work(const Row &row, const std::size_t body, const Substructure::Kernel &kernel)
+    {
+      Vector result(kernel.vectors.size(), 0.);
+      for (const Term &term : row.terms)
+        if (term.substructure == body)
+          for (std::size_t j = 0; j < result.size(); ++j)
+            result[j] += term.form.dot(kernel.vectors[j]);
+      return result;
+    }
+  } // namespace
+
+  std::vector<char> free_bodies(const std::vector<Substructure::Kernel> &kernels,
+                                const ContactRows &rows, const Vector &multiplier)
+  {
+    const std::size_t n = kernels.size();
+    std::vector<std::vector<Vector>> opposed(n);
+    // Groups of bodies that rows join, by one of their members; n is the ground.
+    std::vector<std::size_t> group(n + 1);
+    std::iota(group.begin(), group.end(), 0);
+    const auto join = [&](const std::size_t a, const std::size_t b)
+    { std::replace(group.begin(), group.end(), std::size_t(group[a]), std::size_t(group[b])); };
+    for (std::size_t k = 0; k < n; ++k)
+      if (kernels[k].vectors.empty())
+        join(k, n);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      if (rows[i].unilateral && multiplier[i] == 0.)
+        continue;
+      std::set<std::size_t> ends;
+      for (const Term &term : rows[i].terms)
+        ends.insert(term.substructure);
+      if (ends.size() == 1)
+        ends.insert(n);
+      for (const std::size_t k : ends)
+      {
+        join(*ends.begin(), k);
+        if (k < n && !kernels[k].vectors.empty())
+          extend(opposed[k], work(rows[i], k, kernels[k]));
+      }
+    }
+    std::vector<char> result(n);
+    for (std::size_t k = 0; k < n; ++k)
+      result[k] = group[k] != group[n] || opposed[k].size() < kernels[k].vectors.size();
+    return result;
+  }
+} // namespace taut
