@@ -4,6 +4,7 @@
 #include "complementarity_reference.h"
 
 #include <taut/base/exceptions.h>
+#include <taut/complementarity/energy_ordered.h>
 #include <taut/complementarity/solver.h>
 
 #include <gtest/gtest.h>
@@ -314,6 +315,20 @@ namespace
       EXPECT_NEAR(result.solution.multiplier[0] + result.solution.multiplier[1], 2., 1e-14);
       expect_near(result.solution.gap, {0., 0., 7.});
     }
+  }
+
+  TEST(complementarity, the_row_that_releases_most_energy_closes_first)
+  {
+    // Alone, the rows release d^2/(2 F): 1/2 and 1/200. The first one opens the second, and that is
+    // all; with the second one first, it would close, the other one too, and it would open again.
+    DenseOperator F = dense({{1., .9}, {.9, 1.}});
+    EnergyOrderedActiveSet solver{ComplementarityOptions()};
+    MixedComplementaritySolution solution;
+    EXPECT_EQ(solver.solve(problem({1, 1}, {-1., -.1}), F, solution),
+              EnergyOrderedActiveSet::Outcome::finished);
+    expect_near(solution.multiplier, {1., 0.});
+    expect_near(solution.gap, {0., .8});
+    EXPECT_EQ(solver.n_changes(), 1u);
   }
 
   TEST(complementarity, the_tighter_of_two_parallel_stops_carries)
