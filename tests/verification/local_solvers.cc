@@ -46,12 +46,13 @@ TEST(LocalSolvers, hold_what_is_held)
   }
 }
 
-// Random blocks, made definite by their diagonals; three unknowns are held at zero.
+// Random blocks, made definite by their diagonals; three unknowns are held at zero. Columns decay
+// long before the ends, so that those of the block solver come from its recurrences.
 TEST(LocalSolvers, products_give_back_what_was_solved)
 {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> value(-1., 1.);
-  constexpr unsigned int n_nodes = 13;
+  constexpr unsigned int n_nodes = 201;
   for (unsigned int b = 1; b <= 4; ++b)
     for (const std::string name : {"block tridiagonal", "sparse direct"})
     {
@@ -60,7 +61,7 @@ TEST(LocalSolvers, products_give_back_what_was_solved)
       const auto matrix = taut::make_block_tridiagonal(b, size);
       for (unsigned int i = 0; i < size; ++i)
         for (unsigned int j = i / b == 0 ? 0 : b * (i / b - 1); j <= i; ++j)
-          matrix->add(i, j, i == j ? 2. * b + 1. : value(random));
+          matrix->add(i, j, i == j ? 4. * b : value(random));
       const std::vector<unsigned int> held = {0, size / 2, size - 1};
       const auto solver = taut::make_local_solver(name, *matrix);
       solver->factor({{.5, matrix.get()}, {1.5, matrix.get()}}, held);
@@ -89,6 +90,8 @@ TEST(LocalSolvers, products_give_back_what_was_solved)
           form.add(i, load[i] = value(random));
         taut::WindowedVector column;
         solver->column(form, column);
+        if (name == "block tridiagonal")
+          EXPECT_LT(column.value.size(), size);
         std::vector<double> full(size, 0.);
         std::copy(column.value.begin(), column.value.end(), full.begin() + column.first);
         check(full, load);

@@ -82,3 +82,29 @@ TEST(Oscillator, mass_on_a_support_that_moves)
   EXPECT_LT(force_error, 1e-4 * k * a);
   EXPECT_LT(gap_error, 1e-14);
 }
+
+// The spring carries m g below a support that has sunk by 2 cm; its end is a held unknown.
+TEST(Oscillator, mass_hangs_at_rest_below_a_sunken_support)
+{
+  const char *const scene =
+      "set Generator = network\nset Gravity = 0, -9.81\nset Start = equilibrium\n"
+      "subsection Network\n set Wires = wire\n set Supports = sunken, end\n set Masses = mass\n"
+      " set Links = joint\n"
+      " subsection Wire wire\n  set To = 4, 0\n  set Components = string\n"
+      "  set Mass per length = 1\n  set Tension = 1000\n  set Element size = 0.5\n end\n"
+      " subsection Support sunken\n  set Wire = wire\n  set Positions = 0\n"
+      "  set Displacement = -0.02\n end\n"
+      " subsection Support end\n  set Wire = wire\n  set Positions = 4\n end\n"
+      " subsection Mass mass\n  set Position = 0, -1\n  set Mass = 2\n  set Motions = y\n end\n"
+      " subsection Link joint\n  set Type = joint\n  set From = mass\n  set To = wire @ 0\n"
+      "  set Direction = 0, 1\n  set Stiffness = 800\n end\nend\n"
+      "subsection Time\n set Step = 1e-3\n set End = 1e-3\nend\n";
+  const double weight = 2. * 9.81;
+  run_scene(scene, {},
+            [&](const taut::StepView &view)
+            {
+              EXPECT_NEAR(view.reference.displacement[1][0] + view.state.U[1][0],
+                          -.02 - weight / 800., 1e-14);
+              EXPECT_NEAR(view.state.multiplier[0], -weight, 1e-10);
+            });
+}
