@@ -73,7 +73,9 @@ TEST(LocalSolvers, products_give_back_what_was_solved)
         matrix->vmult_add(2., x.data(), product.data());
         for (unsigned int i = 0; i < size; ++i)
           if (i != held[0] && i != held[1] && i != held[2])
+          {
             EXPECT_NEAR(product[i], rhs[i], 1e-12) << i;
+          }
       };
       std::vector<double> rhs(size);
       for (double &v : rhs)
