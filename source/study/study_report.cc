@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iomanip>
+#include <limits>
 #include <ostream>
 
 namespace taut
@@ -24,6 +25,15 @@ namespace taut
       return text;
     }
 
+    std::string refined_values(const StudyResult &result, const StudySetting &setting)
+    {
+      std::string text;
+      for (std::size_t k = 0; k < setting.values.size(); ++k)
+        if (result.ladders[k].refined)
+          text += (text.empty() ? "" : ", ") + setting.values[k];
+      return text;
+    }
+
     /// A line of the table.
     void print_setting(const StudyResult &result, const StudySetting &setting, std::ostream &out)
     {
@@ -34,6 +44,64 @@ namespace taut
           << " | " << result.end_time / setting.least_seconds() << " | "
           << result.end_time / setting.seconds_with_output << " |\n"
           << std::defaultfloat;
+    }
+    /// The values on the ladders that are not refined, "BDF2, string": what settings are compared
+    /// by.
+    std::string kind(const StudyResult &result, const StudySetting &setting)
+    {
+      std::string text;
+      for (std::size_t k = 0; k < setting.values.size(); ++k)
+        if (!result.ladders[k].refined)
+          text += (text.empty() ? "" : ", ") + setting.values[k];
+      return text;
+    }
+
+    /// For each kind of setting the cheapest one for each accuracy.
+    void print_kinds(const StudyResult &result, const std::vector<double> &accuracies,
+                     std::ostream &out)
+    {
+      std::vector<std::string> kinds;
+      for (const StudySetting &setting : result.settings)
+        if (std::count(kinds.begin(), kinds.end(), kind(result, setting)) == 0)
+          kinds.push_back(kind(result, setting));
+      if (kinds.size() < 2 || accuracies.empty())
+        return;
+      out << "What each can do: x real time of its cheapest setting for an error of\n\n|";
+      for (const Ladder &ladder : result.ladders)
+        if (!ladder.refined)
+          out << ' ' << ladder.name;
+      out << " | ";
+      for (const double accuracy : accuracies)
+        out << std::setprecision(6) << 100. * accuracy << " % | ";
+      out << "least error | failed |\n|---|";
+      for (std::size_t i = 0; i < accuracies.size(); ++i)
+        out << "---|";
+      out << "---|---|\n";
+      for (const std::string &name : kinds)
+      {
+        std::vector<StudySetting> own;
+        for (const StudySetting &setting : result.settings)
+          if (kind(result, setting) == name)
+            own.push_back(setting);
+        out << "| " << name << " | ";
+        for (const double accuracy : accuracies)
+        {
+          if (const StudySetting *best = cheapest(own, accuracy))
+            out << std::setprecision(3) << result.end_time / best->least_seconds() << " ("
+                << refined_values(result, *best) << ") | ";
+          else
+            out << "- | ";
+        }
+        double least = std::numeric_limits<double>::infinity();
+        int n_failed = 0;
+        for (const StudySetting &setting : own)
+          if (setting.message.empty())
+            least = std::min(least, setting.bound);
+          else
+            ++n_failed;
+        out << std::setprecision(2) << least << " | " << n_failed << " |\n";
+      }
+      out << '\n';
     }
   } // namespace
 
@@ -65,6 +133,7 @@ namespace taut
     for (const StudySetting *setting : front)
       print_setting(result, *setting, out);
     out << '\n';
+    print_kinds(result, accuracies, out);
     const auto name_cheapest = [&](const std::string &of, const StudySetting *best)
     {
       out << "  " << of << ": ";
