@@ -74,8 +74,8 @@ namespace taut
     std::size_t row = problem->size();
     double largest_release = 0.;
     for (std::size_t i = 0; i < problem->size(); ++i)
-      if (problem->unilateral[i] && !is_closed[i] && !blocked[i] && matrix->diagonal(i) > 0. &&
-          gap[i] < -options.dead_band * terms[i])
+      if (problem->unilateral[i] && !problem->is_held_open(i) && !is_closed[i] && !blocked[i] &&
+          matrix->diagonal(i) > 0. && gap[i] < -options.dead_band * terms[i])
       {
         const double release = gap[i] * gap[i] / matrix->diagonal(i);
         if (release > largest_release)

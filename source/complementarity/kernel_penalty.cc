@@ -145,6 +145,7 @@ namespace taut
   {
     MixedComplementarityProblem result;
     result.unilateral = problem.unilateral;
+    result.held_open = problem.held_open;
     result.free_gap = free_gap;
     result.gap_scale = gap_scale;
     for (std::size_t i = 0; i < problem.size(); ++i)

@@ -38,6 +38,7 @@ namespace taut
   {
     if (matrix.size() != size() || free_gap.size() != size() ||
         (!gap_scale.empty() && gap_scale.size() != size()) || kernel.size() != n_kernel() ||
+        (!held_open.empty() && held_open.size() != size()) ||
         std::any_of(kernel.begin(), kernel.end(),
                     [&](const SparseVector &vector)
                     {
@@ -133,7 +134,8 @@ namespace taut
     {
       const double force = weights[i] * solution.multiplier[i];
       const double gap = solution.gap[i];
-      const double violation = (problem.unilateral[i] && force < gap) ? force : gap;
+      const double violation =
+          problem.is_held_open(i) || (problem.unilateral[i] && force < gap) ? force : gap;
       result.rows[i] = relative(std::abs(violation), terms[i]);
       result.max = larger(result.max, result.rows[i]);
     }

@@ -57,7 +57,8 @@ namespace taut
     for (std::size_t i = 0; i < problem.size(); ++i)
     {
       const bool inert = matrix.diagonal(i) == 0. && (in_kernel.empty() || !in_kernel[i]);
-      solution.closed[i] = !inert && (!problem.unilateral[i] || solution.closed[i]);
+      solution.closed[i] =
+          !inert && !problem.is_held_open(i) && (!problem.unilateral[i] || solution.closed[i]);
       if (solution.closed[i])
         set.push_back(i);
     }
@@ -69,7 +70,7 @@ namespace taut
     bool flipped = false;
     for (std::size_t i = 0; i < problem.size(); ++i)
     {
-      if (!problem.unilateral[i] || weights[i] == 0.)
+      if (!problem.unilateral[i] || problem.is_held_open(i) || weights[i] == 0.)
         continue;
       const double band = options.dead_band * terms[i];
       const bool flips = solution.closed[i] ? weights[i] * solution.multiplier[i] < -band

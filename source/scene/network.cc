@@ -76,6 +76,9 @@ namespace taut
       wire.tension = item.tension;
       wire.bending_stiffness = item.bending_stiffness;
       wire.degree = item.degree;
+      wire.mass_matrix = item.mass_matrix == "lumped"    ? MassMatrix::lumped
+                         : item.mass_matrix == "reduced" ? MassMatrix::reduced
+                                                         : MassMatrix::consistent;
       wire.element_size = item.element_size;
       wire.damping = {item.mass_damping, item.stiffness_damping};
       wire.weight = item.weight;

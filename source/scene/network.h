@@ -24,6 +24,7 @@ namespace taut
       std::vector<std::string> components;
       double mass_per_length = 0., axial_stiffness = 0., tension = 0., bending_stiffness = 0.;
       unsigned int degree = 2;
+      std::string mass_matrix = "consistent";
       double element_size = 1., mass_damping = 0., stiffness_damping = 0.;
       bool weight = true;
       std::string axial_displacement = "0", axial_velocity = "0";

@@ -66,6 +66,12 @@ namespace taut
                       not_negative());
     prm.add_parameter("Degree", degree, "Polynomial degree of bar and string elements [1]",
                       Integer(1, 4));
+    prm.add_parameter(
+        "Mass matrix", mass_matrix,
+        "Integration of the mass of bar and string elements: 'consistent', 'lumped' "
+        "(diagonal), or 'reduced' (with linear elements, half of Theta or Newmark, and "
+        "step = element / wave speed it carries waves exactly)",
+        Selection("consistent|lumped|reduced"));
     prm.add_parameter("Element size", element_size, "Largest length of an element [m]",
                       not_negative());
     prm.add_parameter("Mass damping", mass_damping, "Rayleigh damping, times M [1/s]",

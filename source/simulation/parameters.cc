@@ -264,10 +264,13 @@ namespace taut
     prm.add_parameter("Step", step, "[s]", not_negative());
     prm.add_parameter("End", end_time, "0: the start only, e.g. a static equilibrium [s]",
                       not_negative());
-    prm.add_parameter("Massless contact", massless_contact,
-                      "Moves the mass of a wire's node at a rigid stop or dropper to its "
-                      "neighbours; total mass, its centre and its inertia stay. No impact then "
-                      "takes energy or makes a peak of the force, and any scheme suits such links");
+    prm.add_parameter(
+        "Massless contact", massless_contact,
+        "Whether the node of a wire at a rigid stop or dropper gives its mass to its "
+        "neighbours; impacts then take no energy and their force stays bounded as the step falls, "
+        "with any scheme. 'mass': the total mass stays, the force overshoots least. 'inertia': "
+        "the centre of mass and the moment of inertia stay as well",
+        Selection("no|mass|inertia"));
     for (auto &[name, integrator] : integrators)
       integrator->declare_parameters(prm);
     prm.leave_subsection();
@@ -467,8 +470,12 @@ namespace taut
     scene.start = start == "equilibrium"  ? Start::equilibrium
                   : start == "undeformed" ? Start::undeformed
                                           : Start::given;
+    const ContactMass contact_mass = massless_contact == "no"     ? ContactMass::stays
+                                     : massless_contact == "mass" ? ContactMass::keeps_total
+                                                                  : ContactMass::keeps_inertia;
     for (Link &link : scene.links)
-      link.massless = massless_contact && link.rigid() && link.unilateral() && !link.moving();
+      if (link.rigid() && link.unilateral() && !link.moving())
+        link.contact_mass = contact_mass;
     for (std::size_t i = 0; i < output.probes.items.size(); ++i)
     {
       const OutputParameters::ProbeItem &item = output.probes.items[i];

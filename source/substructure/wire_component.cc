@@ -130,7 +130,7 @@ namespace taut
   {
     for (const Link &link : scene.links)
     {
-      if (!link.massless || !link.unilateral() || !link.rigid() || link.moving())
+      if (link.contact_mass == ContactMass::stays || !link.rigid())
         continue;
       if (link.rotational ? !beam : component(link.direction) == 0.)
         continue;
@@ -142,16 +142,17 @@ namespace taut
         for (std::size_t i = 0; i < nodes.size(); ++i)
           if (std::fabs(nodes[i] - end.position) <= 1e-12 * wire_length)
             massless_dofs[dofs_per_node * i + (link.rotational ? 1 : 0)] = link.origin;
+        keeps_inertia = link.contact_mass == ContactMass::keeps_inertia;
       }
     }
   }
 
   /**
    * The DoFs of an element as the kinetic energy sees them: a DoF without mass is extrapolated from
-   * its neighbours on the element's side. A linear motion is extrapolated exactly, so that the
-   * total mass, its centre and its moment of inertia stay (H. B. Khenous, P. Laborde, Y. Renard,
-   * European Journal of Mechanics A 27 (2008), 918-932, state these conditions), and T^T M T is
-   * definite on the other DoFs whatever the element.
+   * its neighbours on the element's side. If a constant motion is extrapolated exactly, the total
+   * mass stays; if a linear one is, so do its centre and its moment of inertia (the conditions of
+   * H. B. Khenous, P. Laborde, Y. Renard, European Journal of Mechanics A 27 (2008), 918-932).
+   * T^T M T is definite on the other DoFs if M is.
    */
   std::vector<SparseVector> WireComponent::inertial_forms(const std::size_t e) const
   {
@@ -193,7 +194,9 @@ namespace taut
           // The parabola through the other three: w_1 - w_0 = h (slope_0 + slope_1) / 2.
           const unsigned int other = i % 2 == 0 ? 2 - i : 4 - i;
           const double sign = i == 0 ? -.5 * h : .5 * h;
-          if (i % 2 == 0)
+          if (!keeps_inertia)
+            forms[i].add(dofs[(i + 2) % 4], 1.);
+          else if (i % 2 == 0)
           {
             forms[i].add(dofs[other], 1.);
             forms[i].add(dofs[1], sign);
@@ -209,12 +212,12 @@ namespace taut
       return forms;
     }
 
-    // Lagrange's polynomial through the DoFs with mass; of a linear element these are its other
-    // node and the one behind it.
+    // The next DoF with mass, or Lagrange's polynomial through them all; of a linear element these
+    // are its other node and the one behind it.
     std::vector<std::pair<unsigned int, double>> support;
     for (const unsigned int i : with_mass)
       support.emplace_back(dofs[i], places[i]);
-    if (degree == 1 && with_mass.size() == 1)
+    if (keeps_inertia && degree == 1 && with_mass.size() == 1)
     {
       const bool left = massless_dofs.count(dofs[0]) > 0;
       const std::size_t behind = left ? e + 2 : e - 1;
@@ -224,7 +227,18 @@ namespace taut
     if (support.empty())
       fail();
     for (unsigned int i = 0; i < n; ++i)
-      if (massless_dofs.count(dofs[i]) > 0)
+    {
+      if (massless_dofs.count(dofs[i]) == 0)
+        continue;
+      if (!keeps_inertia)
+        forms[i].add(std::min_element(support.begin(), support.end(),
+                                      [&](const auto &p, const auto &q) {
+                                        return std::fabs(p.second - places[i]) <
+                                               std::fabs(q.second - places[i]);
+                                      })
+                         ->first,
+                     1.);
+      else
         for (const auto &[dof, s] : support)
         {
           double value = 1.;
@@ -233,6 +247,7 @@ namespace taut
               value *= (places[i] - place) / (s - place);
           forms[i].add(dof, value);
         }
+    }
     return forms;
   }
 
@@ -244,6 +259,13 @@ namespace taut
                                   dealii::update_values | dealii::update_gradients |
                                       (beam ? dealii::update_hessians : dealii::update_default) |
                                       dealii::update_JxW_values);
+    const bool exact_mass = beam || wire.mass_matrix == MassMatrix::consistent;
+    dealii::Quadrature<1> mass_rule = dealii::QGauss<1>(degree);
+    if (wire.mass_matrix == MassMatrix::lumped)
+      mass_rule = dealii::QGaussLobatto<1>(degree + 1);
+    dealii::FEValues<1, 3> own_mass_values(*discretisation->element, mass_rule,
+                                           dealii::update_values | dealii::update_JxW_values);
+    const dealii::FEValues<1, 3> &mass_values = exact_mass ? values : own_mass_values;
     const unsigned int n = discretisation->element->n_dofs_per_cell();
     std::vector<dealii::types::global_dof_index> dofs(n);
     std::vector<SparseVector> inertial;
@@ -251,6 +273,8 @@ namespace taut
     for (const auto &cell : discretisation->dof_handler.active_cell_iterators())
     {
       values.reinit(cell);
+      if (!exact_mass)
+        own_mass_values.reinit(cell);
       cell->get_dof_indices(dofs);
       if (!massless_dofs.empty())
         inertial = inertial_forms(e++);
@@ -259,10 +283,11 @@ namespace taut
         for (unsigned int j = 0; j <= i; ++j)
         {
           double m = 0., k = 0.;
+          for (const unsigned int q : mass_values.quadrature_point_indices())
+            m += mass_values.shape_value(i, q) * mass_values.shape_value(j, q) * mass_values.JxW(q);
           for (const unsigned int q : values.quadrature_point_indices())
           {
             const double JxW = values.JxW(q);
-            m += values.shape_value(i, q) * values.shape_value(j, q) * JxW;
             k += stretch * (values.shape_grad(i, q) * t) * (values.shape_grad(j, q) * t) * JxW;
             if (beam)
               k += wire.bending_stiffness * (t * values.shape_hessian(i, q) * t) *

@@ -12,8 +12,9 @@ namespace taut
   bool StepCoefficients::operator==(const StepCoefficients &o) const
   {
     return std::tie(velocity, acceleration, v_V, v_A, v_dU, a_V, a_A, a_dU, a_V_old, alpha_m,
-                    alpha_f) == std::tie(o.velocity, o.acceleration, o.v_V, o.v_A, o.v_dU, o.a_V,
-                                         o.a_A, o.a_dU, o.a_V_old, o.alpha_m, o.alpha_f);
+                    alpha_f, velocity_level, restitution) ==
+           std::tie(o.velocity, o.acceleration, o.v_V, o.v_A, o.v_dU, o.a_V, o.a_A, o.a_dU,
+                    o.a_V_old, o.alpha_m, o.alpha_f, o.velocity_level, o.restitution);
   }
 
   StepCoefficients backward_euler(const double step)
@@ -71,6 +72,21 @@ namespace taut
     if (!(alpha >= 0.) || !(alpha <= 1. / 3.))
       throw UserError("alpha of the HHT method lies in [0, 1/3]");
     return newmark(step, .25 * (1. + alpha) * (1. + alpha), .5 + alpha, 0., alpha);
+  }
+
+  StepCoefficients moreau_jean(const double step, const double theta, const double restitution)
+  {
+    if (!(theta >= .5) || !(theta <= 1.) || !(restitution >= 0.) || !(restitution <= 1.))
+      throw UserError("theta of Moreau-Jean lies in [1/2, 1] and the restitution in [0, 1]");
+    StepCoefficients c;
+    c.velocity = 1. / (theta * step);
+    c.v_V = -(1. - theta) / theta;
+    c.acceleration = 1. / (theta * step * step);
+    c.a_V = -1. / (theta * step);
+    c.alpha_f = 1. - theta;
+    c.velocity_level = true;
+    c.restitution = restitution;
+    return c;
   }
 
   namespace
@@ -177,6 +193,38 @@ namespace taut
       double alpha = .1;
     };
 
+    class MoreauJean : public TimeIntegrator
+    {
+    public:
+      void declare_parameters(dealii::ParameterHandler &prm) override
+      {
+        prm.enter_subsection("Moreau-Jean");
+        prm.add_parameter("Theta", theta,
+                          "Weight of the new forces and velocities: 1/2 keeps the energy of "
+                          "vibrations and is second order, 1 is first order [1]",
+                          dealii::Patterns::Double(.5, 1.));
+        prm.add_parameter("Restitution", restitution,
+                          "Newton's coefficient: velocity of separation over that of approach at "
+                          "rigid one-sided links. An elastic body rebounds by its own waves with "
+                          "0; of a rigid one it says how much [1]",
+                          dealii::Patterns::Double(0., 1.));
+        prm.leave_subsection();
+      }
+      StepCoefficients coefficients(const double step) const override
+      {
+        return moreau_jean(step, theta, restitution);
+      }
+      std::string description() const override
+      {
+        std::ostringstream out;
+        out << "Moreau-Jean (theta " << theta << ", restitution " << restitution << ")";
+        return out.str();
+      }
+
+    private:
+      double theta = .5, restitution = 0.;
+    };
+
     const Register<TimeIntegrator, BackwardEuler>
         register_backward_euler("backward Euler", "first order, never chatters, dissipates");
     const Register<TimeIntegrator, BDF2>
@@ -187,6 +235,10 @@ namespace taut
     const Register<TimeIntegrator, GeneralisedAlpha>
         register_generalised_alpha("generalised-alpha",
                                    "second order, dissipation chosen by the spectral radius");
+    const Register<TimeIntegrator, MoreauJean> register_moreau_jean(
+        "Moreau-Jean", "theta method with impulses: rigid links are conditions on velocities, "
+                       "with restitution, and their gaps are open to half a step of motion; "
+                       "for rigid one-sided links and for rigid bodies that bounce");
     const Register<TimeIntegrator, HHT>
         register_hht("HHT", "second order, dissipation chosen by alpha; for smooth problems and "
                             "compliant one-sided links");

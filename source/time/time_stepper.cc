@@ -9,6 +9,15 @@
 
 namespace taut
 {
+  namespace
+  {
+    ContactRows &at_time(ContactRows &rows, const double t)
+    {
+      rows.update(t);
+      return rows;
+    }
+  } // namespace
+
   TimeStepper::TimeStepper(const Structure &structure, ContactRows &rows,
                            const SolverParameters &parameters, const TimeIntegrator &integrator,
                            const double step, Reference reference, State start, const bool at_rest)
@@ -17,38 +26,12 @@ namespace taut
         first_step_by_source(!at_rest), start_time(current.time),
         solvers(structure, parameters.local_solver),
         schur(make_schur_complement(parameters.interface, solvers, rows)),
-        complementarity(parameters.complementarity)
+        complementarity(parameters.complementarity),
+        row_motions(structure, at_time(rows, current.time), origin, current)
   {
     for (BlockVector *v : {&P, &right_hand_side, &lift, &predictor_v, &predictor_a, &old_A,
                            &old_balance, &increment})
       *v = structure.zero();
-    const std::size_t n = rows.size();
-    for (auto *v : {&link_history, &gap_terms, &gap_correction, &motion, &position, &terms_size,
-                    &motion_size})
-      v->assign(n, 0.);
-    problem.unilateral.resize(n);
-    problem.free_gap.resize(n);
-    problem.gap_scale.resize(n);
-    rows.update(current.time);
-    reference_gap = rows.motions(origin.displacement);
-    const std::vector<double> motions = rows.motions(current.U);
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      problem.unilateral[i] = rows[i].unilateral;
-      reference_gap[i] += rows[i].gap;
-      if (rows[i].moving)
-        gap_correction[i] = current.geometric_gap[i] - reference_gap[i] - motions[i];
-      // A displacement rounds with the largest of its body.
-      for (const auto &[k, form] : rows[i].terms)
-      {
-        const PerKind size = largest(structure[k], origin.displacement[k]);
-        for (std::size_t j = 0; j < form.index.size(); ++j)
-          gap_terms[i] += std::fabs(form.value[j]) * size[structure[k].kind(form.index[j])];
-      }
-    }
-    structure.communicator().sum(gap_terms);
-    for (std::size_t i = 0; i < n; ++i)
-      gap_terms[i] += std::fabs(rows[i].gap);
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       const Substructure &body = structure[k];
@@ -56,17 +39,41 @@ namespace taut
       norms.push_back({KindNorm(body, body.mass()), KindNorm(body, body.damping()),
                        KindNorm(body, body.stiffness())});
     }
-    prepare(first_step_by_source ? backward_euler(step) : integrator.coefficients(step));
+    const StepCoefficients c = integrator.coefficients(step);
+    if (c.starts_itself())
+    {
+      first_step_by_source = false;
+      structure.communicator().agree([&] { start_balance(); });
+      current.gap_rate = rows.motions(current.V);
+    }
+    prepare(first_step_by_source ? backward_euler(step) : c);
+  }
+
+  /// r = P + B N - C V - K U at the start, where no rigid row has a force that a scheme would need.
+  void TimeStepper::start_balance()
+  {
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      const Substructure &body = structure[k];
+      std::vector<double> &r = current.balance[k];
+      body.external_force(current.time, r);
+      for (std::size_t i = 0; i < r.size(); ++i)
+        r[i] -= origin.force[k][i] + current.KU[k][i];
+      body.damping().vmult_add(-1., current.V[k].data(), r.data());
+    }
+    std::vector<double> N = current.multiplier;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (std::isinf(rows[i].stiffness))
+        N[i] = 0.;
+    rows.add_forces(N, current.balance);
   }
 
   void TimeStepper::prepare(const StepCoefficients &c)
   {
     coefficients = c;
     structure.communicator().agree([&] { solvers.factor(c.mass_factor(), c.velocity); });
-    compliance.resize(rows.size());
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      compliance[i] = 1. / (rows[i].stiffness + c.velocity * rows[i].damping);
-    schur->setup(compliance);
+    row_motions.prepare(c, step);
+    schur->setup(row_motions.compliance());
   }
 
   void TimeStepper::advance()
@@ -84,17 +91,16 @@ namespace taut
           for (std::size_t k = 0; k < structure.size(); ++k)
             set_history(k);
         });
-    set_free_gaps();
+    row_motions.set_problem(current, *schur, right_hand_side, lift);
     solve_rows();
-    rows.add_forces(current.multiplier, right_hand_side);
+    rows.add_forces(row_motions.applied(), right_hand_side);
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       solvers[k].solve(right_hand_side[k]);
       increment[k].swap(right_hand_side[k]);
       accept(k);
     }
-    share_motions();
-    update_rows();
+    row_motions.update(current);
     certify();
   }
 
@@ -141,102 +147,15 @@ namespace taut
     }
   }
 
-  /// The gaps that the step would have without contact forces.
-  void TimeStepper::set_free_gaps()
-  {
-    const StepCoefficients &c = coefficients;
-    share_free_motion();
-    for (std::size_t i = 0; i < rows.size(); ++i)
-    {
-      const Row &row = rows[i];
-      // Kelvin-Voigt: N = k u + c u' with u' = velocity du + known.
-      const State::LinkSpring &spring = current.link_springs[i];
-      link_history[i] = 0.;
-      if (row.damping > 0.)
-      {
-        const double known = c.v_V * spring.v + c.v_A * spring.a + c.v_dU * spring.du;
-        link_history[i] = compliance[i] * row.damping * (c.velocity * spring.u - known);
-      }
-
-      double before = current.geometric_gap[i], scale = std::fabs(before);
-      if (row.moving)
-      {
-        before = moving_gap(i);
-        scale = std::fabs(row.gap) + terms_size[i];
-      }
-      scale += motion_size[i];
-      problem.free_gap[i] = before + motion[i] + link_history[i];
-      problem.gap_scale[i] = scale + std::fabs(motion[i]) + std::fabs(link_history[i]);
-    }
-  }
-
-  double TimeStepper::moving_gap(const std::size_t i) const
-  {
-    return rows[i].gap + gap_correction[i] + position[i];
-  }
-
-  /// Before the contact forces are known: how the rows would move without them, where the moving
-  /// ones are, and what these numbers round with.
-  void TimeStepper::share_free_motion()
-  {
-    schur->free_motion(right_hand_side, motion, motion_size);
-    for (std::size_t i = 0; i < rows.size(); ++i)
-    {
-      const std::vector<Term> &terms = rows[i].terms;
-      motion[i] += evaluate(terms, lift);
-      // The ends of a row move together most of the time: each of them rounds for itself.
-      motion_size[i] += step * magnitude(terms, current.V);
-      position[i] = terms_size[i] = 0.;
-      if (rows[i].moving)
-      {
-        position[i] = evaluate(terms, origin.displacement) + evaluate(terms, current.U);
-        terms_size[i] = magnitude(terms, origin.displacement) + magnitude(terms, current.U);
-      }
-    }
-    share({&motion, &motion_size, &position, &terms_size});
-  }
-
-  /// After the step: increment of the rows, and their motion since the reference.
-  void TimeStepper::share_motions()
-  {
-    for (std::size_t i = 0; i < rows.size(); ++i)
-    {
-      const std::vector<Term> &terms = rows[i].terms;
-      motion[i] = evaluate(terms, current.dU);
-      position[i] = evaluate(terms, current.U);
-      terms_size[i] = magnitude(terms, current.U);
-      if (rows[i].moving)
-        position[i] += evaluate(terms, origin.displacement);
-    }
-    share({&motion, &position, &terms_size});
-  }
-
-  /// Sums vectors over the rows, each with the shares of the bodies of this rank, over all ranks.
-  void TimeStepper::share(const std::initializer_list<std::vector<double> *> vectors)
-  {
-    const Communicator &processes = structure.communicator();
-    if (processes.size() == 1)
-      return;
-    work.clear();
-    for (const std::vector<double> *v : vectors)
-      work.insert(work.end(), v->begin(), v->end());
-    processes.sum(work);
-    const double *sums = work.data();
-    for (std::vector<double> *v : vectors)
-    {
-      std::copy(sums, sums + v->size(), v->begin());
-      sums += v->size();
-    }
-  }
-
   void TimeStepper::solve_rows()
   {
     if (rows.size() == 0)
       return;
     try
     {
-      const ComplementarityResult &result = complementarity.solve(problem, schur->matrix());
-      current.multiplier = result.solution.multiplier;
+      const ComplementarityResult &result =
+          complementarity.solve(row_motions.problem(), schur->matrix());
+      row_motions.set_multipliers(result.solution.multiplier, current);
       last.iterations = result.iterations;
       last.fallback = result.used_fallback;
     }
@@ -279,30 +198,6 @@ namespace taut
     }
   }
 
-  void TimeStepper::update_rows()
-  {
-    const StepCoefficients &c = coefficients;
-    for (std::size_t i = 0; i < rows.size(); ++i)
-    {
-      const Row &row = rows[i];
-      double &gap = current.geometric_gap[i];
-      if (row.moving)
-        gap = moving_gap(i);
-      else
-        gap += motion[i];
-
-      State::LinkSpring &spring = current.link_springs[i];
-      const double known_v = c.v_V * spring.v + c.v_A * spring.a + c.v_dU * spring.du;
-      const double known_a = c.a_V * spring.v + c.a_A * spring.a + c.a_dU * spring.du;
-      const double u = compliance[i] * current.multiplier[i] + link_history[i];
-      spring.du = u - spring.u;
-      spring.u = u;
-      spring.v = c.velocity * spring.du + known_v;
-      spring.a = c.acceleration * spring.du + known_a;
-      current.gap[i] = gap + spring.u;
-    }
-  }
-
   void TimeStepper::certify()
   {
     const Communicator &processes = structure.communicator();
@@ -333,7 +228,13 @@ namespace taut
       std::fill(current.KU[k].begin(), current.KU[k].end(), 0.);
       body.stiffness().vmult_add(1., current.U[k].data(), current.KU[k].data());
     }
-    rows.add_forces(current.multiplier, current.balance);
+    rows.add_forces(row_motions.in_balance(), current.balance);
+    if (!row_motions.impulsive().empty())
+    {
+      for (std::vector<double> &f : right_hand_side)
+        std::fill(f.begin(), f.end(), 0.);
+      rows.add_forces(row_motions.impulsive(), right_hand_side);
+    }
     largest_contact_forces(structure, rows, current.multiplier, contact_force);
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
@@ -356,6 +257,9 @@ namespace taut
         a[i] = now * A[i] + old * A0[i];
         residual[i] = -r[i] - kappa * r0[i];
       }
+      if (!row_motions.impulsive().empty())
+        for (std::size_t i = 0; i < n; ++i)
+          residual[i] -= right_hand_side[k][i];
       body.mass().vmult_add(1., a, residual);
       for (const ConstrainedDof &constraint : body.constraints())
         residual[constraint.dof] = 0.;
@@ -391,31 +295,8 @@ namespace taut
 
   void TimeStepper::certify_rows()
   {
-    // Gaps from the increments of the displacements, not from F N + d; and gaps so carried must not
-    // drift away from the displacements, measured by the terms that these are summed from.
-    last.complementarity = 0.;
-    if (rows.size() > 0)
-    {
-      MixedComplementaritySolution recomputed;
-      recomputed.multiplier = current.multiplier;
-      recomputed.gap = current.gap;
-      const ComplementarityResidual result = residual(problem, schur->matrix(), recomputed);
-      last.complementarity = result.max;
-      last.worst_row =
-          std::max_element(result.rows.begin(), result.rows.end()) - result.rows.begin();
-      for (std::size_t i = 0; i < rows.n_fixed(); ++i)
-      {
-        gap_terms[i] = std::max(gap_terms[i], std::fabs(reference_gap[i]) + terms_size[i]);
-        const double drift = std::fabs(reference_gap[i] + position[i] - current.geometric_gap[i]),
-                     relative = drift == 0. ? 0. : drift / gap_terms[i];
-        if (!(relative <= last.complementarity) && !std::isnan(last.complementarity))
-        {
-          last.complementarity = relative;
-          last.worst_row = i;
-        }
-      }
-    }
-
+    last.complementarity = row_motions.residual(current, schur->matrix(), last.worst_row);
+    last.drift = row_motions.drift(current);
     if (!(last.complementarity <= parameters.contact_tolerance))
     {
       std::ostringstream out;

@@ -140,6 +140,24 @@ namespace
     }
   }
 
+  TEST(complementarity, row_held_open_takes_no_part)
+  {
+    for (const std::string &method : both_methods)
+    {
+      // Row 1 alone: N = 3/2; row 0 would close.
+      DenseOperator F = dense({{2., -1.}, {-1., 2.}});
+      ComplementaritySolver solver(method);
+      MixedComplementarityProblem p = problem({1, 1}, {-1., -3.});
+      EXPECT_GT(solver.solve(p, F).solution.multiplier[0], 0.);
+      p.held_open = {1, 0};
+      const auto &result = solver.solve(p, F);
+      EXPECT_EQ(result.solution.multiplier[0], 0.);
+      EXPECT_DOUBLE_EQ(result.solution.multiplier[1], 1.5);
+      EXPECT_FALSE(result.solution.closed[0]);
+      EXPECT_LE(result.residual.max, 1e-15);
+    }
+  }
+
   TEST(complementarity, bilateral_row_pulls_as_well)
   {
     for (const std::string &method : both_methods)

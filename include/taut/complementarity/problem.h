@@ -25,6 +25,9 @@ namespace taut
     /// n rows: not 0 where the row is unilateral.
     std::vector<char> unilateral;
 
+    /// Size n, or empty: not 0 on unilateral rows that take no part, N_i = 0 whatever D_i.
+    std::vector<char> held_open;
+
     /// d, n rows: the gaps without multipliers [m, rad].
     std::vector<double> free_gap;
 
@@ -43,6 +46,8 @@ namespace taut
 
     std::size_t size() const { return unilateral.size(); }
     std::size_t n_kernel() const { return kernel_load.size(); }
+
+    bool is_held_open(std::size_t i) const { return !held_open.empty() && held_open[i]; }
 
     /// Rows that a kernel vector moves: not 0. Empty without kernel vectors.
     std::vector<char> rows_in_kernel() const;

@@ -35,6 +35,16 @@ namespace taut
     beam
   };
 
+  /// How the mass of a bar or string element is integrated. With step = element / wave speed and
+  /// Moreau-Jean or Newmark at 1/2, reduced linear elements carry waves exactly; lumped ones have a
+  /// diagonal matrix and slow short waves, consistent ones make them too fast.
+  enum class MassMatrix
+  {
+    consistent, ///< exactly
+    lumped,     ///< at the nodes of the element, Gauss-Lobatto
+    reduced     ///< by one Gauss point less than the element has nodes
+  };
+
   /// C = mass * M + stiffness * K of a wire, without its supports and point masses.
   struct RayleighDamping
   {
@@ -62,7 +72,8 @@ namespace taut
     double tension = 0.;           ///< T [N]
     double bending_stiffness = 0.; ///< EI [N m^2]
     unsigned int degree = 2;       ///< of the elements of bar and string
-    double element_size = 1.;      ///< largest element [m]
+    MassMatrix mass_matrix = MassMatrix::consistent;
+    double element_size = 1.; ///< largest element [m]
     RayleighDamping damping;
     bool weight = true; ///< gravity acts
     InitialMotion axial_start, transverse_start;
@@ -150,6 +161,15 @@ namespace taut
     sliding_contact ///< a stop whose `to` end moves along a wire
   };
 
+  /// Where the mass of a DoF at a rigid one-sided link goes: to its neighbours, so that the total
+  /// mass stays, or also its centre and its moment of inertia.
+  enum class ContactMass
+  {
+    stays,
+    keeps_total,
+    keeps_inertia
+  };
+
   /**
    * A link between two attachments. With n the unit direction and u the displacements, its gap is
    *
@@ -182,9 +202,8 @@ namespace taut
     double mass_per_length = 0.;         ///< [kg/m]; half of the mass goes to each end
     double length = 0.;                  ///< geometric length in the static state, once known [m]
 
-    /// The DoFs of wires that a fixed rigid one-sided link acts on carry no mass: their inertia
-    /// goes to their neighbours.
-    bool massless = false;
+    /// Whether the DoFs of wires that a fixed rigid one-sided link acts on keep their mass.
+    ContactMass contact_mass = ContactMass::stays;
 
     bool unilateral() const { return kind != LinkKind::joint; }
     bool moving() const { return kind == LinkKind::sliding_contact; }

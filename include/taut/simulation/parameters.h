@@ -78,7 +78,7 @@ namespace taut
 
     std::string scheme = "automatic";
     double step = 1e-3, end_time = 6.912;
-    bool massless_contact = false;
+    std::string massless_contact = "no";
 
     SolverParameters solver;
     PartitionParameters partition;

@@ -87,6 +87,7 @@ namespace taut
 
     /// DoFs without mass at contacts, with the section of the link for messages.
     std::map<unsigned int, std::string> massless_dofs;
+    bool keeps_inertia = false; ///< where their mass goes
     std::unique_ptr<Discretisation> discretisation;
   };
 } // namespace taut

@@ -23,6 +23,10 @@ namespace taut
     double balance = 0.;
     std::size_t worst_body = 0; ///< of this rank
 
+    /// Largest gap of a bilateral rigid row that the scheme holds at velocity level only, so that
+    /// its position is free to drift [m, rad].
+    double drift = 0.;
+
     unsigned int iterations = 0; ///< of the complementarity solver
     bool fallback = false;       ///< the energy-ordered active set finished the step
 

@@ -26,6 +26,8 @@ namespace taut
    *     M [(1 - alpha_m) A + alpha_m A0] = (1 - alpha_f) r + alpha_f r0.
    *
    * The contact force so enters old and new with its own B, and gaps hold at the end of the step.
+   * At velocity level, forces of rigid rows are impulses over the step instead, and their
+   * complementarity is one of velocities after the step: see RowMotions.
    */
   struct StepCoefficients
   {
@@ -34,9 +36,17 @@ namespace taut
     double v_V = 0., v_A = 0., v_dU = 0.;
     double a_V = 0., a_A = 0., a_dU = 0., a_V_old = 0.;
     double alpha_m = 0., alpha_f = 0.;
+    bool velocity_level = false; ///< for rigid rows
+    double restitution = 0.;     ///< Newton's, of one-sided rows at velocity level [1]
 
     /// Factor of M in A, after division by 1 - alpha_f [1/s^2]; C has `velocity`, K has 1.
     double mass_factor() const { return (1. - alpha_m) / (1. - alpha_f) * acceleration; }
+
+    /// True if the first step needs no acceleration and no step before it.
+    bool starts_itself() const
+    {
+      return v_A == 0. && v_dU == 0. && a_A == 0. && a_dU == 0. && a_V_old == 0. && alpha_m == 0.;
+    }
 
     bool operator==(const StepCoefficients &other) const;
     bool operator!=(const StepCoefficients &other) const { return !(*this == other); }
@@ -78,6 +88,13 @@ namespace taut
    * the trapezoidal rule, 1/3 dissipates most.
    */
   StepCoefficients hht(double step, double alpha);
+
+  /**
+   * The theta method of Moreau and Jean: M (V - V0) = step [theta r + (1 - theta) r0] + B p and
+   * U = U0 + step [theta V + (1 - theta) V0] with the impulses p of rigid rows, whose
+   * complementarity is at velocity level with Newton's restitution e. @p theta in [1/2, 1].
+   */
+  StepCoefficients moreau_jean(double step, double theta, double restitution);
 } // namespace taut
 
 #endif

@@ -7,10 +7,10 @@
 #include <taut/time/certificate.h>
 #include <taut/time/integrator.h>
 #include <taut/time/matrix_norms.h>
+#include <taut/time/row_motions.h>
 #include <taut/time/solver_parameters.h>
 #include <taut/time/state.h>
 
-#include <initializer_list>
 #include <memory>
 #include <vector>
 
@@ -21,17 +21,15 @@ namespace taut
    *
    *     moving rows -> history P^_k -> free motion of the rows -> N -> U_k -> certificate.
    *
-   * Everything is in increments, A dU = P^ + B N, and gaps of fixed rows are carried as increments
-   * too, because the gap rounds at eps times its size and F^-1 = O(1/step^2) makes force noise of
-   * that.
+   * Everything is in increments, A dU = P^ + B N; RowMotions says what the rows ask for.
    */
   class TimeStepper
   {
   public:
     /**
      * @p structure and @p rows are kept by reference. @p at_rest says that the start is an
-     * equilibrium, so that accelerations are zero; otherwise the first step is the source's, which
-     * needs no initial acceleration.
+     * equilibrium, so that accelerations are zero; otherwise the first step is the source's, unless
+     * the scheme needs no initial acceleration either.
      */
     TimeStepper(const Structure &structure, ContactRows &rows, const SolverParameters &parameters,
                 const TimeIntegrator &integrator, double step, Reference reference, State start,
@@ -52,14 +50,9 @@ namespace taut
   private:
     void prepare(const StepCoefficients &c);
     void set_history(std::size_t k);
-    void set_free_gaps();
-    double moving_gap(std::size_t i) const;
-    void share_free_motion();
-    void share_motions();
-    void share(std::initializer_list<std::vector<double> *> vectors);
     void solve_rows();
     void accept(std::size_t k);
-    void update_rows();
+    void start_balance();
     void certify();
     void certify_balance();
     void certify_rows();
@@ -83,20 +76,7 @@ namespace taut
     FactoredStructure solvers;
     std::unique_ptr<SchurComplement> schur;
     ComplementaritySolver complementarity;
-    MixedComplementarityProblem problem;
-    std::vector<double> compliance; ///< S
-    std::vector<double>
-        link_history; ///< part of a link spring's compression that does not depend on N
-    std::vector<double> reference_gap; ///< gap of the fixed rows at the reference
-    std::vector<double> gap_terms;     ///< largest terms of the gaps of the fixed rows so far
-    /// Of the moving rows: gap of the start minus the one of its displacements, rounding that would
-    /// be a force over a small compliance.
-    std::vector<double> gap_correction;
-    std::vector<double> motion;      ///< B^T dU
-    std::vector<double> position;    ///< B^T U, with the reference's of a moving row
-    std::vector<double> terms_size;  ///< sum of the absolute terms of these
-    std::vector<double> motion_size; ///< what B^T dU rounds with
-    std::vector<double> old_multiplier;
+    RowMotions row_motions;
     std::vector<std::vector<KindNorm>> norms; ///< of M, C, K of each body
     std::vector<PerKind> reference_force;     ///< largest of K U_ref of each body [N, N m]
     std::vector<PerKind> contact_force;       ///< largest of one row on each body [N, N m]

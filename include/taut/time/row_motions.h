@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_row_motions_h
+#define taut_row_motions_h
+
+#include <taut/complementarity/problem.h>
+#include <taut/interface/schur_complement.h>
+#include <taut/time/integrator.h>
+#include <taut/time/state.h>
+
+#include <initializer_list>
+#include <vector>
+
+namespace taut
+{
+  /**
+   * The rows through a step: gaps, springs of elastic links, and what complementarity is about.
+   *
+   * A row at position level asks for 0 <= D at the end of the step. Gaps of fixed rows are carried
+   * as increments, because the gap rounds at eps times its size and F^-1 = O(1/step^2) makes force
+   * noise of that. With a scheme at velocity level (Moreau 1988, Jean 1999) the rigid rows ask for
+   * 0 <= D' + e D'_0 instead, if they were closed or if D_0 + step D'_0 / 2 <= 0, and take no part
+   * otherwise; bilateral ones for D' = 0. The rate of a moving row has its convective part,
+   *
+   *     D' = B^T V + ((B - B_0)^T U_0 + D0 - D0_0) / step.
+   *
+   * Times (1 - alpha_f) step, it is B^T dU plus something known: the same F as at position level.
+   */
+  class RowMotions
+  {
+  public:
+    /// The arguments but @p start are kept by reference; @p rows are where they are at the start.
+    RowMotions(const Structure &structure, const ContactRows &rows, const Reference &origin,
+               const State &start);
+
+    /// For steps with these coefficients from now on.
+    void prepare(const StepCoefficients &c, double step);
+
+    /// S with the dampers of the links [m/N, rad/(N m)].
+    const std::vector<double> &compliance() const { return S; }
+
+    /// Sets the problem of the step from the state before it. @p rows are at its end, @p P is P^.
+    void set_problem(const State &before, const SchurComplement &schur, const BlockVector &P,
+                     const BlockVector &lift);
+    const MixedComplementarityProblem &problem() const { return conditions; }
+
+    /**
+     * Takes the multipliers L of the problem, A dU = P^ + B L. state.multiplier becomes the force
+     * at the end of the step, or its mean over the step on a row at velocity level.
+     */
+    void set_multipliers(const std::vector<double> &L, State &state);
+
+    /// L.
+    const std::vector<double> &applied() const { return applied_multiplier; }
+
+    /// The part of L that the balance of forces at the end of the step has, and the rest of it.
+    const std::vector<double> &in_balance() const { return balanced; }
+    const std::vector<double> &impulsive() const { return at_velocity_level ? impulses : none; }
+
+    /// Gaps and springs of the state, whose displacements are those of the end of the step.
+    void update(State &state);
+
+    /// Largest residual of a row, with D or D' recomputed from the displacements; and its index.
+    double residual(const State &state, const ComplementarityOperator &F, std::size_t &worst);
+
+    /// Largest gap of a bilateral rigid row at velocity level [m, rad].
+    double drift(const State &state) const;
+
+  private:
+    double moving_gap(std::size_t i) const;
+    bool velocity_level(std::size_t i) const { return at_velocity_level && S[i] == 0.; }
+    void set_velocity_condition(std::size_t i, const State &before);
+    void share_free_motion(const State &before, const SchurComplement &schur, const BlockVector &P,
+                           const BlockVector &lift);
+    void share_motions(const State &state);
+    void share(std::initializer_list<std::vector<double> *> vectors);
+
+    const Structure &structure;
+    const ContactRows &rows;
+    const Reference &origin;
+    StepCoefficients c;
+    double step = 0.;
+    bool at_velocity_level = false;
+
+    MixedComplementarityProblem conditions;
+    std::vector<double> S;
+    std::vector<double> applied_multiplier, balanced, impulses;
+    const std::vector<double> none; ///< empty
+    std::vector<double>
+        link_history; ///< part of a link spring's compression that does not depend on N
+    std::vector<double> reference_gap; ///< gap of the fixed rows at the reference
+    std::vector<double> gap_terms;     ///< largest terms of the gaps of the fixed rows so far
+    /// Of the moving rows: gap of the start minus the one of its displacements, rounding that would
+    /// be a force over a small compliance.
+    std::vector<double> gap_correction;
+    std::vector<double> motion;       ///< B^T dU
+    std::vector<double> position;     ///< B^T U, with the reference's of a moving row
+    std::vector<double> terms_size;   ///< sum of the absolute terms of these
+    std::vector<double> velocity;     ///< B^T V
+    std::vector<double> motion_size;  ///< what B^T dU rounds with
+    std::vector<double> convection;   ///< (B - B_0)^T U_0 + D0 - D0_0
+    std::vector<double> rates_before; ///< D'_0
+    std::vector<double> work;
+  };
+} // namespace taut
+
+#endif

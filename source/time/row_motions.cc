@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/time/matrix_norms.h>
+#include <taut/time/row_motions.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace taut
+{
+  RowMotions::RowMotions(const Structure &structure, const ContactRows &rows,
+                         const Reference &origin, const State &start)
+      : structure(structure), rows(rows), origin(origin)
+  {
+    const std::size_t n = rows.size();
+    for (auto *v :
+         {&S, &applied_multiplier, &balanced, &impulses, &link_history, &gap_terms, &gap_correction,
+          &motion, &position, &terms_size, &velocity, &motion_size, &convection, &rates_before})
+      v->assign(n, 0.);
+    conditions.unilateral.resize(n);
+    conditions.free_gap.resize(n);
+    conditions.gap_scale.resize(n);
+    reference_gap = rows.motions(origin.displacement);
+    const std::vector<double> motions = rows.motions(start.U);
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      conditions.unilateral[i] = rows[i].unilateral;
+      reference_gap[i] += rows[i].gap;
+      if (rows[i].moving)
+        gap_correction[i] = start.geometric_gap[i] - reference_gap[i] - motions[i];
+      // A displacement rounds with the largest of its body.
+      for (const auto &[k, form] : rows[i].terms)
+      {
+        const PerKind size = largest(structure[k], origin.displacement[k]);
+        for (std::size_t j = 0; j < form.index.size(); ++j)
+          gap_terms[i] += std::fabs(form.value[j]) * size[structure[k].kind(form.index[j])];
+      }
+    }
+    structure.communicator().sum(gap_terms);
+    for (std::size_t i = 0; i < n; ++i)
+      gap_terms[i] += std::fabs(rows[i].gap);
+  }
+
+  void RowMotions::prepare(const StepCoefficients &coefficients, const double tau)
+  {
+    c = coefficients;
+    step = tau;
+    at_velocity_level = c.velocity_level;
+    conditions.held_open.assign(at_velocity_level ? rows.size() : 0, 0);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      S[i] = 1. / (rows[i].stiffness + c.velocity * rows[i].damping);
+  }
+
+  void RowMotions::set_problem(const State &before, const SchurComplement &schur,
+                               const BlockVector &P, const BlockVector &lift)
+  {
+    share_free_motion(before, schur, P, lift);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      const Row &row = rows[i];
+      // Kelvin-Voigt: N = k u + c u' with u' = velocity du + known.
+      const State::LinkSpring &spring = before.link_springs[i];
+      link_history[i] = 0.;
+      if (row.damping > 0.)
+      {
+        const double known = c.v_V * spring.v + c.v_A * spring.a + c.v_dU * spring.du;
+        link_history[i] = S[i] * row.damping * (c.velocity * spring.u - known);
+      }
+
+      double gap = before.geometric_gap[i], scale = std::fabs(gap);
+      if (row.moving)
+      {
+        gap = moving_gap(i);
+        scale = std::fabs(row.gap) + terms_size[i];
+      }
+      scale += motion_size[i];
+      conditions.free_gap[i] = gap + motion[i] + link_history[i];
+      conditions.gap_scale[i] = scale + std::fabs(motion[i]) + std::fabs(link_history[i]);
+      convection[i] = gap - before.geometric_gap[i];
+      if (velocity_level(i))
+        set_velocity_condition(i, before);
+    }
+  }
+
+  /// (1 - alpha_f) step (D' + e D'_0) without multipliers.
+  void RowMotions::set_velocity_condition(const std::size_t i, const State &before)
+  {
+    const double theta = 1. - c.alpha_f, rebound = rows[i].unilateral ? c.restitution : 0.;
+    conditions.free_gap[i] = motion[i] - (1. - theta) * step * velocity[i] +
+                             theta * (convection[i] + rebound * step * before.gap_rate[i]);
+    const bool is_near = before.geometric_gap[i] + .5 * step * before.gap_rate[i] <= 0.;
+    conditions.held_open[i] = rows[i].unilateral && !is_near && !(before.multiplier[i] > 0.);
+  }
+
+  void RowMotions::set_multipliers(const std::vector<double> &L, State &state)
+  {
+    applied_multiplier = balanced = state.multiplier = L;
+    if (!at_velocity_level)
+      return;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      impulses[i] = 0.;
+      if (!velocity_level(i))
+        continue;
+      impulses[i] = L[i];
+      balanced[i] = 0.;
+      state.multiplier[i] = (1. - c.alpha_f) * L[i];
+    }
+  }
+
+  double RowMotions::moving_gap(const std::size_t i) const
+  {
+    return rows[i].gap + gap_correction[i] + position[i];
+  }
+
+  /// Before the contact forces are known: how the rows would move without them, where the moving
+  /// ones are, and what these numbers round with.
+  void RowMotions::share_free_motion(const State &before, const SchurComplement &schur,
+                                     const BlockVector &P, const BlockVector &lift)
+  {
+    schur.free_motion(P, motion, motion_size);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      const std::vector<Term> &terms = rows[i].terms;
+      motion[i] += evaluate(terms, lift);
+      // The ends of a row move together most of the time: each of them rounds for itself.
+      motion_size[i] += step * magnitude(terms, before.V);
+      position[i] = terms_size[i] = 0.;
+      if (rows[i].moving)
+      {
+        position[i] = evaluate(terms, origin.displacement) + evaluate(terms, before.U);
+        terms_size[i] = magnitude(terms, origin.displacement) + magnitude(terms, before.U);
+      }
+      if (at_velocity_level)
+        velocity[i] = evaluate(terms, before.V);
+    }
+    share({&motion, &motion_size, &position, &terms_size});
+    if (at_velocity_level)
+      share({&velocity});
+  }
+
+  /// After the step: increment of the rows, and their motion since the reference.
+  void RowMotions::share_motions(const State &state)
+  {
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      const std::vector<Term> &terms = rows[i].terms;
+      motion[i] = evaluate(terms, state.dU);
+      position[i] = evaluate(terms, state.U);
+      terms_size[i] = magnitude(terms, state.U);
+      if (rows[i].moving)
+        position[i] += evaluate(terms, origin.displacement);
+      if (at_velocity_level)
+        velocity[i] = evaluate(terms, state.V);
+    }
+    share({&motion, &position, &terms_size});
+    if (at_velocity_level)
+      share({&velocity});
+  }
+
+  /// Sums vectors over the rows, each with the shares of the bodies of this rank, over all ranks.
+  void RowMotions::share(const std::initializer_list<std::vector<double> *> vectors)
+  {
+    const Communicator &processes = structure.communicator();
+    if (processes.size() == 1)
+      return;
+    work.clear();
+    for (const std::vector<double> *v : vectors)
+      work.insert(work.end(), v->begin(), v->end());
+    processes.sum(work);
+    const double *sums = work.data();
+    for (std::vector<double> *v : vectors)
+    {
+      std::copy(sums, sums + v->size(), v->begin());
+      sums += v->size();
+    }
+  }
+
+  void RowMotions::update(State &state)
+  {
+    share_motions(state);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      double &gap = state.geometric_gap[i];
+      if (rows[i].moving)
+        gap = moving_gap(i);
+      else
+        gap += motion[i];
+
+      State::LinkSpring &spring = state.link_springs[i];
+      const double known_v = c.v_V * spring.v + c.v_A * spring.a + c.v_dU * spring.du;
+      const double known_a = c.a_V * spring.v + c.a_A * spring.a + c.a_dU * spring.du;
+      const double u = S[i] * balanced[i] + link_history[i];
+      spring.du = u - spring.u;
+      spring.u = u;
+      spring.v = c.velocity * spring.du + known_v;
+      spring.a = c.acceleration * spring.du + known_a;
+      state.gap[i] = gap + spring.u;
+      if (at_velocity_level)
+      {
+        rates_before[i] = state.gap_rate[i];
+        state.gap_rate[i] = velocity[i] + convection[i] / step;
+      }
+    }
+  }
+
+  double RowMotions::residual(const State &state, const ComplementarityOperator &F,
+                              std::size_t &worst)
+  {
+    if (rows.size() == 0)
+      return 0.;
+    // Gaps from the increments of the displacements, not from F N + d; and gaps so carried must not
+    // drift away from the displacements, measured by the terms that these are summed from.
+    MixedComplementaritySolution recomputed;
+    recomputed.multiplier = applied_multiplier;
+    recomputed.gap = state.gap;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (velocity_level(i))
+      {
+        const double rebound = rows[i].unilateral ? c.restitution * rates_before[i] : 0.;
+        recomputed.gap[i] = (1. - c.alpha_f) * step * (state.gap_rate[i] + rebound);
+      }
+    const ComplementarityResidual result = taut::residual(conditions, F, recomputed);
+    double max = result.max;
+    worst = std::max_element(result.rows.begin(), result.rows.end()) - result.rows.begin();
+    for (std::size_t i = 0; i < rows.n_fixed(); ++i)
+    {
+      gap_terms[i] = std::max(gap_terms[i], std::fabs(reference_gap[i]) + terms_size[i]);
+      const double error = std::fabs(reference_gap[i] + position[i] - state.geometric_gap[i]),
+                   relative = error == 0. ? 0. : error / gap_terms[i];
+      if (!(relative <= max) && !std::isnan(max))
+      {
+        max = relative;
+        worst = i;
+      }
+    }
+    return max;
+  }
+
+  double RowMotions::drift(const State &state) const
+  {
+    double largest = 0.;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (velocity_level(i) && !rows[i].unilateral)
+        largest = std::max(largest, std::fabs(state.geometric_gap[i]));
+    return largest;
+  }
+} // namespace taut

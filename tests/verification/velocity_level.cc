@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: Moreau-Jean's impulses obey Newton's law of restitution, the rates of moving rows have
+// their convective part, and bilateral rows held at velocity level do not drift.
+// Sources: a ball that bounces (v_n = e^n v_0, closed form); a mass that follows a wavy rail,
+// N = P - m r"; a moving force on a string, F v t/(T (1 + v/c)); theta = 1 without restitution is
+// the backward Euler method (V = dU/step; position and velocity conditions of a closed row agree).
+#include "run.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace verification;
+
+namespace
+{
+  std::string number(const double x)
+  {
+    std::ostringstream text;
+    text.precision(17);
+    text << x;
+    return text.str();
+  }
+
+  std::string time_section(const double step, const double end, const std::string &more = "")
+  {
+    return "subsection Time\n set Scheme = Moreau-Jean\n set Step = " + number(step) +
+           "\n set End = " + number(end) + "\n" + more + "end\n";
+  }
+} // namespace
+
+// Dropped from 0.8 m with 10 m/s^2: first touch at 0.4 s with 4 m/s; the n-th flight takes
+// 2 e^n 4/10 s and rises e^(2n) 0.8 m.
+TEST(MoreauJean, a_ball_bounces_with_newtons_restitution)
+{
+  const double e = .5;
+  double errors[2];
+  for (int fine = 0; fine < 2; ++fine)
+  {
+    const double step = fine ? 1e-4 : 4e-4;
+    double error = 0., largest_gap_error = 0.;
+    run_scene(
+        "set Generator = network\nset Gravity = 0, -10\nset Start = given\n"
+        "subsection Network\n set Masses = ball\n set Links = floor\n"
+        " subsection Mass ball\n  set Position = 0, 0.8\n  set Mass = 2\n end\n"
+        " subsection Link floor\n  set Type = stop\n  set From = ground\n  set To = ball\n"
+        "  set Direction = 0, 1\n  set Gap = 0.8\n end\nend\n" +
+            time_section(step, 1.35, " subsection Moreau-Jean\n  set Restitution = 0.5\n end\n"),
+        {},
+        [&](const taut::StepView &view)
+        {
+          double t = view.state.time, flight = 0.;
+          double height = .8 - 5. * t * t;
+          // Touches at 0.4, 0.8, 1.0, 1.1, ... s; at rest from 1.2 s on.
+          for (double touch = .4, v = 4. * e; t > touch && v > 1e-12; touch += flight, v *= e)
+          {
+            flight = 2. * v / 10.;
+            height = std::max(0., v * (t - touch) - 5. * (t - touch) * (t - touch));
+          }
+          error = std::max(error, std::fabs(view.state.geometric_gap[0] - height));
+          largest_gap_error = std::max(largest_gap_error, -view.state.geometric_gap[0]);
+        });
+    figure("bouncing ball, largest error of the height, step " + number(step), 1e3 * error, "mm");
+    EXPECT_LT(largest_gap_error, 4. * step) << "a gap is open to half a step of motion";
+    errors[fine] = error;
+  }
+  EXPECT_LT(errors[1], 2e-3);
+  EXPECT_NEAR(std::log(errors[0] / errors[1]) / std::log(4.), 1., .3);
+}
+
+// 5 kg pressed by 60 N slides at 4 m/s, rigidly, over waves of 1 mm and 2 m on a wire that hardly
+// yields: N = 60 - 5 a w^2 cos w t, w = 4 pi 1/s. A gap rate without its convective part lets the
+// mass go straight on.
+TEST(MoreauJean, a_rigid_sliding_contact_follows_a_wavy_wire)
+{
+  const std::string scene =
+      "set Generator = network\nset Gravity = 0, 0\nset Start = equilibrium\n"
+      "subsection Network\n set Wires = wire\n set Supports = ends\n set Masses = mass\n"
+      " set Links = contact\n set Loads = force\n"
+      " subsection Wire wire\n  set To = 10, 0\n  set Components = string\n"
+      "  set Mass per length = 1\n  set Tension = 1e9\n  set Element size = 0.5\n end\n"
+      " subsection Support ends\n  set Wire = wire\n  set Positions = 0, 10\n end\n"
+      " subsection Mass mass\n  set Position = 1, 0\n  set Mass = 5\n  set Motions = y\n end\n"
+      " subsection Link contact\n  set Type = sliding contact\n  set From = mass\n"
+      "  set To = wire @ 1\n  set Direction = 0, 1\n  set Speed = 4\n"
+      "  set Height profile = 1e-3*(1-cos(pi*(s-1)))\n end\n"
+      " subsection Load force\n  set Type = point\n  set On = mass\n  set Magnitude = 60\n end\n"
+      "end\n";
+  const double w = 4. * std::acos(-1.);
+  double force_error = 0., gap = 0.;
+  run_scene(scene + time_section(1e-4, 2.), {},
+            [&](const taut::StepView &view)
+            {
+              const double t = view.state.time;
+              gap = std::max(gap, std::fabs(view.state.geometric_gap[0]));
+              if (t > .01)
+                force_error = std::max(force_error, std::fabs(view.state.multiplier[0] - 60. +
+                                                              5e-3 * w * w * std::cos(w * t)));
+            });
+  figure("rigid contact over waves, largest error of the force", force_error, "N");
+  figure("rigid contact over waves, largest gap", 1e6 * gap, "um");
+  EXPECT_LT(force_error, .01 * 60.);
+  EXPECT_LT(gap, 1e-5);
+}
+
+// As in SlidingContact, with a rigid contact: a string of 20 kN and 1.35 kg/m, 250 km/h, 120 N.
+TEST(MoreauJean, a_rigid_contact_moves_a_string_as_a_moving_force_does)
+{
+  const double v = 250. / 3.6, c = std::sqrt(20000. / 1.35);
+  double error = 0.;
+  run_scene("set Generator = network\nset Gravity = 0, 0\nset Start = equilibrium\n"
+            "subsection Network\n set Wires = string\n set Supports = ends\n set Masses = mass\n"
+            " set Links = contact\n set Loads = force\n"
+            " subsection Wire string\n  set To = 60, 0\n  set Components = string\n"
+            "  set Mass per length = 1.35\n  set Tension = 20000\n  set Element size = 0.1\n"
+            "  set Degree = 2\n end\n"
+            " subsection Support ends\n  set Wire = string\n  set Positions = 0, 60\n end\n"
+            " subsection Mass mass\n  set Mass = 1\n  set Motions = y\n end\n"
+            " subsection Link contact\n  set Type = sliding contact\n  set From = mass\n"
+            "  set To = string @ 0\n  set Direction = 0, 1\n  set Speed = " +
+                number(v) +
+                "\n end\n subsection Load force\n  set Type = point\n  set On = mass\n"
+                "  set Magnitude = 120\n end\nend\n" +
+                time_section(2.5e-4, .4, " subsection Moreau-Jean\n  set Theta = 0.6\n end\n"),
+            {},
+            [&](const taut::StepView &view)
+            {
+              const double t = view.state.time;
+              if (t < .2)
+                return;
+              const double exact = 120. * v * t / (20000. * (1. + v / c));
+              error = std::max(error, std::fabs(displacement(view, 0, v * t) - exact) / exact);
+            });
+  figure("rigid contact as a moving force, largest relative error under it, 0.2..0.4 s", error);
+  EXPECT_LT(error, .02);
+}
+
+TEST(MoreauJean, theta_one_is_backward_euler)
+{
+  const auto forces = [](const Overrides &overrides)
+  {
+    std::vector<double> result;
+    run_scene(scene_file("string_on_stop"), overrides,
+              [&](const taut::StepView &view) { result.push_back(view.state.multiplier[0]); });
+    return result;
+  };
+  const std::vector<double> euler = forces({"Time.Scheme=backward Euler"}),
+                            jean = forces({"Time.Scheme=Moreau-Jean", "Time.Moreau-Jean.Theta=1"});
+  double distance = 0.;
+  ASSERT_EQ(euler.size(), jean.size());
+  for (std::size_t i = 0; i < euler.size(); ++i)
+    distance = std::max(distance, std::fabs(euler[i] - jean[i]));
+  figure("string on stop, Moreau-Jean (1) minus backward Euler, largest force", distance, "N");
+  EXPECT_LT(distance, 1e-4);
+}
+
+// Cuts of wires are rigid bilateral rows: the run is that of the wires in one piece.
+TEST(MoreauJean, cuts_do_not_drift)
+{
+  double drift = 0., whole = 0., cut = 0.;
+  for (const bool in_pieces : {false, true})
+    run_scene(scene_file("string_on_stop"),
+              {"Time.Scheme=Moreau-Jean",
+               std::string("Partition.Number of substructures=") + (in_pieces ? "7" : "1")},
+              [&](const taut::StepView &view)
+              {
+                if (in_pieces)
+                  drift = std::max(drift, view.certificate.drift);
+                (in_pieces ? cut : whole) += view.state.multiplier[0];
+              });
+  figure("string on stop in 7 pieces, Moreau-Jean, largest opening of a cut", drift, "m");
+  EXPECT_LT(drift, 1e-10);
+  EXPECT_GT(drift, 0.) << "positions are not solved for";
+  EXPECT_NEAR(cut / whole, 1., 1e-9);
+}
