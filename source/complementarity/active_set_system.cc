@@ -9,6 +9,10 @@ namespace taut
 {
   namespace
   {
+    /// An iteration ends at this part of the gaps that are wanted: rows are smaller than the
+    /// largest.
+    constexpr double inner_part = .01;
+
     /// Largest |D_i| / s_i on the set; not-a-number if one is.
     double largest_gap(const std::vector<std::size_t> &set, const std::vector<double> &gap,
                        const std::vector<double> &terms)
@@ -35,16 +39,19 @@ namespace taut
   ActiveSetSystem::Outcome ActiveSetSystem::solve(const MixedComplementarityProblem &problem,
                                                   ComplementarityOperator &matrix,
                                                   const std::vector<std::size_t> &set,
+                                                  const double tolerance,
                                                   MixedComplementaritySolution &solution,
                                                   std::vector<double> &terms)
   {
-    solution.reset(problem);
+    start(problem, matrix, set, solution, terms);
     rhs.resize(problem.size());
     shift = 0.;
     kernel_is_ready = false;
     double last_gap = 0., last_step = 0.;
+    double now = matrix.is_iterative() ? largest_gap(set, solution.gap, terms) : 1.;
     for (unsigned int correction = 0; correction <= options.max_corrections; ++correction)
     {
+      matrix.set_tolerance(inner_part * tolerance / std::max(now, tolerance));
       if (!correct(problem, matrix, set, solution))
         return Outcome::inadmissible;
       gaps(problem, matrix, solution.multiplier, solution.kernel_amplitude, solution.gap);
@@ -52,10 +59,10 @@ namespace taut
 
       // Contradictory rows grow by the same step in each correction, and so do the terms that gaps
       // are measured with: with a shift, gaps are small only if the steps are getting small, too.
-      const double gap = largest_gap(set, solution.gap, terms);
+      const double gap = now = largest_gap(set, solution.gap, terms);
       const double size = shift == 0. ? 0. : largest_step(set, matrix, step);
       const bool shrinks = shift == 0. || (correction > 0 && size <= 0.5 * last_step);
-      if (gap <= options.linear_tolerance && shrinks)
+      if ((gap <= tolerance && shrinks) || tolerance > options.linear_tolerance)
         return Outcome::solved;
       if (correction > 0 && !(gap < 0.5 * last_gap && shrinks))
         break;
@@ -63,6 +70,35 @@ namespace taut
       last_step = size;
     }
     return Outcome::unsettled;
+  }
+
+  /// Multipliers and amplitudes to start from, their gaps and terms.
+  void ActiveSetSystem::start(const MixedComplementarityProblem &problem,
+                              const ComplementarityOperator &matrix,
+                              const std::vector<std::size_t> &set,
+                              MixedComplementaritySolution &solution,
+                              std::vector<double> &terms) const
+  {
+    std::vector<double> last;
+    std::vector<double> amplitude;
+    if (matrix.is_iterative() && solution.multiplier.size() == problem.size() &&
+        solution.kernel_amplitude.size() == problem.n_kernel())
+    {
+      last.swap(solution.multiplier);
+      amplitude.swap(solution.kernel_amplitude);
+    }
+    solution.reset(problem);
+    if (last.empty())
+    {
+      if (matrix.is_iterative())
+        gap_terms(problem, matrix, solution.multiplier, solution.kernel_amplitude, terms);
+      return;
+    }
+    for (const std::size_t i : set)
+      solution.multiplier[i] = last[i];
+    solution.kernel_amplitude.swap(amplitude);
+    gaps(problem, matrix, solution.multiplier, solution.kernel_amplitude, solution.gap);
+    gap_terms(problem, matrix, solution.multiplier, solution.kernel_amplitude, terms);
   }
 
   bool ActiveSetSystem::correct(const MixedComplementarityProblem &problem,

@@ -81,7 +81,8 @@ namespace taut
           penalty.without_kernel(problem.free_gap, problem.free_gap, load).free_gap;
 
       MixedComplementaritySolution candidate = solution;
-      if (ActiveSetSystem(options).solve(held_problem, held, set, candidate, terms) !=
+      if (ActiveSetSystem(options).solve(held_problem, held, set, options.linear_tolerance,
+                                         candidate, terms) !=
           ActiveSetSystem::Outcome::solved)
         return;
       add(candidate.kernel_amplitude, factor,

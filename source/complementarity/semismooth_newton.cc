@@ -28,19 +28,32 @@ namespace taut
                                                     MixedComplementaritySolution &solution)
   {
     solution.closed.resize(problem.size());
+    const bool is_inexact = matrix.is_iterative() && !stayed;
+    double tolerance = is_inexact ? options.inexact_tolerance : options.linear_tolerance;
+    bool is_settled = false;
     for (iterations = 0; iterations < options.max_iterations;)
     {
-      ++iterations;
-      collect_set(problem, matrix, solution);
-      if (options.detect_cycles && comes_back())
-        return Outcome::cycle;
+      if (!is_settled)
+      {
+        ++iterations;
+        collect_set(problem, matrix, solution);
+        if (options.detect_cycles && comes_back())
+          return Outcome::cycle;
+      }
 
-      const auto outcome = system.solve(problem, matrix, set, solution, terms);
+      const auto outcome = system.solve(problem, matrix, set, tolerance, solution, terms);
       if (outcome == ActiveSetSystem::Outcome::inadmissible)
         return Outcome::unsettled;
       multiplier_weights(problem, matrix, solution.multiplier, terms, weights);
-      if (flip_rows(problem, solution))
+      is_settled = !flip_rows(problem, tolerance > options.linear_tolerance ? tolerance : options.dead_band, solution);
+      stayed = is_settled && iterations == 1;
+      if (!is_settled)
         continue;
+      if (tolerance > options.linear_tolerance)
+      {
+        tolerance = options.linear_tolerance;
+        continue;
+      }
 
       taut::residual(problem, solution, terms, weights, final_residual);
       return outcome == ActiveSetSystem::Outcome::solved ? Outcome::solved : Outcome::unsettled;
@@ -65,6 +78,7 @@ namespace taut
   }
 
   bool SemismoothNewton::flip_rows(const MixedComplementarityProblem &problem,
+                                   const double dead_band,
                                    MixedComplementaritySolution &solution) const
   {
     bool flipped = false;
@@ -72,7 +86,7 @@ namespace taut
     {
       if (!problem.unilateral[i] || problem.is_held_open(i) || weights[i] == 0.)
         continue;
-      const double band = options.dead_band * terms[i];
+      const double band = dead_band * terms[i];
       const bool flips = solution.closed[i] ? weights[i] * solution.multiplier[i] < -band
                                             : solution.gap[i] < -band;
       if (flips)

@@ -51,7 +51,7 @@ namespace taut
 
   void MatrixFreeSchurComplement::set_tolerance(const double wanted)
   {
-    tolerance = std::max(wanted, smallest_residual);
+    tolerance = wanted > smallest_residual ? wanted : smallest_residual; // not-a-number, too
   }
 
   void MatrixFreeSchurComplement::setup(const std::vector<double> &S)

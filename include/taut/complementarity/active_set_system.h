@@ -23,7 +23,7 @@ namespace taut
   public:
     enum class Outcome
     {
-      solved,      ///< the gaps of the set are at linear_tolerance
+      solved,      ///< the gaps of the set are at the tolerance
       unsettled,   ///< they are not: the rows contradict each other, or nearly so
       inadmissible ///< no solution was computed: the rows do not hold a body, or have no stiffness
     };
@@ -32,13 +32,18 @@ namespace taut
 
     /**
      * Writes multiplier, kernel_amplitude and gap of @p solution, and the terms s_i of the gaps. @p
-     * set is ordered; keeping the order from call to call lets the operator keep its factor.
+     * set is ordered; keeping the order from call to call lets the operator keep its factor. An
+     * iterative operator starts from the multipliers and amplitudes of @p solution, and gets gaps
+     * of @p tolerance times s_i; above options.linear_tolerance in one correction, or not at all.
      */
     Outcome solve(const MixedComplementarityProblem &problem, ComplementarityOperator &matrix,
-                  const std::vector<std::size_t> &set, MixedComplementaritySolution &solution,
-                  std::vector<double> &terms);
+                  const std::vector<std::size_t> &set, double tolerance,
+                  MixedComplementaritySolution &solution, std::vector<double> &terms);
 
   private:
+    void start(const MixedComplementarityProblem &problem, const ComplementarityOperator &matrix,
+               const std::vector<std::size_t> &set, MixedComplementaritySolution &solution,
+               std::vector<double> &terms) const;
     bool correct(const MixedComplementarityProblem &problem, ComplementarityOperator &matrix,
                  const std::vector<std::size_t> &set, MixedComplementaritySolution &solution);
     bool correct_with_kernel(const MixedComplementarityProblem &problem,

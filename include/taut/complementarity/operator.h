@@ -62,11 +62,11 @@ namespace taut
     }
     virtual bool has_kernel_solver() const { return false; }
 
-    /// True if systems are solved by an iteration, to tolerance().
+    /// True if systems are solved by an iteration, to the tolerance set last.
     virtual bool is_iterative() const { return false; }
 
-    /// Residual of the iteration, relative to the terms of rows scaled to F_ii = 1; of no meaning
-    /// where is_iterative() is false.
+    /// Largest residual of the solves to come, in rows scaled to F_ii = 1 and relative to the
+    /// largest entry of right-hand side or solution. Without effect where is_iterative() is false.
     virtual void set_tolerance(double /*tolerance*/) {}
   };
 } // namespace taut

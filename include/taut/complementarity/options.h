@@ -19,6 +19,13 @@ namespace taut
     /// as above.
     double linear_tolerance = 1e-12;
 
+    /**
+     * The same, and the dead band, while the active set still changes and the operator solves
+     * iteratively: what is solved for then is only which rows flip. A set that stays is solved to
+     * linear_tolerance, and so is one that stayed in the problem before.
+     */
+    double inexact_tolerance = 1e-4;
+
     /// Residual up to which a problem counts as solved, and gaps of dependent rows as consistent.
     double tolerance = 1e-10;
 

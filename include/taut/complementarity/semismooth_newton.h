@@ -43,13 +43,14 @@ namespace taut
   private:
     void collect_set(const MixedComplementarityProblem &problem,
                      const ComplementarityOperator &matrix, MixedComplementaritySolution &solution);
-    bool flip_rows(const MixedComplementarityProblem &problem,
+    bool flip_rows(const MixedComplementarityProblem &problem, double dead_band,
                    MixedComplementaritySolution &solution) const;
     bool comes_back();
 
     ComplementarityOptions options;
     ActiveSetSystem system;
     unsigned int iterations = 0;
+    bool stayed = false; ///< the first active set of the last call was its last
     ComplementarityResidual final_residual;
 
     /// Rows of the active set, ascending; terms s_i and weights w_i of the problem.

@@ -46,6 +46,7 @@ namespace taut
 
     /// Form and size of the interface operator, for the log.
     std::string interface_description() const { return schur->description(); }
+    InterfaceStatistics interface_statistics() const { return schur->statistics(); }
 
   private:
     void prepare(const StepCoefficients &c);

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: with an operator that iterates, Newton's method solves roughly while the active set changes
+// and exactly once it stays, from the multipliers it has; the answer is that of a direct operator.
+// Expected: the direct answer, fewer inner iterations than with exact solves throughout, and fewer
+// still from the multipliers of a neighbouring problem.
+#include <taut/complementarity/solver.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace
+{
+  using Vector = std::vector<double>;
+
+  /// Conjugate gradients on a dense matrix.
+  class IteratingOperator : public taut::ComplementarityOperator
+  {
+  public:
+    explicit IteratingOperator(const taut::DenseOperator &F) : F(F) {}
+
+    std::size_t size() const override { return F.size(); }
+    double diagonal(std::size_t i) const override { return F.diagonal(i); }
+    void apply(const Vector &x, Vector &y) const override { F.apply(x, y); }
+    void apply_absolute(const Vector &x, Vector &y) const override { F.apply_absolute(x, y); }
+    bool is_iterative() const override { return true; }
+    void set_tolerance(double value) override { tolerance = value; }
+
+    bool solve(const std::vector<std::size_t> &set, const Vector &rhs, double shift,
+               Vector &x) override
+    {
+      tolerances.push_back(tolerance);
+      const std::size_t n = F.size();
+      x.assign(n, 0.);
+      Vector r(n, 0.), p(n, 0.), q;
+      for (const std::size_t i : set)
+        r[i] = rhs[i];
+      const double start = dot(r, r);
+      double rr = start, last = 1.;
+      for (int i = 0; i < 1000 && rr > tolerance * tolerance * start; ++i, ++n_iterations)
+      {
+        for (const std::size_t k : set)
+          p[k] = r[k] + (i > 0 ? rr / last : 0.) * p[k];
+        F.apply(p, q);
+        for (const std::size_t k : set)
+          q[k] += shift * F.diagonal(k) * p[k];
+        double curvature = 0.;
+        for (const std::size_t k : set)
+          curvature += p[k] * q[k];
+        for (const std::size_t k : set)
+        {
+          x[k] += rr / curvature * p[k];
+          r[k] -= rr / curvature * q[k];
+        }
+        last = rr;
+        rr = dot(r, r);
+      }
+      return true;
+    }
+
+    std::vector<double> tolerances;
+    int n_iterations = 0;
+
+  private:
+    static double dot(const Vector &a, const Vector &b)
+    {
+      double sum = 0.;
+      for (std::size_t i = 0; i < a.size(); ++i)
+        sum += a[i] * b[i];
+      return sum;
+    }
+
+    const taut::DenseOperator &F;
+    double tolerance = 1e-14;
+  };
+
+  /// A string of n nodes over stops at all of them, F its flexibility, pressed down at both ends
+  /// and lifted between: from a cold start the set moves for several iterations.
+  struct String
+  {
+    taut::DenseOperator F;
+    taut::MixedComplementarityProblem problem;
+
+    explicit String(const std::size_t n, const double lift = 1.) : F(n)
+    {
+      for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j <= i; ++j)
+          F.set(i, j, (j + 1.) * (n - i) / (n + 1.) + (i == j ? 1. : 0.));
+      Vector load(n);
+      for (std::size_t i = 0; i < n; ++i)
+        load[i] = std::cos(9. * i / n) * lift - .2;
+      problem.unilateral.assign(n, 1);
+      F.apply(load, problem.free_gap);
+    }
+  };
+} // namespace
+
+TEST(InexactSolves, end_at_the_answer_of_direct_ones_with_less_work)
+{
+  String string(80);
+  taut::ComplementaritySolver direct;
+  const Vector expected = direct.solve(string.problem, string.F).solution.multiplier;
+  const double largest = *std::max_element(expected.begin(), expected.end());
+  ASSERT_GT(largest, 0.);
+
+  IteratingOperator rough(string.F), exact(string.F);
+  taut::ComplementaritySolver solver;
+  const taut::ComplementarityResult &result = solver.solve(string.problem, rough);
+  EXPECT_GT(result.iterations, 2u);
+  EXPECT_FALSE(result.used_fallback);
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    EXPECT_NEAR(result.solution.multiplier[i], expected[i], 1e-10 * largest);
+
+  taut::ComplementarityOptions options;
+  options.inexact_tolerance = options.linear_tolerance;
+  taut::ComplementaritySolver always_exact("semismooth Newton", options);
+  always_exact.solve(string.problem, exact);
+  EXPECT_LT(rough.n_iterations, .7 * exact.n_iterations);
+  // Roughly first, exactly last.
+  EXPECT_GE(rough.tolerances.front(), 1e-6);
+  EXPECT_LE(*std::min_element(rough.tolerances.begin(), rough.tolerances.end()), 1e-8);
+}
+
+TEST(InexactSolves, start_from_the_last_multipliers)
+{
+  const String first(80), second(80, 1. + 1e-6);
+  IteratingOperator F(first.F), cold(first.F);
+  taut::ComplementaritySolver solver, other;
+  solver.solve(first.problem, F);
+  solver.solve(first.problem, F); // its set stays: from now on exact at once
+  F.n_iterations = 0;
+  const taut::ComplementarityResult &result = solver.solve(second.problem, F);
+  EXPECT_EQ(result.iterations, 1u);
+
+  other.start_from(result.solution.closed);
+  other.solve(second.problem, cold);
+  EXPECT_LT(F.n_iterations, .8 * cold.n_iterations);
+}

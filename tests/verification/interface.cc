@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Each named way to solve for the multipliers against the dense one, and against its neighbour where
+// theory says how they differ.
+#include "interface_problem.h"
+#include "run.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+using namespace verification;
+
+namespace
+{
+  constexpr double statics = 0.;
+
+  taut::Scene catenary(const std::string &n_spans, const Overrides &more = {})
+  {
+    Overrides all = {"Catenary.Number of spans=" + n_spans, "Catenary.Uplift positions=",
+                     "Statistics.Window="};
+    all.insert(all.end(), more.begin(), more.end());
+    taut::Parameters parameters;
+    parameters.read(scene_file("en50318_2002_250"), all);
+    return parameters.scene();
+  }
+
+  /// A string fixed at both ends, of bilateral cuts only: what FETI theory is about.
+  taut::Scene fixed_string()
+  {
+    taut::Scene scene;
+    taut::Wire wire;
+    wire.name = "string";
+    wire.b = {1024., 0.};
+    wire.mass_per_length = 1.;
+    wire.tension = 1e4;
+    wire.transverse = taut::TransverseKind::string;
+    wire.degree = 1;
+    scene.wires.push_back(wire);
+    taut::Support support;
+    support.name = "ends";
+    support.positions = {0., 1024.};
+    scene.supports.push_back(support);
+    return scene;
+  }
+
+  double difference(const std::vector<double> &a, const std::vector<double> &b)
+  {
+    double error = 0., size = 0.;
+    for (std::size_t i = 0; i < a.size(); ++i)
+    {
+      error = std::max(error, std::fabs(a[i] - b[i]));
+      size = std::max(size, std::fabs(a[i]));
+    }
+    return error / size;
+  }
+
+  long iterations(const InterfaceProblem &problem, const double step,
+                  const std::string &preconditioner, const std::string &coarse_space)
+  {
+    const auto solution = problem.solve(step, {"matrix-free", preconditioner, coarse_space}, 1e-9);
+    EXPECT_TRUE(solution.is_solved) << preconditioner << ", " << coarse_space << ", " << step;
+    figure("iterations, " + preconditioner + ", " + coarse_space + ", step " +
+               std::to_string(step) + ", " + std::to_string(problem.structure.size()) + " bodies",
+           solution.statistics.n_iterations);
+    return solution.statistics.n_iterations;
+  }
+} // namespace
+
+// Claim: all forms, preconditioners and coarse spaces solve the same system. Expected: the dense
+// form's multipliers, to 1e-9 of the largest (condition numbers up to 1e6).
+TEST(Interface, every_option_gives_the_multipliers_of_the_dense_form)
+{
+  const InterfaceProblem problem(catenary("6"), 12);
+  for (const double step : {1e-3, 1e-1, 10., statics})
+  {
+    const auto dense = problem.solve(step, {"assembled dense"}, 1e-14);
+    ASSERT_TRUE(dense.is_solved);
+    EXPECT_EQ(dense.statistics.n_iterations, 0);
+    const auto compare = [&](const taut::InterfaceParameters &parameters)
+    {
+      const auto other = problem.solve(step, parameters, 1e-14);
+      EXPECT_TRUE(other.is_solved);
+      const double error = difference(dense.multiplier, other.multiplier);
+      EXPECT_LT(error, 1e-9) << other.description << ", step " << step;
+      return other;
+    };
+    EXPECT_EQ(compare({"assembled sparse"}).statistics.n_iterations, 0);
+    for (const char *preconditioner : {"diagonal", "lumped", "Dirichlet"})
+      for (const char *coarse_space : {"kernels", "none"})
+        EXPECT_GT(compare({"matrix-free", preconditioner, coarse_space}).statistics.n_iterations,
+                  0);
+  }
+}
+
+// Claim: the three preconditioners are three. Expected (Farhat and Roux 1991, Mandel and Tezaur
+// 1996): on cuts alone the condition number with Dirichlet does not grow with the elements of a
+// piece, with lumped it does; both see the neighbours that the diagonal does not.
+TEST(Interface, dirichlet_does_not_feel_the_elements_and_lumped_does)
+{
+  const InterfaceProblem coarse(catenary("6", {"Catenary/Contact wire.Element size=1.5",
+                                               "Catenary/Messenger wire.Element size=1.5"}),
+                                12),
+      fine(catenary("6", {"Catenary/Contact wire.Element size=0.1",
+                          "Catenary/Messenger wire.Element size=0.1"}),
+           12);
+  const long dirichlet = iterations(coarse, statics, "Dirichlet", "kernels"),
+             dirichlet_fine = iterations(fine, statics, "Dirichlet", "kernels"),
+             lumped = iterations(coarse, statics, "lumped", "kernels"),
+             lumped_fine = iterations(fine, statics, "lumped", "kernels"),
+             diagonal = iterations(coarse, statics, "diagonal", "kernels");
+  EXPECT_LE(dirichlet_fine, dirichlet + 5);
+  EXPECT_GT(lumped_fine, lumped);
+  EXPECT_LT(2 * dirichlet, lumped);
+  EXPECT_NE(lumped, diagonal);
+}
+
+// Claim: with the coarse space the iterations grow neither with the number of pieces nor with the
+// step; without it they grow with both. Expected for a string of n pieces at a step in which waves
+// cross all of it: information travels one piece an iteration, so n / 2 at least.
+TEST(Interface, the_coarse_space_bounds_the_iterations)
+{
+  const InterfaceProblem few(fixed_string(), 8), many(fixed_string(), 64);
+  for (const char *preconditioner : {"diagonal", "lumped", "Dirichlet"})
+  {
+    SCOPED_TRACE(preconditioner);
+    const long with_few = iterations(few, 100., preconditioner, "kernels"),
+               with_many = iterations(many, 100., preconditioner, "kernels"),
+               without_few = iterations(few, 100., preconditioner, "none"),
+               without_many = iterations(many, 100., preconditioner, "none"),
+               with_short_step = iterations(many, 1e-2, preconditioner, "kernels"),
+               without_short_step = iterations(many, 1e-2, preconditioner, "none");
+    EXPECT_LE(with_many, with_few + 5);
+    EXPECT_LE(with_many, 20);
+    EXPECT_GE(without_many, 32);
+    EXPECT_GE(without_many, 3 * without_few);
+    EXPECT_LE(with_many, with_short_step + 15);
+    EXPECT_GE(without_many, without_short_step + 20);
+  }
+}
+
+// Claim: so on a line with droppers, and the count of the best choice is 40 at most. Expected: the
+// aim for the interface solve.
+TEST(Interface, a_line_takes_forty_iterations_at_most)
+{
+  for (const unsigned int n : {4, 32, 128})
+  {
+    const InterfaceProblem problem(catenary("10"), n);
+    for (const double step : {1e-3, 1e-1, 10., statics})
+      EXPECT_LE(iterations(problem, step, "Dirichlet", "kernels"), 40);
+    EXPECT_GT(iterations(problem, 10., "diagonal", "none"), 200);
+  }
+}
+
+// Claim: 'automatic' is dense for few rows, sparse for many that act near by only, matrix-free for
+// many that all feel each other.
+TEST(Interface, automatic_chooses_by_size_and_decay)
+{
+  const auto chosen = [](const InterfaceProblem &problem, const double step)
+  {
+    const std::string text = problem.solve(step, {}, 1e-9).description;
+    return text.substr(0, text.find(','));
+  };
+  const InterfaceProblem small(catenary("5"), 1), large(catenary("40"), 2);
+  EXPECT_EQ(chosen(small, 1e-3), "assembled dense");
+  EXPECT_EQ(chosen(small, statics), "assembled dense");
+  EXPECT_EQ(chosen(large, 1e-3), "assembled sparse");
+  EXPECT_EQ(chosen(large, statics), "matrix-free");
+}
+
+// Claim: a product costs one solve a body that has rows, not one a row.
+TEST(Interface, a_product_solves_each_body_once)
+{
+  const InterfaceProblem problem(catenary("6"), 12);
+  const auto statistics = problem.solve(1e-1, {"matrix-free", "lumped", "none"}, 1e-9).statistics;
+  const double solves = static_cast<double>(statistics.n_local_solves) / statistics.n_applications;
+  EXPECT_LE(solves, problem.structure.size());
+  EXPECT_GT(solves, .8 * problem.structure.size());
+  EXPECT_EQ(statistics.n_coarse_solves, 0);
+  EXPECT_EQ(statistics.n_factorisations, 0);
+}
+
+TEST(Interface, unknown_names_are_refused)
+{
+  const InterfaceProblem problem(catenary("5"), 2);
+  EXPECT_THROW(problem.solve(1e-3, {"assembled"}, 1e-9), taut::UserError);
+  EXPECT_THROW(problem.solve(1e-3, {"matrix-free", "ILU"}, 1e-9), taut::UserError);
+  EXPECT_THROW(problem.solve(1e-3, {"matrix-free", "lumped", "all"}, 1e-9), taut::UserError);
+}
