@@ -82,8 +82,7 @@ namespace taut
 
       MixedComplementaritySolution candidate = solution;
       if (ActiveSetSystem(options).solve(held_problem, held, set, options.linear_tolerance,
-                                         candidate, terms) !=
-          ActiveSetSystem::Outcome::solved)
+                                         candidate, terms) != ActiveSetSystem::Outcome::solved)
         return;
       add(candidate.kernel_amplitude, factor,
           penalty.weigh(penalty.unbalance(candidate.multiplier)));

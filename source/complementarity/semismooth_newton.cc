@@ -45,7 +45,8 @@ namespace taut
       if (outcome == ActiveSetSystem::Outcome::inadmissible)
         return Outcome::unsettled;
       multiplier_weights(problem, matrix, solution.multiplier, terms, weights);
-      is_settled = !flip_rows(problem, tolerance > options.linear_tolerance ? tolerance : options.dead_band, solution);
+      is_settled = !flip_rows(
+          problem, tolerance > options.linear_tolerance ? tolerance : options.dead_band, solution);
       stayed = is_settled && iterations == 1;
       if (!is_settled)
         continue;

@@ -137,8 +137,15 @@ namespace taut
     const long n_steps = stepper.n_steps_done();
     log << n_steps << " steps in " << all << " s, " << parameters.end_time / all
         << " x real time; without output " << 1e6 * seconds / n_steps << " us a step, "
-        << parameters.end_time / seconds << " x real time\n"
-        << "Results in " << parameters.output.folder << '\n';
+        << parameters.end_time / seconds << " x real time\n";
+    const InterfaceStatistics solves = stepper.interface_statistics();
+    if (solves.n_systems > 0)
+      log << "Conjugate gradients: " << static_cast<double>(solves.n_iterations) / solves.n_systems
+          << " iterations a system, " << static_cast<double>(solves.n_systems) / n_steps
+          << " systems a step, "
+          << static_cast<double>(solves.n_local_solves) / solves.n_applications
+          << " bodies solved a product\n";
+    log << "Results in " << parameters.output.folder << '\n';
   }
 
   void Simulation::check()

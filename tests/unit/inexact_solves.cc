@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Claim: with an operator that iterates, Newton's method solves roughly while the active set changes
-// and exactly once it stays, from the multipliers it has; the answer is that of a direct operator.
-// Expected: the direct answer, fewer inner iterations than with exact solves throughout, and fewer
-// still from the multipliers of a neighbouring problem.
+// Claim: with an operator that iterates, Newton's method solves roughly while the active set
+// changes and exactly once it stays, from the multipliers it has; the answer is that of a direct
+// operator. Expected: the direct answer, fewer inner iterations than with exact solves throughout,
+// and fewer still from the multipliers of a neighbouring problem.
 #include <taut/complementarity/solver.h>
 
 #include <gtest/gtest.h>
