@@ -9,9 +9,9 @@ namespace taut
 {
   namespace
   {
-    /// An iteration ends at this part of the gaps that are wanted: rows are smaller than the
-    /// largest.
-    constexpr double inner_part = .01;
+    /// An iteration ends at this part of the gaps that are wanted, while the set changes and when
+    /// it stays: some rows are much smaller than the largest, and s_i is an upper bound only.
+    constexpr double rough_part = .1, exact_part = 1e-3;
 
     /// Largest |D_i| / s_i on the set; not-a-number if one is.
     double largest_gap(const std::vector<std::size_t> &set, const std::vector<double> &gap,
@@ -51,7 +51,8 @@ namespace taut
     double now = matrix.is_iterative() ? largest_gap(set, solution.gap, terms) : 1.;
     for (unsigned int correction = 0; correction <= options.max_corrections; ++correction)
     {
-      matrix.set_tolerance(inner_part * tolerance / std::max(now, tolerance));
+      const double part = tolerance > options.linear_tolerance ? rough_part : exact_part;
+      matrix.set_tolerance(part * tolerance / std::max(now, tolerance));
       if (!correct(problem, matrix, set, solution))
         return Outcome::inadmissible;
       gaps(problem, matrix, solution.multiplier, solution.kernel_amplitude, solution.gap);
