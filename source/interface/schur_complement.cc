@@ -11,15 +11,15 @@ namespace taut
     /// Rows up to which a dense F is as fast as a sparse one.
     constexpr std::size_t most_dense_rows = 150;
 
-    /// Entries of the stored columns for each DoF up to which F is assembled, some three times
-    /// those of the factors.
-    constexpr double most_stored_entries = 64.;
+    /// Numbers stored beside F for each DoF up to which F is assembled, some three times those of
+    /// the factors.
+    constexpr double most_stored_numbers = 64.;
 
     /// Columns that are computed to guess the length of all.
     constexpr std::size_t n_samples = 16;
 
-    /// Entries that the columns of all rows would have over the DoFs, on all ranks.
-    double stored_entries_per_dof(const FactoredStructure &solvers, const ContactRows &rows)
+    /// Numbers that an assembled F would store beside F, over the number of DoFs, on all ranks.
+    double stored_numbers_per_dof(const FactoredStructure &solvers, const ContactRows &rows)
     {
       WindowedVector column;
       double sum = 0.;
@@ -30,7 +30,13 @@ namespace taut
           solvers[k].column(form, column);
           sum += column.value.size();
         }
-      std::vector<double> totals = {n > 0 ? sum * rows.size() / n : 0.,
+      // Without a coarse problem statics stores the response of all rows to each free motion.
+      std::size_t n_kernel = 0;
+      for (std::size_t k = 0; solvers.is_generalised_inverse() && k < solvers.structure().size();
+           ++k)
+        n_kernel += solvers.structure()[k].kernel().vectors.size();
+      std::vector<double> totals = {(n > 0 ? sum / n : 0.) * rows.size() +
+                                        static_cast<double>(n_kernel) * rows.size(),
                                     static_cast<double>(solvers.structure().n_dofs())};
       solvers.structure().communicator().sum(totals);
       return totals[0] / std::max(1., totals[1]);
@@ -67,7 +73,7 @@ namespace taut
       {
         if (rows.size() <= most_dense_rows)
           return "assembled dense";
-        return stored_entries_per_dof(solvers, rows) <= most_stored_entries ? "assembled sparse"
+        return stored_numbers_per_dof(solvers, rows) <= most_stored_numbers ? "assembled sparse"
                                                                             : "matrix-free";
       }
 

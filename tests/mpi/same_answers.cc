@@ -220,7 +220,7 @@ namespace
   }
 
   void expect_same(const std::string &title, const double step, const Overrides &overrides,
-                   const std::vector<unsigned int> &numbers)
+                   const std::vector<unsigned int> &numbers, const Overrides &for_cut_runs = {})
   {
     const double unit = std::numeric_limits<double>::epsilon(),
                  static_bound = unit * condition(overrides, 0.),
@@ -230,6 +230,7 @@ namespace
     for (const unsigned int n : numbers)
     {
       Overrides cut = overrides;
+      cut.insert(cut.end(), for_cut_runs.begin(), for_cut_runs.end());
       cut.push_back("Partition/Number of substructures=" + std::to_string(n));
       const std::string where = title + ", " + std::to_string(n) + " parts, " +
                                 std::to_string(world().size()) + " ranks, ";
@@ -247,6 +248,15 @@ namespace
 TEST(Ranks, the_reference_line_is_the_same)
 {
   expect_same("5 spans, 2 ms", 2e-3, line(5, 2e-3, 200, .75), {1, 7, 64});
+}
+
+// Claim: so with each form of the interface operator, whose parts from the bodies are summed over
+// the ranks in their own ways. Expected: as above, one process with the dense form.
+TEST(Ranks, all_interface_operators_answer_the_same)
+{
+  for (const std::string form : {"assembled sparse", "matrix-free"})
+    expect_same("5 spans, " + form, 1e-1, line(5, 1e-1, 10, .75), {7, 64},
+                {"Solver/Interface operator=" + form});
 }
 
 // Claim: so for steps from 10 us to 10 s, on the reference line and on one of 100 spans. Expected:

@@ -168,6 +168,10 @@ TEST(Interface, automatic_chooses_by_size_and_decay)
   EXPECT_EQ(chosen(small, statics), "assembled dense");
   EXPECT_EQ(chosen(large, 1e-3), "assembled sparse");
   EXPECT_EQ(chosen(large, statics), "matrix-free");
+  // Short columns, but a free motion for nearly every row.
+  const InterfaceProblem pieces(fixed_string(), 512);
+  EXPECT_EQ(chosen(pieces, 1e-2), "assembled sparse");
+  EXPECT_EQ(chosen(pieces, statics), "matrix-free");
 }
 
 // Claim: a product costs one solve a body that has rows, not one a row.
