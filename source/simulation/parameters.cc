@@ -225,6 +225,10 @@ namespace taut
         "Least time between two files of the motion of all wires for ParaView; 0: none "
         "[s]",
         not_negative());
+    prm.add_parameter("Energy", energy,
+                      "Write energy.csv: kinetic and elastic energy, work of loads, supports and "
+                      "contacts, dissipation of dampers and of the time integration, and the error "
+                      "of their balance, as often as Interval says");
     prm.add_parameter("Subdivisions", subdivisions,
                       "Pieces that each element is drawn with in these files [1]", Integer(1, 20));
     probes.declare_parameters(prm);
@@ -264,6 +268,8 @@ namespace taut
     prm.add_parameter("Step", step, "[s]", not_negative());
     prm.add_parameter("End", end_time, "0: the start only, e.g. a static equilibrium [s]",
                       not_negative());
+    prm.add_parameter("Allow unsuitable scheme", allow_unsuitable_scheme,
+                      "Run a scheme although it is known to fail with the links of the scene");
     prm.add_parameter(
         "Massless contact", massless_contact,
         "Whether the node of a wire at a rigid stop or dropper gives its mass to its "

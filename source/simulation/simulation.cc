@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
 #include <taut/base/version.h>
+#include <taut/output/energy.h>
 #include <taut/output/fields.h>
 #include <taut/output/scene_report.h>
 #include <taut/output/series.h>
@@ -29,7 +30,7 @@ namespace taut
     {
       for (const char *fixed :
            {"used.prm", "start.csv", "sliding.csv", "links.csv", "probes.csv", "supports.csv",
-            "certificate.csv", "statistics.json", "wires.pvd", "links.pvd"})
+            "certificate.csv", "energy.csv", "statistics.json", "wires.pvd", "links.pvd"})
         if (name == fixed)
           return true;
       const auto is_numbered = [&](const std::string &stem)
@@ -113,16 +114,23 @@ namespace taut
       observers.push_back(series.get());
     observers.insert(observers.end(), guests.begin(), guests.end());
 
+    std::unique_ptr<Energy> energy;
+    if (parameters.output.energy)
+      energy = std::make_unique<Energy>(parameters.output.folder, view(start, start_certificate),
+                                        parameters.output.interval);
+
     const auto begin = std::chrono::steady_clock::now();
     try
     {
-      advance(stepper, observers, fields);
+      advance(stepper, observers, fields, energy.get());
     }
     catch (const UserError &)
     {
       // What was computed before the error is kept; it may show the reason.
       if (series)
         series->close();
+      if (energy)
+        energy->close();
       throw;
     }
     const double all =
@@ -131,6 +139,8 @@ namespace taut
         [&]
         {
           series->close();
+          if (energy)
+            energy->close();
           statistics.write(parameters.output.folder + "/statistics.json");
         });
     statistics.print(log);
@@ -206,7 +216,7 @@ namespace taut
   }
 
   void Simulation::advance(TimeStepper &stepper, const std::vector<Observer *> &observers,
-                           Fields &fields)
+                           Fields &fields, Energy *const energy)
   {
     const auto show = [&](const State &state, const Certificate &certificate)
     {
@@ -228,6 +238,8 @@ namespace taut
       stepper.advance();
       seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
       show(stepper.state(), stepper.certificate());
+      if (energy)
+        energy->record(view(stepper.state(), stepper.certificate()), stepper.scheme());
     }
   }
 
@@ -423,7 +435,12 @@ namespace taut
           << choice.reason << '\n';
     }
     else
+    {
       log << "Scheme: " << parameters.integrator(name).description() << '\n';
+      if (!parameters.allow_unsuitable_scheme)
+        check_scheme(parameters.integrator(name), model, bodies, links, parameters.solver,
+                     parameters.step);
+    }
     return parameters.integrator(name);
   }
 

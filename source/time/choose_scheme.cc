@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
 #include <taut/interface/schur_complement.h>
 #include <taut/time/choose_scheme.h>
 #include <taut/time/integrator.h>
@@ -36,54 +37,110 @@ namespace taut
       }
       return std::sqrt(squared / wire.mass_per_length) * step / wire.element_size;
     }
+
+    /// A one-sided row that acts as rigid, and the least Courant number of all of them.
+    struct RigidRow
+    {
+      std::size_t row = 0;
+      double courant = std::numeric_limits<double>::infinity();
+      bool exists = false;
+    };
+
+    /// True if the wire's node under a rigid link carries no mass: its force then is that of the
+    /// elements beside it.
+    bool is_massless(const Link &link)
+    {
+      return link.contact_mass != ContactMass::stays &&
+             (link.from.kind == Attachment::Kind::wire || link.to.kind == Attachment::Kind::wire);
+    }
+
+    RigidRow find_rigid_row(const Scene &scene, const Structure &structure, const ContactRows &rows,
+                            const SolverParameters &parameters, const double step)
+    {
+      const StepCoefficients c = generalised_alpha(step, .8);
+      FactoredStructure solvers(structure, parameters.local_solver);
+      const Communicator &processes = structure.communicator();
+      processes.agree([&] { solvers.factor(c.mass_factor(), c.velocity); });
+      std::vector<double> flexibility(rows.size(), 0.);
+      WindowedVector column;
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        for (const Term &term : rows[i].terms)
+          if (rows[i].unilateral)
+          {
+            solvers[term.substructure].column(term.form, column);
+            flexibility[i] += column.dot(term.form);
+          }
+      processes.sum(flexibility);
+
+      RigidRow result;
+      for (std::size_t i = 0; i < rows.size(); ++i)
+      {
+        if (!rows[i].unilateral)
+          continue;
+        const Link &link = scene.links[rows[i].link];
+        const double compliance = 1. / (rows[i].stiffness + c.velocity * rows[i].damping);
+        if (compliance >= flexibility[i] || is_massless(link))
+          continue;
+        const double courant = std::min(courant_number(scene, link.from, link.direction, step),
+                                        courant_number(scene, link.to, link.direction, step));
+        if (!result.exists || courant < result.courant)
+          result.row = i;
+        result.courant = std::min(result.courant, courant);
+        result.exists = true;
+      }
+      return result;
+    }
+
+    bool has_one_sided_rows(const ContactRows &rows)
+    {
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        if (rows[i].unilateral)
+          return true;
+      return false;
+    }
   } // namespace
 
   SchemeChoice choose_scheme(const Scene &scene, const Structure &structure,
                              const ContactRows &rows, const SolverParameters &parameters,
                              const double step)
   {
-    bool one_sided = false;
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      one_sided = one_sided || rows[i].unilateral;
-    if (!one_sided)
+    if (!has_one_sided_rows(rows))
       return {"generalised-alpha", "no one-sided links"};
-
-    const StepCoefficients c = generalised_alpha(step, .8);
-    FactoredStructure solvers(structure, parameters.local_solver);
-    const Communicator &processes = structure.communicator();
-    processes.agree([&] { solvers.factor(c.mass_factor(), c.velocity); });
-    std::vector<double> flexibility(rows.size(), 0.);
-    WindowedVector column;
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      for (const Term &term : rows[i].terms)
-        if (rows[i].unilateral)
-        {
-          solvers[term.substructure].column(term.form, column);
-          flexibility[i] += column.dot(term.form);
-        }
-    processes.sum(flexibility);
-
-    double courant = std::numeric_limits<double>::infinity();
-    std::string rigid;
-    for (std::size_t i = 0; i < rows.size(); ++i)
-    {
-      if (!rows[i].unilateral)
-        continue;
-      const double compliance = 1. / (rows[i].stiffness + c.velocity * rows[i].damping);
-      if (compliance >= flexibility[i])
-        continue;
-      if (rigid.empty())
-        rigid = rows[i].name;
-      const Link &link = scene.links[rows[i].link];
-      courant = std::min({courant, courant_number(scene, link.from, link.direction, step),
-                          courant_number(scene, link.to, link.direction, step)});
-    }
-    if (rigid.empty())
+    const RigidRow rigid = find_rigid_row(scene, structure, rows, parameters, step);
+    if (!rigid.exists)
       return {"generalised-alpha",
               "all one-sided links are more compliant than the bodies in one step"};
     std::ostringstream reason;
-    reason << "one-sided link '" << rigid << "' acts as rigid; waves cross " << courant
-           << " elements a step";
-    return {courant >= least_courant_number ? "BDF2" : "backward Euler", reason.str()};
+    reason << "one-sided link '" << rows[rigid.row].name << "' acts as rigid; waves cross "
+           << rigid.courant << " elements a step";
+    return {rigid.courant >= least_courant_number ? "BDF2" : "backward Euler", reason.str()};
+  }
+
+  void check_scheme(const TimeIntegrator &integrator, const Scene &scene,
+                    const Structure &structure, const ContactRows &rows,
+                    const SolverParameters &parameters, const double step)
+  {
+    const std::string anyway = ", or set 'Time/Allow unsuitable scheme'";
+    const StepCoefficients c = integrator.coefficients(step);
+    for (const Link &link : scene.links)
+      if (c.velocity_level && c.alpha_f == .5 && is_massless(link))
+        throw EntryError("Time/Massless contact",
+                         "Moreau-Jean with Theta 1/2 never damps the force of a node without mass, "
+                         "here at link '" +
+                             link.name + "'; take Theta > 1/2, another scheme" + anyway);
+    const double least = integrator.least_courant_number();
+    if (!(least > 0.) || !has_one_sided_rows(rows))
+      return;
+    const RigidRow rigid = find_rigid_row(scene, structure, rows, parameters, step);
+    if (!rigid.exists || rigid.courant >= least)
+      return;
+    std::ostringstream out;
+    out << integrator.description() << " fails at one-sided links that act as rigid, here '"
+        << rows[rigid.row].name << "': its forces ring. Waves cross " << rigid.courant
+        << " elements a step there";
+    if (std::isfinite(least))
+      out << " and would have to cross " << least;
+    out << ". Take 'automatic', give the link a Stiffness, set 'Time/Massless contact'" << anyway;
+    throw EntryError("Time/Scheme", out.str());
   }
 } // namespace taut

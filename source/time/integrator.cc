@@ -4,6 +4,7 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <limits>
 #include <sstream>
 #include <tuple>
 
@@ -91,6 +92,8 @@ namespace taut
 
   namespace
   {
+    constexpr double never = std::numeric_limits<double>::infinity();
+
     class BackwardEuler : public TimeIntegrator
     {
     public:
@@ -130,6 +133,7 @@ namespace taut
                            "Newmark is solved for the displacement and needs a positive one");
         return newmark(step, beta, gamma);
       }
+      double least_courant_number() const override { return gamma >= .6 ? .25 : never; }
       std::string description() const override
       {
         std::ostringstream out;
@@ -158,6 +162,10 @@ namespace taut
       {
         return generalised_alpha(step, rho);
       }
+      double least_courant_number() const override
+      {
+        return rho == 0. ? 0. : rho <= .5 ? .5 : rho <= .8 ? 2. : never;
+      }
       std::string description() const override
       {
         std::ostringstream out;
@@ -182,6 +190,10 @@ namespace taut
         prm.leave_subsection();
       }
       StepCoefficients coefficients(const double step) const override { return hht(step, alpha); }
+      double least_courant_number() const override
+      {
+        return alpha >= .3 ? .5 : alpha >= .1 ? 1. : never;
+      }
       std::string description() const override
       {
         std::ostringstream out;
@@ -214,6 +226,7 @@ namespace taut
       {
         return moreau_jean(step, theta, restitution);
       }
+      double least_courant_number() const override { return restitution > 0. ? never : 0.; }
       std::string description() const override
       {
         std::ostringstream out;
@@ -225,22 +238,24 @@ namespace taut
       double theta = .5, restitution = 0.;
     };
 
-    const Register<TimeIntegrator, BackwardEuler>
-        register_backward_euler("backward Euler", "first order, never chatters, dissipates");
+    const Register<TimeIntegrator, BackwardEuler> register_backward_euler(
+        "backward Euler", "first order, dissipates; forces of rigid one-sided links never ring");
     const Register<TimeIntegrator, BDF2>
-        register_bdf2("BDF2",
-                      "second order, dissipates high frequencies; for rigid one-sided links");
+        register_bdf2("BDF2", "second order, dissipates high frequencies; for rigid one-sided "
+                              "links, best where waves cross a quarter of an element a step");
     const Register<TimeIntegrator, Newmark>
-        register_newmark("Newmark", "second order at gamma 1/2; for smooth problems");
+        register_newmark("Newmark", "second order at gamma 1/2; for smooth problems, compliant "
+                                    "links, and rigid ones with 'Massless contact'");
     const Register<TimeIntegrator, GeneralisedAlpha>
         register_generalised_alpha("generalised-alpha",
-                                   "second order, dissipation chosen by the spectral radius");
+                                   "second order, dissipation chosen by the spectral radius; for "
+                                   "compliant links, with spectral radius 0 for rigid ones");
     const Register<TimeIntegrator, MoreauJean> register_moreau_jean(
-        "Moreau-Jean", "theta method with impulses: rigid links are conditions on velocities, "
-                       "with restitution, and their gaps are open to half a step of motion; "
-                       "for rigid one-sided links and for rigid bodies that bounce");
+        "Moreau-Jean", "theta method with impulses: rigid links are conditions on velocities, with "
+                       "restitution, and their gaps are open to half a step of motion; for rigid "
+                       "one-sided links and for rigid bodies that bounce");
     const Register<TimeIntegrator, HHT>
-        register_hht("HHT", "second order, dissipation chosen by alpha; for smooth problems and "
-                            "compliant one-sided links");
+        register_hht("HHT", "second order, dissipation chosen by alpha; for smooth problems, "
+                            "compliant links, and rigid ones with 'Massless contact'");
   } // namespace
 } // namespace taut

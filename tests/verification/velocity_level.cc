@@ -174,3 +174,36 @@ TEST(MoreauJean, cuts_do_not_drift)
   EXPECT_GT(drift, 0.) << "positions are not solved for";
   EXPECT_NEAR(cut / whole, 1., 1e-9);
 }
+
+// What is known to fail is refused by name, unless an entry allows it.
+TEST(Schemes, unsuitable_ones_are_refused_by_name)
+{
+  const auto message = [](const Overrides &overrides) -> std::string
+  {
+    try
+    {
+      Overrides all = {"Time.Allow unsuitable scheme=false", "Time.End=0.01"};
+      all.insert(all.end(), overrides.begin(), overrides.end());
+      run_scene(scene_file("bar_on_wall"), all, [](const taut::StepView &) {});
+      return "";
+    }
+    catch (const taut::UserError &e)
+    {
+      return e.what();
+    }
+  };
+  // 400 elements: waves cross 0.6 of one in 0.5 ms.
+  for (const std::string scheme : {"Newmark", "generalised-alpha", "HHT"})
+  {
+    const std::string refusal = message({"Time.Scheme=" + scheme});
+    EXPECT_NE(refusal.find(scheme), std::string::npos) << refusal;
+    EXPECT_NE(refusal.find("'floor'"), std::string::npos) << refusal;
+    EXPECT_EQ(message({"Time.Scheme=" + scheme, "Time.Allow unsuitable scheme=true"}), "");
+    EXPECT_EQ(message({"Time.Scheme=" + scheme, "Time.Massless contact=mass"}), "");
+    EXPECT_EQ(message({"Time.Scheme=" + scheme, "Network.Link floor.Stiffness=1000"}), "");
+  }
+  for (const std::string scheme : {"backward Euler", "BDF2", "Moreau-Jean", "automatic"})
+    EXPECT_EQ(message({"Time.Scheme=" + scheme}), "") << scheme;
+  EXPECT_NE(message({"Time.Scheme=Moreau-Jean", "Time.Moreau-Jean.Restitution=1"}), "");
+  EXPECT_NE(message({"Time.Scheme=Moreau-Jean", "Time.Massless contact=mass"}), "");
+}

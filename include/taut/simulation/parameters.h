@@ -26,6 +26,7 @@ namespace taut
     std::string folder = "results";
     double interval = 0., link_interval = 0.01, field_interval = 0.1;
     unsigned int subdivisions = 1;
+    bool energy = false;
     bool overwrite = false; ///< from the command line, not from the file
 
     /// A probe by name.
@@ -79,6 +80,7 @@ namespace taut
     std::string scheme = "automatic";
     double step = 1e-3, end_time = 6.912;
     std::string massless_contact = "no";
+    bool allow_unsuitable_scheme = false;
 
     SolverParameters solver;
     PartitionParameters partition;

@@ -14,6 +14,7 @@
 
 namespace taut
 {
+  class Energy;
   class Fields;
 
   /// A scene on its way through time: reads like the algorithm on paper.
@@ -57,7 +58,8 @@ namespace taut
     void write_start() const;
     StepView view(const State &state, const Certificate &certificate) const;
     void update_probes(const State &state);
-    void advance(TimeStepper &stepper, const std::vector<Observer *> &observers, Fields &fields);
+    void advance(TimeStepper &stepper, const std::vector<Observer *> &observers, Fields &fields,
+                 Energy *energy);
     void on_root(const std::function<void()> &work) const;
 
     const Parameters &parameters;

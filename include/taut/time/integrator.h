@@ -64,6 +64,13 @@ namespace taut
     /// Coefficients for a step [s]. Throws UserError if the scheme's parameters make no method.
     virtual StepCoefficients coefficients(double step) const = 0;
 
+    /**
+     * Waves have to cross at least so many elements a step where a rigid one-sided link presses on
+     * a wire, or the multipliers ring by more than a tenth of their size: measured for a bar that
+     * hits a wall (doc/accuracy.md). Infinite: at any step.
+     */
+    virtual double least_courant_number() const { return 0.; }
+
     /// Name with parameters, for the log.
     virtual std::string description() const = 0;
   };

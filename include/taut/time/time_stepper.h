@@ -42,6 +42,9 @@ namespace taut
     const State &state() const { return current; }
     const Reference &reference() const { return origin; }
     const Certificate &certificate() const { return last; }
+
+    /// Of the last step.
+    const StepCoefficients &scheme() const { return coefficients; }
     long n_steps_done() const { return n_steps; }
 
     /// Form and size of the interface operator, for the log.

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_energy_h
+#define taut_energy_h
+
+#include <taut/output/csv_file.h>
+#include <taut/output/observer.h>
+#include <taut/time/integrator.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace taut
+{
+  /**
+   * The balance of energy of a run, energy.csv. Energies are those of the state, works are summed
+   * since the start [J]:
+   *
+   *     kinetic + strain + links = start + loads + supports + contacts - damping - link dampers
+   *                                - algorithmic.
+   *
+   * Works take the mean of the forces before and after a step. The algorithmic dissipation follows
+   * from the definition of the scheme, dU . M a - (change of kinetic energy) - dU . (mean of the
+   * scheme - mean) of the forces with a the acceleration of its balance, so that the error of the
+   * sum shows what a step does not account for. Contacts do work where a rigid one ends an impact,
+   * where a force opens or closes within a step, and where a contact slides on a slope.
+   */
+  class Energy
+  {
+  public:
+    /// Each rank gives its own bodies; the root writes, at least @p interval apart [s].
+    Energy(const std::string &folder, const StepView &start, double interval);
+
+    /// The step from the last call to this one was made with these coefficients. Called by all
+    /// ranks together.
+    void record(const StepView &step, const StepCoefficients &c);
+
+    /// Throws UserError when the disk is full.
+    void close();
+
+  private:
+    /// Of a state or, added up, of a run [J].
+    struct Balance
+    {
+      double kinetic = 0., strain = 0., links = 0.;
+      double loads = 0., supports = 0., contacts = 0.;
+      double damping = 0., link_dampers = 0., algorithmic = 0.;
+    };
+
+    void add_bodies(const StepView &step, const StepCoefficients &c, Balance &share);
+    void add_moving_rows(const StepView &step, const StepCoefficients &c, Balance &share) const;
+    void add_rows(const StepView &step, const StepCoefficients &c);
+    void keep(const StepView &step);
+    void set_forces(const StepView &step, const StepCoefficients &c);
+    void write(double time);
+
+    std::unique_ptr<CsvFile> file;
+    double interval, next = 0., start_energy = 0.;
+    Balance total;
+
+    BlockVector P, CV, balance, impulses; ///< of the last call
+    BlockVector P0, CV0, balance0, A0;    ///< of the one before it
+    std::vector<double> N0, gap0;
+    std::vector<State::LinkSpring> springs0;
+    std::vector<std::vector<Term>> terms0; ///< of the moving rows
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/output/energy.h>
+
+#include <cmath>
+
+namespace taut
+{
+  namespace
+  {
+    double dot(const std::vector<double> &x, const std::vector<double> &y)
+    {
+      double sum = 0.;
+      for (std::size_t i = 0; i < x.size(); ++i)
+        sum += x[i] * y[i];
+      return sum;
+    }
+
+    /// True for a row whose force is an impulse over the step.
+    bool is_impulse(const Row &row, const StepCoefficients &c)
+    {
+      return c.velocity_level && std::isinf(row.stiffness);
+    }
+
+    /// Energy of a link's spring [J].
+    double stored(const Row &row, const State::LinkSpring &spring)
+    {
+      return std::isinf(row.stiffness) ? 0. : .5 * row.stiffness * spring.u * spring.u;
+    }
+  } // namespace
+
+  Energy::Energy(const std::string &folder, const StepView &start, const double interval)
+      : interval(interval)
+  {
+    if (start.structure.communicator().is_root())
+      file = std::make_unique<CsvFile>(
+          folder + "/energy.csv",
+          std::vector<std::string>{"time [s]", "kinetic [J]", "strain [J]", "links [J]",
+                                   "loads [J]", "supports [J]", "contacts [J]", "damping [J]",
+                                   "link dampers [J]", "algorithmic [J]", "error [J]"});
+    P = CV = balance = impulses = start.structure.zero();
+    const StepCoefficients none;
+    set_forces(start, none);
+    Balance share;
+    add_bodies(start, none, share);
+    double sums[] = {share.kinetic, share.strain};
+    start.structure.communicator().sum(sums, 2);
+    total.kinetic = sums[0];
+    total.strain = sums[1];
+    for (std::size_t i = 0; i < start.rows.size(); ++i)
+      total.links += stored(start.rows[i], start.state.link_springs[i]);
+    start_energy = total.kinetic + total.strain + total.links;
+    keep(start);
+    write(start.state.time);
+  }
+
+  /// External forces, C V and P + B N - C V - K U of the present state, and impulses.
+  void Energy::set_forces(const StepView &step, const StepCoefficients &c)
+  {
+    const State &state = step.state;
+    std::vector<double> in_balance = state.multiplier, impulsive(step.rows.size(), 0.);
+    for (std::size_t i = 0; i < step.rows.size(); ++i)
+      if (is_impulse(step.rows[i], c))
+        std::swap(in_balance[i], impulsive[i]);
+    for (std::size_t k = 0; k < step.structure.size(); ++k)
+    {
+      const Substructure &body = step.structure[k];
+      body.external_force(state.time, P[k]);
+      CV[k].assign(body.n_dofs(), 0.);
+      impulses[k].assign(body.n_dofs(), 0.);
+      body.damping().vmult_add(1., state.V[k].data(), CV[k].data());
+      for (std::size_t i = 0; i < P[k].size(); ++i)
+        balance[k][i] = P[k][i] - CV[k][i] - step.reference.force[k][i] - state.KU[k][i];
+    }
+    step.rows.add_forces(in_balance, balance);
+    step.rows.add_forces(impulsive, impulses);
+  }
+
+  void Energy::add_bodies(const StepView &step, const StepCoefficients &c, Balance &share)
+  {
+    const State &state = step.state;
+    std::vector<double> product, a;
+    for (std::size_t k = 0; k < step.structure.size(); ++k)
+    {
+      const Substructure &body = step.structure[k];
+      const std::size_t n = body.n_dofs();
+      product.assign(n, 0.);
+      body.mass().vmult_add(1., state.V[k].data(), product.data());
+      share.kinetic += .5 * dot(product, state.V[k]);
+      for (std::size_t i = 0; i < n; ++i)
+        share.strain += .5 * (step.reference.displacement[k][i] + state.U[k][i]) *
+                        (step.reference.force[k][i] + state.KU[k][i]);
+      if (P0.empty())
+        continue;
+
+      a.assign(n, 0.);
+      for (std::size_t i = 0; i < n; ++i)
+        a[i] = (1. - c.alpha_m) * state.A[k][i] + c.alpha_m * A0[k][i];
+      product.assign(n, 0.);
+      body.mass().vmult_add(1., a.data(), product.data());
+      const std::vector<double> &dU = state.dU[k];
+      for (std::size_t i = 0; i < n; ++i)
+      {
+        share.loads += .5 * (P0[k][i] + P[k][i]) * dU[i];
+        share.damping += .5 * (CV0[k][i] + CV[k][i]) * dU[i];
+        share.algorithmic +=
+            dU[i] * (product[i] - (.5 - c.alpha_f) * (balance[k][i] - balance0[k][i]));
+      }
+      for (const ConstrainedDof &constraint : body.constraints())
+      {
+        const unsigned int i = constraint.dof;
+        share.supports += dU[i] * (product[i] - (1. - c.alpha_f) * balance[k][i] -
+                                   c.alpha_f * balance0[k][i] - impulses[k][i]);
+      }
+    }
+  }
+
+  /// Work of the forces of moving rows on the bodies of this rank.
+  void Energy::add_moving_rows(const StepView &step, const StepCoefficients &c,
+                               Balance &share) const
+  {
+    const State &state = step.state;
+    for (std::size_t i = step.rows.n_fixed(); i < step.rows.size(); ++i)
+    {
+      const Row &row = step.rows[i];
+      const double now = state.multiplier[i] * evaluate(row.terms, state.dU);
+      const double before = N0[i] * evaluate(terms0[i - step.rows.n_fixed()], state.dU);
+      share.contacts += is_impulse(row, c) ? now : .5 * (before + now);
+    }
+  }
+
+  /// Springs and dampers of the links, and the work of the fixed rows, from their own motions.
+  void Energy::add_rows(const StepView &step, const StepCoefficients &c)
+  {
+    const State &state = step.state;
+    total.links = 0.;
+    for (std::size_t i = 0; i < step.rows.size(); ++i)
+    {
+      const Row &row = step.rows[i];
+      const State::LinkSpring &spring = state.link_springs[i];
+      total.links += stored(row, spring);
+      const double mean =
+          is_impulse(row, c) ? state.multiplier[i] : .5 * (N0[i] + state.multiplier[i]);
+      if (!std::isinf(row.stiffness))
+        total.link_dampers += row.damping * .5 * (springs0[i].v + spring.v) * spring.du;
+      total.contacts += mean * (row.moving ? spring.du : state.gap[i] - gap0[i]);
+    }
+  }
+
+  void Energy::keep(const StepView &step)
+  {
+    const State &state = step.state;
+    std::swap(P, P0);
+    std::swap(CV, CV0);
+    std::swap(balance, balance0);
+    if (P.empty())
+      P = CV = balance = step.structure.zero();
+    A0 = state.A;
+    N0 = state.multiplier;
+    gap0 = state.gap;
+    springs0 = state.link_springs;
+    terms0.clear();
+    for (std::size_t i = step.rows.n_fixed(); i < step.rows.size(); ++i)
+      terms0.push_back(step.rows[i].terms);
+  }
+
+  void Energy::record(const StepView &step, const StepCoefficients &c)
+  {
+    set_forces(step, c);
+    Balance share;
+    add_bodies(step, c, share);
+    add_moving_rows(step, c, share);
+    double sums[] = {share.kinetic,  share.strain,  share.loads,      share.supports,
+                     share.contacts, share.damping, share.algorithmic};
+    step.structure.communicator().sum(sums, 7);
+    total.algorithmic += sums[6] - (sums[0] - total.kinetic);
+    total.kinetic = sums[0];
+    total.strain = sums[1];
+    total.loads += sums[2];
+    total.supports += sums[3];
+    total.contacts += sums[4];
+    total.damping += sums[5];
+    add_rows(step, c);
+    keep(step);
+    if (step.state.time >= next - 1e-9 * interval)
+      write(step.state.time);
+  }
+
+  void Energy::write(const double time)
+  {
+    next = time + interval;
+    if (!file)
+      return;
+    const Balance &b = total;
+    const double error = b.kinetic + b.strain + b.links - start_energy - b.loads - b.supports -
+                         b.contacts + b.damping + b.link_dampers + b.algorithmic;
+    *file << time << b.kinetic << b.strain << b.links << b.loads << b.supports << b.contacts
+          << b.damping << b.link_dampers << b.algorithmic << error;
+    file->end_line();
+  }
+
+  void Energy::close()
+  {
+    if (file)
+      file->close();
+  }
+} // namespace taut

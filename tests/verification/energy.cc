@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: energy.csv accounts for all energy of a run. Sources: closed form of a damped oscillator
+// under a constant force; an identity of each scheme elsewhere (the error is rounding); a rigid
+// impact takes what Newton's law says.
+#include "run.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+using namespace verification;
+
+namespace
+{
+  /// Columns of energy.csv.
+  enum Column
+  {
+    time,
+    kinetic,
+    strain,
+    links,
+    loads,
+    supports,
+    contacts,
+    damping,
+    link_dampers,
+    algorithmic,
+    error,
+    n_columns
+  };
+
+  std::vector<std::vector<double>> energies(const std::string &scene, Overrides overrides)
+  {
+    overrides.push_back("Output.Energy=true");
+    overrides.push_back("Output.Interval=0");
+    Session session(scene, overrides);
+    session.run([](const taut::StepView &) {});
+    std::ifstream file(session.folder() + "/energy.csv");
+    std::vector<std::vector<double>> table;
+    std::string line;
+    std::getline(file, line);
+    while (std::getline(file, line))
+    {
+      std::vector<double> row;
+      std::istringstream cells(line);
+      for (std::string cell; std::getline(cells, cell, ',');)
+        row.push_back(std::stod(cell));
+      table.push_back(row);
+      EXPECT_EQ(row.size(), std::size_t(n_columns));
+    }
+    return table;
+  }
+
+  /// Largest error of the balance over the largest energy or work.
+  double relative_error(const std::vector<std::vector<double>> &table)
+  {
+    double largest = 0., size = 0.;
+    for (const std::vector<double> &row : table)
+    {
+      largest = std::max(largest, std::fabs(row[error]));
+      for (int i = kinetic; i < error; ++i)
+        size = std::max(size, std::fabs(row[i]));
+    }
+    return largest / size;
+  }
+} // namespace
+
+// 2 kg, 800 N/m, 8 N s/m, 10 N from the start, released at rest at 50 mm: u = p + e^(-d t)
+// (a cos w t + b sin w t) with p = 10/800, d = 2, w = sqrt(400 - 4).
+TEST(Energy, of_a_damped_oscillator)
+{
+  const std::string scene =
+      "set Generator = network\nset Gravity = 0, 0\nset Start = given\nsubsection Network\n"
+      " set Masses = mass\n set Springs = spring\n set Loads = force\n"
+      " subsection Mass mass\n  set Mass = 2\n  set Motions = y\n"
+      "  set Initial displacement = 0, 0.05, 0\n end\n"
+      " subsection Spring spring\n  set From = ground\n  set To = mass\n  set Stiffness = 800\n"
+      "  set Damping = 8\n end\n"
+      " subsection Load force\n  set Type = point\n  set On = mass\n  set Magnitude = 10\n end\n"
+      "end\nsubsection Time\n set Scheme = Newmark\n set Step = 1e-4\n set End = 0.5\nend\n";
+  const auto table = energies(scene, {});
+  const double p = 10. / 800., d = 2., w = std::sqrt(400. - 4.), a = .05 - p, b = d * a / w, t = .5,
+               e = std::exp(-d * t);
+  const double u = p + e * (a * std::cos(w * t) + b * std::sin(w * t)),
+               v = e * ((-d * a + w * b) * std::cos(w * t) + (-d * b - w * a) * std::sin(w * t));
+  const double exact_kinetic = v * v, exact_strain = 400. * u * u, exact_loads = 10. * (u - .05),
+               exact_damping = 400. * .05 * .05 + exact_loads - exact_kinetic - exact_strain;
+  const std::vector<double> &last = table.back();
+  figure("damped oscillator, kinetic energy over exact - 1", last[kinetic] / exact_kinetic - 1.);
+  figure("damped oscillator, dissipated energy over exact - 1", last[damping] / exact_damping - 1.);
+  EXPECT_NEAR(last[time], .5, 1e-12);
+  EXPECT_NEAR(last[kinetic], exact_kinetic, 2e-3 * exact_damping);
+  EXPECT_NEAR(last[strain], exact_strain, 2e-3 * exact_damping);
+  EXPECT_NEAR(last[loads], exact_loads, 2e-3 * exact_damping);
+  EXPECT_NEAR(last[damping], exact_damping, 2e-3 * exact_damping);
+  EXPECT_LT(relative_error(table), 1e-12);
+}
+
+TEST(Energy, every_scheme_accounts_for_every_scene)
+{
+  for (const std::string scheme :
+       {"backward Euler", "BDF2", "Newmark", "generalised-alpha", "HHT", "Moreau-Jean"})
+    for (const std::string scene : {"en50318_2002_250", "bar_on_wall", "oscillator_with_stop"})
+    {
+      const double defect =
+          relative_error(energies(scene_file(scene), {"Time.Scheme=" + scheme, "Time.End=0.7"}));
+      figure(scene + ", " + scheme + ", error of the energy balance", defect);
+      EXPECT_LT(defect, 1e-9) << scheme << ", " << scene;
+    }
+}
+
+// 2 kg fall on a rigid floor with restitution 1/2: a quarter of the kinetic energy is left.
+TEST(Energy, an_impact_takes_what_newtons_law_says)
+{
+  const auto table =
+      energies("set Generator = network\nset Gravity = 0, 0\nset Start = given\n"
+               "subsection Network\n set Masses = ball\n set Links = floor\n"
+               " subsection Mass ball\n  set Mass = 2\n  set Initial velocity = 0, -3, 0\n end\n"
+               " subsection Link floor\n  set Type = stop\n  set From = ground\n  set To = ball\n"
+               "  set Direction = 0, 1\n  set Gap = 0.8\n end\nend\n"
+               "subsection Time\n set Scheme = Moreau-Jean\n set Step = 1e-3\n set End = 0.5\n"
+               " subsection Moreau-Jean\n  set Restitution = 0.5\n end\nend\n",
+               {});
+  EXPECT_NEAR(table.front()[kinetic], 9., 1e-12);
+  EXPECT_NEAR(table.back()[kinetic], 2.25, 1e-12);
+  EXPECT_NEAR(table.back()[contacts], -6.75, 1e-9);
+  EXPECT_NEAR(table.back()[algorithmic], 0., 1e-9);
+}
