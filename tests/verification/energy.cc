@@ -17,7 +17,7 @@ namespace
   /// Columns of energy.csv.
   enum Column
   {
-    time,
+    seconds,
     kinetic,
     strain,
     links,
@@ -90,7 +90,7 @@ TEST(Energy, of_a_damped_oscillator)
   const std::vector<double> &last = table.back();
   figure("damped oscillator, kinetic energy over exact - 1", last[kinetic] / exact_kinetic - 1.);
   figure("damped oscillator, dissipated energy over exact - 1", last[damping] / exact_damping - 1.);
-  EXPECT_NEAR(last[time], .5, 1e-12);
+  EXPECT_NEAR(last[seconds], .5, 1e-12);
   EXPECT_NEAR(last[kinetic], exact_kinetic, 2e-3 * exact_damping);
   EXPECT_NEAR(last[strain], exact_strain, 2e-3 * exact_damping);
   EXPECT_NEAR(last[loads], exact_loads, 2e-3 * exact_damping);

@@ -136,7 +136,7 @@ TEST(BarOnWall, contact_time_force_impulse_and_rebound_are_exact_to_one_per_cent
 // The impulse is the change of momentum: with one-sided forces of any size, for every scheme.
 TEST(BarOnWall, impulse_is_the_change_of_momentum)
 {
-  for (const std::string scheme : {"BDF2", "backward Euler"})
+  for (const std::string scheme : {"BDF2", "backward Euler", "Moreau-Jean"})
   {
     const ContactRecord r = record("bar_on_wall", {"Time.Scheme=" + scheme});
     const double defect = (r.momentum_after - r.momentum_before) / r.impulse - 1.;
