@@ -132,7 +132,7 @@ namespace taut
     if (!(least > 0.) || !has_one_sided_rows(rows))
       return;
     const RigidRow rigid = find_rigid_row(scene, structure, rows, parameters, step);
-    if (!rigid.exists || rigid.courant >= least)
+    if (!rigid.exists || rigid.courant >= (1. - 1e-6) * least)
       return;
     std::ostringstream out;
     out << integrator.description() << " fails at one-sided links that act as rigid, here '"
