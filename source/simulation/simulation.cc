@@ -155,7 +155,6 @@ namespace taut
           << " systems a step, "
           << static_cast<double>(solves.n_local_solves) / solves.n_applications
           << " bodies solved a product\n";
-    log << "Bodies slept through " << 100. * stepper.slept() << " % of their steps\n";
     log << "Results in " << parameters.output.folder << '\n';
   }
 

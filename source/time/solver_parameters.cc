@@ -41,11 +41,6 @@ namespace taut
                       "A step whose certificate, the relative residual of its equations, is larger "
                       "than this ends the run with an error [1]",
                       Patterns::Double(1e-15, 1.));
-    prm.add_parameter("Sleep tolerance", sleep_tolerance,
-                      "A body whose inertia and damping are below this fraction of its forces stands "
-                      "still and costs nothing until the forces of its links change by as much; 0: "
-                      "none does [1]",
-                      Patterns::Double(0., 1e-6));
     prm.leave_subsection();
   }
 } // namespace taut

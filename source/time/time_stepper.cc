@@ -47,8 +47,6 @@ namespace taut
       current.gap_rate = rows.motions(current.V);
     }
     prepare(first_step_by_source ? backward_euler(step) : c);
-    rests.resize(structure.size());
-    unrest.resize(structure.size());
   }
 
   /// r = P + B N - C V - K U at the start, where no rigid row has a force that a scheme would need.
@@ -91,84 +89,19 @@ namespace taut
         [&]
         {
           for (std::size_t k = 0; k < structure.size(); ++k)
-            if (rests[k].asleep)
-              right_hand_side[k] = rests[k].right_hand_side;
-            else
-              set_history(k);
+            set_history(k);
         });
     row_motions.set_problem(current, *schur, right_hand_side, lift);
     solve_rows();
-    if (parameters.sleep_tolerance > 0.)
-      wake_bodies();
     rows.add_forces(row_motions.applied(), right_hand_side);
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
-      ++n_body_steps;
-      n_asleep += rests[k].asleep;
-      if (rests[k].asleep)
-        continue;
       solvers[k].solve(right_hand_side[k]);
       increment[k].swap(right_hand_side[k]);
       accept(k);
     }
     row_motions.update(current);
     certify();
-    if (parameters.sleep_tolerance > 0.)
-      put_to_sleep();
-  }
-
-  /// Bodies whose links pull otherwise than when they fell asleep; the history of this step is what
-  /// kept them at rest.
-  void TimeStepper::wake_bodies()
-  {
-    const std::vector<double> &N = row_motions.applied();
-    unrest.assign(structure.size(), PerKind{0., 0.});
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      for (const auto &[k, form] : rows[i].terms)
-        if (rests[k].asleep)
-          for (std::size_t j = 0; j < form.index.size(); ++j)
-          {
-            const double before = rows[i].moving ? 0. : rests[k].multiplier[i];
-            unrest[k][structure[k].kind(form.index[j])] +=
-                std::fabs(form.value[j] * (N[i] - before));
-          }
-    for (std::size_t k = 0; k < structure.size(); ++k)
-      for (int kind = 0; kind < 2; ++kind)
-        if (unrest[k][kind] > parameters.sleep_tolerance * rests[k].force[kind])
-        {
-          rests[k].asleep = false;
-          rests[k].n_quiet = 0;
-        }
-  }
-
-  void TimeStepper::put_to_sleep()
-  {
-    constexpr unsigned int n_quiet_steps = 5;
-    for (std::size_t k = 0; k < structure.size(); ++k)
-    {
-      Rest &rest = rests[k];
-      if (rest.asleep)
-        continue;
-      rest.n_quiet = unrest[k][0] < 0. ? rest.n_quiet + 1 : 0;
-      if (rest.n_quiet < n_quiet_steps)
-        continue;
-      // Rest is K U = P + B N: what kept it there in the next step would be -B N.
-      rest.asleep = true;
-      rest.right_hand_side.assign(structure[k].n_dofs(), 0.);
-      rest.multiplier = row_motions.applied();
-      for (BlockVector *v : {&current.V, &current.A, &current.dU, &current.V_old, &current.balance})
-        std::fill((*v)[k].begin(), (*v)[k].end(), 0.);
-    }
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      for (const auto &[k, form] : rows[i].terms)
-        if (rests[k].asleep && rests[k].n_quiet >= n_quiet_steps)
-        {
-          form.add_to(-row_motions.applied()[i], rests[k].right_hand_side);
-          if (rows[i].moving)
-            rests[k].asleep = false; // a body under a moving contact never sleeps
-        }
-    for (Rest &rest : rests)
-      rest.n_quiet = rest.asleep ? 0 : rest.n_quiet;
   }
 
   /// P^_k = P - K U - C v* - M a*, with v* and a* the parts of velocity and acceleration that are
@@ -290,8 +223,6 @@ namespace taut
     last.balance = 0.;
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
-      if (rests[k].asleep)
-        continue;
       const Substructure &body = structure[k];
       std::copy(P[k].begin(), P[k].end(), current.balance[k].begin());
       std::fill(current.KU[k].begin(), current.KU[k].end(), 0.);
@@ -308,17 +239,6 @@ namespace taut
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       const Substructure &body = structure[k];
-      if (rests[k].asleep)
-      {
-        std::fill(current.balance[k].begin(), current.balance[k].end(), 0.);
-        for (int kind = 0; kind < 2; ++kind)
-          if (unrest[k][kind] > last.balance * rests[k].force[kind])
-          {
-            last.balance = unrest[k][kind] / rests[k].force[kind];
-            last.worst_body = k;
-          }
-        continue;
-      }
       const std::size_t n = body.n_dofs();
       double *r = current.balance[k].data(), *a = increment[k].data();
       const double *KU = current.KU[k].data(), *A = current.A[k].data(), *A0 = old_A[k].data(),
@@ -360,13 +280,6 @@ namespace taut
           when << "at t = " << current.time << " s: ";
           check_size(body, force, displacement, velocity, when.str());
         }
-      // A negative unrest says that the body may sleep.
-      bool is_quiet = !body.has_time_loads() && !body.has_moving_constraints();
-      for (int kind = 0; kind < 2; ++kind)
-        is_quiet = is_quiet && inertia[kind] + damping[kind] <=
-                                   .1 * parameters.sleep_tolerance * (force[kind] + stiffness[kind]);
-      unrest[k][0] = is_quiet ? -1. : 0.;
-      rests[k].force = {force[0] + stiffness[0], force[1] + stiffness[1]};
       for (int kind = 0; kind < 2; ++kind)
       {
         const double size = force[kind] + inertia[kind] + damping[kind] + stiffness[kind];

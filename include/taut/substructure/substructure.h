@@ -59,9 +59,6 @@ namespace taut
     /// True if a support moves: an increment then has a given part.
     bool has_moving_constraints() const { return moving_constraints; }
 
-    /// True if its external force changes in time.
-    bool has_time_loads() const { return !time_loads.empty(); }
-
     /// The whole external force at time t [s]; P is resized. [N, N m]
     void external_force(double t, std::vector<double> &P) const;
 

@@ -20,7 +20,6 @@ namespace taut
     InterfaceParameters interface;
     std::string complementarity = "semismooth Newton";
     double contact_tolerance = 1e-8;
-    double sleep_tolerance = 0.;
 
     /// Declares the members in subsection "Solver".
     void declare_parameters(dealii::ParameterHandler &prm);

@@ -47,9 +47,6 @@ namespace taut
     const StepCoefficients &scheme() const { return coefficients; }
     long n_steps_done() const { return n_steps; }
 
-    /// Share of the bodies' steps that they slept through.
-    double slept() const { return n_body_steps > 0 ? double(n_asleep) / n_body_steps : 0.; }
-
     /// Form and size of the interface operator, for the log.
     std::string interface_description() const { return schur->description(); }
     InterfaceStatistics interface_statistics() const { return schur->statistics(); }
@@ -58,8 +55,6 @@ namespace taut
     void prepare(const StepCoefficients &c);
     void set_history(std::size_t k);
     void solve_rows();
-    void wake_bodies();
-    void put_to_sleep();
     void accept(std::size_t k);
     void start_balance();
     void certify();
@@ -95,18 +90,6 @@ namespace taut
     BlockVector lift; ///< increments of moving supports
     BlockVector predictor_v, predictor_a, old_A, old_balance, increment;
     std::vector<double> work;
-
-    /// A body at rest, with the contact forces and the right-hand side that keep it there.
-    struct Rest
-    {
-      bool asleep = false;
-      unsigned int n_quiet = 0; ///< steps in which it could have slept
-      PerKind force = {0., 0.}; ///< what its forces are compared with [N, N m]
-      std::vector<double> right_hand_side, multiplier;
-    };
-    std::vector<Rest> rests;
-    std::vector<PerKind> unrest;            ///< change of the contact forces of each body
-    long n_body_steps = 0, n_asleep = 0;
   };
 } // namespace taut
 
