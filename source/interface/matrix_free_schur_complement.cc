@@ -107,13 +107,40 @@ namespace taut
       for (std::size_t e = 0; e < body_rows[k].size(); ++e)
         diagonal_entries[body_rows[k][e].row] += flexibilities[k][e];
     solvers.structure().communicator().sum(diagonal_entries);
+    const std::vector<double> local =
+        solvers.is_generalised_inverse() ? local_flexibilities() : diagonal_entries;
     scale.assign(rows.size(), 1.);
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
       diagonal_entries[i] += compliance[i];
-      if (diagonal_entries[i] > 0.)
-        scale[i] = 1. / std::sqrt(diagonal_entries[i]);
+      const double size =
+          local[i] + compliance[i] > 0. ? local[i] + compliance[i] : diagonal_entries[i];
+      if (size > 0.)
+        scale[i] = 1. / std::sqrt(size);
     }
+  }
+
+  /// B^T diag(A)^-1 B: in statics the diagonal of F depends on how a generalised inverse holds the
+  /// bodies, this does not.
+  std::vector<double> MatrixFreeSchurComplement::local_flexibilities() const
+  {
+    std::vector<double> result(rows.size(), 0.), diagonal;
+    for (std::size_t k = 0; k < body_rows.size(); ++k)
+    {
+      diagonal.assign(solvers.structure()[k].n_dofs(), 0.);
+      solvers.visit(k,
+                    [&](unsigned int i, unsigned int j, double value)
+                    {
+                      if (i == j)
+                        diagonal[i] += value;
+                    });
+      for (const auto &[row, moving, form] : body_rows[k])
+        for (std::size_t e = 0; e < form.index.size(); ++e)
+          if (diagonal[form.index[e]] > 0.)
+            result[row] += form.value[e] * form.value[e] / diagonal[form.index[e]];
+    }
+    solvers.structure().communicator().sum(result);
+    return result;
   }
 
   void MatrixFreeSchurComplement::free_motion(const BlockVector &P, std::vector<double> &d,

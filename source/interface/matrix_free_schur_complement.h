@@ -16,8 +16,8 @@ namespace taut
 {
   /**
    * F applied through the factors of the bodies, its systems solved by preconditioned conjugate
-   * gradients; see SchurComplement. Rows are scaled by F_ii^-1/2: forces and moments, stiff and
-   * soft rows then have one norm.
+   * gradients; see SchurComplement. Rows are scaled by F_ii^-1/2, or the like in statics: forces
+   * and moments, stiff and soft rows then have one norm.
    */
   class MatrixFreeSchurComplement : public SchurComplement, private ComplementarityOperator
   {
@@ -52,6 +52,7 @@ namespace taut
 
     void compute_flexibilities(std::size_t k);
     void compute_diagonal();
+    std::vector<double> local_flexibilities() const;
     void prepare(const std::vector<std::size_t> &set, double shift);
     void scaled_apply(const std::vector<double> &x, std::vector<double> &y);
     void scaled_precondition(const std::vector<double> &r, std::vector<double> &z);
@@ -67,11 +68,11 @@ namespace taut
     std::unique_ptr<CoarseSpace> coarse_space; ///< null: none, or in statics
     std::vector<double> compliance, diagonal_entries;
     std::vector<std::vector<double>> flexibilities; ///< B_ik^T A_k^-1 B_ik, by body
-    std::vector<double> scale;                      ///< F_ii^-1/2
-    std::vector<char> active;                       ///< rows that everything is prepared for
-    std::vector<char> is_changed;                   ///< bodies that it is not prepared for
-    bool is_stale = true;                           ///< a matrix or a moving row has changed
-    double tolerance;                               ///< relative residual at which a solve ends
+    std::vector<double> scale;    ///< F_ii^-1/2; in statics of the unknowns at the row only
+    std::vector<char> active;     ///< rows that everything is prepared for
+    std::vector<char> is_changed; ///< bodies that it is not prepared for
+    bool is_stale = true;         ///< a matrix or a moving row has changed
+    double tolerance;             ///< relative residual at which a solve ends
     InterfaceStatistics counts;
     std::vector<double> row_work, coarse_part, coarse_motion;
     mutable std::vector<double> share;

@@ -18,7 +18,13 @@ namespace verification
   {
   public:
     InterfaceProblem(taut::Scene model, const unsigned int n_parts)
-        : scene(std::move(model)), structure(scene, partition(scene, n_parts)),
+        : InterfaceProblem(std::move(model), {"METIS", n_parts, ""})
+    {
+    }
+
+    /// The same with the cuts that the parameters say.
+    InterfaceProblem(taut::Scene model, const taut::PartitionParameters &cuts)
+        : scene(std::move(model)), structure(scene, make_partition(scene, cuts)),
           rows(scene, structure)
     {
       rows.update(0.);
@@ -68,13 +74,6 @@ namespace verification
     const taut::Structure structure;
 
   private:
-    static taut::Partition partition(const taut::Scene &scene, const unsigned int n_parts)
-    {
-      taut::PartitionParameters parameters;
-      parameters.n_substructures = n_parts;
-      return make_partition(scene, parameters);
-    }
-
     void set_kernel(const std::vector<taut::Substructure::Kernel> &kernels,
                     const taut::BlockVector &P, taut::MixedComplementarityProblem &problem) const
     {
