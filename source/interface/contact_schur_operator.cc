@@ -27,6 +27,12 @@ namespace taut
 
   void ContactSchurOperator::apply(const double *x, double *y) const
   {
+    // An iteration that starts from zero asks for this first.
+    if (std::all_of(x, x + active.size(), [](const double value) { return value == 0.; }))
+    {
+      std::fill(y, y + active.size(), 0.);
+      return;
+    }
     ++applications;
     share.assign(active.size(), 0.);
     for (std::size_t k = 0; k < body_rows.size(); ++k)

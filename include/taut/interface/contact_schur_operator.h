@@ -42,7 +42,7 @@ namespace taut
     /// y = F x; both have one entry a row.
     void apply(const double *x, double *y) const;
 
-    /// Products so far, and systems of one A_k solved for them on this rank.
+    /// Products so far but those with zero, and systems of one A_k solved for them on this rank.
     long n_applications() const { return applications; }
     long n_local_solves() const { return local_solves; }
 
