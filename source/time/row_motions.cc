@@ -122,8 +122,6 @@ namespace taut
     {
       const std::vector<Term> &terms = rows[i].terms;
       motion[i] += evaluate(terms, lift);
-      // The ends of a row move together most of the time: each of them rounds for itself.
-      motion_size[i] += step * magnitude(terms, before.V);
       position[i] = terms_size[i] = 0.;
       if (rows[i].moving)
       {

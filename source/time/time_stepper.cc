@@ -264,14 +264,16 @@ namespace taut
       for (const ConstrainedDof &constraint : body.constraints())
         residual[constraint.dof] = 0.;
 
-      PerKind increments = largest(body, current.dU[k]);
-      for (double &d : increments)
+      PerKind increments = largest(body, current.dU[k]), inertial = increments;
+      for (double &d : inertial)
         d *= c.mass_factor();
-      const PerKind error = largest(body, work), inertia = norms[k][0].times(increments),
+      const PerKind error = largest(body, work), inertia = norms[k][0].times(inertial),
                     velocity = largest(body, current.V[k]),
                     displacement = largest(body, current.U[k]),
-                    damping = norms[k][1].times(velocity),
-                    stiffness = norms[k][2].times(displacement);
+                    damping = norms[k][1].times(velocity);
+      // A step that brings a body back from afar ends with the rounding of the way.
+      const PerKind stiffness =
+          norms[k][2].times({displacement[0] + increments[0], displacement[1] + increments[1]});
       for (int kind = 0; kind < 2; ++kind)
         if (!(std::max({force[kind], velocity[kind], displacement[kind]}) <= largest_number) ||
             std::isnan(velocity[kind]) || std::isnan(displacement[kind]))
