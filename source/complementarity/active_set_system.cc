@@ -64,7 +64,11 @@ namespace taut
       const double size = shift == 0. ? 0. : largest_step(set, matrix, step);
       const bool shrinks = shift == 0. || (correction > 0 && size <= 0.5 * last_step);
       if ((gap <= tolerance && shrinks) || tolerance > options.linear_tolerance)
+      {
+        if (problem.n_kernel() > 0 && !matrix.has_kernel_solver())
+          balance(problem, matrix, set, solution);
         return Outcome::solved;
+      }
       if (correction > 0 && !(gap < 0.5 * last_gap && shrinks))
         break;
       last_gap = gap;
@@ -100,6 +104,21 @@ namespace taut
     solution.kernel_amplitude.swap(amplitude);
     gaps(problem, matrix, solution.multiplier, solution.kernel_amplitude, solution.gap);
     gap_terms(problem, matrix, solution.multiplier, solution.kernel_amplitude, terms);
+  }
+
+  /// Gaps round with the amplitudes, however small the loads are: the last correction is one of the
+  /// balance alone, which moves no gap of the set.
+  void ActiveSetSystem::balance(const MixedComplementarityProblem &problem,
+                                const ComplementarityOperator &matrix,
+                                const std::vector<std::size_t> &set,
+                                MixedComplementaritySolution &solution)
+  {
+    std::fill(step.begin(), step.end(), 0.);
+    if (!correct_kernel(problem, set, solution))
+      return;
+    for (const std::size_t i : set)
+      solution.multiplier[i] += step[i];
+    gaps(problem, matrix, solution.multiplier, solution.kernel_amplitude, solution.gap);
   }
 
   bool ActiveSetSystem::correct(const MixedComplementarityProblem &problem,

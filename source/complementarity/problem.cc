@@ -76,10 +76,11 @@ namespace taut
       const SparseVector &vector = problem.kernel[k];
       double weighted_terms = 0., weights = 0.;
       for (std::size_t e = 0; e < vector.index.size(); ++e)
-      {
-        weighted_terms += std::abs(vector.value[e]) * own_terms[vector.index[e]];
-        weights += vector.value[e] * vector.value[e];
-      }
+        if (multiplier[vector.index[e]] != 0.)
+        {
+          weighted_terms += std::abs(vector.value[e]) * own_terms[vector.index[e]];
+          weights += vector.value[e] * vector.value[e];
+        }
       const double fit = weights > 0. ? weighted_terms / weights : 0.;
       const double size = std::max(std::abs(kernel_amplitude[k]), fit);
       for (std::size_t e = 0; e < vector.index.size(); ++e)

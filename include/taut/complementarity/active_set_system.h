@@ -49,6 +49,8 @@ namespace taut
     bool correct_with_kernel(const MixedComplementarityProblem &problem,
                              ComplementarityOperator &matrix, const std::vector<std::size_t> &set,
                              MixedComplementaritySolution &solution);
+    void balance(const MixedComplementarityProblem &problem, const ComplementarityOperator &matrix,
+                 const std::vector<std::size_t> &set, MixedComplementaritySolution &solution);
     void prepare_kernel(const MixedComplementarityProblem &problem, ComplementarityOperator &matrix,
                         const std::vector<std::size_t> &set);
     bool correct_kernel(const MixedComplementarityProblem &problem,
