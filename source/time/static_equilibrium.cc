@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
 #include <taut/base/gather_entries.h>
+#include <taut/complementarity/active_set_system.h>
 #include <taut/complementarity/solver.h>
 #include <taut/interface/schur_complement.h>
 #include <taut/time/matrix_norms.h>
@@ -16,6 +17,12 @@ namespace taut
 {
   namespace
   {
+    /// |x| over size; 0 if x is.
+    double relative(const double x, const double size)
+    {
+      return x == 0. ? 0. : std::fabs(x) / size;
+    }
+
     /// P - K (given displacements of supports), and those displacements.
     void set_loads(const Structure &structure, const double t, BlockVector &P, BlockVector &lift)
     {
@@ -86,6 +93,132 @@ namespace taut
           return &structure[k];
       }
       return nullptr;
+    }
+
+    /// U = A^-1 (P + B N) + given displacements + R alpha, and the gaps that follow from it.
+    void displace(const FactoredStructure &solvers, const ContactRows &rows,
+                  const std::vector<Substructure::Kernel> &kernels, const std::size_t first_kernel,
+                  const BlockVector &P, const BlockVector &lift,
+                  const std::vector<double> &compliance,
+                  const MixedComplementaritySolution &solution, StaticState &state)
+    {
+      state.multiplier = solution.multiplier;
+      state.displacement = P;
+      rows.add_forces(state.multiplier, state.displacement);
+      solvers.solve(state.displacement);
+      std::size_t amplitude = first_kernel;
+      for (std::size_t k = 0; k < kernels.size(); ++k)
+      {
+        std::vector<double> &U = state.displacement[k];
+        for (std::size_t i = 0; i < U.size(); ++i)
+          U[i] += lift[k][i];
+        for (const std::vector<double> &R : kernels[k].vectors)
+        {
+          for (std::size_t i = 0; i < U.size(); ++i)
+            U[i] += solution.kernel_amplitude[amplitude] * R[i];
+          ++amplitude;
+        }
+      }
+      state.geometric_gap = rows.motions(state.displacement);
+      state.gap.resize(rows.size());
+      for (std::size_t i = 0; i < rows.size(); ++i)
+      {
+        state.geometric_gap[i] += rows[i].gap;
+        state.gap[i] = state.geometric_gap[i] + compliance[i] * state.multiplier[i];
+      }
+    }
+
+    /**
+     * Iterative refinement on the rows that are closed. F N + d adds what A^-1 makes of loads and
+     * of contact forces apart from each other, and where springs stand in for the contacts that
+     * hold a body, the two are large and cancel; A^-1 (P + B N) does not. What is left of gaps and
+     * balance there is solved for once more, and kept if it becomes less.
+     */
+    void refine(const FactoredStructure &solvers, const ContactRows &rows,
+                ComplementarityOperator &matrix, const std::vector<Substructure::Kernel> &kernels,
+                const BlockVector &P, const BlockVector &lift,
+                const std::vector<double> &compliance, MixedComplementaritySolution &solution,
+                StaticState &state)
+    {
+      const std::size_t n = rows.size();
+      const Communicator &processes = solvers.structure().communicator();
+      std::vector<std::size_t> set;
+      for (std::size_t i = 0; i < n; ++i)
+        if (solution.closed[i])
+          set.push_back(i);
+      if (set.empty())
+        return;
+
+      MixedComplementarityProblem left;
+      std::size_t first_kernel = 0;
+      // Largest gap of the set over the motions it is summed from, and what is not balanced.
+      const auto error = [&]
+      {
+        BlockVector forces = P;
+        rows.add_forces(state.multiplier, forces);
+        first_kernel = set_kernel(kernels, processes, rows, forces, left);
+        left.free_gap = state.gap;
+        std::vector<double> size(n, 0.);
+        for (std::size_t i = 0; i < n; ++i)
+          size[i] = magnitude(rows[i].terms, state.displacement);
+        processes.sum(size);
+        double largest = 0.;
+        for (const std::size_t i : set)
+          largest = std::max(largest, relative(state.gap[i], size[i] + std::fabs(rows[i].gap)));
+        for (std::size_t k = 0; k < left.n_kernel(); ++k)
+        {
+          double terms = 0.;
+          for (std::size_t e = 0; e < left.kernel[k].index.size(); ++e)
+            terms += std::fabs(left.kernel[k].value[e] * state.multiplier[left.kernel[k].index[e]]);
+          largest = std::max(largest, relative(left.kernel_load[k], terms));
+        }
+        return largest;
+      };
+
+      left.unilateral.assign(n, 0);
+      double last_error = error();
+      for (int refinement = 0; refinement < 3 && last_error > 1e-15; ++refinement)
+      {
+        MixedComplementaritySolution correction;
+        std::vector<double> terms;
+        const ComplementarityOptions options;
+        ActiveSetSystem system(options);
+        if (system.solve(left, matrix, set, options.linear_tolerance, correction, terms) ==
+            ActiveSetSystem::Outcome::inadmissible)
+        {
+          // Rows that touch without a force may be what holds a body.
+          set.clear();
+          for (std::size_t i = 0; i < n; ++i)
+            if (solution.closed[i] || state.gap[i] <= 0.)
+              set.push_back(i);
+          if (system.solve(left, matrix, set, options.linear_tolerance, correction, terms) ==
+              ActiveSetSystem::Outcome::inadmissible)
+            return;
+        }
+        MixedComplementaritySolution refined = solution;
+        double largest = 0., smallest = 0.;
+        for (const std::size_t i : set)
+        {
+          refined.multiplier[i] += correction.multiplier[i];
+          largest = std::max(largest, std::fabs(refined.multiplier[i]));
+          if (rows[i].unilateral)
+            smallest = std::min(smallest, refined.multiplier[i]);
+        }
+        const bool admissible = smallest >= -1e-12 * largest;
+        for (std::size_t k = 0; k < left.n_kernel(); ++k)
+          refined.kernel_amplitude[k] += correction.kernel_amplitude[k];
+        StaticState refined_state = state;
+        displace(solvers, rows, kernels, first_kernel, P, lift, compliance, refined, refined_state);
+        std::swap(state, refined_state);
+        const double new_error = error();
+        if (!admissible || !(new_error < last_error))
+        {
+          std::swap(state, refined_state);
+          return;
+        }
+        last_error = new_error;
+        solution = refined;
+      }
     }
 
     /// Recomputes the balance K U = P + B N of each body, relative to the terms of each kind of
@@ -224,32 +357,8 @@ namespace taut
           });
       throw;
     }
-    state.multiplier = solution.multiplier;
-
-    // U = A^-1 (P + B N) + given displacements + R alpha
-    rows.add_forces(state.multiplier, P);
-    solvers.solve(P);
-    state.displacement = std::move(P);
-    std::size_t amplitude = first_kernel;
-    for (std::size_t k = 0; k < structure.size(); ++k)
-    {
-      std::vector<double> &U = state.displacement[k];
-      for (std::size_t i = 0; i < U.size(); ++i)
-        U[i] += lift[k][i];
-      for (const std::vector<double> &R : kernels[k].vectors)
-      {
-        for (std::size_t i = 0; i < U.size(); ++i)
-          U[i] += solution.kernel_amplitude[amplitude] * R[i];
-        ++amplitude;
-      }
-    }
-
-    state.geometric_gap = rows.motions(state.displacement);
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      state.geometric_gap[i] += rows[i].gap;
-      state.gap.push_back(state.geometric_gap[i] + compliance[i] * state.multiplier[i]);
-    }
+    displace(solvers, rows, kernels, first_kernel, P, lift, compliance, solution, state);
+    refine(solvers, rows, schur->matrix(), kernels, P, lift, compliance, solution, state);
     solution.gap = state.gap;
     if (n > 0)
     {
