@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace taut
 {
@@ -56,6 +57,9 @@ namespace taut
       }
       return true;
     }
+
+    /// Part of a motion that rounding may lose.
+    constexpr double largest_loss = 1e-6;
   } // namespace
 
   FactoredStructure::FactoredStructure(const Structure &structure, const std::string &solver_name)
@@ -90,13 +94,45 @@ namespace taut
     }
   }
 
+  /// A^-1 A x = x for a rigid translation x: springs inside the body cost nothing then, but round
+  /// by their size, and what resists the motion has to stand out against that.
+  void FactoredStructure::check_digits(const std::size_t k,
+                                       const std::vector<ScaledMatrix> &summands) const
+  {
+    const Substructure &body = bodies[k];
+    std::vector<double> rigid(body.n_dofs()), x(body.n_dofs(), 0.);
+    for (std::size_t i = 0; i < rigid.size(); ++i)
+      rigid[i] = body.kind(i) == 0;
+    for (const ConstrainedDof &constraint : body.constraints())
+      rigid[constraint.dof] = 0.;
+    for (const auto &[factor, matrix] : summands)
+      matrix->vmult_add(factor, rigid.data(), x.data());
+    solvers[k]->solve(x);
+    double loss = 0.;
+    for (std::size_t i = 0; i < rigid.size(); ++i)
+      if (body.kind(i) == 0 && !(std::fabs(x[i] - rigid[i]) <= loss))
+        loss = std::fabs(x[i] - rigid[i]);
+    if (loss <= largest_loss)
+      return;
+    std::ostringstream out;
+    out << "body '" << body.name()
+        << "': what resists its motion, supports and inertia in one step, "
+        << "is lost in the rounding of its stiffness, which changes a motion by " << loss
+        << " of itself. Take a smaller step, fewer substructures, more equal elements or springs, "
+        << "or hold it by a support";
+    throw EntryError(body.origin(), out.str());
+  }
+
   void FactoredStructure::factor(const double mass, const double damping)
   {
     mass_factor = mass;
     damping_factor = damping;
     is_static = false;
     for (std::size_t k = 0; k < solvers.size(); ++k)
+    {
       factor(k, *solvers[k], summands(k), bodies[k].constrained_dofs());
+      check_digits(k, summands(k));
+    }
   }
 
   void FactoredStructure::factor_stiffness(const std::vector<Substructure::Kernel> &kernels)
@@ -106,6 +142,7 @@ namespace taut
     {
       const auto held = with_springs(bodies[k].stiffness(), kernels[k].fixing_dofs);
       factor(k, *solvers[k], {{1., held.get()}}, bodies[k].constrained_dofs());
+      check_digits(k, {{1., held.get()}});
     }
   }
 

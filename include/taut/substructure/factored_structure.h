@@ -19,7 +19,7 @@ namespace taut
     FactoredStructure(const Structure &structure, const std::string &solver_name);
 
     /// A_k = mass M_k + damping C_k + K_k, mass in 1/s^2, damping in 1/s. BodyNotHeld names the
-    /// body.
+    /// body; an EntryError does if A_k is so close to singular that motions lose their sixth digit.
     void factor(double mass, double damping);
 
     /**
@@ -53,6 +53,7 @@ namespace taut
     std::vector<ScaledMatrix> summands(std::size_t k) const;
     void factor(std::size_t k, LocalSolver &solver, const std::vector<ScaledMatrix> &summands,
                 const std::vector<unsigned int> &held) const;
+    void check_digits(std::size_t k, const std::vector<ScaledMatrix> &summands) const;
 
     const Structure &bodies;
     const std::string solver_name;
