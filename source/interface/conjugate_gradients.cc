@@ -7,6 +7,7 @@
 #include <Epetra_SerialComm.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace taut
 {
@@ -89,7 +90,14 @@ namespace taut
       // Not positive: the rows depend on each other, or only rounding is left. What was found so
       // far is kept.
     }
+    catch (const Belos::StatusTestError &)
+    {
+      // A residual that is not a number: the preconditioned residual was zero, or the numbers are
+      // beyond their range.
+    }
     x.assign(solution[0], solution[0] + b.size());
+    if (!std::all_of(x.begin(), x.end(), [](const double v) { return std::isfinite(v); }))
+      x.assign(b.size(), 0.);
     return matrix.n_applications() - before;
   }
 } // namespace taut
