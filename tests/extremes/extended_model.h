@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_extremes_extended_model_h
+#define taut_extremes_extended_model_h
+
+#include <taut/scene/scene.h>
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
+#include <utility>
+#include <vector>
+
+namespace extremes
+{
+  /// 120 decimal digits: room for the artificial springs of ExtendedRun below all ratios of scenes.
+  using Number = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<120>,
+                                               boost::multiprecision::et_off>;
+  using Vector = std::vector<Number>;
+
+  /// Symmetric, dense.
+  class Matrix
+  {
+  public:
+    explicit Matrix(std::size_t n = 0) : n(n), entries(n * n, Number(0)) {}
+    std::size_t size() const { return n; }
+    Number &operator()(std::size_t i, std::size_t j) { return entries[i * n + j]; }
+    const Number &operator()(std::size_t i, std::size_t j) const { return entries[i * n + j]; }
+    Vector times(const Vector &x) const;
+
+  private:
+    std::size_t n;
+    Vector entries;
+  };
+
+  /// L L^T = A. Rows with a zero pivot relative to their diagonal make it singular.
+  class Cholesky
+  {
+  public:
+    /// False if A is singular to 1e-80.
+    bool factor(const Matrix &A);
+    Vector solve(Vector b) const;
+
+  private:
+    std::size_t n = 0;
+    Matrix L;
+    Vector inverse_pivot;
+  };
+
+  /// A linear form on the DoFs.
+  using Form = std::vector<std::pair<std::size_t, Number>>;
+  Number dot(const Form &form, const Vector &x);
+
+  /**
+   * M, C, K and P of a small scene, assembled from its values alone: shape functions as
+   * polynomials, integrals exact. Of the library only the positions of the nodes are used, grid().
+   * Expressions are constants here; elements of strings and bars have degree 1 or 2.
+   */
+  class ExtendedModel
+  {
+  public:
+    explicit ExtendedModel(const taut::Scene &scene);
+
+    std::size_t n_dofs() const { return M.size(); }
+    /// A motion along a direction, or a slope or rotation, as Structure::motion.
+    Form motion(const taut::Attachment &point, bool rotational, const taut::Point &direction) const;
+    /// B of a link at time t, without the gap.
+    Form row(const taut::Link &link, const Number &t) const;
+    /// External forces at time t.
+    Vector load(const Number &t) const;
+    /// True if the DoF is held; its value is in given.
+    std::vector<char> held;
+    Vector given;
+    Vector initial_U, initial_V;
+    std::vector<char> is_rotation;
+    Matrix M, C, K;
+
+  private:
+    struct Component
+    {
+      bool axial = false;
+      unsigned int degree = 1; ///< 3: Hermite
+      std::size_t first = 0;
+      bool exists = false;
+      std::size_t dof(std::size_t element, unsigned int i) const;
+      unsigned int n_shapes() const { return degree == 3 ? 4 : degree + 1; }
+    };
+
+    Form shape(std::size_t wire, const Component &component, const Number &s, bool slope) const;
+    void add_component(std::size_t wire, Component &component);
+    void add_masses();
+
+    const taut::Scene scene;
+    std::vector<std::vector<double>> nodes;
+    std::vector<Component> axial, transverse;
+    std::vector<std::size_t> first_of_mass;
+    std::size_t n = 0;
+    Vector constant;
+  };
+} // namespace extremes
+
+#endif

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// A case goes through the program as a scene generator of its own.
+#include "program_run.h"
+
+#include "../verification/run.h"
+
+#include <taut/base/exceptions.h>
+#include <taut/scene/scene_generator.h>
+
+#include <algorithm>
+
+namespace extremes
+{
+  namespace
+  {
+    const taut::Scene *scene_of_next_run = nullptr;
+
+    class ValueGenerator : public taut::SceneGenerator
+    {
+    public:
+      void declare_parameters(dealii::ParameterHandler &) override {}
+      taut::Scene generate() const override { return *scene_of_next_run; }
+    };
+
+    const taut::Register<taut::SceneGenerator, ValueGenerator> entry("extremes",
+                                                                     "a scene made by the tests");
+
+    std::string text(const double x)
+    {
+      std::ostringstream out;
+      out.precision(17);
+      out << x;
+      return out.str();
+    }
+
+    Observation observe(const taut::StepView &view, const std::vector<ObservedPoint> &points,
+                        const std::vector<std::size_t> &group)
+    {
+      Observation o;
+      for (const ObservedPoint &p : points)
+      {
+        std::vector<taut::Term> terms;
+        view.structure.motion(p.at, p.rotational, p.direction, 1., terms);
+        o[p.rotational ? rotation : displacement].push_back(
+            verification::displacement(view, terms));
+      }
+      std::vector<double> sum(group.size(), 0.);
+      for (std::size_t k = 0; k < group.size(); ++k)
+        sum[group[k]] += view.state.multiplier[view.rows.row_of_link(k)];
+      for (std::size_t k = 0; k < group.size(); ++k)
+      {
+        const bool rotational = view.scene.links[k].rotational;
+        if (group[k] == k)
+          o[rotational ? moment : force].push_back(sum[k]);
+        o[rotational ? angular_gap : gap].push_back(
+            view.state.geometric_gap[view.rows.row_of_link(k)]);
+      }
+      return o;
+    }
+  } // namespace
+
+  Answer program_answer(const Case &c)
+  {
+    Answer answer;
+    scene_of_next_run = &c.scene;
+    const char *const starts[] = {"equilibrium", "undeformed", "given"};
+    verification::Overrides overrides = {
+        "Gravity=" + text(c.scene.gravity.x) + "," + text(c.scene.gravity.y),
+        std::string("Start=") + starts[static_cast<int>(c.scene.start)],
+        "Time.Scheme=" + c.scheme,
+        "Time.Allow unsuitable scheme=true",
+        "Time.Step=" + text(c.step),
+        "Time.End=" + text(c.n_steps * c.step),
+        "Output.Interval=1e30",
+        "Output.Link interval=1e30",
+        "Output.Field interval=0",
+        "Solver.Local solver=" + c.local_solver,
+        "Solver.Interface operator=" + c.interface_operator,
+        "Solver.Complementarity=" + c.complementarity,
+        "Partition.Number of substructures=" + std::to_string(c.n_parts)};
+    if (!c.cuts.empty())
+    {
+      overrides.push_back("Partition.Method=given");
+      overrides.push_back("Partition.Cuts=" + c.cuts);
+    }
+    const std::vector<ObservedPoint> points = observed_points(c.scene);
+    const std::vector<std::size_t> group = groups_of_links(c.scene);
+    const auto record = [&](const taut::StepView &view)
+    {
+      answer.steps.push_back(observe(view, points, group));
+      answer.certificate = std::max(answer.certificate, view.certificate.max());
+      answer.iterations = std::max(answer.iterations, view.certificate.iterations);
+      answer.n_fallbacks += view.certificate.fallback;
+    };
+    try
+    {
+      verification::Session session("set Generator = extremes\n\n", overrides);
+      session.run(record);
+    }
+    catch (const taut::UserError &e)
+    {
+      answer.error = e.what();
+    }
+    return answer;
+  }
+} // namespace extremes
