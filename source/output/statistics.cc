@@ -12,6 +12,7 @@
 #include <cmath>
 #include <fstream>
 #include <iomanip>
+#include <limits>
 #include <numeric>
 #include <ostream>
 
@@ -34,6 +35,38 @@ namespace taut
     bool is_inside(const double value, const std::vector<double> &range)
     {
       return value >= range[0] && value <= range[1];
+    }
+
+    /// Shortest of the steps between increasing times if they differ, else 0 [s].
+    double shortest_of_unequal_steps(const std::vector<double> &times)
+    {
+      double shortest = std::numeric_limits<double>::infinity(), longest = 0.;
+      for (std::size_t i = 1; i < times.size(); ++i)
+      {
+        shortest = std::min(shortest, times[i] - times[i - 1]);
+        longest = std::max(longest, times[i] - times[i - 1]);
+      }
+      return longest > 1.001 * shortest ? shortest : 0.;
+    }
+
+    /// The record at equal intervals, linear between its samples.
+    std::vector<double> resample(const std::vector<double> &times,
+                                 const std::vector<double> &record, const double interval)
+    {
+      const auto n =
+          static_cast<std::size_t>((times.back() - times.front()) / interval * (1. + 1e-12)) + 1;
+      std::vector<double> result(n);
+      std::size_t i = 0;
+      for (std::size_t k = 0; k < n; ++k)
+      {
+        const double t = times.front() + k * interval;
+        while (i + 2 < times.size() && times[i + 1] <= t)
+          ++i;
+        const double part = std::min(1., (t - times[i]) / (times[i + 1] - times[i]));
+        // A contact that is open at both ends is open between them.
+        result[k] = record[i] + part * (record[i + 1] - record[i]);
+      }
+      return result;
     }
   } // namespace
 
@@ -157,9 +190,19 @@ namespace taut
     }
   }
 
-  Statistics::ContactFigures Statistics::figures(const Contact &contact) const
+  Statistics::ContactFigures Statistics::figures(const Contact &recorded) const
   {
     ContactFigures result;
+    // Of unequal steps each counts by its length: at equal intervals, as short as the shortest.
+    Contact contact = recorded;
+    constexpr double most_samples = 4e6;
+    const double shortest = shortest_of_unequal_steps(times);
+    if (shortest > 0.)
+    {
+      const double interval = std::max(shortest, (times.back() - times.front()) / most_samples);
+      contact.position = resample(times, recorded.position, interval);
+      contact.force = resample(times, recorded.force, interval);
+    }
     const auto in_window = [&](const std::vector<double> &record)
     {
       if (parameters.window.size() < 2)
@@ -177,7 +220,8 @@ namespace taut
     result.raw = result.filtered = Moments::of(raw);
     if (!raw.empty())
       result.loss = static_cast<double>(std::count(raw.begin(), raw.end(), 0.)) / raw.size();
-    const double step = times.size() > 1 ? (times.back() - times.front()) / (times.size() - 1) : 0.;
+    const double step =
+        contact.force.size() > 1 ? (times.back() - times.front()) / (contact.force.size() - 1) : 0.;
     // The filter needs some samples a period.
     if (step > 0. && parameters.filter_frequency > 0. &&
         4. * parameters.filter_frequency * step < 1.)

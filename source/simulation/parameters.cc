@@ -268,6 +268,7 @@ namespace taut
     prm.add_parameter("Step", step, "[s]", not_negative());
     prm.add_parameter("End", end_time, "0: the start only, e.g. a static equilibrium [s]",
                       not_negative());
+    step_parameters.declare_parameters(prm);
     prm.add_parameter("Allow unsuitable scheme", allow_unsuitable_scheme,
                       "Run a scheme although it is known to fail with the links of the scene");
     prm.add_parameter(

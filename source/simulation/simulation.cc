@@ -232,15 +232,18 @@ namespace taut
       fields.record(view(state, certificate));
     };
     show(start, start_certificate);
-    for (long i = 1; i <= n_steps(); ++i)
+    StepControl control(parameters.step_parameters, parameters.step, n_steps());
+    while (!control.is_finished())
     {
       const auto before = std::chrono::steady_clock::now();
-      stepper.advance();
+      control.advance(stepper);
       seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
       show(stepper.state(), stepper.certificate());
       if (energy)
         energy->record(view(stepper.state(), stepper.certificate()), stepper.scheme());
     }
+    if (control.n_repeated() > 0)
+      log << control.n_repeated() << " steps were repeated with a shorter one\n";
   }
 
   /// The steps that fit into the time of the run: what was checked up to its end stays true.

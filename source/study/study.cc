@@ -261,6 +261,8 @@ namespace taut
     std::ostringstream silent;
     try
     {
+      if (chosen.step_parameters.adaptive())
+        throw EntryError("Time/Step control", "a study compares fixed steps; set 'fixed'");
       Simulation simulation(chosen, silent);
       FigureRecorder recorder(chosen.study, chosen.statistics, simulation.scene(),
                               simulation.rows());

@@ -29,14 +29,21 @@ namespace taut
 
   StepCoefficients bdf2(const double step)
   {
-    // V = (3 dU - dU0) / (2 step), A = (3 V - 4 V0 + V_{-1}) / (2 step)
+    return bdf2(step, step);
+  }
+
+  StepCoefficients bdf2(const double step, const double last_step)
+  {
+    // V = [(1 + b) dU - b w dU0] / step, A = [(1 + b) V - (1 + w) V0 + b w V_{-1}] / step; equal
+    // steps: V = (3 dU - dU0) / (2 step), A = (3 V - 4 V0 + V_{-1}) / (2 step).
+    const double w = step / last_step, b = w / (1. + w);
     StepCoefficients c;
-    c.velocity = 1.5 / step;
-    c.v_dU = -.5 / step;
-    c.acceleration = 2.25 / (step * step);
-    c.a_dU = -.75 / (step * step);
-    c.a_V = -2. / step;
-    c.a_V_old = .5 / step;
+    c.velocity = (1. + b) / step;
+    c.v_dU = -b * w / step;
+    c.acceleration = c.velocity * c.velocity;
+    c.a_dU = c.velocity * c.v_dU;
+    c.a_V = -(1. + w) / step;
+    c.a_V_old = b * w / step;
     return c;
   }
 
@@ -108,6 +115,10 @@ namespace taut
     {
     public:
       StepCoefficients coefficients(const double step) const override { return bdf2(step); }
+      StepCoefficients after_change(const double step, const double last_step) const override
+      {
+        return bdf2(step, last_step);
+      }
       std::string description() const override { return "BDF2"; }
     };
 

@@ -23,7 +23,7 @@ namespace taut
                            const double step, Reference reference, State start, const bool at_rest)
       : structure(structure), rows(rows), parameters(parameters), integrator(integrator),
         step(step), origin(std::move(reference)), current(std::move(start)),
-        first_step_by_source(!at_rest), start_time(current.time),
+        first_step_by_source(!at_rest), segment_start(current.time),
         solvers(structure, parameters.local_solver),
         schur(make_schur_complement(parameters.interface, solvers, rows)),
         complementarity(parameters.complementarity),
@@ -79,9 +79,15 @@ namespace taut
   void TimeStepper::advance()
   {
     ++n_steps;
-    current.time = start_time + n_steps * step;
-    if (first_step_by_source && n_steps == 2)
-      prepare(integrator.coefficients(step));
+    const bool is_first = current.last_step == 0.;
+    const StepCoefficients c = is_first && first_step_by_source ? backward_euler(step)
+                               : is_first || current.last_step == step
+                                   ? integrator.coefficients(step)
+                                   : integrator.after_change(step, current.last_step);
+    if (c != coefficients)
+      prepare(c);
+    current.time = segment_start + ++n_in_segment * step;
+    current.last_step = step;
     rows.update(current.time);
     schur->update_moving();
 
@@ -145,6 +151,64 @@ namespace taut
       body.damping().vmult_add(-c.velocity, L.data(), R);
       body.stiffness().vmult_add(-1., L.data(), R);
     }
+  }
+
+  void TimeStepper::set_step(const double length)
+  {
+    if (length == step)
+      return;
+    step = length;
+    segment_start = current.time;
+    n_in_segment = 0;
+  }
+
+  void TimeStepper::restore(const State &before)
+  {
+    current = before;
+    --n_steps;
+    segment_start = current.time;
+    n_in_segment = 0;
+  }
+
+  double TimeStepper::local_error()
+  {
+    PerKind error = {0., 0.}, size = {0., 0.};
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      const std::vector<double> &dU = current.dU[k], &V = current.V_old[k], &A = current.A[k],
+                                &A0 = old_A[k];
+      work.resize(dU.size());
+      for (std::size_t i = 0; i < dU.size(); ++i)
+        work[i] = dU[i] - step * (V[i] + step * (A0[i] / 3. + A[i] / 6.));
+      const PerKind e = largest(structure[k], work), v = largest(structure[k], V);
+      for (std::size_t i = 0; i < dU.size(); ++i)
+        work[i] = origin.displacement[k][i] + current.U[k][i];
+      const PerKind u = largest(structure[k], work);
+      for (int kind = 0; kind < 2; ++kind)
+      {
+        error[kind] = std::max(error[kind], e[kind]);
+        size[kind] = std::max(size[kind], u[kind] + step * v[kind]);
+      }
+    }
+    double result = 0.;
+    for (int kind = 0; kind < 2; ++kind)
+    {
+      motion_size[kind] = std::max(motion_size[kind], structure.communicator().max(size[kind]));
+      const double all = structure.communicator().max(error[kind]);
+      if (all > 0.)
+        result = std::max(result, all / motion_size[kind]);
+    }
+    return result;
+  }
+
+  bool TimeStepper::rigid_row_changed(const State &before)
+  {
+    const std::vector<double> &S = row_motions.compliance();
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (rows[i].unilateral && 2. * S[i] < schur->matrix().diagonal(i) &&
+          (before.multiplier[i] > 0.) != (current.multiplier[i] > 0.))
+        return true;
+    return false;
   }
 
   void TimeStepper::solve_rows()

@@ -11,6 +11,7 @@
 #include <taut/simulation/study_parameters.h>
 #include <taut/time/integrator.h>
 #include <taut/time/solver_parameters.h>
+#include <taut/time/step_control.h>
 
 #include <iosfwd>
 #include <map>
@@ -81,6 +82,7 @@ namespace taut
     double step = 1e-3, end_time = 6.912;
     std::string massless_contact = "no";
     bool allow_unsuitable_scheme = false;
+    StepParameters step_parameters;
 
     SolverParameters solver;
     PartitionParameters partition;

@@ -65,6 +65,16 @@ namespace taut
     virtual StepCoefficients coefficients(double step) const = 0;
 
     /**
+     * For the first step [s] after one of another length. The same as coefficients() unless the
+     * scheme looks back further than one step.
+     */
+    virtual StepCoefficients after_change(double step, double last_step) const
+    {
+      (void)last_step;
+      return coefficients(step);
+    }
+
+    /**
      * Waves have to cross at least so many elements a step where a rigid one-sided link presses on
      * a wire, or the multipliers ring by more than a tenth of their size: measured for a bar that
      * hits a wall (doc/accuracy.md). Infinite: at any step.
@@ -80,6 +90,9 @@ namespace taut
 
   /// The second-order backward difference formula for the velocity and for the acceleration.
   StepCoefficients bdf2(double step);
+
+  /// The same where the step before had another length [s].
+  StepCoefficients bdf2(double step, double last_step);
 
   /// Newmark's beta and gamma in the averaged balance of the generalised-alpha method.
   StepCoefficients newmark(double step, double beta, double gamma, double alpha_m = 0.,

@@ -22,7 +22,8 @@ namespace taut
   /// Motion of the bodies and of the links' springs at one time.
   struct State
   {
-    double time = 0.; ///< [s]
+    double time = 0.;      ///< [s]
+    double last_step = 0.; ///< length of the step that ended here; 0: none [s]
 
     BlockVector U;     ///< displacement from the reference [m, rad]
     BlockVector V;     ///< velocity

@@ -17,7 +17,7 @@
 namespace taut
 {
   /**
-   * Advances the bodies and the multipliers by fixed steps:
+   * Advances the bodies and the multipliers by steps:
    *
    *     moving rows -> history P^_k -> free motion of the rows -> N -> U_k -> certificate.
    *
@@ -38,6 +38,23 @@ namespace taut
     /// One step. Throws UserError, naming time and row, if the certificate misses the contact
     /// tolerance.
     void advance();
+
+    /// Length of the steps to come [s].
+    void set_step(double length);
+
+    /// Back to a state of before, as if nothing had happened since.
+    void restore(const State &before);
+
+    /**
+     * Largest local error of the last step over the largest displacement so far, from the third
+     * derivative that the accelerations before and after show: dU - step V0 - step^2 (A0/3 + A/6)
+     * (O. C. Zienkiewicz, Y. M. Xie, Earthquake Engineering and Structural Dynamics 20 (1991)).
+     * Displacements and slopes each for themselves. Called by all ranks together.
+     */
+    double local_error();
+
+    /// True if a one-sided row that acts as rigid opened or closed since @p before.
+    bool rigid_row_changed(const State &before);
 
     const State &state() const { return current; }
     const Reference &reference() const { return origin; }
@@ -67,7 +84,7 @@ namespace taut
     ContactRows &rows;
     const SolverParameters parameters;
     const TimeIntegrator &integrator;
-    const double step;
+    double step;
     const Reference origin;
     State current;
     Certificate last;
@@ -75,7 +92,9 @@ namespace taut
     StepCoefficients coefficients;
     bool first_step_by_source;
     long n_steps = 0;
-    double start_time = 0.;
+    double segment_start; ///< time since which steps have this length
+    long n_in_segment = 0;
+    PerKind motion_size = {0., 0.}; ///< largest displacements so far
 
     FactoredStructure solvers;
     std::unique_ptr<SchurComplement> schur;

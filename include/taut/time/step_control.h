@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_step_control_h
+#define taut_step_control_h
+
+#include <taut/time/time_stepper.h>
+
+#include <string>
+
+namespace dealii
+{
+  class ParameterHandler;
+}
+
+namespace taut
+{
+  /// How long steps are.
+  struct StepParameters
+  {
+    std::string control = "fixed";
+    double tolerance = 1e-4;
+    unsigned int n_halvings = 6, n_doublings = 4;
+
+    /// Declares the members in the current subsection.
+    void declare_parameters(dealii::ParameterHandler &prm);
+    bool adaptive() const { return control == "adaptive"; }
+  };
+
+  /**
+   * Steps of a length times a power of two, so that matrices are factored anew only at a change and
+   * times are multiples of the shortest step. A step is repeated at half its length if its local
+   * error is above the tolerance, or if a rigid one-sided row opens or closes in it, down to the
+   * shortest one, which counts as it is. After four steps with a tenth of the tolerance the length
+   * doubles, at a multiple of the new one.
+   */
+  class StepControl
+  {
+  public:
+    /// From t = 0 to @p n_steps times @p step [s].
+    StepControl(const StepParameters &parameters, double step, long n_steps);
+
+    bool is_finished() const { return position == end; }
+
+    /// One step that counts.
+    void advance(TimeStepper &stepper);
+
+    long n_repeated() const { return repeated; }
+
+  private:
+    long length() const { return 1L << level; }
+
+    const StepParameters parameters;
+    const double shortest; ///< [s]
+    const long end;        ///< in shortest steps
+    long position = 0, repeated = 0;
+    unsigned int level, n_calm = 0;
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/time/step_control.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <cmath>
+
+namespace taut
+{
+  void StepParameters::declare_parameters(dealii::ParameterHandler &prm)
+  {
+    using namespace dealii::Patterns;
+    prm.add_parameter(
+        "Step control", control,
+        "'fixed': all steps have the length Step. 'adaptive': Step times powers of "
+        "two, by the local error, and short where rigid one-sided links open or close",
+        Selection("fixed|adaptive"));
+    prm.enter_subsection("Adaptive step");
+    prm.add_parameter("Tolerance", tolerance,
+                      "Largest local error of a step over the largest displacement so far [1]",
+                      Double(1e-14, 1.));
+    prm.add_parameter("Halvings", n_halvings,
+                      "The shortest step is Step over two to this power [1]", Integer(0, 20));
+    prm.add_parameter("Doublings", n_doublings,
+                      "The longest step is Step times two to this power [1]", Integer(0, 20));
+    prm.leave_subsection();
+  }
+
+  StepControl::StepControl(const StepParameters &parameters, const double step, const long n_steps)
+      : parameters(parameters),
+        shortest(parameters.adaptive() ? std::ldexp(step, -static_cast<int>(parameters.n_halvings))
+                                       : step),
+        end(parameters.adaptive() ? n_steps << parameters.n_halvings : n_steps),
+        level(parameters.adaptive() ? parameters.n_halvings : 0)
+  {
+  }
+
+  void StepControl::advance(TimeStepper &stepper)
+  {
+    if (!parameters.adaptive())
+    {
+      stepper.advance();
+      ++position;
+      return;
+    }
+    const State before = stepper.state();
+    const bool is_first = position == 0;
+    while (position + length() > end)
+      --level;
+    double error;
+    for (;;)
+    {
+      stepper.set_step(shortest * length());
+      stepper.advance();
+      error = stepper.local_error() / parameters.tolerance;
+      if (level == 0 || (!(error > 1.) && !stepper.rigid_row_changed(before)))
+        break;
+      stepper.restore(before);
+      --level;
+      ++repeated;
+      n_calm = 0;
+    }
+    position += length();
+    n_calm = error < .1 && !is_first ? n_calm + 1 : 0;
+    if (n_calm >= 4 && level < parameters.n_halvings + parameters.n_doublings &&
+        position % (2 * length()) == 0)
+    {
+      ++level;
+      n_calm = 0;
+    }
+  }
+} // namespace taut
