@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -248,6 +249,51 @@ namespace
 TEST(Ranks, the_reference_line_is_the_same)
 {
   expect_same("5 spans, 2 ms", 2e-3, line(5, 2e-3, 200, .75), {1, 7, 64});
+}
+
+// Claim: so are probes and forces of supports, each of which one rank knows. Expected: as above.
+TEST(Ranks, probes_and_forces_of_supports_are_the_same)
+{
+  const auto record =
+      [](Overrides overrides, const unsigned int n_parts, const taut::Communicator &processes)
+  {
+    overrides.push_back("Partition/Number of substructures=" + std::to_string(n_parts));
+    std::array<std::vector<double>, 2> result;
+    Session session(scene_file("en50318_2002_250"), overrides, processes);
+    session.run(
+        [&](const taut::StepView &view)
+        {
+          result[0].insert(result[0].end(), view.probes.begin(), view.probes.end());
+          result[1].insert(result[1].end(), view.supports.begin(), view.supports.end());
+        });
+    return result;
+  };
+  const Overrides overrides = line(5, 2e-3, 50, .75);
+  const auto one = record(overrides, 1, taut::Communicator()), many = record(overrides, 7, world());
+  const std::string where = std::to_string(world().size()) + " ranks, ";
+  for (const int i : {0, 1})
+  {
+    ASSERT_GT(largest(one[i]), 0.);
+    const double error = difference(one[i], many[i]) / largest(one[i]);
+    EXPECT_LT(error, i == 0 ? 1e-9 : 1e-7);
+    figure(where + (i == 0 ? "probes" : "forces of supports"), error);
+  }
+}
+
+// Claim: the ranks have equally much to do. Expected: shares of DoFs that differ by less than a
+// part, of which there are 64.
+TEST(Ranks, degrees_of_freedom_are_shared_evenly)
+{
+  Overrides overrides = line(5, 2e-3, 50, .75);
+  overrides.push_back("Partition/Number of substructures=64");
+  Session session(scene_file("en50318_2002_250"), overrides, world());
+  const std::vector<std::size_t> shares = world().gather(session.simulation().structure().n_dofs());
+  const double all = std::accumulate(shares.begin(), shares.end(), 0.);
+  const auto [least, most] = std::minmax_element(shares.begin(), shares.end());
+  // Parts differ in size themselves.
+  EXPECT_LT(*most - *least, 1.5 * all / 64);
+  figure(std::to_string(world().size()) + " ranks, largest share of the DoFs over the mean",
+         *most * shares.size() / all);
 }
 
 // Claim: so with each form of the interface operator, whose parts from the bodies are summed over

@@ -3,10 +3,11 @@
 """Breaks the code on purpose, one line at a time, and sees whether a test fails.
 
 The list says for each change its file, the old and the new fragment of one line, the test program to build and the
-GoogleTest filter of the cases that have to fail. With --check nothing is built: every change has to fit the sources
-exactly once, and every filter has to name cases that exist. Without it the sources are copied to a folder, the programs
-are built and have to pass as they are; then one change after the other is made, built, tested and undone. A folder of an
-earlier run is brought up to date. Ends with 0 if every change was caught."""
+GoogleTest filter of the cases that have to fail; with "ranks", the number of MPI processes that run the program. With
+--check nothing is built: every change has to fit the sources exactly once, and every filter has to name cases that
+exist. Without it the sources are copied to a folder, the programs are built and have to pass as they are; then one
+change after the other is made, built, tested and undone. A folder of an earlier run is brought up to date. Ends with 0
+if every change was caught."""
 import argparse
 import json
 import os
@@ -23,6 +24,7 @@ parser.add_argument("--list", type=pathlib.Path, default=pathlib.Path(__file__).
 parser.add_argument("--check", action="store_true", help="only see that the list fits the sources")
 parser.add_argument("--folder", type=pathlib.Path, help="scratch folder for the copy and its build")
 parser.add_argument("--only", default="", help="regular expression: changes of these files or with these names")
+parser.add_argument("--mpiexec", default="mpirun", help="what starts the ranks of MPI")
 parser.add_argument("--jobs", default="2", help="compilers at a time")
 parser.add_argument("--limit", type=float, default=300., help="time of one test; one that does not end has failed [s]")
 arguments = parser.parse_args()
@@ -35,7 +37,8 @@ def cases_of(root):
     """Suite.case of every GoogleTest case, by the program that its source file belongs to."""
     result = {}
     for file in sorted((root / "tests").rglob("CMakeLists.txt")):
-        for program, text in re.findall(r"taut_add_tests\((\w+)\s+\w+\s+([^)]*)\)", file.read_text()):
+        for program, text in re.findall(r'taut_add_(?:mpi_)?tests\((\w+)\s+\w+\s+(?:"[^"]*"\s+)?([^)]*)\)',
+                                        file.read_text()):
             for source in text.split():
                 path = pathlib.Path(source.replace("${PROJECT_SOURCE_DIR}", str(root)))
                 code = (file.parent / path).read_text()
@@ -80,7 +83,9 @@ if not arguments.folder:
 # The build lies in the copy as in a fresh clone: a compiler cache then knows most of it.
 source = arguments.folder.resolve()
 build = source / "build"
-environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "DEAL_II_NUM_THREADS": "1"}
+environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "DEAL_II_NUM_THREADS": "1",
+               "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+               "OMPI_MCA_rmaps_base_oversubscribe": "1"}
 
 
 def bring_up_to_date():
@@ -108,15 +113,23 @@ def compile(target):
 def test(change, limit):
     """The first case that fails, and how many; None if all pass."""
     program = next(p for p in build.rglob(change["target"]) if p.is_file())
-    try:
-        result = run([program, "--gtest_filter=" + change["filter"]], timeout=limit, cwd=build)
-    except subprocess.TimeoutExpired:
-        return "does not end", 1
+    command = [program, "--gtest_color=no", "--gtest_filter=" + change["filter"]]
+    if "ranks" in change:
+        command = [arguments.mpiexec, "-np", str(change["ranks"]), *command]
+    # Ends by SIGTERM, which mpiexec passes on to its ranks.
+    with subprocess.Popen(command, env=environment, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          cwd=build) as process:
+        try:
+            output, _ = process.communicate(timeout=limit)
+        except subprocess.TimeoutExpired:
+            process.terminate()
+            process.communicate()
+            return "does not end", 1
     # A failed case has its line twice: when it ends, with its time, and in the list at the end.
-    failed = [case for case in re.findall(r"^\[  FAILED  \] ([\w/]+\.\w+).*\(\d+ ms\)$", result.stdout, re.MULTILINE)]
-    if result.returncode == 0:
+    failed = [case for case in re.findall(r"^\[  FAILED  \] ([\w/]+\.\w+).*\(\d+ ms\)$", output, re.MULTILINE)]
+    if process.returncode == 0:
         return None
-    return (failed[0], len(failed)) if failed else (f"{change['filter']} (ends with {result.returncode})", 1)
+    return (failed[0], len(failed)) if failed else (f"{change['filter']} (ends with {process.returncode})", 1)
 
 
 bring_up_to_date()
@@ -129,8 +142,9 @@ for target in sorted({change["target"] for change in wanted}):
     if built.returncode:
         sys.exit(built.stdout)
 for target in sorted({change["target"] for change in wanted}):
-    filters = sorted({change["filter"] for change in wanted if change["target"] == target})
-    if failure := test({"target": target, "filter": ":".join(filters)}, 10. * arguments.limit):
+    changes_of_target = [change for change in wanted if change["target"] == target]
+    filters = sorted({change["filter"] for change in changes_of_target})
+    if failure := test({**changes_of_target[0], "filter": ":".join(filters)}, 10. * arguments.limit):
         sys.exit(f"{failure[0]} of {target} fails without any change")
 
 survivors = 0

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/communicator.h>
+#include <taut/base/exceptions.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace
+{
+  /// Of all ranks; r is the own one of n.
+  class Communicator : public testing::Test
+  {
+  protected:
+    const taut::Communicator processes = taut::Communicator(MPI_COMM_WORLD);
+    const unsigned int n = processes.size(), r = processes.rank();
+  };
+} // namespace
+
+// Claim: sums, maxima and gathered numbers are those of all ranks, on each of them. Expected: of
+// the ranks' numbers r + 1 the sum n (n + 1) / 2; whole numbers, so exactly.
+TEST_F(Communicator, sums_and_maxima_are_those_of_all_ranks)
+{
+  std::vector<double> values = {r + 1., -2. * r, 1.};
+  processes.sum(values);
+  EXPECT_EQ(values, (std::vector<double>{n * (n + 1.) / 2., -1. * n * (n - 1.), 1. * n}));
+  EXPECT_EQ(processes.max(r + 1.), n);
+  EXPECT_EQ(processes.max(-1. - r), -1.);
+  const std::vector<std::size_t> squares = processes.gather(r * r);
+  ASSERT_EQ(squares.size(), n);
+  for (unsigned int i = 0; i < n; ++i)
+    EXPECT_EQ(squares[i], i * i);
+}
+
+// Claim: not-a-number of one rank is the maximum, whichever rank has it and however large the
+// others.
+TEST_F(Communicator, not_a_number_of_one_rank_is_the_maximum)
+{
+  for (unsigned int owner = 0; owner < n; ++owner)
+    EXPECT_TRUE(
+        std::isnan(processes.max(r == owner ? std::numeric_limits<double>::quiet_NaN() : 1e300)));
+}
+
+// Claim: text of the root reaches all ranks, of any length.
+TEST_F(Communicator, text_of_the_root_reaches_all_ranks)
+{
+  for (const std::size_t length : {0, 1, 100000})
+  {
+    std::string text(r == 0 ? length : 7 * r, r == 0 ? 'a' : 'b');
+    processes.broadcast(text);
+    EXPECT_EQ(text, std::string(length, 'a'));
+  }
+}
+
+// Claim: an error of one rank is that of all, with its entry; of several, that of the lowest rank.
+TEST_F(Communicator, an_error_of_one_rank_is_that_of_all)
+{
+  for (unsigned int first = 0; first < n; ++first)
+    for (const bool alone : {true, false})
+      try
+      {
+        processes.agree(
+            [&]
+            {
+              if (r == first || (!alone && r > first))
+                throw taut::EntryError("Rank/" + std::to_string(r), "wrong");
+            });
+        ADD_FAILURE() << "the error of rank " << first << " was lost";
+      }
+      catch (const taut::EntryError &e)
+      {
+        EXPECT_EQ(e.entry(), "Rank/" + std::to_string(first));
+        EXPECT_EQ(e.message(), "wrong");
+      }
+  processes.agree([] {});
+}
