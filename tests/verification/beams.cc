@@ -166,6 +166,35 @@ TEST(Frequencies, point_mass_on_a_string)
   EXPECT_NEAR(w[1], 2. * std::acos(-1.) * c / L, 1e-7 * w[1]);
 }
 
+// At the free end of a string that is held at the other, a point mass is in every mode: z tan(z) =
+// m L/M with z = omega L/c, one root in each (n pi, n pi + pi/2).
+TEST(Frequencies, point_mass_at_the_free_end_of_a_string)
+{
+  const double L = 6., m = 1.35, T = 2000., mass = 2.7, c = std::sqrt(T / m), pi = std::acos(-1.);
+  taut::Scene scene = wire_scene(.05);
+  scene.wires[0].transverse = taut::TransverseKind::string;
+  scene.wires[0].tension = T;
+  scene.supports.resize(1);
+  scene.supports[0].positions = {0.};
+  scene.point_masses.resize(1);
+  scene.point_masses[0].positions = {L};
+  scene.point_masses[0].mass = mass;
+  const std::vector<double> w = roots(eigenvalues(taut::Structure(scene)[0]));
+  for (int n = 0; n < 2; ++n)
+  {
+    double low = n * pi, high = (n + .5) * pi;
+    for (int i = 0; i < 100; ++i)
+    {
+      const double z = .5 * (low + high);
+      (z * std::tan(z) < m * L / mass ? low : high) = z;
+    }
+    const double exact = low * c / L;
+    EXPECT_NEAR(w[n], exact, 1e-7 * exact);
+    figure("string with a point mass at its end, error of frequency " + std::to_string(n + 1),
+           w[n] / exact - 1.);
+  }
+}
+
 // A simply supported beam that starts in its first mode decays by exp(-d t), 2 d = alpha + beta
 // omega^2 with the factors alpha of the mass and beta of the stiffness in its damping, at the
 // frequency sqrt(omega^2 - d^2).
