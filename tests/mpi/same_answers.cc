@@ -305,6 +305,16 @@ TEST(Ranks, all_interface_operators_answer_the_same)
                 {"Solver/Interface operator=" + form});
 }
 
+// Claim: so with steps that the local error chooses, which is the largest of all ranks. Expected: as
+// above, the same number of steps.
+TEST(Ranks, adaptive_steps_are_the_same)
+{
+  Overrides overrides = line(5, 2e-3, 100, .75);
+  overrides.insert(overrides.end(), {"Time/Step control=adaptive", "Time/Scheme=BDF2",
+                                     "Time/Adaptive step/Tolerance=1e-5"});
+  expect_same("5 spans, adaptive", 2e-3, overrides, {7});
+}
+
 // Claim: so for steps from 10 us to 10 s, on the reference line and on one of 100 spans. Expected:
 // as above.
 TEST(Ranks, every_step_size_on_the_reference_line_is_the_same)
