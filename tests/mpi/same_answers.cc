@@ -305,8 +305,8 @@ TEST(Ranks, all_interface_operators_answer_the_same)
                 {"Solver/Interface operator=" + form});
 }
 
-// Claim: so with steps that the local error chooses, which is the largest of all ranks. Expected: as
-// above, the same number of steps.
+// Claim: so with steps that the local error chooses, which is the largest of all ranks. Expected:
+// as above, the same number of steps.
 TEST(Ranks, adaptive_steps_are_the_same)
 {
   Overrides overrides = line(5, 2e-3, 100, .75);
