@@ -22,6 +22,7 @@ namespace taut
         row.link = i;
         row.unilateral = link.unilateral();
         row.moving = moving;
+        row.rotational = link.rotational;
         row.stiffness = link.stiffness;
         row.damping = link.damping;
         set_terms(row, 0.);
@@ -34,6 +35,7 @@ namespace taut
         {
           Row row;
           row.name = cut.name;
+          row.rotational = cut.rotational;
           row.stiffness = std::numeric_limits<double>::infinity();
           row.terms = cut.terms;
           rows.push_back(std::move(row));

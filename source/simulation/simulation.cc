@@ -370,6 +370,8 @@ namespace taut
                                               ": a rigid one-sided link starts open or just "
                                               "touching. Change its Gap or the start.");
     }
+    if (model.start == Start::equilibrium)
+      reference.gap = start.geometric_gap;
   }
 
   /// Says which bodies are at rest only because nothing pushes them.

@@ -131,7 +131,7 @@ namespace taut
       {
         std::ostringstream title;
         title << name << (k == 1 ? " slope" : "") << " cut at " << nodes[pieces[p].first] << " m";
-        CutRow row{title.str(), {}};
+        CutRow row{title.str(), k == 1, {}};
         const auto add = [&](const std::size_t body, const unsigned int dof, const double sign)
         {
           row.terms.push_back({body, {}});

@@ -27,17 +27,10 @@ namespace taut
       reference_gap[i] += rows[i].gap;
       if (rows[i].moving)
         gap_correction[i] = start.geometric_gap[i] - reference_gap[i] - motions[i];
-      // A displacement rounds with the largest of its body.
-      for (const auto &[k, form] : rows[i].terms)
-      {
-        const PerKind size = largest(structure[k], origin.displacement[k]);
-        for (std::size_t j = 0; j < form.index.size(); ++j)
-          gap_terms[i] += std::fabs(form.value[j]) * size[structure[k].kind(form.index[j])];
-      }
+      else if (!origin.gap.empty())
+        reference_gap[i] = origin.gap[i];
     }
-    structure.communicator().sum(gap_terms);
-    for (std::size_t i = 0; i < n; ++i)
-      gap_terms[i] += std::fabs(rows[i].gap);
+    add_body_terms(origin.displacement);
   }
 
   void RowMotions::prepare(const StepCoefficients &coefficients, const double tau)
@@ -217,9 +210,40 @@ namespace taut
         const double rebound = rows[i].unilateral ? c.restitution * rates_before[i] : 0.;
         recomputed.gap[i] = (1. - c.alpha_f) * step * (state.gap_rate[i] + rebound);
       }
+    // Columns of A^-1 end where they have decayed to 1e-18: what moves less than that, beside the
+    // rows that move most, is not known by its own terms.
+    constexpr double decayed = 1e-6;
+    PerKind most = {0., 0.};
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      most[rows[i].rotational] =
+          std::max(most[rows[i].rotational],
+                   std::fabs(motion[i]) + F.diagonal(i) * std::fabs(applied_multiplier[i]));
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      conditions.gap_scale[i] += decayed * most[rows[i].rotational];
     const ComplementarityResidual result = taut::residual(conditions, F, recomputed);
     double max = result.max;
     worst = std::max_element(result.rows.begin(), result.rows.end()) - result.rows.begin();
+    // A row at a support moves by nothing but the rounding of its body.
+    constexpr double suspicious = 1e-12;
+    std::size_t strayed = 0;
+    double stray = largest_stray(state, strayed);
+    if (!(stray <= suspicious))
+    {
+      add_body_terms(state.U);
+      stray = largest_stray(state, strayed);
+    }
+    if (!(stray <= max) && !std::isnan(max))
+    {
+      max = stray;
+      worst = strayed;
+    }
+    return max;
+  }
+
+  /// Largest distance of a carried gap from that of the displacements, over the terms of the gap.
+  double RowMotions::largest_stray(const State &state, std::size_t &worst)
+  {
+    double max = 0.;
     for (std::size_t i = 0; i < rows.n_fixed(); ++i)
     {
       gap_terms[i] = std::max(gap_terms[i], std::fabs(reference_gap[i]) + terms_size[i]);
@@ -232,6 +256,22 @@ namespace taut
       }
     }
     return max;
+  }
+
+  /// A displacement rounds with the largest of its body.
+  void RowMotions::add_body_terms(const BlockVector &U)
+  {
+    std::vector<double> terms(rows.size(), 0.);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      for (const auto &[k, form] : rows[i].terms)
+      {
+        const PerKind size = largest(structure[k], U[k]);
+        for (std::size_t j = 0; j < form.index.size(); ++j)
+          terms[i] += std::fabs(form.value[j]) * size[structure[k].kind(form.index[j])];
+      }
+    structure.communicator().sum(terms);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      gap_terms[i] = std::max(gap_terms[i], std::fabs(rows[i].gap) + terms[i]);
   }
 
   double RowMotions::drift(const State &state) const

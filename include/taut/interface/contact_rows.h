@@ -22,6 +22,7 @@ namespace taut
     std::size_t link = no_link; ///< index in the scene
     bool unilateral = false;
     bool moving = false;
+    bool rotational = false; ///< slopes and moments
     double stiffness = 0.;   ///< [N/m, N m/rad]; infinite: rigid
     double damping = 0.;     ///< [N s/m, N m s/rad]
     double gap = 0.;         ///< D at U = 0, N = 0 [m, rad]

@@ -28,6 +28,7 @@ namespace taut
   struct CutRow
   {
     std::string name;
+    bool rotational = false;
     std::vector<Term> terms;
   };
 

@@ -67,6 +67,8 @@ namespace taut
 
   private:
     double moving_gap(std::size_t i) const;
+    double largest_stray(const State &state, std::size_t &worst);
+    void add_body_terms(const BlockVector &U);
     bool velocity_level(std::size_t i) const { return at_velocity_level && S[i] == 0.; }
     void set_velocity_condition(std::size_t i, const State &before);
     void share_free_motion(const State &before, const SchurComplement &schur, const BlockVector &P,

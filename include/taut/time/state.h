@@ -17,6 +17,10 @@ namespace taut
     BlockVector displacement;       ///< U_ref [m, rad]
     BlockVector force;              ///< K U_ref [N, N m]
     std::vector<double> multiplier; ///< N [N, N m]
+
+    /// Gap of each row, where the closed ones are exact and not rounded as B^T U_ref is; empty: as
+    /// the displacements say [m, rad].
+    std::vector<double> gap;
   };
 
   /// Motion of the bodies and of the links' springs at one time.
