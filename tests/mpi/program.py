@@ -86,7 +86,9 @@ def check_scene(scene, folder):
     for setting in SHORT.get(scene.stem, []):
         options += ["--set", setting]
     outputs = {}
-    for ranks in (1, 2, 3):
+    # Three ranks once with a moving contact, once with fewer bodies than ranks.
+    several = (2, 3) if scene.stem in ("en50318_2002_250", "oscillator_with_stop") else (2,)
+    for ranks in (1, *several):
         results = folder / f"{scene.stem}_{ranks}"
         cuts = [] if ranks == 1 else ["--set", "Partition/Number of substructures=4"]
         if "wire" not in scene.read_text().lower():
@@ -99,7 +101,7 @@ def check_scene(scene, folder):
     one = outputs[1]
     names = sorted(p.name for p in one.iterdir())
     worst = 0.
-    for ranks in (2, 3):
+    for ranks in several:
         if sorted(p.name for p in outputs[ranks].iterdir()) != names:
             errors.append(f"{scene.stem} on {ranks} ranks: other files")
         for name in names:
@@ -108,7 +110,7 @@ def check_scene(scene, folder):
                 worst = max(worst, difference)
                 if not difference < 1e-7:
                     errors.append(f"{scene.stem} on {ranks} ranks: {name} differs by {difference:.1e}")
-    print(f"figure | {scene.stem}, 2 and 3 ranks and 4 parts, tables | {worst:.1e} 1")
+    print(f"figure | {scene.stem}, {' and '.join(map(str, several))} ranks, 4 parts, tables | {worst:.1e} 1")
 
 
 def check_same_words(options, code):
