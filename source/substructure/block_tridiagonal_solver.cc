@@ -53,6 +53,28 @@ namespace taut
       }
     }
 
+    /// x -= A y, and y becomes x: one node of the elimination.
+    template <int b>
+    inline void advance(const Block<b> &A, double *y, double *x)
+    {
+      double sum[b] = {};
+      std::copy(x, x + b, sum);
+      subtract<b>(A, y, sum);
+      std::copy(sum, sum + b, x);
+      std::copy(sum, sum + b, y);
+    }
+
+    /// x = D x - A^T y, and y becomes x: one node of the substitution.
+    template <int b>
+    inline void retreat(const Block<b> &D, const Block<b> &A, double *y, double *x)
+    {
+      double sum[b] = {};
+      multiply<b>(D, x, sum);
+      subtract_transposed<b>(A, y, sum);
+      std::copy(sum, sum + b, x);
+      std::copy(sum, sum + b, y);
+    }
+
     template <int b>
     Block<b> transpose(const Block<b> &A)
     {
@@ -223,40 +245,38 @@ namespace taut
         x[dof] = 0.;
       double *p = x.data();
 
-      // Towards the middle, both ends interleaved: two independent chains for the processor.
+      // Towards the middle, both ends interleaved: two independent chains for the processor, the
+      // last node of each in registers.
+      double l[b] = {}, r[b] = {};
+      std::copy(p, p + b, l);
+      std::copy(p + b * (n - 1), p + b * n, r);
+      const auto from_left = [&](const std::size_t k) { advance<b>(G[k], l, p + b * k); };
+      const auto from_right = [&](const std::size_t k) { advance<b>(H[k], r, p + b * k); };
       std::size_t i = 1, j = n - 1;
       for (; i < middle && j > middle + 1; ++i, --j)
       {
-        subtract<b>(G[i], p + b * (i - 1), p + b * i);
-        subtract<b>(H[j - 1], p + b * j, p + b * (j - 1));
+        from_left(i);
+        from_right(j - 1);
       }
       for (; i < middle; ++i)
-        subtract<b>(G[i], p + b * (i - 1), p + b * i);
+        from_left(i);
       for (; j > middle + 1; --j)
-        subtract<b>(H[j - 1], p + b * j, p + b * (j - 1));
+        from_right(j - 1);
 
       double *m = p + b * middle;
       if (middle > 0)
         subtract<b>(G[middle], m - b, m);
       if (middle + 1 < n)
         subtract<b>(H[middle], m + b, m);
-      double y[b];
-      multiply<b>(middle_inverse, m, y);
-      std::copy(y, y + b, m);
+      multiply<b>(middle_inverse, m, l);
+      std::copy(l, l + b, m);
+      std::copy(l, l + b, r);
 
       // And back outwards.
       const auto leftwards = [&](const std::size_t k)
-      {
-        multiply<b>(left_inverse[k], p + b * k, y);
-        subtract_transposed<b>(G[k + 1], p + b * (k + 1), y);
-        std::copy(y, y + b, p + b * k);
-      };
+      { retreat<b>(left_inverse[k], G[k + 1], l, p + b * k); };
       const auto rightwards = [&](const std::size_t k)
-      {
-        multiply<b>(right_inverse[k], p + b * k, y);
-        subtract_transposed<b>(H[k - 1], p + b * (k - 1), y);
-        std::copy(y, y + b, p + b * k);
-      };
+      { retreat<b>(right_inverse[k], H[k - 1], r, p + b * k); };
       i = middle;
       j = middle + 1;
       for (; i > 0 && j < n; --i, ++j)

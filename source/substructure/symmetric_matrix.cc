@@ -22,6 +22,12 @@ namespace taut
     }
   }
 
+  void CoordinateMatrix::vmult(const double *x, double *y) const
+  {
+    std::fill(y, y + n, 0.);
+    vmult_add(1., x, y);
+  }
+
   void CoordinateMatrix::visit(const Visitor &visitor) const
   {
     for (const auto &[position, value] : entries)
@@ -65,6 +71,21 @@ namespace taut
   template <int b>
   void BlockTridiagonalMatrix<b>::vmult_add(const double factor, const double *x, double *y) const
   {
+    product(x, y,
+            [factor](const double before, const double sum) { return before + factor * sum; });
+  }
+
+  template <int b>
+  void BlockTridiagonalMatrix<b>::vmult(const double *x, double *y) const
+  {
+    product(x, y, [](double, const double sum) { return sum; });
+  }
+
+  /// y_i = result(y_i, (A x)_i)
+  template <int b>
+  template <typename Result>
+  void BlockTridiagonalMatrix<b>::product(const double *x, double *y, const Result &result) const
+  {
     const std::size_t n = n_nodes;
     const double *d[b * b], *l[b * b];
     for (int k = 0; k < b * b; ++k)
@@ -86,7 +107,7 @@ namespace taut
           if (i + 1 < n)
             sum += l[c * b + r][i + 1] * x[b * (i + 1) + c];
         }
-        y[b * i + r] += factor * sum;
+        y[b * i + r] = result(y[b * i + r], sum);
       }
     };
     if (n == 0)
@@ -100,7 +121,7 @@ namespace taut
         for (int c = 0; c < b; ++c)
           sum += d[r * b + c][i] * x[b * i + c] + l[r * b + c][i] * x[b * (i - 1) + c] +
                  l[c * b + r][i + 1] * x[b * (i + 1) + c];
-        y[b * i + r] += factor * sum;
+        y[b * i + r] = result(y[b * i + r], sum);
       }
     if (n > 1)
       end_node(n - 1);

@@ -12,49 +12,56 @@ namespace taut
   {
     /// Largest absolute entries at the positions of a pattern of p DoFs; not-a-number stays.
     template <int p>
-    void largest_in_pattern(const std::vector<double> &x, double (&result)[p])
+    void largest_in_pattern(const double *x, const std::size_t n, double (&result)[p])
     {
-      // Several accumulators a position, so that the comparisons do not wait for each other.
+      // Several accumulators a position, so that they do not wait for each other. A comparison
+      // loses what is not a number, a sum keeps it.
       constexpr int lanes = 8;
-      double m[lanes * p] = {};
-      const std::size_t n = x.size(), n_full = n - n % (lanes * p);
+      double m[lanes * p] = {}, sums[lanes * p] = {};
+      const std::size_t n_full = n - n % (lanes * p);
       for (std::size_t i = 0; i < n_full; i += lanes * p)
 #pragma omp simd
         for (int k = 0; k < lanes * p; ++k)
         {
           const double a = std::fabs(x[i + k]);
-          m[k] = a > m[k] || a != a ? a : m[k];
+          m[k] = a > m[k] ? a : m[k];
+          sums[k] += a;
         }
       for (std::size_t i = n_full; i < n; ++i)
       {
         const double a = std::fabs(x[i]);
-        double &largest = m[i % p];
-        largest = a > largest || a != a ? a : largest;
+        m[i % p] = a > m[i % p] ? a : m[i % p];
+        sums[i % p] += a;
       }
       for (int k = 0; k < lanes * p; ++k)
-        result[k % p] = m[k] > result[k % p] || m[k] != m[k] ? m[k] : result[k % p];
+        if (std::isnan(sums[k]))
+          result[k % p] = sums[k];
+        else if (m[k] > result[k % p])
+          result[k % p] = m[k];
     }
   } // namespace
 
-  PerKind largest(const Substructure &body, const std::vector<double> &x)
+  PerKind largest(const Substructure &body, const double *x)
   {
     PerKind result = {0., 0.};
+    const std::size_t n = body.n_dofs();
     const std::vector<unsigned char> &kinds = body.kind_pattern();
     if (kinds.size() == 1)
     {
       double m[1] = {};
-      largest_in_pattern<1>(x, m);
+      largest_in_pattern<1>(x, n, m);
       result[kinds[0]] = m[0];
     }
     else if (kinds.size() == 2)
     {
       double m[2] = {};
-      largest_in_pattern<2>(x, m);
+      largest_in_pattern<2>(x, n, m);
       for (int k = 0; k < 2; ++k)
-        result[kinds[k]] = std::max(result[kinds[k]], m[k]);
+        if (!(m[k] <= result[kinds[k]]) && !std::isnan(result[kinds[k]]))
+          result[kinds[k]] = m[k];
     }
     else
-      for (std::size_t i = 0; i < x.size(); ++i)
+      for (std::size_t i = 0; i < n; ++i)
       {
         double &largest = result[body.kind(i)];
         const double a = std::fabs(x[i]);

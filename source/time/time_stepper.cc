@@ -16,6 +16,36 @@ namespace taut
       rows.update(t);
       return rows;
     }
+
+    /// What is known of velocity and acceleration at the end of a step before its increment is.
+    class KnownMotion
+    {
+    public:
+      KnownMotion(const StepCoefficients &c, const State &state, const std::size_t k)
+          : c(c), V(state.V[k].data()), A(state.A[k].data()), dU(state.dU[k].data()),
+            V_old(state.V_old[k].data())
+      {
+      }
+
+      /// Calls visit(i, v*, a*) for DoFs 0 to n - 1 and reads only what the scheme needs.
+      template <typename Visitor>
+      void visit(const std::size_t n, const Visitor &visitor) const
+      {
+        if (c.looks_back())
+#pragma omp simd
+          for (std::size_t i = 0; i < n; ++i)
+            visitor(i, c.v_V * V[i] + c.v_A * A[i] + c.v_dU * dU[i],
+                    c.a_V * V[i] + c.a_A * A[i] + c.a_dU * dU[i] + c.a_V_old * V_old[i]);
+        else
+#pragma omp simd
+          for (std::size_t i = 0; i < n; ++i)
+            visitor(i, c.v_V * V[i] + c.v_A * A[i], c.a_V * V[i] + c.a_A * A[i]);
+      }
+
+    private:
+      const StepCoefficients c;
+      const double *V, *A, *dU, *V_old;
+    };
   } // namespace
 
   TimeStepper::TimeStepper(const Structure &structure, ContactRows &rows,
@@ -29,12 +59,15 @@ namespace taut
         complementarity(parameters.complementarity),
         row_motions(structure, at_time(rows, current.time), origin, current)
   {
-    for (BlockVector *v : {&P, &right_hand_side, &lift, &predictor_v, &predictor_a, &old_A,
-                           &old_balance, &increment})
+    for (BlockVector *v : {&P, &right_hand_side, &lift, &old_A, &old_balance})
       *v = structure.zero();
+    external_size.resize(structure.size());
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       const Substructure &body = structure[k];
+      set_external_force(k);
+      for (std::vector<double> *v : {&work_v, &work_a})
+        v->resize(std::max<std::size_t>(v->size(), body.n_dofs()));
       reference_force.push_back(largest(body, origin.force[k]));
       norms.push_back({KindNorm(body, body.mass()), KindNorm(body, body.damping()),
                        KindNorm(body, body.stiffness())});
@@ -56,9 +89,8 @@ namespace taut
     {
       const Substructure &body = structure[k];
       std::vector<double> &r = current.balance[k];
-      body.external_force(current.time, r);
       for (std::size_t i = 0; i < r.size(); ++i)
-        r[i] -= origin.force[k][i] + current.KU[k][i];
+        r[i] = P[k][i] - current.KU[k][i];
       body.damping().vmult_add(-1., current.V[k].data(), r.data());
     }
     std::vector<double> N = current.multiplier;
@@ -103,11 +135,21 @@ namespace taut
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       solvers[k].solve(right_hand_side[k]);
-      increment[k].swap(right_hand_side[k]);
       accept(k);
     }
     row_motions.update(current);
     certify();
+  }
+
+  /// P - P_ref at the time of the state.
+  void TimeStepper::set_external_force(const std::size_t k)
+  {
+    const Substructure &body = structure[k];
+    body.external_force(current.time, P[k]);
+    const double *f = origin.force[k].data();
+    for (std::size_t i = 0; i < P[k].size(); ++i)
+      P[k][i] -= f[i];
+    external_size[k] = largest(body, P[k]);
   }
 
   /// P^_k = P - K U - C v* - M a*, with v* and a* the parts of velocity and acceleration that are
@@ -116,27 +158,22 @@ namespace taut
   {
     const Substructure &body = structure[k];
     const StepCoefficients &c = coefficients;
-    body.external_force(current.time, P[k]);
+    if (body.external_force_varies())
+      set_external_force(k);
 
-    const std::size_t n = body.n_dofs();
     const double kappa = c.alpha_f / (1. - c.alpha_f);
     const double old = c.alpha_m / (1. - c.alpha_f), now = (1. - c.alpha_m) / (1. - c.alpha_f);
-    const double *V = current.V[k].data(), *A = current.A[k].data(), *dU = current.dU[k].data(),
-                 *V_old = current.V_old[k].data(), *f = origin.force[k].data(),
-                 *KU = current.KU[k].data(), *r = current.balance[k].data();
-    double *p = P[k].data(), *v = predictor_v[k].data(), *a = predictor_a[k].data(),
-           *R = right_hand_side[k].data();
-    work.resize(n);
-    double *m = work.data();
-#pragma omp simd
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      p[i] -= f[i];
-      v[i] = c.v_V * V[i] + c.v_A * A[i] + c.v_dU * dU[i];
-      a[i] = c.a_V * V[i] + c.a_A * A[i] + c.a_dU * dU[i] + c.a_V_old * V_old[i];
-      m[i] = now * a[i] + old * A[i];
-      R[i] = p[i] - KU[i] + kappa * r[i];
-    }
+    const double *A = current.A[k].data(), *p = P[k].data(), *KU = current.KU[k].data(),
+                 *r = current.balance[k].data();
+    double *v = work_v.data(), *m = work_a.data(), *R = right_hand_side[k].data();
+    KnownMotion(c, current, k)
+        .visit(body.n_dofs(),
+               [=](const std::size_t i, const double known_v, const double known_a)
+               {
+                 v[i] = known_v;
+                 m[i] = now * known_a + old * A[i];
+                 R[i] = p[i] - KU[i] + kappa * r[i];
+               });
     if (c.v_V != 0. || c.v_A != 0. || c.v_dU != 0.)
       body.damping().vmult_add(-1., v, R);
     body.mass().vmult_add(-1., m, R);
@@ -177,13 +214,12 @@ namespace taut
     {
       const std::vector<double> &dU = current.dU[k], &V = current.V_old[k], &A = current.A[k],
                                 &A0 = old_A[k];
-      work.resize(dU.size());
       for (std::size_t i = 0; i < dU.size(); ++i)
-        work[i] = dU[i] - step * (V[i] + step * (A0[i] / 3. + A[i] / 6.));
-      const PerKind e = largest(structure[k], work), v = largest(structure[k], V);
+        work_v[i] = dU[i] - step * (V[i] + step * (A0[i] / 3. + A[i] / 6.));
+      const PerKind e = largest(structure[k], work_v), v = largest(structure[k], V);
       for (std::size_t i = 0; i < dU.size(); ++i)
-        work[i] = origin.displacement[k][i] + current.U[k][i];
-      const PerKind u = largest(structure[k], work);
+        work_v[i] = origin.displacement[k][i] + current.U[k][i];
+      const PerKind u = largest(structure[k], work_v);
       for (int kind = 0; kind < 2; ++kind)
       {
         error[kind] = std::max(error[kind], e[kind]);
@@ -238,28 +274,29 @@ namespace taut
     }
   }
 
-  /// New displacement, velocity and acceleration of a body, and its force balance.
+  /// New displacement, velocity and acceleration of a body, from its increment.
   void TimeStepper::accept(const std::size_t k)
   {
-    const StepCoefficients &c = coefficients;
-    const std::size_t n = increment[k].size();
+    const double velocity = coefficients.velocity, acceleration = coefficients.acceleration;
+    std::vector<double> &increment = right_hand_side[k];
     if (structure[k].has_moving_constraints())
       for (const ConstrainedDof &constraint : structure[k].constraints())
-        increment[k][constraint.dof] = lift[k][constraint.dof];
+        increment[constraint.dof] = lift[k][constraint.dof];
 
+    const double *dU = increment.data();
+    double *U = current.U[k].data(), *V = current.V_old[k].data(), *A = old_A[k].data();
+    KnownMotion(coefficients, current, k)
+        .visit(increment.size(),
+               [=](const std::size_t i, const double known_v, const double known_a)
+               {
+                 U[i] += dU[i];
+                 V[i] = velocity * dU[i] + known_v;
+                 A[i] = acceleration * dU[i] + known_a;
+               });
+    current.dU[k].swap(increment);
+    current.V_old[k].swap(current.V[k]);
     old_A[k].swap(current.A[k]);
     old_balance[k].swap(current.balance[k]);
-    current.V_old[k].swap(current.V[k]);
-    current.dU[k].swap(increment[k]);
-    const double *dU = current.dU[k].data(), *v = predictor_v[k].data(), *a = predictor_a[k].data();
-    double *U = current.U[k].data(), *V = current.V[k].data(), *A = current.A[k].data();
-#pragma omp simd
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      U[i] += dU[i];
-      V[i] = c.velocity * dU[i] + v[i];
-      A[i] = c.acceleration * dU[i] + a[i];
-    }
   }
 
   void TimeStepper::certify()
@@ -288,9 +325,13 @@ namespace taut
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       const Substructure &body = structure[k];
-      std::copy(P[k].begin(), P[k].end(), current.balance[k].begin());
-      std::fill(current.KU[k].begin(), current.KU[k].end(), 0.);
-      body.stiffness().vmult_add(1., current.U[k].data(), current.KU[k].data());
+      const double *p = P[k].data();
+      double *r = current.balance[k].data(), *KU = current.KU[k].data();
+      body.stiffness().vmult(current.U[k].data(), KU);
+      const std::size_t n = body.n_dofs();
+#pragma omp simd
+      for (std::size_t i = 0; i < n; ++i)
+        r[i] = p[i] - KU[i];
     }
     rows.add_forces(row_motions.in_balance(), current.balance);
     if (!row_motions.impulsive().empty())
@@ -304,34 +345,30 @@ namespace taut
     {
       const Substructure &body = structure[k];
       const std::size_t n = body.n_dofs();
-      double *r = current.balance[k].data(), *a = increment[k].data();
-      const double *KU = current.KU[k].data(), *A = current.A[k].data(), *A0 = old_A[k].data(),
-                   *r0 = old_balance[k].data();
+      double *r = current.balance[k].data(), *a = work_a.data(), *residual = work_v.data();
+      const double *A = current.A[k].data(), *A0 = old_A[k].data(), *r0 = old_balance[k].data();
       // P and B N may cancel, and both against the forces of the reference: each counts.
-      PerKind force = largest(body, P[k]);
+      PerKind force = external_size[k];
       for (int kind = 0; kind < 2; ++kind)
         force[kind] += contact_force[k][kind] + reference_force[k][kind];
       body.damping().vmult_add(-1., current.V[k].data(), r);
-      work.resize(n);
-      double *residual = work.data();
 #pragma omp simd
       for (std::size_t i = 0; i < n; ++i)
-      {
-        r[i] -= KU[i];
         a[i] = now * A[i] + old * A0[i];
-        residual[i] = -r[i] - kappa * r0[i];
-      }
+      body.mass().vmult(a, residual);
+#pragma omp simd
+      for (std::size_t i = 0; i < n; ++i)
+        residual[i] -= r[i] + kappa * r0[i];
       if (!row_motions.impulsive().empty())
         for (std::size_t i = 0; i < n; ++i)
           residual[i] -= right_hand_side[k][i];
-      body.mass().vmult_add(1., a, residual);
       for (const ConstrainedDof &constraint : body.constraints())
         residual[constraint.dof] = 0.;
 
       PerKind increments = largest(body, current.dU[k]), inertial = increments;
       for (double &d : inertial)
         d *= c.mass_factor();
-      const PerKind error = largest(body, work), inertia = norms[k][0].times(inertial),
+      const PerKind error = largest(body, residual), inertia = norms[k][0].times(inertial),
                     velocity = largest(body, current.V[k]),
                     displacement = largest(body, current.U[k]),
                     damping = norms[k][1].times(velocity);

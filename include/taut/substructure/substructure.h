@@ -62,6 +62,9 @@ namespace taut
     /// The whole external force at time t [s]; P is resized. [N, N m]
     void external_force(double t, std::vector<double> &P) const;
 
+    /// True if it is not the same at all times.
+    bool external_force_varies() const { return !time_loads.empty(); }
+
     /// Kind of DoF i: 0 a displacement, 1 a slope or rotation.
     unsigned int kind(unsigned int i) const { return kinds[i % kinds.size()]; }
 

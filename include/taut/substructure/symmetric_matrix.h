@@ -33,6 +33,9 @@ namespace taut
     /// y += factor * (this) x; vectors of length size().
     virtual void vmult_add(double factor, const double *x, double *y) const = 0;
 
+    /// y = (this) x.
+    virtual void vmult(const double *x, double *y) const = 0;
+
     /// Calls the visitor once for each stored pair (i, j <= i).
     virtual void visit(const Visitor &visitor) const = 0;
 
@@ -61,6 +64,7 @@ namespace taut
     unsigned int block_size() const override { return 0; }
     void add(unsigned int i, unsigned int j, double value) override;
     void vmult_add(double factor, const double *x, double *y) const override;
+    void vmult(const double *x, double *y) const override;
     void visit(const Visitor &visitor) const override;
     std::unique_ptr<SymmetricMatrix> clone() const override;
 
@@ -86,10 +90,14 @@ namespace taut
     unsigned int block_size() const override { return b; }
     void add(unsigned int i, unsigned int j, double value) override;
     void vmult_add(double factor, const double *x, double *y) const override;
+    void vmult(const double *x, double *y) const override;
     void visit(const Visitor &visitor) const override;
     std::unique_ptr<SymmetricMatrix> clone() const override;
 
   private:
+    template <typename Result>
+    void product(const double *x, double *y, const Result &result) const;
+
     std::size_t n_nodes;
     std::array<std::vector<double>, b * b> diagonal; ///< block (i, i)
     std::array<std::vector<double>, b * b>

@@ -42,6 +42,9 @@ namespace taut
     /// Factor of M in A, after division by 1 - alpha_f [1/s^2]; C has `velocity`, K has 1.
     double mass_factor() const { return (1. - alpha_m) / (1. - alpha_f) * acceleration; }
 
+    /// True if velocity or acceleration need more of the past than V0 and A0.
+    bool looks_back() const { return v_dU != 0. || a_dU != 0. || a_V_old != 0.; }
+
     /// True if the first step needs no acceleration and no step before it.
     bool starts_itself() const
     {

@@ -14,8 +14,12 @@ namespace taut
   /// One number for displacements, one for slopes and rotations: m and rad, N and N m do not mix.
   using PerKind = std::array<double, 2>;
 
-  /// Largest absolute entries of a vector of a substructure.
-  PerKind largest(const Substructure &body, const std::vector<double> &x);
+  /// Largest absolute entries of a vector of a substructure; not-a-number if one is.
+  PerKind largest(const Substructure &body, const double *x);
+  inline PerKind largest(const Substructure &body, const std::vector<double> &x)
+  {
+    return largest(body, x.data());
+  }
 
   /// Motions and forces beyond this are no result of a sensible scene; sums and squares of those
   /// below it are finite.

@@ -70,6 +70,7 @@ namespace taut
 
   private:
     void prepare(const StepCoefficients &c);
+    void set_external_force(std::size_t k);
     void set_history(std::size_t k);
     void solve_rows();
     void accept(std::size_t k);
@@ -104,11 +105,12 @@ namespace taut
     std::vector<PerKind> reference_force;     ///< largest of K U_ref of each body [N, N m]
     std::vector<PerKind> contact_force;       ///< largest of one row on each body [N, N m]
 
-    BlockVector P; ///< external force minus the reference's [N]
-    BlockVector right_hand_side;
-    BlockVector lift; ///< increments of moving supports
-    BlockVector predictor_v, predictor_a, old_A, old_balance, increment;
-    std::vector<double> work;
+    BlockVector P;                      ///< external force minus the reference's [N]
+    std::vector<PerKind> external_size; ///< largest of P of each body
+    BlockVector right_hand_side;        ///< then the increments
+    BlockVector lift;                   ///< increments of moving supports
+    BlockVector old_A, old_balance;
+    std::vector<double> work_v, work_a; ///< as long as the longest body
   };
 } // namespace taut
 
