@@ -5,10 +5,27 @@
 
 namespace taut
 {
+  AssembledSchurComplement::AssembledSchurComplement(const FactoredStructure &solvers,
+                                                     const ContactRows &rows)
+      : rows(rows), processes(solvers.structure().communicator()), columns(solvers, rows)
+  {
+  }
+
+  void AssembledSchurComplement::free_motion(const BlockVector &P, std::vector<double> &d,
+                                             std::vector<double> &terms_size) const
+  {
+    columns.free_motion(P, d, terms_size);
+  }
+
+  void AssembledSchurComplement::compute_moving()
+  {
+    for (std::size_t i = rows.n_fixed(); i < rows.size(); ++i)
+      columns.compute(i);
+  }
+
   DenseSchurComplement::DenseSchurComplement(const FactoredStructure &solvers,
                                              const ContactRows &rows)
-      : rows(rows), processes(solvers.structure().communicator()), F(rows.size()),
-        columns(solvers, rows)
+      : AssembledSchurComplement(solvers, rows), F(rows.size())
   {
   }
 
@@ -23,8 +40,7 @@ namespace taut
 
   void DenseSchurComplement::update_moving()
   {
-    for (std::size_t i = rows.n_fixed(); i < rows.size(); ++i)
-      columns.compute(i);
+    compute_moving();
     set_rows(rows.n_fixed(), rows.size());
   }
 
@@ -42,12 +58,6 @@ namespace taut
         F.set(i, j, *share + (i == j ? compliance[i] : 0.));
   }
 
-  void DenseSchurComplement::free_motion(const BlockVector &P, std::vector<double> &d,
-                                         std::vector<double> &terms_size) const
-  {
-    columns.free_motion(P, d, terms_size);
-  }
-
   std::string DenseSchurComplement::description() const
   {
     return "assembled dense, " + std::to_string(rows.size()) + " rows";
@@ -55,7 +65,7 @@ namespace taut
 
   SparseSchurComplement::SparseSchurComplement(const FactoredStructure &solvers,
                                                const ContactRows &rows)
-      : rows(rows), processes(solvers.structure().communicator()), columns(solvers, rows)
+      : AssembledSchurComplement(solvers, rows)
   {
     F.reinit(rows.size(), rows.size() - rows.n_fixed());
   }
@@ -85,8 +95,7 @@ namespace taut
 
   void SparseSchurComplement::update_moving()
   {
-    for (std::size_t i = rows.n_fixed(); i < rows.size(); ++i)
-      columns.compute(i);
+    compute_moving();
     const std::size_t n = rows.size(), n_fixed = rows.n_fixed();
     shares.assign((n - n_fixed) * n, 0.);
     for (std::size_t i = n_fixed; i < n; ++i)
@@ -103,12 +112,6 @@ namespace taut
       begin[i] += compliance[i];
       F.set_border(i, std::vector<double>(begin, begin + n));
     }
-  }
-
-  void SparseSchurComplement::free_motion(const BlockVector &P, std::vector<double> &d,
-                                          std::vector<double> &terms_size) const
-  {
-    columns.free_motion(P, d, terms_size);
   }
 
   std::string SparseSchurComplement::description() const

@@ -12,48 +12,55 @@
 
 namespace taut
 {
+  /// What both assembled forms share: the columns A_k^-1 B_k and what follows from them.
+  class AssembledSchurComplement : public SchurComplement
+  {
+  public:
+    AssembledSchurComplement(const FactoredStructure &solvers, const ContactRows &rows);
+
+    void free_motion(const BlockVector &P, std::vector<double> &d,
+                     std::vector<double> &terms_size) const override;
+
+  protected:
+    /// The columns of the moving rows anew.
+    void compute_moving();
+
+    const ContactRows &rows;
+    const Communicator &processes;
+    ResponseColumns columns;
+    std::vector<double> compliance, shares;
+  };
+
   /// F as a dense matrix; see SchurComplement.
-  class DenseSchurComplement : public SchurComplement
+  class DenseSchurComplement : public AssembledSchurComplement
   {
   public:
     DenseSchurComplement(const FactoredStructure &solvers, const ContactRows &rows);
 
     void setup(const std::vector<double> &S) override;
     void update_moving() override;
-    void free_motion(const BlockVector &P, std::vector<double> &d,
-                     std::vector<double> &terms_size) const override;
     ComplementarityOperator &matrix() override { return F; }
     std::string description() const override;
 
   private:
     void set_rows(std::size_t begin, std::size_t end);
 
-    const ContactRows &rows;
-    const Communicator &processes;
     DenseOperator F;
-    ResponseColumns columns;
-    std::vector<double> compliance, shares;
   };
 
   /// F as a sparse matrix, the moving rows as its border; see SchurComplement.
-  class SparseSchurComplement : public SchurComplement
+  class SparseSchurComplement : public AssembledSchurComplement
   {
   public:
     SparseSchurComplement(const FactoredStructure &solvers, const ContactRows &rows);
 
     void setup(const std::vector<double> &S) override;
     void update_moving() override;
-    void free_motion(const BlockVector &P, std::vector<double> &d,
-                     std::vector<double> &terms_size) const override;
     ComplementarityOperator &matrix() override { return F; }
     std::string description() const override;
 
   private:
-    const ContactRows &rows;
-    const Communicator &processes;
     SparseOperator F;
-    ResponseColumns columns;
-    std::vector<double> compliance, shares;
   };
 } // namespace taut
 
