@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "entry_check.h"
+
 #include <taut/base/exceptions.h>
 #include <taut/base/nearest_name.h>
 #include <taut/scene/entries.h>
@@ -10,9 +12,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <cctype>
-#include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <sstream>
 
@@ -25,137 +24,6 @@ namespace taut
     const Double not_negative()
     {
       return Double(0., Double::max_double_value);
-    }
-
-    /// Names of the entries or sections of a node in deal.II's JSON listing.
-    std::vector<std::string> names_in(const nlohmann::json &node, const bool sections)
-    {
-      std::vector<std::string> names;
-      for (const auto &[name, child] : node.items())
-        if (child.is_object() && child.contains("pattern_description") != sections)
-          names.push_back(name);
-      return names;
-    }
-
-    /// The names of a deal.II Selection, alone or in a List, from its description.
-    std::vector<std::string> selection_of(const std::string &pattern)
-    {
-      std::vector<std::string> names;
-      const std::string mark = "[Selection ";
-      const std::size_t begin = pattern.find(mark);
-      if (begin == std::string::npos)
-        return names;
-      std::istringstream list(
-          pattern.substr(begin + mark.size(), pattern.find(" ]", begin) - begin - mark.size()));
-      for (std::string name; std::getline(list, name, '|');)
-        names.push_back(name);
-      return names;
-    }
-
-    /// "Or add 'a' to 'Wires'." for the section 'Wire a' of an item that the list of names lacks.
-    std::string list_of(const std::string &section, const nlohmann::json &node)
-    {
-      const std::size_t space = section.rfind(' ');
-      if (space == std::string::npos)
-        return "";
-      // The help of a list says which sections its names have.
-      for (const auto &[list, entry] : node.items())
-        if (entry.contains("documentation"))
-        {
-          const std::string help = entry["documentation"].get<std::string>();
-          for (std::size_t at = section.find(' '); at != std::string::npos;
-               at = section.find(' ', at + 1))
-            if (help.find("'" + section.substr(0, at) + " <name>'") != std::string::npos)
-              return " Or add '" + section.substr(at + 1) + "' to the names in '" + list + "'.";
-        }
-      return "";
-    }
-
-    /// deal.II's description of a pattern, as the middle of a sentence and without its largest
-    /// numbers.
-    std::string expectation(const PatternBase &pattern)
-    {
-      std::string text = pattern.description(PatternBase::Text);
-      const auto replace = [&](const std::string &from, const std::string &to)
-      {
-        for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from))
-          text.replace(at, from.size(), to);
-      };
-      replace(" v such that -MAX_DOUBLE <= v <= MAX_DOUBLE", "");
-      replace(" v such that 0 <= v <= MAX_DOUBLE", ", at least 0");
-      replace(" <= MAX_DOUBLE", "");
-      replace("1 to 4294967295 elements", "one or more elements");
-      replace("0 to 4294967295 elements", "any number of elements");
-      replace("2 to 2 elements", "2 elements");
-      replace("A floating point number", "a number");
-      replace(" where each element is [a number]", ", numbers with commas between them");
-      replace(" where each element is [a number, at least 0]",
-              ", numbers of at least 0 with commas between them");
-      if (!text.empty())
-        text[0] = std::tolower(static_cast<unsigned char>(text[0]));
-      return text;
-    }
-
-    /// What is wrong with text that begins like a number, where a number is wanted; may be empty.
-    std::string hint(const std::string &value, const std::string &expected)
-    {
-      char *end = nullptr;
-      std::strtod(value.c_str(), &end);
-      const std::string rest = end;
-      if (end == value.c_str() || rest.empty() || expected.find("number") == std::string::npos)
-        return "";
-      if (rest[0] == ',' && expected.compare(0, 6, "a list") != 0)
-        return "; decimals have a point";
-      if (std::isalpha(static_cast<unsigned char>(rest[rest.find_first_not_of(' ')])))
-        return "; write the number alone, its unit is in the help of the entry";
-      return "";
-    }
-
-    /// Where else in the tree there is an entry or section of this name, or a section that begins
-    /// with it; at most two places.
-    void find_elsewhere(const nlohmann::json &node, const std::string &name, const bool section,
-                        const std::string &path, std::vector<std::string> &places)
-    {
-      for (const auto &[key, child] : node.items())
-      {
-        if (!child.is_object() || places.size() > 1)
-          continue;
-        const bool is_section = !child.contains("pattern_description");
-        if (is_section == section && (key == name || (section && key.rfind(name + " ", 0) == 0)))
-          places.push_back(path + key);
-        if (is_section)
-          find_elsewhere(child, name, section, path + key + "/", places);
-      }
-    }
-
-    /// " There is 'Catenary/Droppers/Positions'." for an entry that was sought in the wrong place.
-    std::string elsewhere(const nlohmann::json &root, const std::string &name, const bool section)
-    {
-      std::vector<std::string> places;
-      find_elsewhere(root, name, section, "", places);
-      std::string text;
-      for (const std::string &place : places)
-        text += (text.empty() ? " There is '" : " and '") + place + "'";
-      return text.empty() ? "" : text + ".";
-    }
-
-    /// The node of a path, or an error about the first section that does not exist.
-    const nlohmann::json &find_section(const nlohmann::json &root,
-                                       const ParameterFile::Entry &entry,
-                                       const std::size_t n_sections)
-    {
-      const nlohmann::json *node = &root;
-      for (std::size_t i = 0; i < n_sections; ++i)
-      {
-        const std::string &name = entry.path[i];
-        if (!node->contains(name) || (*node)[name].contains("pattern_description"))
-          throw UserError(entry.place + ": there is no section '" + name + "'" +
-                          (i > 0 ? " in '" + entry.path[i - 1] + "'" : "") +
-                          suggestion(name, names_in(*node, true)) + list_of(name, *node) +
-                          elsewhere(root, name, true));
-        node = &(*node)[name];
-      }
-      return *node;
     }
 
     /// A list of a lower and an upper bound, or nothing.
@@ -290,35 +158,6 @@ namespace taut
     generator->declare_parameters(prm);
   }
 
-  void Parameters::check_entries(dealii::ParameterHandler &prm) const
-  {
-    std::stringstream listing;
-    prm.print_parameters(listing, dealii::ParameterHandler::JSON);
-    const nlohmann::json root = nlohmann::json::parse(listing);
-    for (const ParameterFile::Entry &section : file.sections())
-      find_section(root, section, section.path.size());
-    for (const ParameterFile::Entry &entry : file.entries())
-    {
-      const nlohmann::json &node = find_section(root, entry, entry.path.size() - 1);
-      const std::string &name = entry.path.back();
-      if (!node.contains(name) || !node[name].contains("pattern_description"))
-        throw UserError(
-            entry.place + ": there is no entry '" + name + "'" +
-            (entry.path.size() > 1 ? " in '" + entry.path[entry.path.size() - 2] + "'" : "") +
-            suggestion(name, names_in(node, false)) + elsewhere(root, name, false));
-      const auto pattern = pattern_factory(node[name]["pattern_description"].get<std::string>());
-      if (!pattern->match(entry.value))
-      {
-        const std::string near = nearest_name(
-            entry.value, selection_of(node[name]["pattern_description"].get<std::string>()));
-        throw UserError(entry.place + ": " + entry.name() + " = '" + entry.value +
-                        "' is not allowed; expected " + expectation(*pattern) +
-                        hint(entry.value, expectation(*pattern)) +
-                        (near.empty() ? "" : "; did you mean '" + near + "'?"));
-      }
-    }
-  }
-
   void Parameters::read(const std::string &name, const std::vector<std::string> &overrides,
                         const Communicator &processes)
   {
@@ -407,7 +246,7 @@ namespace taut
       }
       dealii::ParameterHandler prm;
       declare(prm);
-      check_entries(prm);
+      check_entries(file, prm);
       prm.parse_input_from_string(text);
       keep_listing(prm);
       if (end_time > 0. && !(step > 0.))

@@ -114,7 +114,6 @@ namespace taut
     void keep_listing(const dealii::ParameterHandler &prm);
     void create_integrators();
     void declare(dealii::ParameterHandler &prm);
-    void check_entries(dealii::ParameterHandler &prm) const;
 
     /// Entries and values for print(), as text.
     std::string listing, choice;

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "file_text.h"
+
+#include <taut/base/exceptions.h>
+#include <taut/base/nearest_name.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+namespace taut
+{
+  namespace
+  {
+    /// Number of bytes of the UTF-8 character at text[i]; 0 if there is none.
+    std::size_t utf8_length(const std::string &text, const std::size_t i)
+    {
+      const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
+      const unsigned char first = byte(i);
+      const std::size_t n = first < 0x80   ? 1
+                            : first < 0xc2 ? 0
+                            : first < 0xe0 ? 2
+                            : first < 0xf0 ? 3
+                            : first < 0xf5 ? 4
+                                           : 0;
+      if (n == 0 || i + n > text.size())
+        return 0;
+      for (std::size_t k = 1; k < n; ++k)
+        if ((byte(i + k) & 0xc0) != 0x80)
+          return 0;
+      // Overlong forms, surrogates and what is beyond the last code point (RFC 3629).
+      const unsigned char second = n > 1 ? byte(i + 1) : 0;
+      if ((first == 0xe0 && second < 0xa0) || (first == 0xed && second > 0x9f) ||
+          (first == 0xf0 && second < 0x90) || (first == 0xf4 && second > 0x8f))
+        return 0;
+      return n;
+    }
+  } // namespace
+
+  std::string trim(const std::string &text)
+  {
+    const std::size_t first = text.find_first_not_of(" \t\r"),
+                      last = text.find_last_not_of(" \t\r");
+    return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+  }
+
+  void check_text(const std::string &text, const std::string &place)
+  {
+    for (std::size_t i = 0; i < text.size();)
+    {
+      const std::size_t n = utf8_length(text, i);
+      const auto byte = static_cast<unsigned char>(text[i]);
+      if (n == 0 || (byte < 0x20 && byte != '\t') || byte == 0x7f)
+      {
+        const char digits[] = "0123456789abcdef";
+        throw UserError(place + ": this is not text: byte 0x" + digits[byte >> 4] +
+                        digits[byte & 15] + "; a parameter file is text in UTF-8");
+      }
+      i += n;
+    }
+  }
+
+  std::string cannot_read(const std::string &file)
+  {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    if (fs::is_directory(file, error))
+      return "cannot read '" + file + "': it is a folder; name a file in it";
+    if (fs::exists(file, error))
+      return "cannot read '" + file + "': no permission";
+    // Parameter files beside it; a folder that cannot be read has none.
+    const fs::path folder = fs::path(file).parent_path();
+    std::vector<std::string> names;
+    for (const auto &entry : fs::directory_iterator(folder.empty() ? "." : folder, error))
+      if (entry.path().extension() == ".prm" || entry.path().extension() == ".json")
+        names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    const std::string near = nearest_name(fs::path(file).filename().string(), names);
+    return "cannot read '" + file + "': no such file" +
+           (near.empty() ? "" : "; did you mean '" + (folder / near).string() + "'?");
+  }
+
+  std::vector<std::pair<int, std::string>> lines_of(const std::string &file)
+  {
+    std::ifstream in(file, std::ios::binary);
+    std::error_code error;
+    if (!in || std::filesystem::is_directory(file, error))
+      throw UserError(cannot_read(file));
+    std::vector<std::pair<int, std::string>> lines;
+    std::string text;
+    int number = 0, first = 0;
+    bool continued = false;
+    for (std::string line; std::getline(in, line);)
+    {
+      ++number;
+      if (number == 1 && line.compare(0, 3, "\xef\xbb\xbf") == 0)
+        line.erase(0, 3); // the mark of UTF-8 that some editors write
+      // Comments may be in any encoding, but a zero says that all of this is something else.
+      if (line.find('\0') == std::string::npos)
+        line = trim(line.substr(0, line.find('#')));
+      check_text(line, file + ":" + std::to_string(number));
+      if (!continued)
+      {
+        first = number;
+        text.clear();
+      }
+      continued = !line.empty() && line.back() == '\\';
+      if (continued)
+        line = trim(line.substr(0, line.size() - 1)) + " ";
+      text += line;
+      if (!continued && !text.empty())
+        lines.emplace_back(first, text);
+    }
+    if (continued)
+      lines.emplace_back(first, text);
+    if (in.bad())
+      throw UserError("cannot read '" + file + "' to its end");
+    return lines;
+  }
+} // namespace taut

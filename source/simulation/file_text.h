@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_file_text_h
+#define taut_file_text_h
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace taut
+{
+  /// Without spaces, tabs and carriage returns around it.
+  std::string trim(const std::string &text);
+
+  /// Names and values go into messages, tables and JSON: throws UserError that begins with
+  /// @p place unless @p text is UTF-8 without control characters.
+  void check_text(const std::string &text, const std::string &place);
+
+  /// Why a file cannot be read, with the nearest name beside it if there is none of this name.
+  std::string cannot_read(const std::string &file);
+
+  /// The lines of a file without comments, continued ones joined, each with the number of its
+  /// first. Throws UserError if it cannot be read or is not text.
+  std::vector<std::pair<int, std::string>> lines_of(const std::string &file);
+} // namespace taut
+
+#endif

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
+#include <taut/simulation/free_bodies.h>
+#include <taut/simulation/simulation.h>
+#include <taut/time/static_equilibrium.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <ostream>
+
+namespace taut
+{
+  namespace
+  {
+    /// "1 wire", "2 wires", "no wires".
+    std::string counted(const std::size_t n, const std::string &one, const std::string &more = "")
+    {
+      const std::string many = more.empty() ? one + "s" : more;
+      return n == 0 ? "no " + many : std::to_string(n) + " " + (n == 1 ? one : many);
+    }
+  } // namespace
+
+  void Simulation::describe() const
+  {
+    if (!parameters.accuracy_choice().empty())
+      log << parameters.accuracy_choice() << '\n';
+    std::size_t n_unilateral = 0, n_rigid = 0;
+    for (std::size_t i = 0; i < links.size(); ++i)
+    {
+      n_unilateral += links[i].unilateral;
+      n_rigid += std::isinf(links[i].stiffness);
+    }
+    const std::vector<Structure::Body> &all = bodies.all_bodies();
+    log << "Scene '" << parameters.generator_name << "': " << counted(model.wires.size(), "wire")
+        << ", " << counted(model.masses.size(), "mass", "masses") << ", "
+        << counted(model.links.size(), "link") << '\n'
+        << "  " << counted(all.size(), "body", "bodies") << ':';
+    constexpr std::size_t most_named = 6;
+    for (std::size_t k = 0; k < std::min(all.size(), most_named); ++k)
+      log << (k > 0 ? "," : "") << " '" << all[k].name << "' " << all[k].n_dofs << " DoFs";
+    if (all.size() > most_named)
+      log << " and more, "
+          << std::accumulate(all.begin(), all.end(), std::size_t(0),
+                             [](const std::size_t sum, const Structure::Body &body)
+                             { return sum + body.n_dofs; })
+          << " DoFs in all";
+    if (!bodies.cut_rows().empty())
+      log << "\n  wires cut in " << counted(bodies.cut_rows().size(), "row");
+    log << "\n  " << counted(links.size(), "multiplier") << ": " << n_unilateral << " one-sided, "
+        << links.size() - n_unilateral << " bilateral; " << links.size() - links.n_fixed()
+        << " moving; " << n_rigid << " rigid\n";
+
+    const auto any_wire = [&](const auto &has)
+    { return std::any_of(model.wires.begin(), model.wires.end(), has); };
+    if (!model.wires.empty() &&
+        !any_wire([](const Wire &w) { return w.transverse == TransverseKind::beam; }))
+      log << "  no bending: no slope DoFs\n";
+    if (!model.wires.empty() && !any_wire([](const Wire &w) { return w.has_axial; }))
+      log << "  no axial motion: one DoF per point of a wire across it\n";
+    if (links.size() == 0)
+      log << "  no links: the bodies move independently\n";
+    else if (n_unilateral == 0)
+      log << "  only bilateral links: one linear solve a step, no active set\n";
+    if (links.size() > 0 && links.n_fixed() == links.size())
+      log << "  no moving link: the interface operator is constant\n";
+    if (parameters.end_time > 0. &&
+        std::fabs(n_steps() * parameters.step - parameters.end_time) > 1e-6 * parameters.step)
+      log << "  Time/End = " << parameters.end_time
+          << " s is no multiple of Time/Step = " << parameters.step << " s: the last step ends at "
+          << n_steps() * parameters.step << " s\n";
+  }
+
+  void Simulation::find_start()
+  {
+    links.update(0.);
+    start.U = start.V = start.A = start.dU = start.V_old = start.KU = start.balance = bodies.zero();
+    start.multiplier.assign(links.size(), 0.);
+    start.link_springs.resize(links.size());
+    reference.displacement = reference.force = bodies.zero();
+
+    if (model.start == Start::equilibrium)
+    {
+      StaticState state = static_equilibrium(bodies, links, parameters.solver, 0.);
+      reference.displacement = state.displacement;
+      for (std::size_t k = 0; k < bodies.size(); ++k)
+        bodies[k].stiffness().vmult_add(1., state.displacement[k].data(),
+                                        reference.force[k].data());
+      start.multiplier = state.multiplier;
+      start_certificate = state.certificate;
+      log << "Static equilibrium: residual " << start_certificate.complementarity << " (links), "
+          << start_certificate.balance << " (balance), "
+          << counted(start_certificate.iterations, "active-set iteration") << '\n';
+      report_free_bodies();
+    }
+    else if (model.start == Start::given)
+      processes.agree(
+          [&]
+          {
+            for (std::size_t k = 0; k < bodies.size(); ++k)
+            {
+              bodies[k].initial_state(start.U[k], start.V[k]);
+              for (const ConstrainedDof &constraint : bodies[k].constraints())
+                start.U[k][constraint.dof] = constraint.motion(0., 0.);
+              bodies[k].stiffness().vmult_add(1., start.U[k].data(), start.KU[k].data());
+            }
+          });
+
+    const std::vector<double> reference_motion = links.motions(reference.displacement),
+                              motion = links.motions(start.U), velocity = links.motions(start.V);
+    start.geometric_gap.resize(links.size());
+    start.gap.resize(links.size());
+    for (std::size_t i = 0; i < links.size(); ++i)
+    {
+      const Row &row = links[i];
+      start.geometric_gap[i] = row.gap + reference_motion[i] + motion[i];
+      // The spring of a link starts as compressed as its ends stand, and a compressed one as fast
+      // as they move; a rigid one is not compressed.
+      double u = start.multiplier[i] / row.stiffness;
+      if (model.start != Start::equilibrium && !std::isinf(row.stiffness))
+      {
+        u = row.unilateral ? std::max(0., -start.geometric_gap[i]) : -start.geometric_gap[i];
+        const double v = !row.unilateral || u > 0. ? -velocity[i] : 0.;
+        start.link_springs[i].v = v;
+        start.multiplier[i] = u * row.stiffness + v * row.damping;
+        if (row.unilateral)
+          start.multiplier[i] = std::max(0., start.multiplier[i]);
+      }
+      start.link_springs[i].u = u;
+      // Rounding of the gap over a small compliance would be a force.
+      if (model.start == Start::equilibrium && (!row.unilateral || start.multiplier[i] > 0.))
+        start.geometric_gap[i] = -u;
+      start.gap[i] = start.geometric_gap[i] + u;
+      if (model.start != Start::equilibrium && start.gap[i] < 0. && row.unilateral)
+        throw EntryError(links.origin(i), "link '" + row.name + "' starts with a gap of " +
+                                              std::to_string(start.gap[i]) +
+                                              ": a rigid one-sided link starts open or just "
+                                              "touching. Change its Gap or the start.");
+    }
+    if (model.start == Start::equilibrium)
+      reference.gap = start.geometric_gap;
+  }
+
+  /// Says which bodies are at rest only because nothing pushes them.
+  void Simulation::report_free_bodies() const
+  {
+    std::vector<Substructure::Kernel> kernels;
+    for (std::size_t k = 0; k < bodies.size(); ++k)
+      kernels.push_back(bodies[k].kernel());
+    const std::vector<char> free = free_bodies(kernels, links, start.multiplier);
+
+    const std::vector<Structure::Body> &all = bodies.all_bodies();
+    std::vector<double> flags(all.size(), 0.);
+    for (std::size_t k = 0; k < bodies.size(); ++k)
+      for (std::size_t i = 0; i < all.size(); ++i)
+        if (free[k] && all[i].name == bodies[k].name())
+          flags[i] = 1.;
+    processes.sum(flags);
+    std::string names;
+    std::size_t n = 0;
+    constexpr std::size_t most_named = 6;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (flags[i] > 0. && ++n <= most_named)
+        names += (n > 1 ? ", '" : "'") + all[i].name + "'";
+    if (n > 0)
+      log << "  nothing holds " << names
+          << (n > most_named ? " and " + std::to_string(n - most_named) + " more" : "")
+          << ": at rest only because no force moves " << (n > 1 ? "them" : "it") << '\n';
+  }
+
+  void Simulation::find_rest_of_probes()
+  {
+    if (model.start != Start::equilibrium || probe_terms.empty())
+      return;
+    BlockVector rest = reference.displacement;
+    if (links.n_fixed() < links.size())
+    {
+      Scene without = model;
+      without.links.erase(std::remove_if(without.links.begin(), without.links.end(),
+                                         [](const Link &link) { return link.moving(); }),
+                          without.links.end());
+      const ContactRows fixed_rows(without, bodies);
+      try
+      {
+        rest = static_equilibrium(bodies, fixed_rows, parameters.solver, 0.).displacement;
+      }
+      catch (const BodyNotHeld &)
+      {
+        log << "Probes: no equilibrium without the sliding contacts; displacements count from the "
+               "equilibrium with them\n";
+      }
+    }
+    for (std::size_t i = 0; i < probe_terms.size(); ++i)
+      probe_rest[i] = evaluate(probe_terms[i], rest);
+    processes.sum(probe_rest);
+  }
+} // namespace taut
