@@ -1,17 +1,12 @@
 # Builds SOURCE with the sanitizers for addresses (which finds leaks, too) and undefined behaviour below FOLDER, and runs
-# there the unit tests, the program on a scene with a moving contact, and 5000 parameter files changed at random.
-# Whatever the sanitizers report ends a program with an error. No library below Taut leaks in these runs, so nothing is
-# suppressed.
-set(programs complementarity_tests fe_hermite_tests bad_input_tests)
+# there the unit tests, the extreme scenes, the program on a scene with a moving contact, and 5000 parameter files
+# changed at random. Whatever the sanitizers report ends a program with an error. No library below Taut leaks in these
+# runs, so nothing is suppressed.
+set(programs complementarity_tests fe_hermite_tests bad_input_tests extreme_scenes)
 set(ENV{ASAN_OPTIONS} detect_leaks=1:detect_stack_use_after_return=1:strict_string_checks=1)
 set(ENV{UBSAN_OPTIONS} print_stacktrace=1)
 
-function(run)
-  execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${FOLDER} RESULT_VARIABLE code)
-  if(NOT code EQUAL 0)
-    message(FATAL_ERROR "ended with ${code}: ${ARGN}")
-  endif()
-endfunction()
+include(${CMAKE_CURRENT_LIST_DIR}/../run.cmake)
 
 file(MAKE_DIRECTORY ${FOLDER})
 # -g1 puts lines into the reports.
