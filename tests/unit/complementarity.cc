@@ -29,6 +29,14 @@ namespace
   throw std::bad_alloc();
 }
 
+/// Of temporary buffers of the standard library; the sanitizers' own one would not fit the
+/// operators below.
+[[gnu::noinline]] void *operator new(std::size_t size, const std::nothrow_t &) noexcept
+{
+  ++n_allocations;
+  return std::malloc(size == 0 ? 1 : size);
+}
+
 [[gnu::noinline]] void operator delete(void *memory) noexcept
 {
   std::free(memory);
