@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace taut
 {
@@ -31,6 +32,8 @@ namespace taut
         reference_gap[i] = origin.gap[i];
     }
     add_body_terms(origin.displacement);
+    for (std::size_t k = 0; k < structure.size(); ++k)
+      supports_move = supports_move || structure[k].has_moving_constraints();
   }
 
   void RowMotions::prepare(const StepCoefficients &coefficients, const double tau)
@@ -114,7 +117,8 @@ namespace taut
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
       const std::vector<Term> &terms = rows[i].terms;
-      motion[i] += evaluate(terms, lift);
+      if (supports_move)
+        motion[i] += evaluate(terms, lift);
       position[i] = terms_size[i] = 0.;
       if (rows[i].moving)
       {
@@ -136,8 +140,7 @@ namespace taut
     {
       const std::vector<Term> &terms = rows[i].terms;
       motion[i] = evaluate(terms, state.dU);
-      position[i] = evaluate(terms, state.U);
-      terms_size[i] = magnitude(terms, state.U);
+      std::tie(position[i], terms_size[i]) = evaluate_with_magnitude(terms, state.U);
       if (rows[i].moving)
         position[i] += evaluate(terms, origin.displacement);
       if (at_velocity_level)
@@ -201,7 +204,6 @@ namespace taut
       return 0.;
     // Gaps from the increments of the displacements, not from F N + d; and gaps so carried must not
     // drift away from the displacements, measured by the terms that these are summed from.
-    MixedComplementaritySolution recomputed;
     recomputed.multiplier = applied_multiplier;
     recomputed.gap = state.gap;
     for (std::size_t i = 0; i < rows.size(); ++i)
@@ -220,9 +222,11 @@ namespace taut
                    std::fabs(motion[i]) + F.diagonal(i) * std::fabs(applied_multiplier[i]));
     for (std::size_t i = 0; i < rows.size(); ++i)
       conditions.gap_scale[i] += decayed * most[rows[i].rotational];
-    const ComplementarityResidual result = taut::residual(conditions, F, recomputed);
-    double max = result.max;
-    worst = std::max_element(result.rows.begin(), result.rows.end()) - result.rows.begin();
+    taut::gap_terms(conditions, F, applied_multiplier, recomputed.kernel_amplitude, work);
+    multiplier_weights(conditions, F, applied_multiplier, work, weights);
+    taut::residual(conditions, recomputed, work, weights, found);
+    double max = found.max;
+    worst = std::max_element(found.rows.begin(), found.rows.end()) - found.rows.begin();
     // A row at a support moves by nothing but the rounding of its body.
     constexpr double suspicious = 1e-12;
     std::size_t strayed = 0;

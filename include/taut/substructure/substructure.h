@@ -66,7 +66,12 @@ namespace taut
     bool external_force_varies() const { return !time_loads.empty(); }
 
     /// Kind of DoF i: 0 a displacement, 1 a slope or rotation.
-    unsigned int kind(unsigned int i) const { return kinds[i % kinds.size()]; }
+    unsigned int kind(unsigned int i) const
+    {
+      // Wires have patterns of one or two: no division.
+      const std::size_t n = kinds.size();
+      return kinds[n == 1 ? 0 : n == 2 ? i & 1 : i % n];
+    }
 
     /// The kinds of the first DoFs, repeated over all: {0, 1} for a beam.
     const std::vector<unsigned char> &kind_pattern() const { return kinds; }

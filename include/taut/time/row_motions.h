@@ -82,6 +82,7 @@ namespace taut
     StepCoefficients c;
     double step = 0.;
     bool at_velocity_level = false;
+    bool supports_move = false; ///< of a body of this rank
 
     MixedComplementarityProblem conditions;
     std::vector<double> S;
@@ -94,13 +95,16 @@ namespace taut
     /// Of the moving rows: gap of the start minus the one of its displacements, rounding that would
     /// be a force over a small compliance.
     std::vector<double> gap_correction;
-    std::vector<double> motion;       ///< B^T dU
-    std::vector<double> position;     ///< B^T U, with the reference's of a moving row
-    std::vector<double> terms_size;   ///< sum of the absolute terms of these
-    std::vector<double> velocity;     ///< B^T V
-    std::vector<double> motion_size;  ///< what B^T dU rounds with
-    std::vector<double> convection;   ///< (B - B_0)^T U_0 + D0 - D0_0
-    std::vector<double> rates_before; ///< D'_0
+    std::vector<double> motion;              ///< B^T dU
+    std::vector<double> position;            ///< B^T U, with the reference's of a moving row
+    std::vector<double> terms_size;          ///< sum of the absolute terms of these
+    std::vector<double> velocity;            ///< B^T V
+    std::vector<double> motion_size;         ///< what B^T dU rounds with
+    std::vector<double> convection;          ///< (B - B_0)^T U_0 + D0 - D0_0
+    std::vector<double> rates_before;        ///< D'_0
+    MixedComplementaritySolution recomputed; ///< of residual()
+    ComplementarityResidual found;
+    std::vector<double> weights;
     std::vector<double> work;
   };
 } // namespace taut
