@@ -54,6 +54,19 @@ namespace taut
              (link.from.kind == Attachment::Kind::wire || link.to.kind == Attachment::Kind::wire);
     }
 
+    /// True if a rigid one-sided link is on a wire whose mass matrix leaves every second node's
+    /// motion without inertia.
+    bool is_on_reduced_mass(const Scene &scene, const Link &link)
+    {
+      if (!link.unilateral() || !link.rigid() || link.axial_stiffness != 0.)
+        return false;
+      for (const Attachment *end : {&link.from, &link.to})
+        if (end->kind == Attachment::Kind::wire &&
+            scene.wires[end->index].mass_matrix == MassMatrix::reduced)
+          return true;
+      return false;
+    }
+
     RigidRow find_rigid_row(const Scene &scene, const Structure &structure, const ContactRows &rows,
                             const SolverParameters &parameters, const double step)
     {
@@ -128,6 +141,15 @@ namespace taut
                          "Moreau-Jean with Theta 1/2 never damps the force of a node without mass, "
                          "here at link '" +
                              link.name + "'; take Theta > 1/2, another scheme" + anyway);
+    for (const Link &link : scene.links)
+      if (c.velocity_level && c.alpha_f == .5 && is_on_reduced_mass(scene, link))
+        throw EntryError("Time/Scheme",
+                         "Moreau-Jean with Theta 1/2 rings or is unstable at rigid one-sided links "
+                         "to wires with the mass matrix 'reduced', here link '" +
+                             link.name +
+                             "'; take Theta = 0.6, the mass matrix 'consistent' or 'lumped', "
+                             "another scheme" +
+                             anyway);
     const double least = integrator.least_courant_number();
     if (!(least > 0.) || !has_one_sided_rows(rows))
       return;

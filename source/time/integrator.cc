@@ -119,6 +119,7 @@ namespace taut
       {
         return bdf2(step, last_step);
       }
+      double least_courant_number() const override { return .1; }
       std::string description() const override { return "BDF2"; }
     };
 

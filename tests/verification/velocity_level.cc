@@ -206,4 +206,14 @@ TEST(Schemes, unsuitable_ones_are_refused_by_name)
     EXPECT_EQ(message({"Time.Scheme=" + scheme}), "") << scheme;
   EXPECT_NE(message({"Time.Scheme=Moreau-Jean", "Time.Moreau-Jean.Restitution=1"}), "");
   EXPECT_NE(message({"Time.Scheme=Moreau-Jean", "Time.Massless contact=mass"}), "");
+
+  const std::string reduced = "Network.Wire bar.Mass matrix=reduced", theta = "Time.Moreau-Jean.";
+  EXPECT_NE(message({"Time.Scheme=Moreau-Jean", reduced}).find("'reduced'"), std::string::npos);
+  EXPECT_EQ(message({"Time.Scheme=Moreau-Jean", reduced, theta + "Theta=0.6"}), "");
+  EXPECT_EQ(message({"Time.Scheme=Moreau-Jean", reduced, "Network.Link floor.Stiffness=1000"}), "");
+  EXPECT_EQ(message({"Time.Scheme=BDF2", reduced}), "");
+  // 0.12 and 0.06 elements a step.
+  EXPECT_EQ(message({"Time.Scheme=BDF2", "Time.Step=1e-4"}), "");
+  EXPECT_NE(message({"Time.Scheme=BDF2", "Time.Step=5e-5"}).find("BDF2"), std::string::npos);
+  EXPECT_EQ(message({"Time.Scheme=automatic", "Time.Step=5e-5"}), "");
 }

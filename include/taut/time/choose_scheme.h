@@ -31,7 +31,7 @@ namespace taut
   /**
    * Throws an EntryError on Time/Scheme if a scheme is known to fail on a row of the scene: a rigid
    * one-sided row on a wire whose waves cross fewer elements a step than the scheme needs, or
-   * Moreau-Jean without damping beside nodes without mass.
+   * Moreau-Jean without damping beside nodes without mass or on a reduced mass matrix.
    */
   void check_scheme(const TimeIntegrator &integrator, const Scene &scene,
                     const Structure &structure, const ContactRows &rows,
