@@ -34,6 +34,12 @@ namespace taut
       return largest;
     }
 
+    /// Not amplitudes that something resists: an operator knows G N = -e only.
+    bool solves_with_kernel(const MixedComplementarityProblem &problem,
+                            const ComplementarityOperator &matrix)
+    {
+      return matrix.has_kernel_solver() && problem.kernel_resistance.empty();
+    }
   } // namespace
 
   ActiveSetSystem::Outcome ActiveSetSystem::solve(const MixedComplementarityProblem &problem,
@@ -65,7 +71,7 @@ namespace taut
       const bool shrinks = shift == 0. || (correction > 0 && size <= 0.5 * last_step);
       if ((gap <= tolerance && shrinks) || tolerance > options.linear_tolerance)
       {
-        if (problem.n_kernel() > 0 && !matrix.has_kernel_solver())
+        if (problem.n_kernel() > 0 && !solves_with_kernel(problem, matrix))
           balance(problem, matrix, set, solution);
         return Outcome::solved;
       }
@@ -127,7 +133,7 @@ namespace taut
                                 MixedComplementaritySolution &solution)
   {
     std::transform(solution.gap.begin(), solution.gap.end(), rhs.begin(), std::negate<double>());
-    if (problem.n_kernel() > 0 && matrix.has_kernel_solver())
+    if (problem.n_kernel() > 0 && solves_with_kernel(problem, matrix))
       return correct_with_kernel(problem, matrix, set, solution);
     if (!matrix.solve(set, rhs, shift, step))
     {
@@ -189,7 +195,9 @@ namespace taut
       problem.kernel[k].add_to(1., kernel_rhs);
       matrix.solve(set, kernel_rhs, shift, kernel_responses[k]);
       for (std::size_t l = 0; l <= k; ++l)
-        kernel_schur.set(k, l, problem.kernel[k].dot(kernel_responses[l]));
+        kernel_schur.set(k, l,
+                         problem.kernel[k].dot(kernel_responses[l]) +
+                             (k == l ? problem.resistance(k) : 0.));
     }
     kernel_is_ready = true;
   }
@@ -204,7 +212,10 @@ namespace taut
     std::iota(all.begin(), all.end(), 0);
     std::vector<double> unbalance = problem.kernel_load, amplitude;
     for (std::size_t k = 0; k < n_kernel; ++k)
+    {
       unbalance[k] += problem.kernel[k].dot(solution.multiplier) + problem.kernel[k].dot(step);
+      unbalance[k] -= problem.resistance(k) * solution.kernel_amplitude[k];
+    }
     if (!kernel_schur.solve(all, unbalance, 0., amplitude))
       return false;
     for (std::size_t k = 0; k < n_kernel; ++k)

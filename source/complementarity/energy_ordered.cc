@@ -120,9 +120,10 @@ namespace taut
     changes = 0;
     solution.reset(problem);
     DenseOperator dense = assemble(matrix);
-    const Outcome outcome = problem.n_kernel() == 0
-                                ? minimize(problem, dense, solution)
-                                : minimize_with_kernel(problem, dense, solution);
+    const Outcome outcome = problem.n_kernel() == 0 ? minimize(problem, dense, solution)
+                            : problem.kernel_resistance.empty()
+                                ? minimize_with_kernel(problem, dense, solution)
+                                : minimize_with_resistance(problem, dense, solution);
 
     std::vector<double> terms, weights;
     gaps(problem, matrix, solution.multiplier, solution.kernel_amplitude, solution.gap);
@@ -144,6 +145,56 @@ namespace taut
     solution.multiplier = descent.multiplier();
     failed = is_consistent ? std::vector<std::size_t>() : descent.contradictory_rows();
     return is_consistent ? Outcome::finished : Outcome::contradictory;
+  }
+
+  /// The amplitudes are eliminated, alpha = E^-1 (G N + e); the set that this finds is then solved
+  /// with them, because F is small beside G^T E^-1 G.
+  EnergyOrderedActiveSet::Outcome
+  EnergyOrderedActiveSet::minimize_with_resistance(const MixedComplementarityProblem &problem,
+                                                   DenseOperator &matrix,
+                                                   MixedComplementaritySolution &solution)
+  {
+    DenseOperator whole = matrix;
+    MixedComplementarityProblem without = problem;
+    without.kernel.clear();
+    without.kernel_load.clear();
+    without.kernel_resistance.clear();
+    without.gap_scale.resize(problem.size(), 0.);
+    for (std::size_t k = 0; k < problem.n_kernel(); ++k)
+    {
+      const SparseVector &G = problem.kernel[k];
+      const double amplitude = problem.kernel_load[k] / problem.resistance(k);
+      for (std::size_t e = 0; e < G.index.size(); ++e)
+      {
+        const std::size_t i = G.index[e];
+        without.free_gap[i] += G.value[e] * amplitude;
+        without.gap_scale[i] += std::abs(G.value[e] * amplitude);
+        for (std::size_t f = 0; f < G.index.size(); ++f)
+          if (G.index[f] <= i)
+            whole.set(i, G.index[f],
+                      whole(i, G.index[f]) + G.value[e] * G.value[f] / problem.resistance(k));
+      }
+    }
+    const Outcome outcome = minimize(without, whole, solution);
+    for (std::size_t k = 0; k < problem.n_kernel(); ++k)
+      solution.kernel_amplitude[k] =
+          (problem.kernel[k].dot(solution.multiplier) + problem.kernel_load[k]) /
+          problem.resistance(k);
+    std::vector<std::size_t> set;
+    for (std::size_t i = 0; i < problem.size(); ++i)
+      if (solution.multiplier[i] != 0.)
+        set.push_back(i);
+    std::vector<double> terms;
+    MixedComplementaritySolution candidate = solution;
+    if (ActiveSetSystem(options).solve(problem, matrix, set, options.linear_tolerance, candidate,
+                                       terms) == ActiveSetSystem::Outcome::solved)
+    {
+      gaps(problem, matrix, solution.multiplier, solution.kernel_amplitude, solution.gap);
+      if (taut::residual(problem, matrix, candidate).max <
+          taut::residual(problem, matrix, solution).max)
+        solution = candidate;
+    }
+    return outcome;
   }
 
   EnergyOrderedActiveSet::Outcome

@@ -39,6 +39,7 @@ namespace taut
     if (matrix.size() != size() || free_gap.size() != size() ||
         (!gap_scale.empty() && gap_scale.size() != size()) || kernel.size() != n_kernel() ||
         (!held_open.empty() && held_open.size() != size()) ||
+        (!kernel_resistance.empty() && kernel_resistance.size() != n_kernel()) ||
         std::any_of(kernel.begin(), kernel.end(),
                     [&](const SparseVector &vector)
                     {
@@ -144,6 +145,12 @@ namespace taut
     {
       double balance = problem.kernel_load[k];
       double scale = std::abs(balance);
+      if (problem.resistance(k) > 0.)
+      {
+        const double resisted = problem.resistance(k) * solution.kernel_amplitude[k];
+        balance -= resisted;
+        scale += std::abs(resisted);
+      }
       const SparseVector &vector = problem.kernel[k];
       for (std::size_t e = 0; e < vector.index.size(); ++e)
       {

@@ -73,6 +73,8 @@ namespace taut
       {
         if (rows.size() <= most_dense_rows)
           return "assembled dense";
+        if (solvers.has_free_motions())
+          return "assembled sparse";
         return stored_numbers_per_dof(solvers, rows) <= most_stored_numbers ? "assembled sparse"
                                                                             : "matrix-free";
       }

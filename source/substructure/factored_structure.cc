@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <sstream>
 
 namespace taut
@@ -58,12 +60,29 @@ namespace taut
       return true;
     }
 
+    double dot(const std::vector<double> &x, const std::vector<double> &y)
+    {
+      return std::inner_product(x.begin(), x.end(), y.begin(), 0.);
+    }
+
+    void add(std::vector<double> &y, const double factor, const std::vector<double> &x)
+    {
+      for (std::size_t i = 0; i < y.size(); ++i)
+        y[i] += factor * x[i];
+    }
+
     /// Part of a motion that rounding may lose.
     constexpr double largest_loss = 1e-6;
+
+    /// The same where the free motions of a body can be unknowns of their own.
+    constexpr double largest_loss_beside_amplitudes = 1e-8;
+
+    /// E over R^T J R, from which free motions stand out against elastic ones.
+    constexpr double least_part_of_inertia = .5;
   } // namespace
 
   FactoredStructure::FactoredStructure(const Structure &structure, const std::string &solver_name)
-      : bodies(structure), solver_name(solver_name)
+      : bodies(structure), solver_name(solver_name), motions(structure.size())
   {
     for (std::size_t k = 0; k < structure.size(); ++k)
       solvers.push_back(make_local_solver(solver_name, structure[k].stiffness()));
@@ -96,8 +115,8 @@ namespace taut
 
   /// A^-1 A x = x for a rigid translation x: springs inside the body cost nothing then, but round
   /// by their size, and what resists the motion has to stand out against that.
-  void FactoredStructure::check_digits(const std::size_t k,
-                                       const std::vector<ScaledMatrix> &summands) const
+  double FactoredStructure::lost_digits(const std::size_t k, const LocalSolver &solver,
+                                        const std::vector<ScaledMatrix> &summands) const
   {
     const Substructure &body = bodies[k];
     std::vector<double> rigid(body.n_dofs()), x(body.n_dofs(), 0.);
@@ -107,11 +126,17 @@ namespace taut
       rigid[constraint.dof] = 0.;
     for (const auto &[factor, matrix] : summands)
       matrix->vmult_add(factor, rigid.data(), x.data());
-    solvers[k]->solve(x);
+    solver.solve(x);
     double loss = 0.;
     for (std::size_t i = 0; i < rigid.size(); ++i)
       if (body.kind(i) == 0 && !(std::fabs(x[i] - rigid[i]) <= loss))
         loss = std::fabs(x[i] - rigid[i]);
+    return loss;
+  }
+
+  void FactoredStructure::check_digits(const std::size_t k, const double loss) const
+  {
+    const Substructure &body = bodies[k];
     if (loss <= largest_loss)
       return;
     std::ostringstream out;
@@ -123,26 +148,141 @@ namespace taut
     throw EntryError(body.origin(), out.str());
   }
 
-  void FactoredStructure::factor(const double mass, const double damping)
+  void FactoredStructure::factor(const double mass, const double damping, const bool use_amplitudes)
   {
     mass_factor = mass;
     damping_factor = damping;
     is_static = false;
     for (std::size_t k = 0; k < solvers.size(); ++k)
+      factor_body(k, use_amplitudes);
+  }
+
+  void FactoredStructure::factor_body(const std::size_t k, const bool use_amplitudes)
+  {
+    const std::vector<ScaledMatrix> A = summands(k);
+    const bool has_choice = use_amplitudes && !bodies[k].kernel().vectors.empty();
+    double loss = 0.;
+    motions[k] = {};
+    try
     {
-      factor(k, *solvers[k], summands(k), bodies[k].constrained_dofs());
-      check_digits(k, summands(k));
+      factor(k, *solvers[k], A, bodies[k].constrained_dofs());
+      loss = lost_digits(k, *solvers[k], A);
+    }
+    catch (const BodyNotHeld &)
+    {
+      if (has_choice && set_free_motions(k))
+        return;
+      throw;
+    }
+    if (loss > largest_loss_beside_amplitudes && has_choice && set_free_motions(k))
+      return;
+    check_digits(k, loss);
+  }
+
+  /// False if elastic motions resist the inertia less than the free ones, so that E would cancel.
+  bool FactoredStructure::set_free_motions(const std::size_t k)
+  {
+    const Substructure &body = bodies[k];
+    const Substructure::Kernel kernel = body.kernel();
+    const auto held = with_springs(body.stiffness(), kernel.fixing_dofs);
+    std::vector<ScaledMatrix> A = summands(k);
+    A.back().second = held.get();
+    auto solver = make_local_solver(solver_name, body.stiffness());
+    factor(k, *solver, A, body.constrained_dofs());
+
+    FreeMotions own;
+    own.fixing_dofs = kernel.fixing_dofs;
+    for (std::vector<double> R : kernel.vectors)
+    {
+      const auto inertia = [&](const std::vector<double> &x)
+      {
+        std::vector<double> J(x.size(), 0.);
+        body.mass().vmult_add(mass_factor, x.data(), J.data());
+        body.damping().vmult_add(damping_factor, x.data(), J.data());
+        return J;
+      };
+      // Gram-Schmidt with E as scalar product.
+      for (int pass = 0; pass < 2; ++pass)
+        for (std::size_t l = 0; l < own.vectors.size(); ++l)
+          add(R, -dot(inertia(R), own.vectors[l]) / own.resistance[l], own.rigid[l]);
+      const std::vector<double> J = inertia(R);
+      std::vector<double> response = J;
+      solver->solve(response);
+      std::vector<double> modified = R;
+      add(modified, -1., response);
+      const double inertia_of_R = dot(J, R), resistance = dot(J, modified);
+      if (!(inertia_of_R > 0.))
+        throw BodyNotHeld("body '" + body.name() +
+                              "': nothing holds one of its motions, neither inertia nor stiffness. "
+                              "Give it mass, stiffness or a support there.",
+                          {}, body.origin());
+      if (!(resistance >= least_part_of_inertia * inertia_of_R))
+        return false;
+      own.resistance.push_back(resistance);
+      own.vectors.push_back(std::move(modified));
+      own.rigid.push_back(std::move(R));
+    }
+    check_digits(k, lost_digits(k, *solver, A));
+    solvers[k] = std::move(solver);
+    motions[k] = std::move(own);
+    return true;
+  }
+
+  bool FactoredStructure::has_free_motions() const
+  {
+    double n = 0.;
+    for (const FreeMotions &own : motions)
+      n += own.vectors.size();
+    return bodies.communicator().max(n) > 0.;
+  }
+
+  void FactoredStructure::remove_rounding(const std::size_t k, std::vector<double> &KU,
+                                          std::vector<double> &balance) const
+  {
+    const FreeMotions &own = motions[k];
+    const std::size_t n = own.rigid.size();
+    if (n == 0)
+      return;
+    // Forces f on the fixing DoFs with R^T f = R^T K U, by Gaussian elimination with pivoting.
+    std::vector<std::vector<double>> rows(n, std::vector<double>(n + 1));
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      for (std::size_t j = 0; j < n; ++j)
+        rows[i][j] = own.rigid[i][own.fixing_dofs[j]];
+      rows[i][n] = dot(own.rigid[i], KU);
+    }
+    for (std::size_t j = 0; j < n; ++j)
+    {
+      std::size_t pivot = j;
+      for (std::size_t i = j + 1; i < n; ++i)
+        if (std::fabs(rows[i][j]) > std::fabs(rows[pivot][j]))
+          pivot = i;
+      std::swap(rows[j], rows[pivot]);
+      for (std::size_t i = 0; i < n; ++i)
+        if (i != j)
+        {
+          const double quotient = rows[i][j] / rows[j][j];
+          for (std::size_t c = j; c <= n; ++c)
+            rows[i][c] -= quotient * rows[j][c];
+        }
+    }
+    for (std::size_t j = 0; j < n; ++j)
+    {
+      const double f = rows[j][n] / rows[j][j];
+      KU[own.fixing_dofs[j]] -= f;
+      balance[own.fixing_dofs[j]] += f;
     }
   }
 
   void FactoredStructure::factor_stiffness(const std::vector<Substructure::Kernel> &kernels)
   {
     is_static = true;
+    motions.assign(solvers.size(), {});
     for (std::size_t k = 0; k < solvers.size(); ++k)
     {
       const auto held = with_springs(bodies[k].stiffness(), kernels[k].fixing_dofs);
       factor(k, *solvers[k], {{1., held.get()}}, bodies[k].constrained_dofs());
-      check_digits(k, {{1., held.get()}});
+      check_digits(k, lost_digits(k, *solvers[k], {{1., held.get()}}));
     }
   }
 
@@ -162,13 +302,15 @@ namespace taut
     std::sort(all.begin(), all.end());
     all.erase(std::unique(all.begin(), all.end()), all.end());
     auto solver = make_local_solver(solver_name, bodies[k].stiffness());
-    if (is_static)
+    if (is_static || !motions[k].vectors.empty())
     {
       const Substructure::Kernel kernel = bodies[k].kernel();
       if (!are_held(kernel.vectors, held))
       {
         const auto sprung = with_springs(bodies[k].stiffness(), kernel.fixing_dofs);
-        factor(k, *solver, {{1., sprung.get()}}, all);
+        std::vector<ScaledMatrix> A = summands(k);
+        A.back().second = sprung.get();
+        factor(k, *solver, A, all);
         return solver;
       }
     }

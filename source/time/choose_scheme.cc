@@ -82,6 +82,12 @@ namespace taut
           {
             solvers[term.substructure].column(term.form, column);
             flexibility[i] += column.dot(term.form);
+            const auto &motions = solvers.free_motions()[term.substructure];
+            for (std::size_t v = 0; v < motions.vectors.size(); ++v)
+            {
+              const double motion = term.form.dot(motions.vectors[v]);
+              flexibility[i] += motion * motion / motions.resistance[v];
+            }
           }
       processes.sum(flexibility);
 

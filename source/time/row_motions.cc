@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/time/kernel_rows.h>
 #include <taut/time/matrix_norms.h>
 #include <taut/time/row_motions.h>
 
@@ -41,6 +42,10 @@ namespace taut
     c = coefficients;
     step = tau;
     at_velocity_level = c.velocity_level;
+    conditions.kernel.clear();
+    conditions.kernel_load.clear();
+    conditions.kernel_resistance.clear();
+    amplitude.clear();
     conditions.held_open.assign(at_velocity_level ? rows.size() : 0, 0);
     for (std::size_t i = 0; i < rows.size(); ++i)
       S[i] = 1. / (rows[i].stiffness + c.velocity * rows[i].damping);
@@ -87,8 +92,37 @@ namespace taut
     conditions.held_open[i] = rows[i].unilateral && !is_near && !(before.multiplier[i] > 0.);
   }
 
-  void RowMotions::set_multipliers(const std::vector<double> &L, State &state)
+  void RowMotions::set_free_motions(const FactoredStructure &solvers, const BlockVector &P)
   {
+    KernelVectors vectors;
+    for (const FactoredStructure::FreeMotions &motions : solvers.free_motions())
+      vectors.push_back(&motions.vectors);
+    const Communicator &processes = structure.communicator();
+    std::size_t next = set_kernel_rows(vectors, processes, rows, P, conditions);
+    conditions.kernel_resistance.assign(conditions.n_kernel(), 0.);
+    first_of_body.clear();
+    for (const FactoredStructure::FreeMotions &motions : solvers.free_motions())
+    {
+      first_of_body.push_back(next);
+      for (const double resistance : motions.resistance)
+        conditions.kernel_resistance[next++] = resistance;
+    }
+    processes.sum(conditions.kernel_resistance);
+  }
+
+  void RowMotions::add_free_motions(const FactoredStructure &solvers, const std::size_t k,
+                                    std::vector<double> &dU) const
+  {
+    const auto &vectors = solvers.free_motions()[k].vectors;
+    for (std::size_t v = 0; v < vectors.size(); ++v)
+      for (std::size_t i = 0; i < dU.size(); ++i)
+        dU[i] += amplitude[first_of_body[k] + v] * vectors[v][i];
+  }
+
+  void RowMotions::set_multipliers(const MixedComplementaritySolution &solution, State &state)
+  {
+    const std::vector<double> &L = solution.multiplier;
+    amplitude = solution.kernel_amplitude;
     applied_multiplier = balanced = state.multiplier = L;
     if (!at_velocity_level)
       return;
@@ -205,6 +239,7 @@ namespace taut
     // Gaps from the increments of the displacements, not from F N + d; and gaps so carried must not
     // drift away from the displacements, measured by the terms that these are summed from.
     recomputed.multiplier = applied_multiplier;
+    recomputed.kernel_amplitude = amplitude;
     recomputed.gap = state.gap;
     for (std::size_t i = 0; i < rows.size(); ++i)
       if (velocity_level(i))

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
-#include <taut/base/gather_entries.h>
 #include <taut/complementarity/active_set_system.h>
 #include <taut/complementarity/solver.h>
 #include <taut/interface/schur_complement.h>
+#include <taut/time/kernel_rows.h>
 #include <taut/time/matrix_norms.h>
 #include <taut/time/static_equilibrium.h>
 
@@ -39,44 +39,14 @@ namespace taut
       }
     }
 
-    /**
-     * G_ki = R_k . B_i and e_k = R_k . P of the free motions of all bodies, rank after rank.
-     * Returns the number of the first one of this rank.
-     */
     std::size_t set_kernel(const std::vector<Substructure::Kernel> &kernels,
                            const Communicator &processes, const ContactRows &rows,
                            const BlockVector &P, MixedComplementarityProblem &problem)
     {
-      std::size_t n_own = 0;
+      KernelVectors vectors;
       for (const Substructure::Kernel &kernel : kernels)
-        n_own += kernel.vectors.size();
-      const std::vector<std::size_t> n_kernel = processes.gather(n_own);
-      const auto own = n_kernel.begin() + processes.rank();
-      const std::size_t first = std::accumulate(n_kernel.begin(), own, std::size_t(0)),
-                        n_all = std::accumulate(own, n_kernel.end(), first);
-      problem.kernel.assign(n_all, {});
-      problem.kernel_load.assign(n_all, 0.);
-
-      std::vector<std::size_t> first_of_body;
-      std::size_t next = first;
-      for (std::size_t k = 0; k < kernels.size(); ++k)
-      {
-        first_of_body.push_back(next);
-        for (const std::vector<double> &R : kernels[k].vectors)
-          problem.kernel_load[next++] = std::inner_product(R.begin(), R.end(), P[k].begin(), 0.);
-      }
-      MatrixEntries G;
-      for (std::size_t i = 0; i < rows.size(); ++i)
-        for (const auto &[k, form] : rows[i].terms)
-          for (std::size_t v = 0; v < kernels[k].vectors.size(); ++v)
-            G.add(first_of_body[k] + v, i, form.dot(kernels[k].vectors[v]));
-      gather(processes, G);
-      G.compress();
-      for (std::size_t e = 0; e < G.size(); ++e)
-        if (G.value[e] != 0.)
-          problem.kernel[G.row[e]].add(G.column[e], G.value[e]);
-      processes.sum(problem.kernel_load);
-      return first;
+        vectors.push_back(&kernel.vectors);
+      return set_kernel_rows(vectors, processes, rows, P, problem);
     }
 
     /// The body that kernel vector @p index belongs to; null if it is on another rank, whose first

@@ -103,7 +103,10 @@ namespace taut
   void TimeStepper::prepare(const StepCoefficients &c)
   {
     coefficients = c;
-    structure.communicator().agree([&] { solvers.factor(c.mass_factor(), c.velocity); });
+    const bool is_assembled = parameters.interface.form != "matrix-free";
+    structure.communicator().agree([&]
+                                   { solvers.factor(c.mass_factor(), c.velocity, is_assembled); });
+    has_free_motions = solvers.has_free_motions();
     row_motions.prepare(c, step);
     schur->setup(row_motions.compliance());
   }
@@ -130,11 +133,14 @@ namespace taut
             set_history(k);
         });
     row_motions.set_problem(current, *schur, right_hand_side, lift);
+    if (has_free_motions)
+      row_motions.set_free_motions(solvers, right_hand_side);
     solve_rows();
     rows.add_forces(row_motions.applied(), right_hand_side);
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       solvers[k].solve(right_hand_side[k]);
+      row_motions.add_free_motions(solvers, k, right_hand_side[k]);
       accept(k);
     }
     row_motions.update(current);
@@ -160,6 +166,7 @@ namespace taut
     const StepCoefficients &c = coefficients;
     if (body.external_force_varies())
       set_external_force(k);
+    solvers.remove_rounding(k, current.KU[k], current.balance[k]);
 
     const double kappa = c.alpha_f / (1. - c.alpha_f);
     const double old = c.alpha_m / (1. - c.alpha_f), now = (1. - c.alpha_m) / (1. - c.alpha_f);
@@ -249,13 +256,13 @@ namespace taut
 
   void TimeStepper::solve_rows()
   {
-    if (rows.size() == 0)
+    if (rows.size() == 0 && !has_free_motions)
       return;
     try
     {
       const ComplementarityResult &result =
           complementarity.solve(row_motions.problem(), schur->matrix());
-      row_motions.set_multipliers(result.solution.multiplier, current);
+      row_motions.set_multipliers(result.solution, current);
       last.iterations = result.iterations;
       last.fallback = result.used_fallback;
     }

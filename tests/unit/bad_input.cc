@@ -721,14 +721,14 @@ end
           {"= hanger, stop", "= hanger, stop"},
           {"set Masses       = block", "set Masses = block, lost"},
           {"subsection Load push", "subsection Mass lost # here\nend\nsubsection Load push"}},
-         {"Mass lost", "singular", "Give it mass"}},
+         {"Mass lost", "nothing holds one of its motions", "Give it mass"}},
         {"massless_mass_and_a_given_scheme",
          network,
          {{"= equilibrium", "= undeformed"},
           {"= automatic", "= BDF2"},
           {"set Masses       = block", "set Masses = block, lost"},
           {"subsection Load push", "subsection Mass lost # here\nend\nsubsection Load push"}},
-         {"Mass lost", "singular", "Give it mass"}},
+         {"Mass lost", "nothing holds one of its motions", "Give it mass"}},
 
         // Study
         {"accuracy_without_a_study",

@@ -11,11 +11,11 @@ namespace taut
   /**
    * The linear system of one active set a: D_i = 0 on its rows, N_i = 0 on all others,
    *
-   *     F_aa N_a + G_a^T alpha = -d_a,    G_a N_a = -e.
+   *     F_aa N_a + G_a^T alpha = -d_a,    G_a N_a - E alpha = -e.
    *
-   * alpha comes from the Schur complement G_a F_aa^-1 G_a^T, everything is then corrected with the
-   * gaps that remain. Dependent rows are solved with F_aa + shift diag(F_aa); the corrections are
-   * then those of the proximal point method and end at the exact solution if there is one, with
+   * alpha comes from the Schur complement G_a F_aa^-1 G_a^T + E, everything is then corrected with
+   * the gaps that remain. Dependent rows are solved with F_aa + shift diag(F_aa); the corrections
+   * are then those of the proximal point method and end at the exact solution if there is one, with
    * multipliers split evenly.
    */
   class ActiveSetSystem
@@ -62,7 +62,8 @@ namespace taut
     double shift = 0.;
     std::vector<double> rhs, step;
 
-    /// F_aa^-1 G_k^T for each kernel vector, and G_a F_aa^-1 G_a^T; of this set and shift if ready.
+    /// F_aa^-1 G_k^T for each kernel vector, and G_a F_aa^-1 G_a^T + E; of this set and shift if
+    /// ready.
     bool kernel_is_ready = false;
     std::vector<std::vector<double>> kernel_responses;
     DenseOperator kernel_schur;

@@ -42,6 +42,8 @@ namespace taut
   private:
     Outcome minimize(const MixedComplementarityProblem &problem, DenseOperator &matrix,
                      MixedComplementaritySolution &solution);
+    Outcome minimize_with_resistance(const MixedComplementarityProblem &problem,
+                                     DenseOperator &matrix, MixedComplementaritySolution &solution);
     Outcome minimize_with_kernel(const MixedComplementarityProblem &problem, DenseOperator &matrix,
                                  MixedComplementaritySolution &solution);
     bool hold(const MixedComplementarityProblem &problem, const DenseOperator &matrix,

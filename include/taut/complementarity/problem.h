@@ -12,7 +12,7 @@ namespace taut
   /**
    * The mixed linear complementarity problem of one step, without its matrix F:
    *
-   *     D = F N + d + G^T alpha,    G N = -e,
+   *     D = F N + d + G^T alpha,    G N - E alpha = -e,
    *     D_i = 0                             on bilateral rows,
    *     N_i >= 0, D_i >= 0, N_i D_i = 0     on unilateral rows.
    *
@@ -43,6 +43,15 @@ namespace taut
 
     /// e, n_kernel: load on each kernel vector, which G N has to balance [N, N m].
     std::vector<double> kernel_load;
+
+    /// Diagonal of E, n_kernel or empty for zeros: what resists each kernel vector, the inertia of
+    /// the body in a step [N/m, N m/rad].
+    std::vector<double> kernel_resistance;
+
+    double resistance(std::size_t k) const
+    {
+      return kernel_resistance.empty() ? 0. : kernel_resistance[k];
+    }
 
     std::size_t size() const { return unilateral.size(); }
     std::size_t n_kernel() const { return kernel_load.size(); }
@@ -113,8 +122,8 @@ namespace taut
     /// |min(w_i N_i, D_i)| / s_i on unilateral rows, |D_i| / s_i on bilateral ones.
     std::vector<double> rows;
 
-    /// |G N + e|_k / (|e_k| + sum_i |G_ki| (|N_i| + s_i / w_i)): multipliers are known to rounding
-    /// of s_i / w_i.
+    /// |G N - E alpha + e|_k / (|e_k| + E_k |alpha_k| + sum_i |G_ki| (|N_i| + s_i / w_i)):
+    /// multipliers are known to rounding of s_i / w_i.
     std::vector<double> kernel;
 
     /// The largest of all entries.

@@ -18,9 +18,46 @@ namespace taut
     /// @p solver_name as for make_local_solver().
     FactoredStructure(const Structure &structure, const std::string &solver_name);
 
-    /// A_k = mass M_k + damping C_k + K_k, mass in 1/s^2, damping in 1/s. BodyNotHeld names the
-    /// body; an EntryError does if A_k is so close to singular that motions lose their sixth digit.
-    void factor(double mass, double damping);
+    /**
+     * A_k = mass M_k + damping C_k + K_k, mass in 1/s^2, damping in 1/s. Where that is so close to
+     * singular that motions lose their sixth digit, free_motions() has them apart from the factor;
+     * if the body has none, or without @p use_amplitudes, an EntryError names it. BodyNotHeld names
+     * a body that nothing holds.
+     */
+    void factor(double mass, double damping, bool use_amplitudes = true);
+
+    /**
+     * The motions that K_k does not resist, of a body whose inertia J = mass M_k + damping C_k is
+     * lost in the rounding of K_k. With a spring s as stiff as the diagonal on each fixing DoF in
+     * the factor, A_f = A + s, and A_f^-1 in place of A^-1 everywhere else,
+     *
+     *     A^-1 = A_f^-1 + R' E^-1 R'^T,    R' = R - A_f^-1 J R,    E = R^T J R',
+     *
+     * the formula of Sherman, Morrison and Woodbury with K R = 0 made use of: no spring is left in
+     * it. The vectors are chosen so that E is diagonal. Used only where E is at least half of R^T J
+     * R, so that it does not cancel: the inertia is smaller than what resists elastic motions.
+     */
+    struct FreeMotions
+    {
+      std::vector<std::vector<double>> vectors; ///< R'
+      std::vector<double> resistance;           ///< diagonal of E [N/m, N m/rad]
+      std::vector<std::vector<double>> rigid;   ///< R
+      std::vector<unsigned int> fixing_dofs;
+    };
+
+    /// Of each body; without vectors where A_k is factored as it is.
+    const std::vector<FreeMotions> &free_motions() const { return motions; }
+
+    /// True if a body of some rank has them. Called by all ranks together.
+    bool has_free_motions() const;
+
+    /**
+     * K_k U of a body with free motions is balanced on them, but for rounding of |K||U|, which may
+     * be more than the inertia. Takes that off the forces on the fixing DoFs of @p KU and adds it
+     * to those of @p balance, in which K_k U is subtracted.
+     */
+    void remove_rounding(std::size_t k, std::vector<double> &KU,
+                         std::vector<double> &balance) const;
 
     /**
      * A_k = K_k, with a spring as stiff as the diagonal on each DoF that holds a kernel vector: its
@@ -53,13 +90,18 @@ namespace taut
     std::vector<ScaledMatrix> summands(std::size_t k) const;
     void factor(std::size_t k, LocalSolver &solver, const std::vector<ScaledMatrix> &summands,
                 const std::vector<unsigned int> &held) const;
-    void check_digits(std::size_t k, const std::vector<ScaledMatrix> &summands) const;
+    double lost_digits(std::size_t k, const LocalSolver &solver,
+                       const std::vector<ScaledMatrix> &summands) const;
+    void check_digits(std::size_t k, double loss) const;
+    void factor_body(std::size_t k, bool use_amplitudes);
+    bool set_free_motions(std::size_t k);
 
     const Structure &bodies;
     const std::string solver_name;
     double mass_factor = 0., damping_factor = 0.; ///< of A_k; both 0 in statics
     bool is_static = false;
     std::vector<std::unique_ptr<LocalSolver>> solvers;
+    std::vector<FreeMotions> motions;
   };
 } // namespace taut
 

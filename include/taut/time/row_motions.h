@@ -43,11 +43,20 @@ namespace taut
                      const BlockVector &lift);
     const MixedComplementarityProblem &problem() const { return conditions; }
 
+    /// The free motions of bodies as unknowns of the problem, with loads from P^ = @p P. Called by
+    /// all ranks together, after set_problem().
+    void set_free_motions(const FactoredStructure &solvers, const BlockVector &P);
+
+    /// Adds those of the solution to the increments of the bodies.
+    void add_free_motions(const FactoredStructure &solvers, std::size_t k,
+                          std::vector<double> &dU) const;
+
     /**
-     * Takes the multipliers L of the problem, A dU = P^ + B L. state.multiplier becomes the force
-     * at the end of the step, or its mean over the step on a row at velocity level.
+     * Takes the solution of the problem, multipliers L with A dU = P^ + B L. state.multiplier
+     * becomes the force at the end of the step, or its mean over the step on a row at velocity
+     * level.
      */
-    void set_multipliers(const std::vector<double> &L, State &state);
+    void set_multipliers(const MixedComplementaritySolution &solution, State &state);
 
     /// L.
     const std::vector<double> &applied() const { return applied_multiplier; }
@@ -86,6 +95,8 @@ namespace taut
 
     MixedComplementarityProblem conditions;
     std::vector<double> S;
+    std::vector<double> amplitude;          ///< of the free motions, of all ranks
+    std::vector<std::size_t> first_of_body; ///< free motion of each body here
     std::vector<double> applied_multiplier, balanced, impulses;
     const std::vector<double> none; ///< empty
     std::vector<double>

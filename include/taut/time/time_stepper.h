@@ -101,6 +101,7 @@ namespace taut
     std::unique_ptr<SchurComplement> schur;
     ComplementaritySolver complementarity;
     RowMotions row_motions;
+    bool has_free_motions = false;            ///< a body of some rank
     std::vector<std::vector<KindNorm>> norms; ///< of M, C, K of each body
     std::vector<PerKind> reference_force;     ///< largest of K U_ref of each body [N, N m]
     std::vector<PerKind> contact_force;       ///< largest of one row on each body [N, N m]
