@@ -17,10 +17,21 @@ namespace taut
     columns.free_motion(P, d, terms_size);
   }
 
-  void AssembledSchurComplement::compute_moving()
+  const std::vector<double> &AssembledSchurComplement::compute_moving()
   {
-    for (std::size_t i = rows.n_fixed(); i < rows.size(); ++i)
+    const std::size_t n = rows.size(), n_fixed = rows.n_fixed();
+    for (std::size_t i = n_fixed; i < n; ++i)
       columns.compute(i);
+    shares.assign((n - n_fixed) * n, 0.);
+    for (std::size_t i = n_fixed; i < n; ++i)
+    {
+      double *share = shares.data() + (i - n_fixed) * n;
+      columns.visit_reached(i, [&](const std::size_t j) { share[j] = columns.entry(i, j); });
+      for (std::size_t j = n_fixed; j < n; ++j)
+        share[j] = columns.entry(i, j);
+    }
+    processes.sum(shares);
+    return shares;
   }
 
   DenseSchurComplement::DenseSchurComplement(const FactoredStructure &solvers,
@@ -34,28 +45,28 @@ namespace taut
     compliance = S;
     columns.setup();
     for (std::size_t i = 0; i < rows.n_fixed(); ++i)
-      set_rows(i, i + 1);
+    {
+      shares.clear();
+      for (std::size_t j = 0; j <= i; ++j)
+        shares.push_back(columns.entry(i, j));
+      processes.sum(shares);
+      set_row(i, shares.data());
+    }
     update_moving();
   }
 
   void DenseSchurComplement::update_moving()
   {
-    compute_moving();
-    set_rows(rows.n_fixed(), rows.size());
+    const double *share = compute_moving().data();
+    for (std::size_t i = rows.n_fixed(); i < rows.size(); ++i, share += rows.size())
+      set_row(i, share);
   }
 
-  /// The rows of F from the columns, left of the diagonal and on it.
-  void DenseSchurComplement::set_rows(const std::size_t begin, const std::size_t end)
+  void DenseSchurComplement::set_row(const std::size_t i, const double *entries)
   {
-    shares.clear();
-    for (std::size_t i = begin; i < end; ++i)
-      for (std::size_t j = 0; j <= i; ++j)
-        shares.push_back(columns.entry(i, j));
-    processes.sum(shares);
-    const double *share = shares.data();
-    for (std::size_t i = begin; i < end; ++i)
-      for (std::size_t j = 0; j <= i; ++j, ++share)
-        F.set(i, j, *share + (i == j ? compliance[i] : 0.));
+    for (std::size_t j = 0; j < i; ++j)
+      F.set(i, j, entries[j]);
+    F.set(i, i, entries[i] + compliance[i]);
   }
 
   std::string DenseSchurComplement::description() const
@@ -95,22 +106,12 @@ namespace taut
 
   void SparseSchurComplement::update_moving()
   {
-    compute_moving();
-    const std::size_t n = rows.size(), n_fixed = rows.n_fixed();
-    shares.assign((n - n_fixed) * n, 0.);
-    for (std::size_t i = n_fixed; i < n; ++i)
+    const double *share = compute_moving().data();
+    for (std::size_t i = rows.n_fixed(); i < rows.size(); ++i, share += rows.size())
     {
-      double *share = shares.data() + (i - n_fixed) * n;
-      columns.visit_reached(i, [&](const std::size_t j) { share[j] = columns.entry(i, j); });
-      for (std::size_t j = n_fixed; j < n; ++j)
-        share[j] = columns.entry(i, j);
-    }
-    processes.sum(shares);
-    for (std::size_t i = n_fixed; i < n; ++i)
-    {
-      const auto begin = shares.begin() + (i - n_fixed) * n;
-      begin[i] += compliance[i];
-      F.set_border(i, std::vector<double>(begin, begin + n));
+      std::vector<double> border(share, share + rows.size());
+      border[i] += compliance[i];
+      F.set_border(i, border);
     }
   }
 

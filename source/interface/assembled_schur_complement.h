@@ -22,8 +22,9 @@ namespace taut
                      std::vector<double> &terms_size) const override;
 
   protected:
-    /// The columns of the moving rows anew.
-    void compute_moving();
+    /// The columns of the moving rows anew. Returns these rows of B^T A^-1 B, each of rows.size()
+    /// numbers, one after the other.
+    const std::vector<double> &compute_moving();
 
     const ContactRows &rows;
     const Communicator &processes;
@@ -43,7 +44,7 @@ namespace taut
     std::string description() const override;
 
   private:
-    void set_rows(std::size_t begin, std::size_t end);
+    void set_row(std::size_t i, const double *entries);
 
     DenseOperator F;
   };

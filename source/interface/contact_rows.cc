@@ -3,6 +3,7 @@
 #include <taut/interface/contact_rows.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace taut
@@ -43,6 +44,18 @@ namespace taut
         fixed = rows.size();
       }
     }
+    begin.assign(1, 0);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      append_entries(i);
+  }
+
+  void ContactRows::append_entries(const std::size_t i)
+  {
+    for (const auto &[k, form] : rows[i].terms)
+      for (std::size_t j = 0; j < form.index.size(); ++j)
+        entries.push_back({form.value[j], static_cast<unsigned int>(k), form.index[j],
+                           structure[k].kind(form.index[j])});
+    begin.push_back(entries.size());
   }
 
   double ContactRows::position(const std::size_t i, const double t) const
@@ -79,25 +92,73 @@ namespace taut
 
   void ContactRows::update(const double t)
   {
+    begin.resize(fixed + 1);
+    entries.resize(begin.back());
     for (std::size_t i = fixed; i < rows.size(); ++i)
+    {
       set_terms(rows[i], t);
+      append_entries(i);
+    }
   }
 
   std::vector<double> ContactRows::motions(const BlockVector &U) const
   {
     std::vector<double> result(rows.size());
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      result[i] = evaluate(rows[i].terms, U);
+    share_of_motions(U, result);
     structure.communicator().sum(result);
     return result;
+  }
+
+  void ContactRows::share_of_motions(const BlockVector &U, std::vector<double> &motion) const
+  {
+    const Entry *e = entries.data();
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      double sum = 0.;
+      for (const Entry *const end = entries.data() + begin[i + 1]; e != end; ++e)
+        sum += e->value * U[e->body][e->dof];
+      motion[i] = sum;
+    }
+  }
+
+  void ContactRows::share_of_motions(const BlockVector &U, std::vector<double> &motion,
+                                     std::vector<double> &terms_size) const
+  {
+    const Entry *e = entries.data();
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      double sum = 0., size = 0.;
+      for (const Entry *const end = entries.data() + begin[i + 1]; e != end; ++e)
+      {
+        const double term = e->value * U[e->body][e->dof];
+        sum += term;
+        size += std::fabs(term);
+      }
+      motion[i] = sum;
+      terms_size[i] = size;
+    }
   }
 
   void ContactRows::add_forces(const std::vector<double> &N, BlockVector &P) const
   {
     for (std::size_t i = 0; i < rows.size(); ++i)
       if (N[i] != 0.)
-        for (const Term &term : rows[i].terms)
-          term.form.add_to(N[i], P[term.substructure]);
+        for (std::size_t e = begin[i]; e < begin[i + 1]; ++e)
+          P[entries[e].body][entries[e].dof] += N[i] * entries[e].value;
+  }
+
+  void ContactRows::largest_forces(const std::vector<double> &N,
+                                   std::vector<std::array<double, 2>> &result) const
+  {
+    result.assign(structure.size(), {0., 0.});
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (N[i] != 0.)
+        for (std::size_t e = begin[i]; e < begin[i + 1]; ++e)
+        {
+          double &largest = result[entries[e].body][entries[e].kind];
+          const double force = std::fabs(entries[e].value * N[i]);
+          largest = force > largest || std::isnan(force) ? force : largest;
+        }
   }
 
   std::string ContactRows::names(const std::vector<std::size_t> &indices) const

@@ -105,18 +105,17 @@ namespace taut
     {
       work = P;
       solvers.solve(work);
+      rows.share_of_motions(work, d, terms_size);
+      return;
     }
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
       const Column &column = columns[i];
-      d[i] = by_columns ? 0. : evaluate(rows[i].terms, work);
-      terms_size[i] = by_columns ? 0. : magnitude(rows[i].terms, work);
-      for (std::size_t p = 0; by_columns && p < column.substructure.size(); ++p)
-      {
-        const auto [sum, size] = column.part[p].dot_and_size(P[column.substructure[p]]);
-        d[i] += sum;
-        terms_size[i] += size;
-      }
+      ScalarProduct product;
+      for (std::size_t p = 0; p < column.substructure.size(); ++p)
+        product.add(column.part[p], P[column.substructure[p]]);
+      d[i] = product.value();
+      terms_size[i] = product.size();
     }
   }
 } // namespace taut

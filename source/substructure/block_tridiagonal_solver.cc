@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/exceptions.h>
+#include "block_elimination.h"
+
 #include <taut/substructure/local_solver.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <numeric>
 #include <stdexcept>
 
@@ -12,143 +11,9 @@ namespace taut
 {
   namespace
   {
-    /// Smallest accepted ratio of a pivot to the diagonal entry it came from.
-    constexpr double smallest_pivot = 1e-15;
-
     /// Relative size below which the tail of a column is left out, and for how many nodes in a row.
     constexpr double negligible = 1e-18;
     constexpr int negligible_nodes = 3;
-
-    template <int b>
-    using Block = std::array<double, b * b>;
-
-    /// y -= A x
-    template <int b>
-    inline void subtract(const Block<b> &A, const double *x, double *y)
-    {
-      for (int r = 0; r < b; ++r)
-        for (int c = 0; c < b; ++c)
-          y[r] -= A[r * b + c] * x[c];
-    }
-
-    /// y -= A^T x
-    template <int b>
-    inline void subtract_transposed(const Block<b> &A, const double *x, double *y)
-    {
-      for (int r = 0; r < b; ++r)
-        for (int c = 0; c < b; ++c)
-          y[r] -= A[c * b + r] * x[c];
-    }
-
-    /// y = A x
-    template <int b>
-    inline void multiply(const Block<b> &A, const double *x, double *y)
-    {
-      for (int r = 0; r < b; ++r)
-      {
-        double sum = A[r * b] * x[0];
-        for (int c = 1; c < b; ++c)
-          sum += A[r * b + c] * x[c];
-        y[r] = sum;
-      }
-    }
-
-    /// x -= A y, and y becomes x: one node of the elimination.
-    template <int b>
-    inline void advance(const Block<b> &A, double *y, double *x)
-    {
-      double sum[b] = {};
-      std::copy(x, x + b, sum);
-      subtract<b>(A, y, sum);
-      std::copy(sum, sum + b, x);
-      std::copy(sum, sum + b, y);
-    }
-
-    /// x = D x - A^T y, and y becomes x: one node of the substitution.
-    template <int b>
-    inline void retreat(const Block<b> &D, const Block<b> &A, double *y, double *x)
-    {
-      double sum[b] = {};
-      multiply<b>(D, x, sum);
-      subtract_transposed<b>(A, y, sum);
-      std::copy(sum, sum + b, x);
-      std::copy(sum, sum + b, y);
-    }
-
-    template <int b>
-    Block<b> transpose(const Block<b> &A)
-    {
-      Block<b> T;
-      for (int r = 0; r < b; ++r)
-        for (int c = 0; c < b; ++c)
-          T[r * b + c] = A[c * b + r];
-      return T;
-    }
-
-    template <int b>
-    Block<b> multiply(const Block<b> &A, const Block<b> &B)
-    {
-      Block<b> C{};
-      for (int r = 0; r < b; ++r)
-        for (int k = 0; k < b; ++k)
-          for (int c = 0; c < b; ++c)
-            C[r * b + c] += A[r * b + k] * B[k * b + c];
-      return C;
-    }
-
-    /// A - B, made symmetric.
-    template <int b>
-    Block<b> symmetric_difference(const Block<b> &A, const Block<b> &B)
-    {
-      Block<b> C;
-      for (int r = 0; r < b; ++r)
-        for (int c = 0; c < b; ++c)
-          C[r * b + c] = .5 * ((A[r * b + c] - B[r * b + c]) + (A[c * b + r] - B[c * b + r]));
-      return C;
-    }
-
-    /// Inverse of a definite block through its Cholesky factor. @p original has the diagonal before
-    /// elimination.
-    template <int b>
-    Block<b> invert(const Block<b> &A, const Block<b> &original, const std::size_t node)
-    {
-      double L[b][b] = {};
-      for (int r = 0; r < b; ++r)
-        for (int c = 0; c <= r; ++c)
-        {
-          double sum = A[r * b + c];
-          for (int k = 0; k < c; ++k)
-            sum -= L[r][k] * L[c][k];
-          if (r != c)
-            L[r][c] = sum / L[c][c];
-          else if (sum > smallest_pivot * original[r * b + r])
-            L[r][r] = std::sqrt(sum);
-          else
-            throw BodyNotHeld("the matrix is singular to working precision at node " +
-                              std::to_string(node) + ", DoF " + std::to_string(r) +
-                              " of the node: nothing holds it there");
-        }
-      Block<b> inverse{};
-      for (int column = 0; column < b; ++column)
-      {
-        double x[b] = {};
-        x[column] = 1.;
-        for (int r = 0; r < b; ++r)
-        {
-          for (int k = 0; k < r; ++k)
-            x[r] -= L[r][k] * x[k];
-          x[r] /= L[r][r];
-        }
-        for (int r = b - 1; r >= 0; --r)
-        {
-          for (int k = r + 1; k < b; ++k)
-            x[r] -= L[k][r] * x[k];
-          x[r] /= L[r][r];
-          inverse[r * b + column] = x[r];
-        }
-      }
-      return inverse;
-    }
 
     /**
      * With D_i and L_i the blocks of A (L_i couples node i to i - 1), the elimination from the left
@@ -163,18 +28,23 @@ namespace taut
       void factor(const std::vector<ScaledMatrix> &summands,
                   const std::vector<unsigned int> &constrained_dofs) override;
       void solve(std::vector<double> &x) const override;
+      void solve_beside(std::vector<double> &x, const LocalSolver &other,
+                        std::vector<double> &y) const override;
       void column(const SparseVector &rhs, WindowedVector &x) const override;
       double flexibility(const SparseVector &rhs) const override;
 
     private:
+      class Inwards;
+      class Outwards;
+      void solve_middle(double *x) const;
+
       bool element_of(const SparseVector &rhs, unsigned int &node,
                       std::array<double, 2 * b> &r) const;
       void solve_element(unsigned int node, const std::array<double, 2 * b> &rhs, double *x) const;
 
       std::size_t n = 0, middle = 0;
       std::vector<Block<b>> D, L;
-      std::vector<Block<b>> left_pivot, left_inverse, G;
-      std::vector<Block<b>> right_pivot, right_inverse, H;
+      Eliminations<b> from_left, from_right;
       Block<b> middle_inverse;
       std::vector<unsigned int> constrained;
       mutable std::vector<double> work; ///< of column()
@@ -211,83 +81,177 @@ namespace taut
       for (const unsigned int dof : constrained)
         D[dof / b][(dof % b) * (b + 1)] = 1.;
 
-      left_pivot = right_pivot = D;
-      for (auto *blocks : {&left_inverse, &right_inverse, &G, &H})
-        blocks->assign(n, {});
+      from_left.reinit(n);
+      from_right.reinit(n);
       for (std::size_t i = 0; i < n; ++i)
       {
+        Elimination<b> e{{}, {}, D[i], {}};
         if (i > 0)
         {
-          G[i] = multiply<b>(L[i], left_inverse[i - 1]);
-          left_pivot[i] = symmetric_difference<b>(D[i], multiply<b>(G[i], transpose<b>(L[i])));
+          e.multiplier = multiply<b>(L[i], from_left[i - 1].inverse);
+          e.pivot = symmetric_difference<b>(D[i], multiply<b>(e.multiplier, transpose<b>(L[i])));
         }
-        left_inverse[i] = invert<b>(left_pivot[i], D[i], i);
+        e.transposed = transpose<b>(e.multiplier);
+        e.inverse = invert<b>(e.pivot, D[i], i);
+        from_left.set(i, e);
       }
       for (std::size_t i = n; i-- > 0;)
       {
+        Elimination<b> e{{}, {}, D[i], {}};
         if (i + 1 < n)
         {
-          H[i] = multiply<b>(transpose<b>(L[i + 1]), right_inverse[i + 1]);
-          right_pivot[i] = symmetric_difference<b>(D[i], multiply<b>(H[i], L[i + 1]));
+          e.multiplier = multiply<b>(transpose<b>(L[i + 1]), from_right[i + 1].inverse);
+          e.pivot = symmetric_difference<b>(D[i], multiply<b>(e.multiplier, L[i + 1]));
         }
-        right_inverse[i] = invert<b>(right_pivot[i], D[i], i);
+        e.transposed = transpose<b>(e.multiplier);
+        e.inverse = invert<b>(e.pivot, D[i], i);
+        from_right.set(i, e);
       }
-      Block<b> pivot = left_pivot[middle];
+      Block<b> pivot = from_left[middle].pivot;
       if (middle + 1 < n)
-        pivot = symmetric_difference<b>(pivot, multiply<b>(H[middle], L[middle + 1]));
+        pivot = symmetric_difference<b>(pivot,
+                                        multiply<b>(from_right[middle].multiplier, L[middle + 1]));
       middle_inverse = invert<b>(pivot, D[middle], middle);
     }
+
+    /// The first half of a solve: elimination from both ends to the middle.
+    template <int b>
+    class BlockTridiagonalSolver<b>::Inwards
+    {
+    public:
+      Inwards(const BlockTridiagonalSolver &s, double *x)
+          : from_left(s.from_left.data()), from_right(s.from_right.data() + (s.n - 1)), l(x),
+            r(x + b * (s.n - 1)), n_left(s.middle), n_right(s.n - 1 - s.middle)
+      {
+        left.read(l);
+        right.read(r);
+      }
+
+      /// Steps that both ends have, the first one is step 1; the middle is left out.
+      std::ptrdiff_t n_steps() const { return std::min(n_left, n_right) - 1; }
+
+      void step(const std::ptrdiff_t k)
+      {
+        left = eliminate<b>(from_left[k]->transposed, left, l + b * k);
+        right = eliminate<b>(from_right[-k]->transposed, right, r - b * k);
+      }
+
+      /// The steps from @p k on, and those of one end only.
+      void finish(std::ptrdiff_t k)
+      {
+        for (; k <= n_steps(); ++k)
+          step(k);
+        for (std::ptrdiff_t i = k; i < n_left; ++i)
+          left = eliminate<b>(from_left[i]->transposed, left, l + b * i);
+        for (std::ptrdiff_t j = k; j < n_right; ++j)
+          right = eliminate<b>(from_right[-j]->transposed, right, r - b * j);
+      }
+
+    private:
+      const Elimination<b> *const *from_left, *const *from_right;
+      double *l, *r;
+      std::ptrdiff_t n_left, n_right;
+      Node<b> left, right; ///< the last nodes that each end came to
+    };
+
+    template <int b>
+    void BlockTridiagonalSolver<b>::solve_middle(double *x) const
+    {
+      double *m = x + b * middle, solution[b];
+      if (middle > 0)
+        subtract<b>(from_left[middle].multiplier, m - b, m);
+      if (middle + 1 < n)
+        subtract<b>(from_right[middle].multiplier, m + b, m);
+      multiply<b>(middle_inverse, m, solution);
+      std::copy(solution, solution + b, m);
+    }
+
+    /// The second half: substitution from the middle to both ends.
+    template <int b>
+    class BlockTridiagonalSolver<b>::Outwards
+    {
+    public:
+      Outwards(const BlockTridiagonalSolver &s, double *x)
+          : from_left(s.from_left.data() + s.middle), from_right(s.from_right.data() + s.middle),
+            m(x + b * s.middle), n_left(s.middle), n_right(s.n - 1 - s.middle)
+      {
+        left.read(m);
+        right = left;
+      }
+
+      /// Steps that both ends have, the first one is step 1.
+      std::ptrdiff_t n_steps() const { return std::min(n_left, n_right); }
+
+      void step(const std::ptrdiff_t k)
+      {
+        leftwards(k);
+        rightwards(k);
+      }
+
+      /// The steps from @p k on, and those of one end only.
+      void finish(std::ptrdiff_t k)
+      {
+        for (; k <= n_steps(); ++k)
+          step(k);
+        for (std::ptrdiff_t i = k; i <= n_left; ++i)
+          leftwards(i);
+        for (std::ptrdiff_t j = k; j <= n_right; ++j)
+          rightwards(j);
+      }
+
+    private:
+      void leftwards(const std::ptrdiff_t k)
+      {
+        left = substitute<b>(from_left[-k]->inverse, from_left[1 - k]->multiplier, left, m - b * k);
+      }
+      void rightwards(const std::ptrdiff_t k)
+      {
+        right =
+            substitute<b>(from_right[k]->inverse, from_right[k - 1]->multiplier, right, m + b * k);
+      }
+
+      const Elimination<b> *const *from_left, *const *from_right;
+      double *m;
+      std::ptrdiff_t n_left, n_right;
+      Node<b> left, right;
+    };
 
     template <int b>
     void BlockTridiagonalSolver<b>::solve(std::vector<double> &x) const
     {
       for (const unsigned int dof : constrained)
         x[dof] = 0.;
-      double *p = x.data();
+      Inwards(*this, x.data()).finish(1);
+      solve_middle(x.data());
+      Outwards(*this, x.data()).finish(1);
+    }
 
-      // Towards the middle, both ends interleaved: two independent chains for the processor, the
-      // last node of each in registers.
-      double l[b] = {}, r[b] = {};
-      std::copy(p, p + b, l);
-      std::copy(p + b * (n - 1), p + b * n, r);
-      const auto from_left = [&](const std::size_t k) { advance<b>(G[k], l, p + b * k); };
-      const auto from_right = [&](const std::size_t k) { advance<b>(H[k], r, p + b * k); };
-      std::size_t i = 1, j = n - 1;
-      for (; i < middle && j > middle + 1; ++i, --j)
+    template <int b>
+    void BlockTridiagonalSolver<b>::solve_beside(std::vector<double> &x, const LocalSolver &other,
+                                                 std::vector<double> &y) const
+    {
+      const auto *const alike = dynamic_cast<const BlockTridiagonalSolver *>(&other);
+      if (alike == nullptr)
+        return LocalSolver::solve_beside(x, other, y);
+      for (const unsigned int dof : constrained)
+        x[dof] = 0.;
+      for (const unsigned int dof : alike->constrained)
+        y[dof] = 0.;
+      const auto together = [](auto first, auto second)
       {
-        from_left(i);
-        from_right(j - 1);
-      }
-      for (; i < middle; ++i)
-        from_left(i);
-      for (; j > middle + 1; --j)
-        from_right(j - 1);
-
-      double *m = p + b * middle;
-      if (middle > 0)
-        subtract<b>(G[middle], m - b, m);
-      if (middle + 1 < n)
-        subtract<b>(H[middle], m + b, m);
-      multiply<b>(middle_inverse, m, l);
-      std::copy(l, l + b, m);
-      std::copy(l, l + b, r);
-
-      // And back outwards.
-      const auto leftwards = [&](const std::size_t k)
-      { retreat<b>(left_inverse[k], G[k + 1], l, p + b * k); };
-      const auto rightwards = [&](const std::size_t k)
-      { retreat<b>(right_inverse[k], H[k - 1], r, p + b * k); };
-      i = middle;
-      j = middle + 1;
-      for (; i > 0 && j < n; --i, ++j)
-      {
-        leftwards(i - 1);
-        rightwards(j);
-      }
-      for (; i > 0; --i)
-        leftwards(i - 1);
-      for (; j < n; ++j)
-        rightwards(j);
+        const std::ptrdiff_t n = std::min(first.n_steps(), second.n_steps());
+        for (std::ptrdiff_t k = 1; k <= n; ++k)
+        {
+          first.step(k);
+          second.step(k);
+        }
+        first.finish(std::max<std::ptrdiff_t>(n, 0) + 1);
+        second.finish(std::max<std::ptrdiff_t>(n, 0) + 1);
+      };
+      together(Inwards(*this, x.data()), Inwards(*alike, y.data()));
+      solve_middle(x.data());
+      alike->solve_middle(y.data());
+      together(Outwards(*this, x.data()), Outwards(*alike, y.data()));
     }
 
     /// Solves on nodes @p node and the next one with everything outside them eliminated.
@@ -300,15 +264,16 @@ namespace taut
       // [L   Dr ] [x1] = [r1]
       const Block<b> &coupling = L[node + 1];
       const Block<b> pivot = symmetric_difference<b>(
-          right_pivot[node + 1], multiply<b>(G[node + 1], transpose<b>(coupling)));
+          from_right[node + 1].pivot,
+          multiply<b>(from_left[node + 1].multiplier, transpose<b>(coupling)));
       const Block<b> inverse = invert<b>(pivot, D[node + 1], node + 1);
       double r0[b], r1[b];
       std::copy(rhs.begin(), rhs.begin() + b, r0);
       std::copy(rhs.begin() + b, rhs.end(), r1);
-      subtract<b>(G[node + 1], r0, r1);
+      subtract<b>(from_left[node + 1].multiplier, r0, r1);
       multiply<b>(inverse, r1, x + b);
       subtract_transposed<b>(coupling, x + b, r0);
-      multiply<b>(left_inverse[node], r0, x);
+      multiply<b>(from_left[node].inverse, r0, x);
     }
 
     /// The element that @p rhs lives on, by its first node, and the entries there; false if it is
@@ -386,13 +351,13 @@ namespace taut
       for (int quiet = 0; first > 0 && quiet < negligible_nodes; --first)
       {
         std::fill(p + b * (first - 1), p + b * first, 0.);
-        subtract_transposed<b>(G[first], p + b * first, p + b * (first - 1));
+        subtract_transposed<b>(from_left[first].multiplier, p + b * first, p + b * (first - 1));
         quiet = small(first - 1) ? quiet + 1 : 0;
       }
       for (int quiet = 0; last + 1 < n && quiet < negligible_nodes; ++last)
       {
         std::fill(p + b * (last + 1), p + b * (last + 2), 0.);
-        subtract_transposed<b>(H[last], p + b * last, p + b * (last + 1));
+        subtract_transposed<b>(from_right[last].multiplier, p + b * last, p + b * (last + 1));
         quiet = small(last + 1) ? quiet + 1 : 0;
       }
       if (first == 0 && last + 1 == n)
@@ -406,6 +371,7 @@ namespace taut
       }
       x.first = b * first;
       x.value.assign(p + b * first, p + b * (last + 1));
+      x.pad(ScalarProduct::lanes, b * n);
     }
   } // namespace
 
@@ -424,16 +390,5 @@ namespace taut
     default:
       throw std::logic_error("block size of a block-tridiagonal solver outside 1..4");
     }
-  }
-
-  std::unique_ptr<LocalSolver> make_local_solver(const std::string &name,
-                                                 const SymmetricMatrix &matrix)
-  {
-    if (name == "sparse direct" || matrix.block_size() == 0)
-      return make_sparse_direct_solver();
-    if (name == "block tridiagonal")
-      return make_block_tridiagonal_solver(matrix.block_size());
-    throw UserError("unknown local solver '" + name +
-                    "'; known are: block tridiagonal, sparse direct");
   }
 } // namespace taut

@@ -320,7 +320,10 @@ namespace taut
 
   void FactoredStructure::solve(BlockVector &X) const
   {
-    for (std::size_t k = 0; k < solvers.size(); ++k)
+    std::size_t k = 0;
+    for (; k + 1 < solvers.size(); k += 2)
+      solvers[k]->solve_beside(X[k], *solvers[k + 1], X[k + 1]);
+    if (k < solvers.size())
       solvers[k]->solve(X[k]);
   }
 } // namespace taut

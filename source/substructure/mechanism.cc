@@ -36,7 +36,7 @@ namespace taut
     }
     add_springs(scene);
     add_loads(scene);
-    finish_constraints();
+    finish();
   }
 
   std::string Mechanism::name_of(const Scene &scene, const std::vector<std::size_t> &members)

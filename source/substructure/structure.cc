@@ -235,19 +235,6 @@ namespace taut
     return sum;
   }
 
-  std::pair<double, double> evaluate_with_magnitude(const std::vector<Term> &terms,
-                                                    const BlockVector &U)
-  {
-    double sum = 0., size = 0.;
-    for (const Term &term : terms)
-    {
-      const double part = term.form.dot(U[term.substructure]);
-      sum += part;
-      size += std::fabs(part);
-    }
-    return {sum, size};
-  }
-
   double evaluate(const std::vector<Term> &terms, const BlockVector &U)
   {
     double sum = 0.;

@@ -22,7 +22,7 @@ namespace taut
       load->add(t, P);
   }
 
-  void Substructure::finish_constraints()
+  void Substructure::finish()
   {
     std::sort(constrained.begin(), constrained.end(),
               [](const auto &p, const auto &q) { return p.dof < q.dof; });
@@ -44,5 +44,7 @@ namespace taut
       throw EntryError(origin(), "body '" + name() +
                                      "': its mass, damping, stiffness or load is beyond the range "
                                      "of numbers; take less extreme values");
+    for (SymmetricMatrix *matrix : {M.get(), C.get(), K.get()})
+      matrix->find_repetitions();
   }
 } // namespace taut

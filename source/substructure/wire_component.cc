@@ -7,8 +7,11 @@
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
 
+#include <deal.II/lac/full_matrix.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace taut
 {
@@ -108,7 +111,7 @@ namespace taut
     // The block of the last node has no element after it: its inner DoFs do not exist.
     for (unsigned int i = discretisation->dof_handler.n_dofs(); i < n; ++i)
       constrained.push_back({i, Expression()});
-    finish_constraints();
+    finish();
   }
 
   WireComponent::~WireComponent() = default;
@@ -269,36 +272,58 @@ namespace taut
     const unsigned int n = discretisation->element->n_dofs_per_cell();
     std::vector<dealii::types::global_dof_index> dofs(n);
     std::vector<SparseVector> inertial;
-    std::size_t e = 0;
-    for (const auto &cell : discretisation->dof_handler.active_cell_iterators())
+    const auto compute =
+        [&](const auto &cell, dealii::FullMatrix<double> &m, dealii::FullMatrix<double> &k)
     {
       values.reinit(cell);
       if (!exact_mass)
         own_mass_values.reinit(cell);
-      cell->get_dof_indices(dofs);
-      if (!massless_dofs.empty())
-        inertial = inertial_forms(e++);
       const dealii::Tensor<1, 3> t = (cell->vertex(1) - cell->vertex(0)) / cell->diameter();
+      m = k = 0.;
       for (unsigned int i = 0; i < n; ++i)
         for (unsigned int j = 0; j <= i; ++j)
         {
-          double m = 0., k = 0.;
           for (const unsigned int q : mass_values.quadrature_point_indices())
-            m += mass_values.shape_value(i, q) * mass_values.shape_value(j, q) * mass_values.JxW(q);
+            m(i, j) += wire.mass_per_length * mass_values.shape_value(i, q) *
+                       mass_values.shape_value(j, q) * mass_values.JxW(q);
           for (const unsigned int q : values.quadrature_point_indices())
           {
             const double JxW = values.JxW(q);
-            k += stretch * (values.shape_grad(i, q) * t) * (values.shape_grad(j, q) * t) * JxW;
+            k(i, j) +=
+                stretch * (values.shape_grad(i, q) * t) * (values.shape_grad(j, q) * t) * JxW;
             if (beam)
-              k += wire.bending_stiffness * (t * values.shape_hessian(i, q) * t) *
-                   (t * values.shape_hessian(j, q) * t) * JxW;
+              k(i, j) += wire.bending_stiffness * (t * values.shape_hessian(i, q) * t) *
+                         (t * values.shape_hessian(j, q) * t) * JxW;
           }
-          if (massless_dofs.empty())
-            M->add(dofs[i], dofs[j], wire.mass_per_length * m);
-          else
-            add_product(wire.mass_per_length * m, inertial[i], inertial[j], *M);
-          K->add(dofs[i], dofs[j], k);
         }
+    };
+
+    // Elements whose lengths differ by the rounding of their positions alone share their matrices.
+    const double rounding = 4. * std::numeric_limits<double>::epsilon() * wire_length;
+    double length = -1.;
+    dealii::FullMatrix<double> m(n), k(n);
+    std::size_t e = 0;
+    for (const auto &cell : discretisation->dof_handler.active_cell_iterators())
+    {
+      const double own_length = nodes[e + 1] - nodes[e];
+      if (std::fabs(own_length - length) > rounding)
+      {
+        compute(cell, m, k);
+        length = own_length;
+      }
+      cell->get_dof_indices(dofs);
+      if (!massless_dofs.empty())
+        inertial = inertial_forms(e);
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j <= i; ++j)
+        {
+          if (massless_dofs.empty())
+            M->add(dofs[i], dofs[j], m(i, j));
+          else
+            add_product(m(i, j), inertial[i], inertial[j], *M);
+          K->add(dofs[i], dofs[j], k(i, j));
+        }
+      ++e;
     }
     C->add(wire.damping.mass, *M);
     C->add(wire.damping.stiffness, *K);

@@ -10,64 +10,59 @@ namespace taut
 {
   namespace
   {
-    /// Largest absolute entries at the positions of a pattern of p DoFs; not-a-number stays.
-    template <int p>
-    void largest_in_pattern(const double *x, const std::size_t n, double (&result)[p])
+    /// Not-a-number stays.
+    void raise(double &largest, const double a)
     {
-      // Several accumulators a position, so that they do not wait for each other. A comparison
-      // loses what is not a number, a sum keeps it.
-      constexpr int lanes = 8;
-      double m[lanes * p] = {}, sums[lanes * p] = {};
-      const std::size_t n_full = n - n % (lanes * p);
-      for (std::size_t i = 0; i < n_full; i += lanes * p)
-#pragma omp simd
-        for (int k = 0; k < lanes * p; ++k)
-        {
-          const double a = std::fabs(x[i + k]);
-          m[k] = a > m[k] ? a : m[k];
-          sums[k] += a;
-        }
-      for (std::size_t i = n_full; i < n; ++i)
-      {
-        const double a = std::fabs(x[i]);
-        m[i % p] = a > m[i % p] ? a : m[i % p];
-        sums[i % p] += a;
-      }
-      for (int k = 0; k < lanes * p; ++k)
-        if (std::isnan(sums[k]))
-          result[k % p] = sums[k];
-        else if (m[k] > result[k % p])
-          result[k % p] = m[k];
+      largest = a > largest || std::isnan(a) ? a : largest;
     }
   } // namespace
 
-  PerKind largest(const Substructure &body, const double *x)
+  template <std::size_t n_vectors>
+  Largest<n_vectors>::Largest(const Substructure &body)
+      : body(body), is_regular(lanes % body.kind_pattern().size() == 0)
   {
-    PerKind result = {0., 0.};
-    const std::size_t n = body.n_dofs();
-    const std::vector<unsigned char> &kinds = body.kind_pattern();
-    if (kinds.size() == 1)
-    {
-      double m[1] = {};
-      largest_in_pattern<1>(x, n, m);
-      result[kinds[0]] = m[0];
-    }
-    else if (kinds.size() == 2)
-    {
-      double m[2] = {};
-      largest_in_pattern<2>(x, n, m);
-      for (int k = 0; k < 2; ++k)
-        if (!(m[k] <= result[kinds[k]]) && !std::isnan(result[kinds[k]]))
-          result[kinds[k]] = m[k];
-    }
-    else
-      for (std::size_t i = 0; i < n; ++i)
-      {
-        double &largest = result[body.kind(i)];
-        const double a = std::fabs(x[i]);
-        largest = a > largest || a != a ? a : largest;
-      }
+  }
+
+  template <std::size_t n_vectors>
+  void Largest<n_vectors>::add(const std::array<const double *, n_vectors> &x, const std::size_t n)
+  {
+    Lanes m = largest, s = sums;
+    const std::size_t n_full = is_regular ? n - n % lanes : 0;
+    for (std::size_t i = 0; i < n_full; i += lanes)
+      for (std::size_t v = 0; v < n_vectors; ++v)
+#pragma omp simd
+        for (std::size_t k = 0; k < lanes; ++k)
+        {
+          const double a = std::fabs(x[v][i + k]);
+          m[v][k] = a > m[v][k] ? a : m[v][k];
+          s[v][k] += a;
+        }
+    largest = m;
+    sums = s;
+    for (std::size_t v = 0; v < n_vectors; ++v)
+      for (std::size_t i = n_full; i < n; ++i)
+        raise(others[v][body.kind(i)], std::fabs(x[v][i]));
+  }
+
+  template <std::size_t n_vectors>
+  std::array<PerKind, n_vectors> Largest<n_vectors>::result() const
+  {
+    std::array<PerKind, n_vectors> result = others;
+    if (is_regular)
+      for (std::size_t v = 0; v < n_vectors; ++v)
+        for (std::size_t k = 0; k < lanes; ++k)
+          raise(result[v][body.kind(k)], std::isnan(sums[v][k]) ? sums[v][k] : largest[v][k]);
     return result;
+  }
+
+  template class Largest<1>;
+  template class Largest<4>;
+
+  PerKind largest(const Substructure &body, const std::vector<double> &x)
+  {
+    Largest<1> found(body);
+    found.add({x.data()}, body.n_dofs());
+    return found.result()[0];
   }
 
   void check_size(const Substructure &body, const PerKind &force, const PerKind &displacement,
@@ -83,21 +78,6 @@ namespace taut
             << velocity[kind] << ". Check loads, stiffnesses and masses for extreme values.";
         throw EntryError(body.origin(), out.str());
       }
-  }
-
-  void largest_contact_forces(const Structure &structure, const ContactRows &rows,
-                              const std::vector<double> &N, std::vector<PerKind> &result)
-  {
-    result.assign(structure.size(), PerKind{0., 0.});
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      if (N[i] != 0.)
-        for (const auto &[k, form] : rows[i].terms)
-          for (std::size_t j = 0; j < form.index.size(); ++j)
-          {
-            double &largest = result[k][structure[k].kind(form.index[j])];
-            const double force = std::fabs(form.value[j] * N[i]);
-            largest = force > largest || std::isnan(force) ? force : largest;
-          }
   }
 
   KindNorm::KindNorm(const Substructure &body, const SymmetricMatrix &matrix)

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace taut
 {
@@ -148,20 +147,17 @@ namespace taut
                                      const BlockVector &P, const BlockVector &lift)
   {
     schur.free_motion(P, motion, motion_size);
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    if (supports_move)
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        motion[i] += evaluate(rows[i].terms, lift);
+    for (std::size_t i = rows.n_fixed(); i < rows.size(); ++i)
     {
       const std::vector<Term> &terms = rows[i].terms;
-      if (supports_move)
-        motion[i] += evaluate(terms, lift);
-      position[i] = terms_size[i] = 0.;
-      if (rows[i].moving)
-      {
-        position[i] = evaluate(terms, origin.displacement) + evaluate(terms, before.U);
-        terms_size[i] = magnitude(terms, origin.displacement) + magnitude(terms, before.U);
-      }
-      if (at_velocity_level)
-        velocity[i] = evaluate(terms, before.V);
+      position[i] = evaluate(terms, origin.displacement) + evaluate(terms, before.U);
+      terms_size[i] = magnitude(terms, origin.displacement) + magnitude(terms, before.U);
     }
+    if (at_velocity_level)
+      rows.share_of_motions(before.V, velocity);
     share({&motion, &motion_size, &position, &terms_size});
     if (at_velocity_level)
       share({&velocity});
@@ -170,16 +166,12 @@ namespace taut
   /// After the step: increment of the rows, and their motion since the reference.
   void RowMotions::share_motions(const State &state)
   {
-    for (std::size_t i = 0; i < rows.size(); ++i)
-    {
-      const std::vector<Term> &terms = rows[i].terms;
-      motion[i] = evaluate(terms, state.dU);
-      std::tie(position[i], terms_size[i]) = evaluate_with_magnitude(terms, state.U);
-      if (rows[i].moving)
-        position[i] += evaluate(terms, origin.displacement);
-      if (at_velocity_level)
-        velocity[i] = evaluate(terms, state.V);
-    }
+    rows.share_of_motions(state.dU, motion);
+    rows.share_of_motions(state.U, position, terms_size);
+    for (std::size_t i = rows.n_fixed(); i < rows.size(); ++i)
+      position[i] += evaluate(rows[i].terms, origin.displacement);
+    if (at_velocity_level)
+      rows.share_of_motions(state.V, velocity);
     share({&motion, &position, &terms_size});
     if (at_velocity_level)
       share({&velocity});

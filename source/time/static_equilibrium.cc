@@ -201,7 +201,7 @@ namespace taut
         structure[k].external_force(t, r[k]);
       rows.add_forces(state.multiplier, r);
       std::vector<PerKind> contact;
-      largest_contact_forces(structure, rows, state.multiplier, contact);
+      rows.largest_forces(state.multiplier, contact);
       for (std::size_t k = 0; k < structure.size(); ++k)
       {
         const Substructure &body = structure[k];

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <type_traits>
 
 namespace taut
 {
@@ -36,10 +37,14 @@ namespace taut
           for (std::size_t i = 0; i < n; ++i)
             visitor(i, c.v_V * V[i] + c.v_A * A[i] + c.v_dU * dU[i],
                     c.a_V * V[i] + c.a_A * A[i] + c.a_dU * dU[i] + c.a_V_old * V_old[i]);
-        else
+        else if (c.v_A != 0. || c.a_A != 0.)
 #pragma omp simd
           for (std::size_t i = 0; i < n; ++i)
             visitor(i, c.v_V * V[i] + c.v_A * A[i], c.a_V * V[i] + c.a_A * A[i]);
+        else
+#pragma omp simd
+          for (std::size_t i = 0; i < n; ++i)
+            visitor(i, c.v_V * V[i], c.a_V * V[i]);
       }
 
     private:
@@ -57,20 +62,18 @@ namespace taut
         solvers(structure, parameters.local_solver),
         schur(make_schur_complement(parameters.interface, solvers, rows)),
         complementarity(parameters.complementarity),
-        row_motions(structure, at_time(rows, current.time), origin, current)
+        row_motions(structure, at_time(rows, current.time), origin, current),
+        balance(structure, rows, origin)
   {
-    for (BlockVector *v : {&P, &right_hand_side, &lift, &old_A, &old_balance})
+    for (BlockVector *v : {&forces.P, &right_hand_side, &lift, &forces.old_A, &forces.old_balance})
       *v = structure.zero();
-    external_size.resize(structure.size());
+    forces.external_size.resize(structure.size());
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       const Substructure &body = structure[k];
       set_external_force(k);
       for (std::vector<double> *v : {&work_v, &work_a})
         v->resize(std::max<std::size_t>(v->size(), body.n_dofs()));
-      reference_force.push_back(largest(body, origin.force[k]));
-      norms.push_back({KindNorm(body, body.mass()), KindNorm(body, body.damping()),
-                       KindNorm(body, body.stiffness())});
     }
     const StepCoefficients c = integrator.coefficients(step);
     if (c.starts_itself())
@@ -90,7 +93,7 @@ namespace taut
       const Substructure &body = structure[k];
       std::vector<double> &r = current.balance[k];
       for (std::size_t i = 0; i < r.size(); ++i)
-        r[i] = P[k][i] - current.KU[k][i];
+        r[i] = forces.P[k][i] - current.KU[k][i];
       body.damping().vmult_add(-1., current.V[k].data(), r.data());
     }
     std::vector<double> N = current.multiplier;
@@ -137,9 +140,9 @@ namespace taut
       row_motions.set_free_motions(solvers, right_hand_side);
     solve_rows();
     rows.add_forces(row_motions.applied(), right_hand_side);
+    solvers.solve(right_hand_side);
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
-      solvers[k].solve(right_hand_side[k]);
       row_motions.add_free_motions(solvers, k, right_hand_side[k]);
       accept(k);
     }
@@ -151,11 +154,12 @@ namespace taut
   void TimeStepper::set_external_force(const std::size_t k)
   {
     const Substructure &body = structure[k];
-    body.external_force(current.time, P[k]);
+    std::vector<double> &P = forces.P[k];
+    body.external_force(current.time, P);
     const double *f = origin.force[k].data();
-    for (std::size_t i = 0; i < P[k].size(); ++i)
-      P[k][i] -= f[i];
-    external_size[k] = largest(body, P[k]);
+    for (std::size_t i = 0; i < P.size(); ++i)
+      P[i] -= f[i];
+    forces.external_size[k] = largest(body, P);
   }
 
   /// P^_k = P - K U - C v* - M a*, with v* and a* the parts of velocity and acceleration that are
@@ -170,18 +174,29 @@ namespace taut
 
     const double kappa = c.alpha_f / (1. - c.alpha_f);
     const double old = c.alpha_m / (1. - c.alpha_f), now = (1. - c.alpha_m) / (1. - c.alpha_f);
-    const double *A = current.A[k].data(), *p = P[k].data(), *KU = current.KU[k].data(),
+    const double *A = current.A[k].data(), *p = forces.P[k].data(), *KU = current.KU[k].data(),
                  *r = current.balance[k].data();
     double *v = work_v.data(), *m = work_a.data(), *R = right_hand_side[k].data();
-    KnownMotion(c, current, k)
-        .visit(body.n_dofs(),
-               [=](const std::size_t i, const double known_v, const double known_a)
-               {
-                 v[i] = known_v;
-                 m[i] = now * known_a + old * A[i];
-                 R[i] = p[i] - KU[i] + kappa * r[i];
-               });
-    if (c.v_V != 0. || c.v_A != 0. || c.v_dU != 0.)
+    const KnownMotion known(c, current, k);
+    const bool velocity_is_known = c.v_V != 0. || c.v_A != 0. || c.v_dU != 0.;
+    const auto set = [&](const auto with_old_forces, const auto with_velocity)
+    {
+      known.visit(body.n_dofs(),
+                  [=](const std::size_t i, const double known_v, const double known_a)
+                  {
+                    if (with_velocity)
+                      v[i] = known_v;
+                    m[i] = with_old_forces ? now * known_a + old * A[i] : known_a;
+                    R[i] = p[i] - KU[i] + (with_old_forces ? kappa * r[i] : 0.);
+                  });
+    };
+    if (c.alpha_m != 0. || c.alpha_f != 0.)
+      set(std::true_type(), std::true_type());
+    else if (velocity_is_known)
+      set(std::false_type(), std::true_type());
+    else
+      set(std::false_type(), std::false_type());
+    if (velocity_is_known)
       body.damping().vmult_add(-1., v, R);
     body.mass().vmult_add(-1., m, R);
 
@@ -220,7 +235,7 @@ namespace taut
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       const std::vector<double> &dU = current.dU[k], &V = current.V_old[k], &A = current.A[k],
-                                &A0 = old_A[k];
+                                &A0 = forces.old_A[k];
       for (std::size_t i = 0; i < dU.size(); ++i)
         work_v[i] = dU[i] - step * (V[i] + step * (A0[i] / 3. + A[i] / 6.));
       const PerKind e = largest(structure[k], work_v), v = largest(structure[k], V);
@@ -291,7 +306,7 @@ namespace taut
         increment[constraint.dof] = lift[k][constraint.dof];
 
     const double *dU = increment.data();
-    double *U = current.U[k].data(), *V = current.V_old[k].data(), *A = old_A[k].data();
+    double *U = current.U[k].data(), *V = current.V_old[k].data(), *A = forces.old_A[k].data();
     KnownMotion(coefficients, current, k)
         .visit(increment.size(),
                [=](const std::size_t i, const double known_v, const double known_a)
@@ -302,16 +317,18 @@ namespace taut
                });
     current.dU[k].swap(increment);
     current.V_old[k].swap(current.V[k]);
-    old_A[k].swap(current.A[k]);
-    old_balance[k].swap(current.balance[k]);
+    forces.old_A[k].swap(current.A[k]);
+    forces.old_balance[k].swap(current.balance[k]);
   }
 
   void TimeStepper::certify()
   {
     const Communicator &processes = structure.communicator();
-    processes.agree([&] { certify_balance(); });
-    const double own_balance = last.balance;
+    double own_balance = 0.;
+    processes.agree([&]
+                    { own_balance = balance.measure(coefficients, forces, row_motions, current); });
     last.balance = processes.max(own_balance);
+    last.worst_body = balance.worst_body();
     certify_rows();
     if (!(last.balance <= parameters.contact_tolerance))
       processes.agree(
@@ -320,87 +337,6 @@ namespace taut
             if (!(own_balance < last.balance))
               fail_balance();
           });
-  }
-
-  void TimeStepper::certify_balance()
-  {
-    const StepCoefficients &c = coefficients;
-    const double kappa = c.alpha_f / (1. - c.alpha_f);
-    const double old = c.alpha_m / (1. - c.alpha_f), now = (1. - c.alpha_m) / (1. - c.alpha_f);
-
-    last.balance = 0.;
-    for (std::size_t k = 0; k < structure.size(); ++k)
-    {
-      const Substructure &body = structure[k];
-      const double *p = P[k].data();
-      double *r = current.balance[k].data(), *KU = current.KU[k].data();
-      body.stiffness().vmult(current.U[k].data(), KU);
-      const std::size_t n = body.n_dofs();
-#pragma omp simd
-      for (std::size_t i = 0; i < n; ++i)
-        r[i] = p[i] - KU[i];
-    }
-    rows.add_forces(row_motions.in_balance(), current.balance);
-    if (!row_motions.impulsive().empty())
-    {
-      for (std::vector<double> &f : right_hand_side)
-        std::fill(f.begin(), f.end(), 0.);
-      rows.add_forces(row_motions.impulsive(), right_hand_side);
-    }
-    largest_contact_forces(structure, rows, current.multiplier, contact_force);
-    for (std::size_t k = 0; k < structure.size(); ++k)
-    {
-      const Substructure &body = structure[k];
-      const std::size_t n = body.n_dofs();
-      double *r = current.balance[k].data(), *a = work_a.data(), *residual = work_v.data();
-      const double *A = current.A[k].data(), *A0 = old_A[k].data(), *r0 = old_balance[k].data();
-      // P and B N may cancel, and both against the forces of the reference: each counts.
-      PerKind force = external_size[k];
-      for (int kind = 0; kind < 2; ++kind)
-        force[kind] += contact_force[k][kind] + reference_force[k][kind];
-      body.damping().vmult_add(-1., current.V[k].data(), r);
-#pragma omp simd
-      for (std::size_t i = 0; i < n; ++i)
-        a[i] = now * A[i] + old * A0[i];
-      body.mass().vmult(a, residual);
-#pragma omp simd
-      for (std::size_t i = 0; i < n; ++i)
-        residual[i] -= r[i] + kappa * r0[i];
-      if (!row_motions.impulsive().empty())
-        for (std::size_t i = 0; i < n; ++i)
-          residual[i] -= right_hand_side[k][i];
-      for (const ConstrainedDof &constraint : body.constraints())
-        residual[constraint.dof] = 0.;
-
-      PerKind increments = largest(body, current.dU[k]), inertial = increments;
-      for (double &d : inertial)
-        d *= c.mass_factor();
-      const PerKind error = largest(body, residual), inertia = norms[k][0].times(inertial),
-                    velocity = largest(body, current.V[k]),
-                    displacement = largest(body, current.U[k]),
-                    damping = norms[k][1].times(velocity);
-      // A step that brings a body back from afar ends with the rounding of the way.
-      const PerKind stiffness =
-          norms[k][2].times({displacement[0] + increments[0], displacement[1] + increments[1]});
-      for (int kind = 0; kind < 2; ++kind)
-        if (!(std::max({force[kind], velocity[kind], displacement[kind]}) <= largest_number) ||
-            std::isnan(velocity[kind]) || std::isnan(displacement[kind]))
-        {
-          std::ostringstream when;
-          when << "at t = " << current.time << " s: ";
-          check_size(body, force, displacement, velocity, when.str());
-        }
-      for (int kind = 0; kind < 2; ++kind)
-      {
-        const double size = force[kind] + inertia[kind] + damping[kind] + stiffness[kind];
-        const double relative = error[kind] == 0. ? 0. : error[kind] / size;
-        if (!(relative <= last.balance) && !std::isnan(last.balance))
-        {
-          last.balance = relative;
-          last.worst_body = k;
-        }
-      }
-    }
   }
 
   void TimeStepper::certify_rows()

@@ -103,6 +103,102 @@ TEST(LocalSolvers, products_give_back_what_was_solved)
     }
 }
 
+// Elements that repeat themselves, but for two nodes: products with the repetitions found are those
+// with each entry read, whole or by some rows at a time.
+TEST(LocalSolvers, repeated_rows_multiply_as_if_they_were_read)
+{
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> value(-1., 1.);
+  constexpr unsigned int n_nodes = 301;
+  for (unsigned int b = 1; b <= 4; ++b)
+  {
+    SCOPED_TRACE("blocks of " + std::to_string(b));
+    const unsigned int size = b * n_nodes;
+    std::vector<double> element(4 * b * b);
+    for (double &v : element)
+      v = value(random);
+    const auto matrix = taut::make_block_tridiagonal(b, size);
+    for (unsigned int node = 0; node + 1 < n_nodes; ++node)
+      for (unsigned int i = 0; i < 2 * b; ++i)
+        for (unsigned int j = 0; j <= i; ++j)
+          matrix->add(b * node + i, b * node + j, element[2 * b * i + j]);
+    matrix->add(b * 100, b * 100, 3.);
+    matrix->add(b * 200 + b - 1, b * 199, 2.);
+
+    std::vector<double> x(size), expected(size, 0.);
+    for (double &v : x)
+      v = value(random);
+    matrix->visit(
+        [&](const unsigned int i, const unsigned int j, const double v)
+        {
+          expected[i] += v * x[j];
+          if (i != j)
+            expected[j] += v * x[i];
+        });
+    for (const bool repeated : {false, true})
+    {
+      if (repeated)
+        matrix->find_repetitions();
+      std::vector<double> product(size, 1.);
+      matrix->vmult_add(2., x.data(), product.data());
+      for (unsigned int i = 0; i < size; ++i)
+        EXPECT_NEAR(product[i], 1. + 2. * expected[i], 1e-13) << i;
+      for (const unsigned int begin : {0u, b, 17 * b, 100 * b, size - 2 * b})
+        for (const unsigned int end : {size, size - b, 120 * b})
+        {
+          std::vector<double> part(end > begin ? end - begin : 0, 1.);
+          if (part.empty())
+            continue;
+          matrix->vmult_rows(begin, end, x.data(), part.data());
+          for (unsigned int i = begin; i < end; ++i)
+            EXPECT_NEAR(part[i - begin], expected[i], 1e-13) << i;
+        }
+    }
+    // What is added later counts.
+    matrix->add(b * 50, b * 50, 1.);
+    std::vector<double> product(size);
+    matrix->vmult_rows(0, size, x.data(), product.data());
+    EXPECT_NEAR(product[b * 50], expected[b * 50] + x[b * 50], 1e-13);
+  }
+}
+
+// Two bodies of different lengths, in one loop and one after the other; and of different solvers.
+TEST(LocalSolvers, bodies_side_by_side_are_solved_like_one_by_one)
+{
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> value(-1., 1.);
+  for (unsigned int b = 1; b <= 4; ++b)
+    for (const std::string name : {"block tridiagonal", "sparse direct"})
+      for (const unsigned int n_nodes : {2u, 3u, 40u, 93u})
+      {
+        const auto make = [&](const unsigned int nodes)
+        {
+          auto matrix = taut::make_block_tridiagonal(b, b * nodes);
+          for (unsigned int i = 0; i < b * nodes; ++i)
+            for (unsigned int j = i / b == 0 ? 0 : b * (i / b - 1); j <= i; ++j)
+              matrix->add(i, j, i == j ? 4. * b : value(random));
+          return matrix;
+        };
+        const auto A = make(40), B = make(n_nodes);
+        const auto first = taut::make_local_solver("block tridiagonal", *A),
+                   second = taut::make_local_solver(name, *B);
+        first->factor({{1., A.get()}}, {1});
+        second->factor({{1., B.get()}}, {b * n_nodes - 1});
+        std::vector<double> x(40 * b), y(n_nodes * b);
+        for (std::vector<double> *v : {&x, &y})
+          for (double &entry : *v)
+            entry = value(random);
+        std::vector<double> x_alone = x, y_alone = y;
+        first->solve_beside(x, *second, y);
+        first->solve(x_alone);
+        second->solve(y_alone);
+        for (std::size_t i = 0; i < x.size(); ++i)
+          EXPECT_NEAR(x[i], x_alone[i], 1e-14) << i;
+        for (std::size_t i = 0; i < y.size(); ++i)
+          EXPECT_NEAR(y[i], y_alone[i], 1e-14) << i;
+      }
+}
+
 TEST(LocalSolvers, refuse_what_is_not_held)
 {
   for (const std::string name : {"block tridiagonal", "sparse direct"})

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 namespace taut
@@ -59,20 +58,72 @@ namespace taut
       return sum;
     }
 
-    /// Scalar product with a full vector, and the sum of its absolute terms, which it rounds with.
-    std::pair<double, double> dot_and_size(const std::vector<double> &x) const
+    /// Adds zeros until the window has a multiple of @p n entries, if the vector of length @p size
+    /// has room for them.
+    void pad(const std::size_t n, const std::size_t size)
     {
-      const double *a = value.data(), *b = x.data() + first;
-      const std::size_t n = value.size();
-      double sum = 0., size = 0.;
-#pragma omp simd reduction(+ : sum, size)
-      for (std::size_t k = 0; k < n; ++k)
+      const std::size_t missing = (n - value.size() % n) % n, behind = size - first - value.size();
+      if (missing <= behind)
+        value.resize(value.size() + missing, 0.);
+      else if (missing <= first)
       {
-        sum += a[k] * b[k];
-        size += std::fabs(a[k] * b[k]);
+        value.insert(value.begin(), missing, 0.);
+        first -= static_cast<unsigned int>(missing);
       }
-      return {sum, size};
     }
+  };
+
+  /// A sum of scalar products of windows with full vectors, and the sum of their absolute terms,
+  /// which it rounds with.
+  class ScalarProduct
+  {
+  public:
+    /// Windows of a multiple of so many entries are the fastest.
+    static constexpr std::size_t lanes = 8;
+
+    void add(const WindowedVector &window, const std::vector<double> &x)
+    {
+      const double *a = window.value.data(), *b = x.data() + window.first;
+      const std::size_t n = window.value.size(), n_full = n - n % lanes;
+      // Several sums side by side, which do not wait for each other.
+      double own_sums[lanes] = {}, own_sizes[lanes] = {};
+      for (std::size_t k = 0; k < n_full; k += lanes)
+#pragma omp simd
+        for (std::size_t l = 0; l < lanes; ++l)
+        {
+          const double term = a[k + l] * b[k + l];
+          own_sums[l] += term;
+          own_sizes[l] += std::fabs(term);
+        }
+      for (std::size_t k = n_full; k < n; ++k)
+      {
+        const double term = a[k] * b[k];
+        own_sums[k - n_full] += term;
+        own_sizes[k - n_full] += std::fabs(term);
+      }
+      for (std::size_t l = 0; l < lanes; ++l)
+      {
+        sums[l] += own_sums[l];
+        sizes[l] += own_sizes[l];
+      }
+    }
+
+    double value() const
+    {
+      return total(sums);
+    }
+    double size() const
+    {
+      return total(sizes);
+    }
+
+  private:
+    static double total(const double (&x)[lanes])
+    {
+      return ((x[0] + x[4]) + (x[1] + x[5])) + ((x[2] + x[6]) + (x[3] + x[7]));
+    }
+
+    double sums[lanes] = {}, sizes[lanes] = {};
   };
 } // namespace taut
 

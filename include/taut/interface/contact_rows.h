@@ -5,6 +5,7 @@
 #include <taut/scene/scene.h>
 #include <taut/substructure/structure.h>
 
+#include <array>
 #include <limits>
 #include <string>
 #include <vector>
@@ -53,8 +54,20 @@ namespace taut
     /// B^T U of each row: the motion of the rows, summed over all ranks [m, rad].
     std::vector<double> motions(const BlockVector &U) const;
 
+    /// The share of this rank's bodies in it, into @p motion of length size().
+    void share_of_motions(const BlockVector &U, std::vector<double> &motion) const;
+
+    /// The same, and the sums of the absolute terms, which it rounds with, into @p terms_size.
+    void share_of_motions(const BlockVector &U, std::vector<double> &motion,
+                          std::vector<double> &terms_size) const;
+
     /// P += B N.
     void add_forces(const std::vector<double> &N, BlockVector &P) const;
+
+    /// Largest force [N] and moment [N m] of a single row on each body, |B_i| |N_i|: their sum may
+    /// cancel.
+    void largest_forces(const std::vector<double> &N,
+                        std::vector<std::array<double, 2>> &result) const;
 
     /// Index of the row of a link.
     std::size_t row_of_link(std::size_t link) const { return row_index[link]; }
@@ -69,13 +82,24 @@ namespace taut
     std::string names(const std::vector<std::size_t> &indices) const;
 
   private:
+    /// One number of B.
+    struct Entry
+    {
+      double value;
+      unsigned int body, dof, kind;
+    };
+
     void set_terms(Row &row, double t) const;
+    void append_entries(std::size_t i);
 
     const Scene &scene;
     const Structure &structure;
     std::vector<Row> rows;
     std::vector<std::size_t> row_index;
     std::size_t fixed = 0;
+
+    std::vector<Entry> entries;     ///< of all rows, one row after the other
+    std::vector<std::size_t> begin; ///< of each row; one number more
   };
 } // namespace taut
 

@@ -35,6 +35,11 @@ namespace taut
     /// x = A^-1 x.
     virtual void solve(std::vector<double> &x) const = 0;
 
+    /// x = A^-1 x, and y solved by @p other. Solvers of one kind do so in one loop: their chains of
+    /// operations do not wait for each other.
+    virtual void solve_beside(std::vector<double> &x, const LocalSolver &other,
+                              std::vector<double> &y) const;
+
     /**
      * x = A^-1 rhs without the tails where it has decayed below 1e-18 of its largest entry of the
      * same kind. @p rhs lives on the DoFs of one element.

@@ -114,10 +114,6 @@ namespace taut
 
   /// Sum of the forms of @p terms applied to U.
   double evaluate(const std::vector<Term> &terms, const BlockVector &U);
-
-  /// Both at once: the sum and its magnitude.
-  std::pair<double, double> evaluate_with_magnitude(const std::vector<Term> &terms,
-                                                    const BlockVector &U);
 } // namespace taut
 
 #endif

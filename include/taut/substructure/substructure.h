@@ -92,10 +92,10 @@ namespace taut
     virtual Kernel kernel() const = 0;
 
   protected:
-    /// Sorts the constraints and notes whether one moves. Called at the end of a constructor.
-    /// Throws EntryError if the numbers of the scene are so extreme that a matrix or a force is not
-    /// finite.
-    void finish_constraints();
+    /// Sorts the constraints, notes whether one moves, and closes the matrices. Called at the end
+    /// of a constructor. Throws EntryError if the numbers of the scene are so extreme that a matrix
+    /// or a force is not finite.
+    void finish();
 
     std::unique_ptr<SymmetricMatrix> M, C, K;
     std::vector<unsigned char> kinds = {0};

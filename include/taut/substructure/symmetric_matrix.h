@@ -2,13 +2,11 @@
 #ifndef taut_symmetric_matrix_h
 #define taut_symmetric_matrix_h
 
-#include <array>
 #include <cstddef>
 #include <functional>
 #include <map>
 #include <memory>
 #include <utility>
-#include <vector>
 
 namespace taut
 {
@@ -30,11 +28,19 @@ namespace taut
     /// Adds @p value to the entry (i, j) and, if i != j, to (j, i): call it once a pair.
     virtual void add(unsigned int i, unsigned int j, double value) = 0;
 
+    /// Call it after the last add(): products with rows that repeat themselves then read them once.
+    /// A later add() undoes it.
+    virtual void find_repetitions() {}
+
     /// y += factor * (this) x; vectors of length size().
     virtual void vmult_add(double factor, const double *x, double *y) const = 0;
 
-    /// y = (this) x.
-    virtual void vmult(const double *x, double *y) const = 0;
+    /**
+     * Rows begin to end - 1 of y = (this) x, into y[0] to y[end - begin - 1]. Both are multiples of
+     * block_size(); a matrix without blocks has only all of its rows at once.
+     */
+    virtual void vmult_rows(std::size_t begin, std::size_t end, const double *x,
+                            double *y) const = 0;
 
     /// Calls the visitor once for each stored pair (i, j <= i).
     virtual void visit(const Visitor &visitor) const = 0;
@@ -64,7 +70,7 @@ namespace taut
     unsigned int block_size() const override { return 0; }
     void add(unsigned int i, unsigned int j, double value) override;
     void vmult_add(double factor, const double *x, double *y) const override;
-    void vmult(const double *x, double *y) const override;
+    void vmult_rows(std::size_t begin, std::size_t end, const double *x, double *y) const override;
     void visit(const Visitor &visitor) const override;
     std::unique_ptr<SymmetricMatrix> clone() const override;
 
@@ -73,38 +79,8 @@ namespace taut
     std::map<std::pair<unsigned int, unsigned int>, double> entries;
   };
 
-  /**
-   * Blocks of b x b on the diagonal and beside it: the matrices of a wire, b DoFs a node. Each of
-   * the b^2 positions in a block has its own array over the nodes, so that products run over many
-   * nodes at once.
-   */
-  template <int b>
-  class BlockTridiagonalMatrix : public SymmetricMatrix
-  {
-  public:
-    /// @p n is a multiple of b.
-    explicit BlockTridiagonalMatrix(unsigned int n);
-
-    using SymmetricMatrix::add;
-    unsigned int size() const override { return b * n_nodes; }
-    unsigned int block_size() const override { return b; }
-    void add(unsigned int i, unsigned int j, double value) override;
-    void vmult_add(double factor, const double *x, double *y) const override;
-    void vmult(const double *x, double *y) const override;
-    void visit(const Visitor &visitor) const override;
-    std::unique_ptr<SymmetricMatrix> clone() const override;
-
-  private:
-    template <typename Result>
-    void product(const double *x, double *y, const Result &result) const;
-
-    std::size_t n_nodes;
-    std::array<std::vector<double>, b * b> diagonal; ///< block (i, i)
-    std::array<std::vector<double>, b * b>
-        left; ///< block (i, i - 1); one node more, zero at both ends
-  };
-
-  /// A zero block-tridiagonal matrix with @p n rows in blocks of @p block_size, 1 to 4.
+  /// A zero block-tridiagonal matrix with @p n rows in blocks of @p block_size, 1 to 4: the
+  /// matrices of a wire, its DoFs by nodes.
   std::unique_ptr<SymmetricMatrix> make_block_tridiagonal(unsigned int block_size, unsigned int n);
 } // namespace taut
 

@@ -2,7 +2,6 @@
 #ifndef taut_matrix_norms_h
 #define taut_matrix_norms_h
 
-#include <taut/interface/contact_rows.h>
 #include <taut/substructure/structure.h>
 
 #include <array>
@@ -14,12 +13,36 @@ namespace taut
   /// One number for displacements, one for slopes and rotations: m and rad, N and N m do not mix.
   using PerKind = std::array<double, 2>;
 
-  /// Largest absolute entries of a vector of a substructure; not-a-number if one is.
-  PerKind largest(const Substructure &body, const double *x);
-  inline PerKind largest(const Substructure &body, const std::vector<double> &x)
+  /**
+   * Largest absolute entries of several vectors of one substructure, read side by side and piece by
+   * piece; not-a-number if one is.
+   */
+  template <std::size_t n_vectors>
+  class Largest
   {
-    return largest(body, x.data());
-  }
+  public:
+    explicit Largest(const Substructure &body);
+
+    /// The next @p n entries of each vector; all pieces but the last are of whole nodes.
+    void add(const std::array<const double *, n_vectors> &x, std::size_t n);
+
+    std::array<PerKind, n_vectors> result() const;
+
+  private:
+    // Side by side, so that the comparisons do not wait for each other. A comparison loses what is
+    // not a number, a sum keeps it.
+    static constexpr std::size_t lanes = 8;
+    using Lanes = std::array<std::array<double, lanes>, n_vectors>;
+
+    const Substructure &body;
+    const bool is_regular; ///< kinds repeat themselves with the lanes
+    Lanes largest = {}, sums = {};
+    std::array<PerKind, n_vectors> others = {};
+  };
+
+  /// Largest absolute entries of a vector of a substructure; not-a-number if one is. What @p x has
+  /// beyond its DoFs is not looked at.
+  PerKind largest(const Substructure &body, const std::vector<double> &x);
 
   /// Motions and forces beyond this are no result of a sensible scene; sums and squares of those
   /// below it are finite.
@@ -29,10 +52,6 @@ namespace taut
   /// largest_number. @p when begins the message.
   void check_size(const Substructure &body, const PerKind &force, const PerKind &displacement,
                   const PerKind &velocity, const std::string &when);
-
-  /// Largest force of a single row on each body, |B_i| |N_i|: their sum may cancel.
-  void largest_contact_forces(const Structure &structure, const ContactRows &rows,
-                              const std::vector<double> &N, std::vector<PerKind> &result);
 
   /**
    * Largest absolute row sums of a matrix by kind of row and column, free DoFs only: bounds |A| |x|

@@ -4,6 +4,7 @@
 
 #include <taut/complementarity/solver.h>
 #include <taut/interface/schur_complement.h>
+#include <taut/time/balance_certificate.h>
 #include <taut/time/certificate.h>
 #include <taut/time/integrator.h>
 #include <taut/time/matrix_norms.h>
@@ -76,7 +77,6 @@ namespace taut
     void accept(std::size_t k);
     void start_balance();
     void certify();
-    void certify_balance();
     void certify_rows();
     void fail_balance() const;
     void fail(const std::string &what, const std::string &entry = "") const;
@@ -101,16 +101,12 @@ namespace taut
     std::unique_ptr<SchurComplement> schur;
     ComplementaritySolver complementarity;
     RowMotions row_motions;
-    bool has_free_motions = false;            ///< a body of some rank
-    std::vector<std::vector<KindNorm>> norms; ///< of M, C, K of each body
-    std::vector<PerKind> reference_force;     ///< largest of K U_ref of each body [N, N m]
-    std::vector<PerKind> contact_force;       ///< largest of one row on each body [N, N m]
+    bool has_free_motions = false; ///< a body of some rank
+    BalanceCertificate balance;
 
-    BlockVector P;                      ///< external force minus the reference's [N]
-    std::vector<PerKind> external_size; ///< largest of P of each body
+    StepForces forces;
     BlockVector right_hand_side;        ///< then the increments
     BlockVector lift;                   ///< increments of moving supports
-    BlockVector old_A, old_balance;
     std::vector<double> work_v, work_a; ///< as long as the longest body
   };
 } // namespace taut

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_balance_certificate_h
+#define taut_balance_certificate_h
+
+#include <taut/interface/contact_rows.h>
+#include <taut/time/integrator.h>
+#include <taut/time/matrix_norms.h>
+#include <taut/time/row_motions.h>
+#include <taut/time/state.h>
+
+#include <string>
+#include <vector>
+
+namespace taut
+{
+  /// What acts on the bodies of this rank from outside, and the step before.
+  struct StepForces
+  {
+    BlockVector P;                      ///< external force minus the reference's [N, N m]
+    std::vector<PerKind> external_size; ///< largest of P of each body
+    BlockVector old_A;                  ///< of the step before [m/s^2, rad/s^2]
+    BlockVector old_balance;            ///< r of the step before [N, N m]
+  };
+
+  /**
+   * How well a step satisfies the equation of motion of each body (see StepCoefficients). It is
+   * measured by products with M, C and K of the new state, and not with what was factored: the
+   * largest residual over the size of the terms that it is the difference of, displacements and
+   * slopes each for themselves.
+   */
+  class BalanceCertificate
+  {
+  public:
+    /// The arguments are kept by reference.
+    BalanceCertificate(const Structure &structure, const ContactRows &rows,
+                       const Reference &origin);
+
+    /**
+     * Forms K U and r = P + B N - C V - K U of the state of a step and returns the largest relative
+     * residual of this rank's bodies; not-a-number if one is. Throws an EntryError on the section
+     * of a body whose numbers are beyond largest_number.
+     */
+    double measure(const StepCoefficients &c, const StepForces &forces,
+                   const RowMotions &row_motions, State &state);
+
+    /// Body of the largest residual.
+    std::size_t worst_body() const { return worst; }
+
+  private:
+    /// Largest entries of a body, of what the residual is a difference of.
+    struct Sizes
+    {
+      PerKind residual = {0., 0.}, increment = {0., 0.}, velocity = {0., 0.},
+              displacement = {0., 0.};
+    };
+
+    Sizes measure_body(std::size_t k, const StepCoefficients &c, const StepForces &forces,
+                       bool has_impulses, State &state);
+    double relative_residual(std::size_t k, const StepCoefficients &c, const StepForces &forces,
+                             const Sizes &sizes, double time) const;
+
+    const Structure &structure;
+    const ContactRows &rows;
+    std::vector<std::array<KindNorm, 3>> norms; ///< of M, C, K of each body
+    std::vector<PerKind> reference_force;       ///< largest of K U_ref of each body [N, N m]
+    std::vector<PerKind> contact_force;         ///< largest of one row on each body [N, N m]
+    BlockVector impulses;                       ///< forces of this step only
+    std::vector<double> mean_A;                 ///< accelerations that M acts on, of one body
+    std::vector<double> inertia, damping;       ///< forces of a few rows
+    std::size_t worst = 0;
+  };
+} // namespace taut
+
+#endif

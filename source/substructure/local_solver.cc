@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
+#include <taut/substructure/local_solver.h>
+
+namespace taut
+{
+  void LocalSolver::solve_beside(std::vector<double> &x, const LocalSolver &other,
+                                 std::vector<double> &y) const
+  {
+    solve(x);
+    other.solve(y);
+  }
+
+  std::unique_ptr<LocalSolver> make_local_solver(const std::string &name,
+                                                 const SymmetricMatrix &matrix)
+  {
+    if (name == "sparse direct" || matrix.block_size() == 0)
+      return make_sparse_direct_solver();
+    if (name == "block tridiagonal")
+      return make_block_tridiagonal_solver(matrix.block_size());
+    throw UserError("unknown local solver '" + name +
+                    "'; known are: block tridiagonal, sparse direct");
+  }
+} // namespace taut

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/time/balance_certificate.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace taut
+{
+  namespace
+  {
+    /// Rows that are worked on at once: their part of all vectors stays in the nearest cache. A
+    /// multiple of all block sizes and of the widths of vector registers.
+    constexpr std::size_t tile = 480;
+
+    /// A block-tridiagonal matrix reaches so many DoFs further at most.
+    constexpr std::size_t reach = 8;
+  } // namespace
+
+  BalanceCertificate::BalanceCertificate(const Structure &structure, const ContactRows &rows,
+                                         const Reference &origin)
+      : structure(structure), rows(rows), impulses(structure.zero())
+  {
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      const Substructure &body = structure[k];
+      norms.push_back({KindNorm(body, body.mass()), KindNorm(body, body.damping()),
+                       KindNorm(body, body.stiffness())});
+      reference_force.push_back(largest(body, origin.force[k]));
+      mean_A.resize(std::max<std::size_t>(mean_A.size(), body.n_dofs()));
+      const std::size_t at_once = body.mass().block_size() == 0 ? body.n_dofs() : tile;
+      inertia.resize(std::max(inertia.size(), at_once));
+    }
+    damping.resize(inertia.size());
+  }
+
+  double BalanceCertificate::measure(const StepCoefficients &c, const StepForces &forces,
+                                     const RowMotions &row_motions, State &state)
+  {
+    for (std::size_t k = 0; k < structure.size(); ++k)
+      std::copy(forces.P[k].begin(), forces.P[k].end(), state.balance[k].begin());
+    rows.add_forces(row_motions.in_balance(), state.balance);
+    const bool has_impulses = !row_motions.impulsive().empty();
+    if (has_impulses)
+    {
+      for (std::vector<double> &f : impulses)
+        std::fill(f.begin(), f.end(), 0.);
+      rows.add_forces(row_motions.impulsive(), impulses);
+    }
+    rows.largest_forces(state.multiplier, contact_force);
+
+    double result = 0.;
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      const Sizes sizes = measure_body(k, c, forces, has_impulses, state);
+      const double relative = relative_residual(k, c, forces, sizes, state.time);
+      if (!(relative <= result) && !std::isnan(result))
+      {
+        result = relative;
+        worst = k;
+      }
+    }
+    return result;
+  }
+
+  BalanceCertificate::Sizes BalanceCertificate::measure_body(const std::size_t k,
+                                                             const StepCoefficients &c,
+                                                             const StepForces &forces,
+                                                             const bool has_impulses, State &state)
+  {
+    const double kappa = c.alpha_f / (1. - c.alpha_f), old = c.alpha_m / (1. - c.alpha_f),
+                 now = (1. - c.alpha_m) / (1. - c.alpha_f);
+    const Substructure &body = structure[k];
+    const std::size_t n = body.n_dofs(), at_once = body.mass().block_size() == 0 ? n : tile;
+    const double *A = state.A[k].data(), *A0 = forces.old_A[k].data(),
+                 *r0 = forces.old_balance[k].data();
+    double *r = state.balance[k].data(), *KU = state.KU[k].data(), *residual = inertia.data();
+    const double *CV = damping.data();
+    auto constraint = body.constraints().begin();
+    Largest<4> largest(body);
+    for (std::size_t begin = 0; begin < n; begin += at_once)
+    {
+      const std::size_t end = std::min(n, begin + at_once), size = end - begin;
+      body.stiffness().vmult_rows(begin, end, state.U[k].data(), KU + begin);
+      body.damping().vmult_rows(begin, end, state.V[k].data(), damping.data());
+      if (old == 0.)
+        body.mass().vmult_rows(begin, end, A, inertia.data());
+      else
+      {
+        double *a = mean_A.data();
+        const std::size_t last = std::min(n, end + reach);
+#pragma omp simd
+        for (std::size_t i = begin - std::min(begin, reach); i < last; ++i)
+          a[i] = now * A[i] + old * A0[i];
+        body.mass().vmult_rows(begin, end, a, inertia.data());
+      }
+#pragma omp simd
+      for (std::size_t i = 0; i < size; ++i)
+        r[begin + i] -= KU[begin + i] + CV[i];
+      const double factor = old == 0. ? now : 1.;
+      if (kappa == 0.)
+#pragma omp simd
+        for (std::size_t i = 0; i < size; ++i)
+          residual[i] = factor * residual[i] - r[begin + i];
+      else
+#pragma omp simd
+        for (std::size_t i = 0; i < size; ++i)
+          residual[i] = factor * residual[i] - (r[begin + i] + kappa * r0[begin + i]);
+      if (has_impulses)
+        for (std::size_t i = 0; i < size; ++i)
+          residual[i] -= impulses[k][begin + i];
+      for (; constraint != body.constraints().end() && constraint->dof < end; ++constraint)
+        residual[constraint->dof - begin] = 0.;
+
+      largest.add({residual, state.dU[k].data() + begin, state.V[k].data() + begin,
+                   state.U[k].data() + begin},
+                  size);
+    }
+    const std::array<PerKind, 4> found = largest.result();
+    return {found[0], found[1], found[2], found[3]};
+  }
+
+  double BalanceCertificate::relative_residual(const std::size_t k, const StepCoefficients &c,
+                                               const StepForces &forces, const Sizes &sizes,
+                                               const double time) const
+  {
+    // P and B N may cancel, and both against the forces of the reference: each counts.
+    PerKind force = forces.external_size[k];
+    for (int kind = 0; kind < 2; ++kind)
+      force[kind] += contact_force[k][kind] + reference_force[k][kind];
+    for (int kind = 0; kind < 2; ++kind)
+      if (!(std::max({force[kind], sizes.velocity[kind], sizes.displacement[kind]}) <=
+            largest_number) ||
+          std::isnan(sizes.velocity[kind]) || std::isnan(sizes.displacement[kind]))
+      {
+        std::ostringstream when;
+        when << "at t = " << time << " s: ";
+        check_size(structure[k], force, sizes.displacement, sizes.velocity, when.str());
+      }
+
+    // A step that brings a body back from afar ends with the rounding of the way.
+    PerKind inertial = sizes.increment, way = sizes.displacement;
+    for (int kind = 0; kind < 2; ++kind)
+    {
+      inertial[kind] *= c.mass_factor();
+      way[kind] += sizes.increment[kind];
+    }
+    const PerKind by_mass = norms[k][0].times(inertial),
+                  by_damping = norms[k][1].times(sizes.velocity),
+                  by_stiffness = norms[k][2].times(way);
+    double result = 0.;
+    for (int kind = 0; kind < 2; ++kind)
+    {
+      const double size = force[kind] + by_mass[kind] + by_damping[kind] + by_stiffness[kind],
+                   relative = sizes.residual[kind] == 0. ? 0. : sizes.residual[kind] / size;
+      if (!(relative <= result) && !std::isnan(result))
+        result = relative;
+    }
+    return result;
+  }
+} // namespace taut
