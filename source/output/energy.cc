@@ -18,7 +18,7 @@ namespace taut
     /// True for a row whose force is an impulse over the step.
     bool is_impulse(const Row &row, const StepCoefficients &c)
     {
-      return c.velocity_level && std::isinf(row.stiffness);
+      return c.mean_force && std::isinf(row.stiffness);
     }
 
     /// Energy of a link's spring [J].

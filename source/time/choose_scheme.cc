@@ -38,12 +38,13 @@ namespace taut
       return std::sqrt(squared / wire.mass_per_length) * step / wire.element_size;
     }
 
-    /// A one-sided row that acts as rigid, and the least Courant number of all of them.
-    struct RigidRow
+    /// An end of a one-sided row that acts as rigid.
+    struct RigidContact
     {
-      std::size_t row = 0;
-      double courant = std::numeric_limits<double>::infinity();
-      bool exists = false;
+      std::size_t row;
+      double courant; ///< elements that waves of its wire cross in a step
+      MassMatrix matrix;
+      bool exactly_rigid;
     };
 
     /// True if the wire's node under a rigid link carries no mass: its force then is that of the
@@ -54,21 +55,10 @@ namespace taut
              (link.from.kind == Attachment::Kind::wire || link.to.kind == Attachment::Kind::wire);
     }
 
-    /// True if a rigid one-sided link is on a wire whose mass matrix leaves every second node's
-    /// motion without inertia.
-    bool is_on_reduced_mass(const Scene &scene, const Link &link)
-    {
-      if (!link.unilateral() || !link.rigid() || link.axial_stiffness != 0.)
-        return false;
-      for (const Attachment *end : {&link.from, &link.to})
-        if (end->kind == Attachment::Kind::wire &&
-            scene.wires[end->index].mass_matrix == MassMatrix::reduced)
-          return true;
-      return false;
-    }
-
-    RigidRow find_rigid_row(const Scene &scene, const Structure &structure, const ContactRows &rows,
-                            const SolverParameters &parameters, const double step)
+    std::vector<RigidContact> find_rigid_contacts(const Scene &scene, const Structure &structure,
+                                                  const ContactRows &rows,
+                                                  const SolverParameters &parameters,
+                                                  const double step)
     {
       const StepCoefficients c = generalised_alpha(step, .8);
       FactoredStructure solvers(structure, parameters.local_solver);
@@ -91,7 +81,7 @@ namespace taut
           }
       processes.sum(flexibility);
 
-      RigidRow result;
+      std::vector<RigidContact> result;
       for (std::size_t i = 0; i < rows.size(); ++i)
       {
         if (!rows[i].unilateral)
@@ -100,14 +90,25 @@ namespace taut
         const double compliance = 1. / (rows[i].stiffness + c.velocity * rows[i].damping);
         if (compliance >= flexibility[i] || is_massless(link))
           continue;
-        const double courant = std::min(courant_number(scene, link.from, link.direction, step),
-                                        courant_number(scene, link.to, link.direction, step));
-        if (!result.exists || courant < result.courant)
-          result.row = i;
-        result.courant = std::min(result.courant, courant);
-        result.exists = true;
+        for (const Attachment *end : {&link.from, &link.to})
+          if (end->kind != Attachment::Kind::ground)
+            result.push_back({i, courant_number(scene, *end, link.direction, step),
+                              end->kind == Attachment::Kind::wire
+                                  ? scene.wires[end->index].mass_matrix
+                                  : MassMatrix::lumped,
+                              compliance == 0.});
       }
       return result;
+    }
+
+    bool may_fail(const TimeIntegrator &integrator)
+    {
+      for (const MassMatrix matrix :
+           {MassMatrix::consistent, MassMatrix::lumped, MassMatrix::reduced})
+        for (const bool rigid : {true, false})
+          if (integrator.least_courant_number(matrix, rigid) > 0.)
+            return true;
+      return false;
     }
 
     bool has_one_sided_rows(const ContactRows &rows)
@@ -125,14 +126,18 @@ namespace taut
   {
     if (!has_one_sided_rows(rows))
       return {"generalised-alpha", "no one-sided links"};
-    const RigidRow rigid = find_rigid_row(scene, structure, rows, parameters, step);
-    if (!rigid.exists)
+    const std::vector<RigidContact> rigid =
+        find_rigid_contacts(scene, structure, rows, parameters, step);
+    if (rigid.empty())
       return {"generalised-alpha",
               "all one-sided links are more compliant than the bodies in one step"};
+    const RigidContact &worst = *std::min_element(rigid.begin(), rigid.end(),
+                                                  [](const RigidContact &a, const RigidContact &b)
+                                                  { return a.courant < b.courant; });
     std::ostringstream reason;
-    reason << "one-sided link '" << rows[rigid.row].name << "' acts as rigid; waves cross "
-           << rigid.courant << " elements a step";
-    return {rigid.courant >= least_courant_number ? "BDF2" : "backward Euler", reason.str()};
+    reason << "one-sided link '" << rows[worst.row].name << "' acts as rigid; waves cross "
+           << worst.courant << " elements a step";
+    return {worst.courant >= least_courant_number ? "BDF2" : "backward Euler", reason.str()};
   }
 
   void check_scheme(const TimeIntegrator &integrator, const Scene &scene,
@@ -147,28 +152,26 @@ namespace taut
                          "Moreau-Jean with Theta 1/2 never damps the force of a node without mass, "
                          "here at link '" +
                              link.name + "'; take Theta > 1/2, another scheme" + anyway);
-    for (const Link &link : scene.links)
-      if (c.velocity_level && c.alpha_f == .5 && is_on_reduced_mass(scene, link))
-        throw EntryError("Time/Scheme",
-                         "Moreau-Jean with Theta 1/2 rings or is unstable at rigid one-sided links "
-                         "to wires with the mass matrix 'reduced', here link '" +
-                             link.name +
-                             "'; take Theta = 0.6, the mass matrix 'consistent' or 'lumped', "
-                             "another scheme" +
-                             anyway);
-    const double least = integrator.least_courant_number();
-    if (!(least > 0.) || !has_one_sided_rows(rows))
+    if (!has_one_sided_rows(rows) || !may_fail(integrator))
       return;
-    const RigidRow rigid = find_rigid_row(scene, structure, rows, parameters, step);
-    if (!rigid.exists || rigid.courant >= (1. - 1e-6) * least)
-      return;
-    std::ostringstream out;
-    out << integrator.description() << " fails at one-sided links that act as rigid, here '"
-        << rows[rigid.row].name << "': its forces ring. Waves cross " << rigid.courant
-        << " elements a step there";
-    if (std::isfinite(least))
-      out << " and would have to cross " << least;
-    out << ". Take 'automatic', give the link a Stiffness, set 'Time/Massless contact'" << anyway;
-    throw EntryError("Time/Scheme", out.str());
+    for (const RigidContact &contact :
+         find_rigid_contacts(scene, structure, rows, parameters, step))
+    {
+      const double least = integrator.least_courant_number(contact.matrix, contact.exactly_rigid);
+      if (!(contact.courant < (1. - 1e-6) * least))
+        continue;
+      std::ostringstream out;
+      out << integrator.description() << " fails at one-sided links that act as rigid, here '"
+          << rows[contact.row].name << "'";
+      if (contact.matrix == MassMatrix::reduced)
+        out << " on a wire with the mass matrix 'reduced'";
+      out << ": its forces ring. Waves cross " << contact.courant << " elements a step there";
+      if (std::isfinite(least))
+        out << " and would have to cross " << least;
+      out << ". Take 'automatic' or more dissipation, give the link a Stiffness, set "
+             "'Time/Massless contact'"
+          << anyway;
+      throw EntryError("Time/Scheme", out.str());
+    }
   }
 } // namespace taut

@@ -13,9 +13,9 @@ namespace taut
   bool StepCoefficients::operator==(const StepCoefficients &o) const
   {
     return std::tie(velocity, acceleration, v_V, v_A, v_dU, a_V, a_A, a_dU, a_V_old, alpha_m,
-                    alpha_f, velocity_level, restitution) ==
+                    alpha_f, mean_force, velocity_level, restitution) ==
            std::tie(o.velocity, o.acceleration, o.v_V, o.v_A, o.v_dU, o.a_V, o.a_A, o.a_dU,
-                    o.a_V_old, o.alpha_m, o.alpha_f, o.velocity_level, o.restitution);
+                    o.a_V_old, o.alpha_m, o.alpha_f, o.mean_force, o.velocity_level, o.restitution);
   }
 
   StepCoefficients backward_euler(const double step)
@@ -92,8 +92,16 @@ namespace taut
     c.acceleration = 1. / (theta * step * step);
     c.a_V = -1. / (theta * step);
     c.alpha_f = 1. - theta;
+    c.mean_force = true;
     c.velocity_level = true;
     c.restitution = restitution;
+    return c;
+  }
+
+  StepCoefficients moreau_jean_of_gaps(const double step, const double theta)
+  {
+    StepCoefficients c = moreau_jean(step, theta, 0.);
+    c.velocity_level = false;
     return c;
   }
 
@@ -119,7 +127,7 @@ namespace taut
       {
         return bdf2(step, last_step);
       }
-      double least_courant_number() const override { return .1; }
+      double least_courant_number(MassMatrix, bool) const override { return .1; }
       std::string description() const override { return "BDF2"; }
     };
 
@@ -145,7 +153,10 @@ namespace taut
                            "Newmark is solved for the displacement and needs a positive one");
         return newmark(step, beta, gamma);
       }
-      double least_courant_number() const override { return gamma >= .6 ? .25 : never; }
+      double least_courant_number(MassMatrix, bool) const override
+      {
+        return gamma >= .6 ? .25 : never;
+      }
       std::string description() const override
       {
         std::ostringstream out;
@@ -174,7 +185,7 @@ namespace taut
       {
         return generalised_alpha(step, rho);
       }
-      double least_courant_number() const override
+      double least_courant_number(MassMatrix, bool) const override
       {
         return rho == 0. ? 0. : rho <= .5 ? .5 : rho <= .8 ? 2. : never;
       }
@@ -202,7 +213,7 @@ namespace taut
         prm.leave_subsection();
       }
       StepCoefficients coefficients(const double step) const override { return hht(step, alpha); }
-      double least_courant_number() const override
+      double least_courant_number(MassMatrix, bool) const override
       {
         return alpha >= .3 ? .5 : alpha >= .1 ? 1. : never;
       }
@@ -232,22 +243,51 @@ namespace taut
                           "rigid one-sided links. An elastic body rebounds by its own waves with "
                           "0; of a rigid one it says how much [1]",
                           dealii::Patterns::Double(0., 1.));
+        prm.add_parameter("Conditions", conditions,
+                          "What rigid one-sided links ask for. 'velocities': none of approach at "
+                          "the end of a step, once they touch. 'gaps': none closed by force before "
+                          "its end, no penetration at its end; without restitution",
+                          dealii::Patterns::Selection("velocities|gaps"));
         prm.leave_subsection();
       }
       StepCoefficients coefficients(const double step) const override
       {
-        return moreau_jean(step, theta, restitution);
+        if (!of_gaps())
+          return moreau_jean(step, theta, restitution);
+        if (restitution > 0.)
+          throw EntryError("Time/Moreau-Jean/Restitution",
+                           "restitution is a law of velocities; set it to 0, or 'Conditions' to "
+                           "'velocities'");
+        return moreau_jean_of_gaps(step, theta);
       }
-      double least_courant_number() const override { return restitution > 0. ? never : 0.; }
+      double least_courant_number(const MassMatrix matrix, const bool exactly_rigid) const override
+      {
+        if (restitution > 0.)
+          return never;
+        constexpr double least_damping_theta = .52;
+        if (theta >= least_damping_theta)
+          return 0.;
+        const bool reduced = matrix == MassMatrix::reduced;
+        if (!exactly_rigid)
+          return never;
+        return of_gaps() ? (reduced ? 1. : never) : (reduced ? never : 0.);
+      }
       std::string description() const override
       {
         std::ostringstream out;
-        out << "Moreau-Jean (theta " << theta << ", restitution " << restitution << ")";
+        out << "Moreau-Jean (theta " << theta;
+        if (of_gaps())
+          out << ", gaps)";
+        else
+          out << ", restitution " << restitution << ")";
         return out.str();
       }
 
     private:
+      bool of_gaps() const { return conditions == "gaps"; }
+
       double theta = .5, restitution = 0.;
+      std::string conditions = "velocities";
     };
 
     const Register<TimeIntegrator, BackwardEuler> register_backward_euler(

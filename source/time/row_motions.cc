@@ -40,12 +40,11 @@ namespace taut
   {
     c = coefficients;
     step = tau;
-    at_velocity_level = c.velocity_level;
     conditions.kernel.clear();
     conditions.kernel_load.clear();
     conditions.kernel_resistance.clear();
     amplitude.clear();
-    conditions.held_open.assign(at_velocity_level ? rows.size() : 0, 0);
+    conditions.held_open.assign(c.velocity_level ? rows.size() : 0, 0);
     for (std::size_t i = 0; i < rows.size(); ++i)
       S[i] = 1. / (rows[i].stiffness + c.velocity * rows[i].damping);
   }
@@ -87,8 +86,10 @@ namespace taut
     const double theta = 1. - c.alpha_f, rebound = rows[i].unilateral ? c.restitution : 0.;
     conditions.free_gap[i] = motion[i] - (1. - theta) * step * velocity[i] +
                              theta * (convection[i] + rebound * step * before.gap_rate[i]);
+    if (!rows[i].unilateral)
+      return;
     const bool is_near = before.geometric_gap[i] + .5 * step * before.gap_rate[i] <= 0.;
-    conditions.held_open[i] = rows[i].unilateral && !is_near && !(before.multiplier[i] > 0.);
+    conditions.held_open[i] = !is_near && !(before.multiplier[i] > 0.);
   }
 
   void RowMotions::set_free_motions(const FactoredStructure &solvers, const BlockVector &P)
@@ -123,12 +124,12 @@ namespace taut
     const std::vector<double> &L = solution.multiplier;
     amplitude = solution.kernel_amplitude;
     applied_multiplier = balanced = state.multiplier = L;
-    if (!at_velocity_level)
+    if (!c.mean_force)
       return;
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
       impulses[i] = 0.;
-      if (!velocity_level(i))
+      if (!mean_force(i))
         continue;
       impulses[i] = L[i];
       balanced[i] = 0.;
@@ -156,10 +157,10 @@ namespace taut
       position[i] = evaluate(terms, origin.displacement) + evaluate(terms, before.U);
       terms_size[i] = magnitude(terms, origin.displacement) + magnitude(terms, before.U);
     }
-    if (at_velocity_level)
+    if (c.mean_force)
       rows.share_of_motions(before.V, velocity);
     share({&motion, &motion_size, &position, &terms_size});
-    if (at_velocity_level)
+    if (c.mean_force)
       share({&velocity});
   }
 
@@ -170,10 +171,10 @@ namespace taut
     rows.share_of_motions(state.U, position, terms_size);
     for (std::size_t i = rows.n_fixed(); i < rows.size(); ++i)
       position[i] += evaluate(rows[i].terms, origin.displacement);
-    if (at_velocity_level)
+    if (c.mean_force)
       rows.share_of_motions(state.V, velocity);
     share({&motion, &position, &terms_size});
-    if (at_velocity_level)
+    if (c.mean_force)
       share({&velocity});
   }
 
@@ -215,7 +216,7 @@ namespace taut
       spring.v = c.velocity * spring.du + known_v;
       spring.a = c.acceleration * spring.du + known_a;
       state.gap[i] = gap + spring.u;
-      if (at_velocity_level)
+      if (c.mean_force)
       {
         rates_before[i] = state.gap_rate[i];
         state.gap_rate[i] = velocity[i] + convection[i] / step;

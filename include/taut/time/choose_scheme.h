@@ -30,8 +30,8 @@ namespace taut
 
   /**
    * Throws an EntryError on Time/Scheme if a scheme is known to fail on a row of the scene: a rigid
-   * one-sided row on a wire whose waves cross fewer elements a step than the scheme needs, or
-   * Moreau-Jean without damping beside nodes without mass or on a reduced mass matrix.
+   * one-sided row on a wire whose waves cross fewer elements a step than the scheme needs there, or
+   * Moreau-Jean of velocities without damping beside nodes without mass.
    */
   void check_scheme(const TimeIntegrator &integrator, const Scene &scene,
                     const Structure &structure, const ContactRows &rows,

@@ -3,6 +3,7 @@
 #define taut_integrator_h
 
 #include <taut/base/registry.h>
+#include <taut/scene/scene.h>
 
 #include <memory>
 #include <string>
@@ -26,8 +27,8 @@ namespace taut
    *     M [(1 - alpha_m) A + alpha_m A0] = (1 - alpha_f) r + alpha_f r0.
    *
    * The contact force so enters old and new with its own B, and gaps hold at the end of the step.
-   * At velocity level, forces of rigid rows are impulses over the step instead, and their
-   * complementarity is one of velocities after the step: see RowMotions.
+   * With mean forces, those of rigid rows are impulses over the step instead, without a past, and
+   * their conditions may be on velocities after the step: see RowMotions.
    */
   struct StepCoefficients
   {
@@ -36,7 +37,8 @@ namespace taut
     double v_V = 0., v_A = 0., v_dU = 0.;
     double a_V = 0., a_A = 0., a_dU = 0., a_V_old = 0.;
     double alpha_m = 0., alpha_f = 0.;
-    bool velocity_level = false; ///< for rigid rows
+    bool mean_force = false;     ///< of rigid rows; bilateral ones then are at velocity level
+    bool velocity_level = false; ///< for rigid one-sided rows; needs mean_force
     double restitution = 0.;     ///< Newton's, of one-sided rows at velocity level [1]
 
     /// Factor of M in A, after division by 1 - alpha_f [1/s^2]; C has `velocity`, K has 1.
@@ -78,11 +80,16 @@ namespace taut
     }
 
     /**
-     * Waves have to cross at least so many elements a step where a rigid one-sided link presses on
-     * a wire, or the multipliers ring by more than a tenth of their size: measured for a bar that
-     * hits a wall (doc/accuracy.md). Infinite: at any step.
+     * Waves have to cross at least so many elements a step where a one-sided link that acts as
+     * rigid presses on a wire with this mass matrix, or the multipliers ring by more than a tenth
+     * of their size: measured for a bar that hits a wall (doc/accuracy.md). Infinite: at any step.
+     * @p exactly_rigid is false if the link has a stiffness, if a large one.
      */
-    virtual double least_courant_number() const { return 0.; }
+    virtual double least_courant_number(MassMatrix matrix, bool exactly_rigid) const
+    {
+      (void)matrix, (void)exactly_rigid;
+      return 0.;
+    }
 
     /// Name with parameters, for the log.
     virtual std::string description() const = 0;
@@ -118,6 +125,12 @@ namespace taut
    * complementarity is at velocity level with Newton's restitution e. @p theta in [1/2, 1].
    */
   StepCoefficients moreau_jean(double step, double theta, double restitution);
+
+  /**
+   * The same with conditions on the gaps of one-sided rows at the end of the step. A mean force N
+   * does the work N (D - D_0) = -N D_0 <= 0 there: it never gives energy.
+   */
+  StepCoefficients moreau_jean_of_gaps(double step, double theta);
 } // namespace taut
 
 #endif

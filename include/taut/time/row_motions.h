@@ -19,11 +19,15 @@ namespace taut
    * as increments, because the gap rounds at eps times its size and F^-1 = O(1/step^2) makes force
    * noise of that. With a scheme at velocity level (Moreau 1988, Jean 1999) the rigid rows ask for
    * 0 <= D' + e D'_0 instead, if they were closed or if D_0 + step D'_0 / 2 <= 0, and take no part
-   * otherwise; bilateral ones for D' = 0. The rate of a moving row has its convective part,
+   * otherwise. The rate of a moving row has its convective part,
    *
    *     D' = B^T V + ((B - B_0)^T U_0 + D0 - D0_0) / step.
    *
    * Times (1 - alpha_f) step, it is B^T dU plus something known: the same F as at position level.
+   *
+   * At either level the force of a rigid row may be a mean over the step: it acts in this step only
+   * and with all its weight. Bilateral rows of such schemes ask for D' = 0: D = 0 would let their
+   * velocities alternate for ever at theta = 1/2.
    */
   class RowMotions
   {
@@ -53,8 +57,7 @@ namespace taut
 
     /**
      * Takes the solution of the problem, multipliers L with A dU = P^ + B L. state.multiplier
-     * becomes the force at the end of the step, or its mean over the step on a row at velocity
-     * level.
+     * becomes the force at the end of the step, or its mean over the step.
      */
     void set_multipliers(const MixedComplementaritySolution &solution, State &state);
 
@@ -63,7 +66,7 @@ namespace taut
 
     /// The part of L that the balance of forces at the end of the step has, and the rest of it.
     const std::vector<double> &in_balance() const { return balanced; }
-    const std::vector<double> &impulsive() const { return at_velocity_level ? impulses : none; }
+    const std::vector<double> &impulsive() const { return c.mean_force ? impulses : none; }
 
     /// Gaps and springs of the state, whose displacements are those of the end of the step.
     void update(State &state);
@@ -78,7 +81,11 @@ namespace taut
     double moving_gap(std::size_t i) const;
     double largest_stray(const State &state, std::size_t &worst);
     void add_body_terms(const BlockVector &U);
-    bool velocity_level(std::size_t i) const { return at_velocity_level && S[i] == 0.; }
+    bool mean_force(std::size_t i) const { return c.mean_force && S[i] == 0.; }
+    bool velocity_level(std::size_t i) const
+    {
+      return mean_force(i) && (c.velocity_level || !rows[i].unilateral);
+    }
     void set_velocity_condition(std::size_t i, const State &before);
     void share_free_motion(const State &before, const SchurComplement &schur, const BlockVector &P,
                            const BlockVector &lift);
@@ -90,7 +97,6 @@ namespace taut
     const Reference &origin;
     StepCoefficients c;
     double step = 0.;
-    bool at_velocity_level = false;
     bool supports_move = false; ///< of a body of this rank
 
     MixedComplementarityProblem conditions;

@@ -35,15 +35,15 @@ namespace taut
     BlockVector dU;    ///< increment of the last step
     BlockVector V_old; ///< velocity before the last step
     BlockVector KU;    ///< K U [N, N m]
-    /// P + B N - C V - K (U_ref + U), without the forces of rows at velocity level [N, N m].
+    /// P + B N - C V - K (U_ref + U), without forces that are means [N, N m].
     BlockVector balance;
 
-    std::vector<double> multiplier; ///< N, of a row at velocity level the step's mean [N, N m]
+    std::vector<double> multiplier; ///< N, or its mean over the step [N, N m]
     std::vector<double> gap;        ///< D, what complementarity is about [m, rad]
     std::vector<double>
         geometric_gap; ///< B^T (U_ref + U) + gap at U = 0; negative: a compressed link [m, rad]
 
-    std::vector<double> gap_rate; ///< D', of schemes at velocity level only [m/s, rad/s]
+    std::vector<double> gap_rate; ///< D', of schemes with mean forces only [m/s, rad/s]
 
     /// Compression of each link's spring and its rates, as one more body with the same time
     /// integration [m, rad].
