@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: the elastic bar that bounces on a rigid floor touches it when the exact solution does,
 // with its force and its energy, to rounding: fronts cross an element a step undistorted, and mean
-// forces close gaps at the end of the step. Rounding grows fivefold from contact to contact, because
-// a front of the wave arrives at the foot in each touch; the same recurrence with 113 bits stays
-// exact through all twenty contacts.
-// Source: D. Doyen, A. Ern, S. Piperno, SIAM J. Sci. Comput. 33 (2011), 223-249: a period of 16/3 s,
-// contacts at 1 .. 5/3 and 11/3 .. 13/3 s of each, force between 300 and 500 N.
+// forces close gaps at the end of the step. Rounding grows fivefold from contact to contact,
+// because a front of the wave arrives at the foot in each touch; the same recurrence with 113 bits
+// stays exact through all twenty contacts. Source: D. Doyen, A. Ern, S. Piperno, SIAM J. Sci.
+// Comput. 33 (2011), 223-249: a period of 16/3 s, contacts at 1 .. 5/3 and 11/3 .. 13/3 s of each,
+// force between 300 and 500 N.
 #include "run.h"
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
@@ -109,7 +109,8 @@ namespace
   {
     for (const std::size_t n : {std::size_t(1), std::size_t(10), n_contacts})
     {
-      const std::string of = "bouncing bar, " + name + ", contacts 1 to " + std::to_string(n) + ", ";
+      const std::string of =
+          "bouncing bar, " + name + ", contacts 1 to " + std::to_string(n) + ", ";
       figure(of + "largest error of a time", contacts.error_of_time(n), "s");
       figure(of + "largest error of a mean force", contacts.error_of_mean(n));
       figure(of + "largest force over 500 N", contacts.peak(n));

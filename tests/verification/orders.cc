@@ -293,7 +293,11 @@ namespace
        2.},
       {"HHT (0.1)", {"Time.Scheme=HHT"}, 2.},
       {"HHT (0.3)", {"Time.Scheme=HHT", "Time.HHT.Alpha=0.3"}, 2.},
-      {"Moreau-Jean (1/2)", {"Time.Scheme=Moreau-Jean"}, 2., 1.}};
+      {"Moreau-Jean (1/2)", {"Time.Scheme=Moreau-Jean"}, 2., 1.},
+      {"Moreau-Jean of gaps (1/2)",
+       {"Time.Scheme=Moreau-Jean", "Time.Moreau-Jean.Conditions=gaps"},
+       2.,
+       1.}};
 
   Vector flat(const taut::BlockVector &U)
   {

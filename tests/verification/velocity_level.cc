@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: Moreau-Jean's impulses obey Newton's law of restitution, the rates of moving rows have
-// their convective part, and bilateral rows held at velocity level do not drift.
+// their convective part, bilateral rows held at velocity level do not drift; with conditions on
+// gaps nothing penetrates, contacts never give energy, and rest stays rest when the step changes.
 // Sources: a ball that bounces (v_n = e^n v_0, closed form); a mass that follows a wavy rail,
 // N = P - m r"; a moving force on a string, F v t/(T (1 + v/c)); theta = 1 without restitution is
 // the backward Euler method (V = dU/step; position and velocity conditions of a closed row agree).
@@ -27,6 +28,12 @@ namespace
   {
     return "subsection Time\n set Scheme = Moreau-Jean\n set Step = " + number(step) +
            "\n set End = " + number(end) + "\n" + more + "end\n";
+  }
+
+  std::string gaps(const double theta, const std::string &more = "")
+  {
+    return more + " subsection Moreau-Jean\n  set Theta = " + number(theta) +
+           "\n  set Conditions = gaps\n end\n";
   }
 } // namespace
 
@@ -88,20 +95,24 @@ TEST(MoreauJean, a_rigid_sliding_contact_follows_a_wavy_wire)
       " subsection Load force\n  set Type = point\n  set On = mass\n  set Magnitude = 60\n end\n"
       "end\n";
   const double w = 4. * std::acos(-1.);
-  double force_error = 0., gap = 0.;
-  run_scene(scene + time_section(1e-4, 2.), {},
-            [&](const taut::StepView &view)
-            {
-              const double t = view.state.time;
-              gap = std::max(gap, std::fabs(view.state.geometric_gap[0]));
-              if (t > .01)
-                force_error = std::max(force_error, std::fabs(view.state.multiplier[0] - 60. +
-                                                              5e-3 * w * w * std::cos(w * t)));
-            });
-  figure("rigid contact over waves, largest error of the force", force_error, "N");
-  figure("rigid contact over waves, largest gap", 1e6 * gap, "um");
-  EXPECT_LT(force_error, .01 * 60.);
-  EXPECT_LT(gap, 1e-5);
+  for (const bool of_gaps : {false, true})
+  {
+    double force_error = 0., gap = 0.;
+    run_scene(scene + time_section(1e-4, 2., of_gaps ? gaps(.6) : ""), {},
+              [&](const taut::StepView &view)
+              {
+                const double t = view.state.time;
+                gap = std::max(gap, std::fabs(view.state.geometric_gap[0]));
+                if (t > .01)
+                  force_error = std::max(force_error, std::fabs(view.state.multiplier[0] - 60. +
+                                                                5e-3 * w * w * std::cos(w * t)));
+              });
+    const std::string name = of_gaps ? ", conditions on gaps" : "";
+    figure("rigid contact over waves" + name + ", largest error of the force", force_error, "N");
+    figure("rigid contact over waves" + name + ", largest gap", 1e6 * gap, "um");
+    EXPECT_LT(force_error, .01 * 60.) << name;
+    EXPECT_LT(gap, of_gaps ? 1e-12 : 1e-5) << name;
+  }
 }
 
 // As in SlidingContact, with a rigid contact: a string of 20 kN and 1.35 kg/m, 250 km/h, 120 N.
@@ -145,34 +156,81 @@ TEST(MoreauJean, theta_one_is_backward_euler)
               [&](const taut::StepView &view) { result.push_back(view.state.multiplier[0]); });
     return result;
   };
-  const std::vector<double> euler = forces({"Time.Scheme=backward Euler"}),
-                            jean = forces({"Time.Scheme=Moreau-Jean", "Time.Moreau-Jean.Theta=1"});
-  double distance = 0.;
-  ASSERT_EQ(euler.size(), jean.size());
-  for (std::size_t i = 0; i < euler.size(); ++i)
-    distance = std::max(distance, std::fabs(euler[i] - jean[i]));
-  figure("string on stop, Moreau-Jean (1) minus backward Euler, largest force", distance, "N");
-  EXPECT_LT(distance, 1e-4);
+  const std::vector<double> euler = forces({"Time.Scheme=backward Euler"});
+  for (const std::string conditions : {"velocities", "gaps"})
+  {
+    const std::vector<double> jean = forces({"Time.Scheme=Moreau-Jean", "Time.Moreau-Jean.Theta=1",
+                                             "Time.Moreau-Jean.Conditions=" + conditions});
+    double distance = 0.;
+    ASSERT_EQ(euler.size(), jean.size());
+    for (std::size_t i = 0; i < euler.size(); ++i)
+      distance = std::max(distance, std::fabs(euler[i] - jean[i]));
+    figure("string on stop, Moreau-Jean (1) of " + conditions +
+               " minus backward Euler, largest force",
+           distance, "N");
+    EXPECT_LT(distance, 1e-4) << conditions;
+  }
 }
 
 // Cuts of wires are rigid bilateral rows: the run is that of the wires in one piece.
 TEST(MoreauJean, cuts_do_not_drift)
 {
-  double drift = 0., whole = 0., cut = 0.;
-  for (const bool in_pieces : {false, true})
-    run_scene(scene_file("string_on_stop"),
-              {"Time.Scheme=Moreau-Jean",
-               std::string("Partition.Number of substructures=") + (in_pieces ? "7" : "1")},
-              [&](const taut::StepView &view)
+  for (const Overrides &conditions :
+       {Overrides{"Time.Moreau-Jean.Conditions=velocities"},
+        Overrides{"Time.Moreau-Jean.Conditions=gaps", "Time.Moreau-Jean.Theta=0.6"}})
+  {
+    double drift = 0., whole = 0., cut = 0.;
+    for (const bool in_pieces : {false, true})
+    {
+      Overrides overrides = conditions;
+      overrides.push_back("Time.Scheme=Moreau-Jean");
+      overrides.push_back(std::string("Partition.Number of substructures=") +
+                          (in_pieces ? "7" : "1"));
+      run_scene(scene_file("string_on_stop"), overrides,
+                [&](const taut::StepView &view)
+                {
+                  if (in_pieces)
+                    drift = std::max(drift, view.certificate.drift);
+                  (in_pieces ? cut : whole) += view.state.multiplier[0];
+                });
+    }
+    figure("string on stop in 7 pieces, Moreau-Jean, " + conditions[0].substr(28) +
+               ", largest opening of a cut",
+           drift, "m");
+    EXPECT_LT(drift, 1e-10);
+    EXPECT_GT(drift, 0.) << "positions are not solved for";
+    EXPECT_NEAR(cut / whole, 1., 1e-9);
+  }
+}
+
+// A bar of 10 m and 10 N/m stands on a floor: 100 N, whatever the step. The balance before a step
+// has no force of the floor, or a shorter step would see half of it.
+TEST(MoreauJean, a_change_of_step_at_rest_creates_no_force)
+{
+  const std::string scene =
+      "set Generator = network\nset Gravity = 0, -10\nset Start = equilibrium\n"
+      "subsection Network\n set Wires = bar\n set Links = floor\n"
+      " subsection Wire bar\n  set To = 0, 10\n  set Components = bar\n  set Mass per length = 1\n"
+      "  set Axial stiffness = 900\n  set Element size = 0.5\n  set Degree = 1\n"
+      "  set Mass matrix = reduced\n end\n"
+      " subsection Link floor\n  set Type = stop\n  set From = ground\n  set To = bar @ 0\n"
+      "  set Direction = 0, 1\n end\nend\n";
+  double change = 0., shortest = 1., longest = 0., before = 0.;
+  run_scene(scene + time_section(1. / 60., 4., gaps(.5, " set Step control = adaptive\n")), {},
+            [&](const taut::StepView &view)
+            {
+              const double step = view.state.time - before;
+              before = view.state.time;
+              if (step > 0.)
               {
-                if (in_pieces)
-                  drift = std::max(drift, view.certificate.drift);
-                (in_pieces ? cut : whole) += view.state.multiplier[0];
-              });
-  figure("string on stop in 7 pieces, Moreau-Jean, largest opening of a cut", drift, "m");
-  EXPECT_LT(drift, 1e-10);
-  EXPECT_GT(drift, 0.) << "positions are not solved for";
-  EXPECT_NEAR(cut / whole, 1., 1e-9);
+                shortest = std::min(shortest, step);
+                longest = std::max(longest, step);
+              }
+              change = std::max(change, std::fabs(view.state.multiplier[0] / 100. - 1.));
+            });
+  figure("bar at rest, conditions on gaps, change of its force as the step changes", change);
+  EXPECT_LT(change, 1e-9);
+  EXPECT_GT(longest, 1.9 * shortest) << "the step did not change";
 }
 
 // What is known to fail is refused by name, unless an entry allows it.
@@ -211,6 +269,24 @@ TEST(Schemes, unsuitable_ones_are_refused_by_name)
   EXPECT_NE(message({"Time.Scheme=Moreau-Jean", reduced}).find("'reduced'"), std::string::npos);
   EXPECT_EQ(message({"Time.Scheme=Moreau-Jean", reduced, theta + "Theta=0.6"}), "");
   EXPECT_EQ(message({"Time.Scheme=Moreau-Jean", reduced, "Network.Link floor.Stiffness=1000"}), "");
+  // Stiff, but no impulse: as Newmark.
+  EXPECT_NE(message({"Time.Scheme=Moreau-Jean", "Network.Link floor.Stiffness=1e8"}), "");
+  EXPECT_EQ(
+      message({"Time.Scheme=Moreau-Jean", "Network.Link floor.Stiffness=1e8", theta + "Theta=0.6"}),
+      "");
+  // 400 elements of 25 mm: waves cross one in 1/1200 s.
+  const std::string of_gaps = "Time.Moreau-Jean.Conditions=gaps",
+                    one = "Time.Step=8.33333333333333333e-4";
+  EXPECT_NE(message({"Time.Scheme=Moreau-Jean", of_gaps, one}).find("gaps"), std::string::npos);
+  EXPECT_EQ(message({"Time.Scheme=Moreau-Jean", of_gaps, one, theta + "Theta=0.6"}), "");
+  EXPECT_EQ(message({"Time.Scheme=Moreau-Jean", of_gaps, one, reduced}), "");
+  EXPECT_NE(message({"Time.Scheme=Moreau-Jean", of_gaps, "Time.Step=8e-4", reduced}).find("0.96"),
+            std::string::npos);
+  EXPECT_EQ(message({"Time.Scheme=Moreau-Jean", of_gaps, "Time.Massless contact=mass"}), "");
+  EXPECT_NE(message({"Time.Scheme=Moreau-Jean", of_gaps, theta + "Restitution=0.5",
+                     "Time.Allow unsuitable scheme=true"})
+                .find("Restitution"),
+            std::string::npos);
   EXPECT_EQ(message({"Time.Scheme=BDF2", reduced}), "");
   // 0.12 and 0.06 elements a step.
   EXPECT_EQ(message({"Time.Scheme=BDF2", "Time.Step=1e-4"}), "");
