@@ -243,11 +243,13 @@ namespace taut
                           "rigid one-sided links. An elastic body rebounds by its own waves with "
                           "0; of a rigid one it says how much [1]",
                           dealii::Patterns::Double(0., 1.));
-        prm.add_parameter("Conditions", conditions,
-                          "What rigid one-sided links ask for. 'velocities': none of approach at "
-                          "the end of a step, once they touch. 'gaps': none closed by force before "
-                          "its end, no penetration at its end; without restitution",
-                          dealii::Patterns::Selection("velocities|gaps"));
+        prm.add_parameter(
+            "Conditions", conditions,
+            "What rigid one-sided links ask for. 'velocities': no approach at the end of a step in "
+            "which they touch. 'gaps': no penetration at its end, and no restitution; with "
+            "Theta 1/2 for linear elements with the mass matrix 'reduced' and steps of "
+            "element over wave speed, which carry fronts undistorted",
+            dealii::Patterns::Selection("velocities|gaps"));
         prm.leave_subsection();
       }
       StepCoefficients coefficients(const double step) const override
