@@ -130,7 +130,8 @@ namespace taut
 
     prm.enter_subsection("Time");
     prm.add_parameter("Scheme", scheme,
-                      "Time integration. 'automatic' follows from the links of the scene. " +
+                      "Time integration. 'automatic' follows from the links of the scene, their "
+                      "bodies and the step; the log says what and why. " +
                           Registry<TimeIntegrator>::instance().descriptions(),
                       Selection("automatic|" + Registry<TimeIntegrator>::instance().names()));
     prm.add_parameter("Step", step, "[s]", not_negative());
@@ -144,8 +145,11 @@ namespace taut
         "Whether the node of a wire at a rigid stop or dropper gives its mass to its "
         "neighbours; impacts then take no energy and their force stays bounded as the step falls, "
         "with any scheme. 'mass': the total mass stays, the force overshoots least. 'inertia': "
-        "the centre of mass and the moment of inertia stay as well",
-        Selection("no|mass|inertia"));
+        "the centre of mass and the moment of inertia stay as well. 'automatic': 'mass' at the "
+        "stops "
+        "of bars and strings where the Scheme is 'automatic', too, and this the best choice; "
+        "otherwise 'no'",
+        Selection("automatic|no|mass|inertia"));
     for (auto &[name, integrator] : integrators)
       integrator->declare_parameters(prm);
     prm.leave_subsection();
@@ -304,6 +308,32 @@ namespace taut
     keep_listing(prm);
   }
 
+  std::unique_ptr<TimeIntegrator>
+  Parameters::integrator(const std::string &name,
+                         const std::map<std::string, std::string> &entries) const
+  {
+    std::unique_ptr<TimeIntegrator> result = Registry<TimeIntegrator>::instance().create(name);
+    dealii::ParameterHandler prm;
+    result->declare_parameters(prm);
+    // The scheme's section may have another name than the scheme.
+    const std::string time = "Time/";
+    for (const auto &[path, value] : entry_values)
+    {
+      const std::size_t end = path.find('/', time.size());
+      if (path.compare(0, time.size(), time) != 0 || end == std::string::npos)
+        continue;
+      const std::string section = path.substr(time.size(), end - time.size()),
+                        entry = path.substr(end + 1);
+      if (!prm.subsection_path_exists({section}))
+        continue;
+      const auto own = entries.find(entry);
+      prm.enter_subsection(section);
+      prm.set(entry, own == entries.end() ? value : own->second);
+      prm.leave_subsection();
+    }
+    return result;
+  }
+
   void Parameters::print(std::ostream &out) const
   {
     out << listing;
@@ -316,9 +346,9 @@ namespace taut
     scene.start = start == "equilibrium"  ? Start::equilibrium
                   : start == "undeformed" ? Start::undeformed
                                           : Start::given;
-    const ContactMass contact_mass = massless_contact == "no"     ? ContactMass::stays
-                                     : massless_contact == "mass" ? ContactMass::keeps_total
-                                                                  : ContactMass::keeps_inertia;
+    const ContactMass contact_mass = massless_contact == "mass"      ? ContactMass::keeps_total
+                                     : massless_contact == "inertia" ? ContactMass::keeps_inertia
+                                                                     : ContactMass::stays;
     for (Link &link : scene.links)
       if (link.rigid() && link.unilateral() && !link.moving())
         link.contact_mass = contact_mass;

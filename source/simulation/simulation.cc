@@ -37,12 +37,19 @@ namespace taut
       };
       return is_numbered("wires") || is_numbered("links");
     }
+
+    Scene prepare_contacts(Scene scene, const Parameters &parameters)
+    {
+      if (parameters.chooses_contact_mass())
+        take_contact_mass(scene, parameters.step);
+      return scene;
+    }
   } // namespace
 
   Simulation::Simulation(const Parameters &parameters, std::ostream &log,
                          const Communicator &processes)
       : parameters(parameters), log(log), processes(processes),
-        model(find_lengths(parameters.scene(), parameters.solver)),
+        model(prepare_contacts(find_lengths(parameters.scene(), parameters.solver), parameters)),
         bodies(model, make_partition(model, parameters.partition), processes), links(model, bodies),
         reactions(model, bodies)
   {
@@ -244,25 +251,27 @@ namespace taut
         std::floor(parameters.end_time / parameters.step * (1. + rounding) + rounding));
   }
 
-  const TimeIntegrator &Simulation::choose_integrator() const
+  const TimeIntegrator &Simulation::choose_integrator()
   {
+    const double restitution =
+        parameters.integrator("Moreau-Jean").coefficients(parameters.step).restitution;
     std::string name = parameters.scheme;
     if (name == "automatic")
     {
       const SchemeChoice choice =
-          choose_scheme(model, bodies, links, parameters.solver, parameters.step);
-      name = choice.name;
-      log << "Scheme (automatic): " << parameters.integrator(name).description() << ", because "
+          choose_scheme(model, bodies, links, parameters.solver, parameters.step, restitution);
+      chosen_integrator = parameters.integrator(choice.name, choice.entries);
+      log << "Scheme (automatic): " << chosen_integrator->description() << ", because "
           << choice.reason << '\n';
+      return *chosen_integrator;
     }
-    else
-    {
-      log << "Scheme: " << parameters.integrator(name).description() << '\n';
-      if (!parameters.allow_unsuitable_scheme)
-        check_scheme(parameters.integrator(name), model, bodies, links, parameters.solver,
-                     parameters.step);
-    }
-    return parameters.integrator(name);
+    const TimeIntegrator &integrator = parameters.integrator(name);
+    log << "Scheme: " << integrator.description() << '\n';
+    if (restitution > 0. && integrator.coefficients(parameters.step).restitution == 0.)
+      log << "  it has no restitution: Time/Moreau-Jean/Restitution is not used\n";
+    if (!parameters.allow_unsuitable_scheme)
+      check_scheme(integrator, model, bodies, links, parameters.solver, parameters.step);
+    return integrator;
   }
 
   void Simulation::write_start() const

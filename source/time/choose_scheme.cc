@@ -16,6 +16,22 @@ namespace taut
     /// Courant number below which BDF2's multipliers oscillate.
     constexpr double least_courant_number = .25;
 
+    /// Courant number up to which nodes without mass were measured.
+    constexpr double most_courant_number = 4.;
+
+    bool is_one(const double courant)
+    {
+      return std::fabs(courant - 1.) < 1e-6;
+    }
+
+    /// True if a motion of the wire along the direction is across it, and bends it.
+    bool bends(const Wire &wire, const Point &direction)
+    {
+      const Point n = wire.normal();
+      return wire.transverse == TransverseKind::beam &&
+             std::fabs(direction.x * n.x + direction.y * n.y) > 1e-12;
+    }
+
     /// Wave speed times step over element size, of the wire that an attachment is on, for motion
     /// along a direction.
     double courant_number(const Scene &scene, const Attachment &end, const Point &direction,
@@ -38,21 +54,26 @@ namespace taut
       return std::sqrt(squared / wire.mass_per_length) * step / wire.element_size;
     }
 
-    /// An end of a one-sided row that acts as rigid.
+    /// An end on a wire of a one-sided row that acts as rigid, or such a row without wires.
     struct RigidContact
     {
       std::size_t row;
       double courant; ///< elements that waves of its wire cross in a step
       MassMatrix matrix;
       bool exactly_rigid;
+      bool on_wire, on_beam;
     };
+
+    bool is_on_wire(const Link &link)
+    {
+      return link.from.kind == Attachment::Kind::wire || link.to.kind == Attachment::Kind::wire;
+    }
 
     /// True if the wire's node under a rigid link carries no mass: its force then is that of the
     /// elements beside it.
     bool is_massless(const Link &link)
     {
-      return link.contact_mass != ContactMass::stays &&
-             (link.from.kind == Attachment::Kind::wire || link.to.kind == Attachment::Kind::wire);
+      return link.contact_mass != ContactMass::stays && is_on_wire(link);
     }
 
     std::vector<RigidContact> find_rigid_contacts(const Scene &scene, const Structure &structure,
@@ -90,13 +111,18 @@ namespace taut
         const double compliance = 1. / (rows[i].stiffness + c.velocity * rows[i].damping);
         if (compliance >= flexibility[i] || is_massless(link))
           continue;
+        const bool exactly_rigid = compliance == 0.;
         for (const Attachment *end : {&link.from, &link.to})
-          if (end->kind != Attachment::Kind::ground)
+          if (end->kind == Attachment::Kind::wire)
+          {
+            const Wire &wire = scene.wires[end->index];
             result.push_back({i, courant_number(scene, *end, link.direction, step),
-                              end->kind == Attachment::Kind::wire
-                                  ? scene.wires[end->index].mass_matrix
-                                  : MassMatrix::lumped,
-                              compliance == 0.});
+                              wire.mass_matrix, exactly_rigid, true,
+                              link.rotational || bends(wire, link.direction)});
+          }
+        if (!is_on_wire(link))
+          result.push_back({i, std::numeric_limits<double>::infinity(), MassMatrix::lumped,
+                            exactly_rigid, false, false});
       }
       return result;
     }
@@ -120,24 +146,118 @@ namespace taut
     }
   } // namespace
 
+  void take_contact_mass(Scene &scene, const double step)
+  {
+    bool carries_fronts = true;
+    std::vector<Link *> stops;
+    std::vector<std::pair<std::size_t, double>> nodes; // wire and position
+    for (Link &link : scene.links)
+    {
+      if (!link.unilateral() || !link.rigid() || link.axial_stiffness != 0.)
+        continue;
+      if (link.kind != LinkKind::stop || link.rotational)
+        return;
+      const std::size_t n_before = nodes.size();
+      for (const Attachment *end : {&link.from, &link.to})
+      {
+        if (end->kind != Attachment::Kind::wire)
+          continue;
+        const Wire &wire = scene.wires[end->index];
+        const double courant = courant_number(scene, *end, link.direction, step),
+                     room = 2. * wire.element_size * (1. - 1e-9);
+        if (bends(wire, link.direction) || !(courant <= most_courant_number) ||
+            wire.length() < room)
+          return;
+        for (const auto &[index, position] : nodes)
+          if (index == end->index && std::fabs(position - end->position) < room)
+            return;
+        nodes.emplace_back(end->index, end->position);
+        carries_fronts =
+            carries_fronts && wire.mass_matrix == MassMatrix::reduced && is_one(courant);
+      }
+      if (nodes.size() == n_before)
+        return;
+      stops.push_back(&link);
+    }
+    if (!carries_fronts)
+      for (Link *link : stops)
+        link->contact_mass = ContactMass::keeps_total;
+  }
+
   SchemeChoice choose_scheme(const Scene &scene, const Structure &structure,
                              const ContactRows &rows, const SolverParameters &parameters,
-                             const double step)
+                             const double step, const double restitution)
   {
-    if (!has_one_sided_rows(rows))
-      return {"generalised-alpha", "no one-sided links"};
+    const SchemeChoice impulses{
+        "Moreau-Jean", {{"Theta", "0.5"}, {"Conditions", "velocities"}}, ""};
+    const auto with_reason = [](SchemeChoice choice, const std::string &reason)
+    {
+      choice.reason = reason;
+      return choice;
+    };
+    if (!has_one_sided_rows(rows) && !(restitution > 0.))
+      return {"generalised-alpha", {}, "no one-sided links"};
     const std::vector<RigidContact> rigid =
         find_rigid_contacts(scene, structure, rows, parameters, step);
+    const auto all = [&](const auto &property)
+    { return std::all_of(rigid.begin(), rigid.end(), property); };
+
+    if (restitution > 0.)
+    {
+      const std::string entry = "Time/Moreau-Jean/Restitution";
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        if (rows[i].unilateral && is_on_wire(scene.links[rows[i].link]))
+          throw EntryError(entry, "a wire rebounds by its own waves, and with restitution its node "
+                                  "would bounce at link '" +
+                                      rows[i].name + "'. Set it to 0");
+      if (rigid.empty() || !all([](const RigidContact &c) { return c.exactly_rigid; }))
+        throw EntryError(entry, "restitution is a law of rigid one-sided links, and the scene has "
+                                "others or none. Set it to 0, or remove their Stiffness");
+      return with_reason(impulses, "only it knows the restitution asked for");
+    }
     if (rigid.empty())
       return {"generalised-alpha",
-              "all one-sided links are more compliant than the bodies in one step"};
+              {},
+              std::any_of(scene.links.begin(), scene.links.end(), is_massless)
+                  ? "nodes of wires at rigid one-sided links gave their mass to their neighbours"
+                  : "all one-sided links are more compliant than the bodies in one step"};
+
     const RigidContact &worst = *std::min_element(rigid.begin(), rigid.end(),
                                                   [](const RigidContact &a, const RigidContact &b)
                                                   { return a.courant < b.courant; });
+    const auto lumped =
+        std::find_if(rigid.begin(), rigid.end(),
+                     [](const RigidContact &c) { return !c.on_wire && c.exactly_rigid; });
+    if (lumped != rigid.end())
+    {
+      const std::string reason = "masses collide at the rigid one-sided link '" +
+                                 rows[lumped->row].name + "', and other schemes let them rebound";
+      if (all([](const RigidContact &c)
+              { return c.exactly_rigid && c.matrix != MassMatrix::reduced; }) &&
+          std::none_of(scene.links.begin(), scene.links.end(), is_massless))
+        return with_reason(impulses, reason);
+      return {"backward Euler", {}, reason};
+    }
+    if (all(
+            [](const RigidContact &c) {
+              return c.exactly_rigid && c.matrix == MassMatrix::reduced && !c.on_beam &&
+                     is_one(c.courant);
+            }))
+      return {"Moreau-Jean",
+              {{"Theta", "0.5"}, {"Conditions", "gaps"}},
+              "with the mass matrix 'reduced', waves cross one element a step, undistorted, at "
+              "the rigid one-sided link '" +
+                  rows[worst.row].name + "'"};
     std::ostringstream reason;
     reason << "one-sided link '" << rows[worst.row].name << "' acts as rigid; waves cross "
            << worst.courant << " elements a step";
-    return {worst.courant >= least_courant_number ? "BDF2" : "backward Euler", reason.str()};
+    if (worst.courant >= least_courant_number)
+      return {"BDF2", {}, reason.str()};
+    if (all([](const RigidContact &c) { return c.on_beam || !c.on_wire; }))
+      return {"generalised-alpha",
+              {{"Spectral radius", "0"}},
+              reason.str() + ", and bend what they cross"};
+    return {"backward Euler", {}, reason.str()};
   }
 
   void check_scheme(const TimeIntegrator &integrator, const Scene &scene,

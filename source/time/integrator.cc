@@ -306,7 +306,7 @@ namespace taut
                                    "compliant links, with spectral radius 0 for rigid ones");
     const Register<TimeIntegrator, MoreauJean> register_moreau_jean(
         "Moreau-Jean", "theta method with impulses: rigid links are conditions on velocities, with "
-                       "restitution, and their gaps are open to half a step of motion; for rigid "
+                       "restitution, and their gaps are open to a step of motion; for rigid "
                        "one-sided links and for rigid bodies that bounce");
     const Register<TimeIntegrator, HHT>
         register_hht("HHT", "second order, dissipation chosen by alpha; for smooth problems, "

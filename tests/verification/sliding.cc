@@ -103,26 +103,3 @@ TEST(SlidingContact, constant_force_on_a_massless_contact_is_a_moving_force)
   EXPECT_LT(force_error, 1.);
   EXPECT_NEAR(compression, 120. / 50000., .1 * 120. / 50000.);
 }
-
-namespace
-{
-  std::string chosen_scheme(const std::string &scene, const Overrides &more)
-  {
-    Overrides overrides = {"Time.Scheme=automatic"};
-    overrides.insert(overrides.end(), more.begin(), more.end());
-    Session session(scene_file(scene), overrides);
-    session.run([](const taut::StepView &) {});
-    const std::string log = session.log(), mark = "Scheme (automatic): ";
-    const std::size_t at = log.find(mark);
-    return at == std::string::npos ? "" : log.substr(at + mark.size(), 12);
-  }
-} // namespace
-
-// The rule of the documentation: rigid one-sided links want BDF2 where waves cross at least a
-// quarter of an element a step (here 30 m/s over 25 mm: 0.6 and 0.12), backward Euler below.
-TEST(Schemes, the_choice_follows_from_the_links)
-{
-  EXPECT_EQ(chosen_scheme("bar_on_wall", {"Time.End=1e-2"}).substr(0, 4), "BDF2");
-  EXPECT_EQ(chosen_scheme("bar_on_wall", {"Time.Step=1e-4", "Time.End=1e-3"}), "backward Eul");
-  EXPECT_EQ(chosen_scheme("inclined_cable", {"Time.End=1e-2"}), "generalised-");
-}

@@ -80,7 +80,7 @@ namespace taut
 
     std::string scheme = "automatic";
     double step = 1e-3, end_time = 6.912;
-    std::string massless_contact = "no";
+    std::string massless_contact = "automatic";
     bool allow_unsuitable_scheme = false;
     StepParameters step_parameters;
 
@@ -106,6 +106,16 @@ namespace taut
     const TimeIntegrator &integrator(const std::string &name) const
     {
       return *integrators.at(name);
+    }
+
+    /// A scheme with the parameters that the file gives it, but for these entries of its section.
+    std::unique_ptr<TimeIntegrator>
+    integrator(const std::string &name, const std::map<std::string, std::string> &entries) const;
+
+    /// True if Time/Massless contact leaves to the choice of the scheme which nodes have mass.
+    bool chooses_contact_mass() const
+    {
+      return scheme == "automatic" && massless_contact == "automatic" && end_time > 0.;
     }
 
   private:

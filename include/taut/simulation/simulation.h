@@ -54,7 +54,7 @@ namespace taut
     void find_start();
     void report_free_bodies() const;
     void find_rest_of_probes();
-    const TimeIntegrator &choose_integrator() const;
+    const TimeIntegrator &choose_integrator();
     void write_start() const;
     StepView view(const State &state, const Certificate &certificate) const;
     void update_probes(const State &state);
@@ -76,6 +76,7 @@ namespace taut
     std::vector<double> probe_rest, probe_values;
     Reactions reactions;
     std::vector<Observer *> guests;
+    std::unique_ptr<TimeIntegrator> chosen_integrator; ///< of Scheme = automatic
     double seconds = 0.;
   };
 } // namespace taut

@@ -6,27 +6,37 @@
 #include <taut/time/integrator.h>
 #include <taut/time/solver_parameters.h>
 
+#include <map>
 #include <string>
 
 namespace taut
 {
-  /// A time integration scheme by name, and why.
+  /// A time integration scheme by name, values of its own entries, and why.
   struct SchemeChoice
   {
     std::string name;
+    std::map<std::string, std::string> entries;
     std::string reason;
   };
 
   /**
+   * Takes the mass from the nodes of wires at rigid stops, as Massless contact = mass does, if that
+   * was measured to be best at a step [s] (doc/accuracy.md, "What automatic chooses"): if all rigid
+   * one-sided links of the scene are such stops, on bars or strings, at least two elements apart,
+   * whose waves cross at most four elements a step; not if they cross just one on reduced mass
+   * matrices, where Moreau-Jean with conditions on gaps is exact.
+   */
+  void take_contact_mass(Scene &scene, double step);
+
+  /**
    * The scheme that suits the rows of a scene at a step [s]. A one-sided row behaves as compliant
    * when its S_ii is at least its (B^T A^-1 B)_ii, or when the wire's node there carries no mass.
-   * Without rigid one-sided rows: generalised-alpha. With them, its multipliers fail, and the
-   * choice is BDF2 where waves cross at least a quarter of an element a step, and the source's
-   * scheme below that.
+   * doc/accuracy.md has the rules and what they were measured by. Throws an EntryError if a @p
+   * restitution [1] is asked for where no scheme has it.
    */
   SchemeChoice choose_scheme(const Scene &scene, const Structure &structure,
                              const ContactRows &rows, const SolverParameters &parameters,
-                             double step);
+                             double step, double restitution);
 
   /**
    * Throws an EntryError on Time/Scheme if a scheme is known to fail on a row of the scene: a rigid

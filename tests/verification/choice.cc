@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: 'automatic' takes the scheme, and the mass of contact nodes, by the rules of
+// doc/accuracy.md ("What automatic chooses"), says which and why, and is nearer to exact solutions
+// than what else it might have taken. Sources: wave equation (prm/bar_on_wall.prm), free fall onto
+// a rigid floor.
+#include "run.h"
+
+#include <taut/base/exceptions.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace verification;
+
+namespace
+{
+  /// The line of the log about the scheme; or the error.
+  std::string choice(const std::string &scene, const Overrides &more)
+  {
+    Overrides overrides = {"Time.Scheme=automatic"};
+    overrides.insert(overrides.end(), more.begin(), more.end());
+    try
+    {
+      Session session(scene, overrides);
+      session.run([](const taut::StepView &) {});
+      const std::string log = session.log(), mark = "Scheme (automatic): ";
+      const std::size_t at = log.find(mark) + mark.size();
+      return log.substr(at, log.find('\n', at) - at);
+    }
+    catch (const taut::UserError &e)
+    {
+      return std::string("error: ") + e.what();
+    }
+  }
+
+  void expect_choice(const std::string &scene, const Overrides &more, const std::string &scheme,
+                     const std::string &reason)
+  {
+    const std::string line = choice(scene, more);
+    EXPECT_EQ(line.substr(0, scheme.size()), scheme) << line;
+    EXPECT_NE(line.find(reason), std::string::npos) << line;
+  }
+
+  /// Two masses on a spring fall 0.8 m onto a floor.
+  std::string falling_masses(const std::string &floor = "")
+  {
+    return "set Generator = network\nset Gravity = 0, -10\nset Start = given\n"
+           "subsection Network\n set Masses = lower, upper\n set Springs = spring\n"
+           " set Links = floor\n"
+           " subsection Mass lower\n  set Position = 0, 0.8\n  set Motions = y\n  set Mass = 2\n"
+           " end\n subsection Mass upper\n  set Position = 0, 1.8\n  set Motions = y\n"
+           "  set Mass = 2\n end\n"
+           " subsection Spring spring\n  set From = lower\n  set To = upper\n  set Stiffness = 1\n"
+           " end\n subsection Link floor\n  set Type = stop\n  set From = ground\n"
+           "  set To = lower\n  set Direction = 0, 1\n  set Gap = 0.8\n" +
+           floor + " end\nend\nsubsection Time\n set Step = 1e-3\n set End = 0.7\nend\n";
+  }
+
+  /// Root mean square error of the lower end of the bar on the wall over that of its motion.
+  double bar_error(const double elements, const Overrides &more)
+  {
+    std::ostringstream step;
+    step.precision(17);
+    step << "Time.Step=" << elements * .1 / 30.;
+    Overrides overrides = {"Network.Wire bar.Element size=0.1", step.str()};
+    overrides.insert(overrides.end(), more.begin(), more.end());
+    double error = 0., size = 0.;
+    run_scene(scene_file("bar_on_wall"), overrides,
+              [&](const taut::StepView &view)
+              {
+                const double t = view.state.time,
+                             exact = t < .5 ? -10. * t : std::max(-5., -5. + 10. * (t - 7. / 6.)),
+                             e = displacement(view, 0, 0.) - exact;
+                error += e * e;
+                size += exact * exact;
+              });
+    return std::sqrt(error / size);
+  }
+} // namespace
+
+TEST(Schemes, automatic_follows_from_links_bodies_and_step)
+{
+  const std::string bar = scene_file("bar_on_wall"), beam = scene_file("beam_over_supports"),
+                    smooth = "generalised-alpha (spectral radius 0.8)",
+                    massless = "gave their mass", reduced = "Network.Wire bar.Mass matrix=reduced",
+                    soon = "Time.End=0.01", joint = "Network.Link floor.Type=joint",
+                    at_once = "Network.Link floor.Gap=0";
+  expect_choice(falling_masses(), {joint, at_once, soon}, smooth, "no one-sided links");
+  expect_choice(scene_file("inclined_cable"), {soon}, smooth, "more compliant");
+  // 400 linear elements, 30 m/s: 0.6 and 0.06 of an element a step, 4, 4.1.
+  for (const std::string step : {"5e-4", "5e-5", "3.333e-3"})
+    expect_choice(bar, {"Time.Step=" + step, soon}, smooth, massless);
+  expect_choice(bar, {"Time.Step=3.5e-3", soon}, "BDF2", "'floor' acts as rigid");
+  expect_choice(bar, {reduced, soon}, smooth, massless);
+  expect_choice(bar, {reduced, "Time.Step=8.33333333333333333e-4", soon},
+                "Moreau-Jean (theta 0.5, gaps)", "undistorted");
+  // Mass that shall stay.
+  const std::string stays = "Time.Massless contact=no";
+  expect_choice(bar, {stays, soon}, "BDF2", "0.6 elements a step");
+  expect_choice(bar, {stays, "Time.Step=1e-4", soon}, "backward Euler", "0.12 elements a step");
+  expect_choice(bar, {"Network.Link floor.Stiffness=1e8", soon}, "BDF2", "'floor' acts as rigid");
+  // Two stops need two elements between them.
+  expect_choice(bar, {"Network.Link floor.To=bar @ 0, 0.05", soon}, smooth, massless);
+  expect_choice(bar, {"Network.Link floor.To=bar @ 0, 0.025", soon}, "BDF2", "'floor");
+  // Beams: 5 and 0.05 elements a step.
+  expect_choice(beam, {soon}, "BDF2", "'support 1' acts as rigid");
+  expect_choice(beam, {"Time.Step=1e-5", "Time.End=1e-4"}, "generalised-alpha (spectral radius 0)",
+                "bend");
+  // Masses.
+  expect_choice(falling_masses(), {soon}, "Moreau-Jean (theta 0.5, restitution 0)",
+                "'floor', and other schemes let them rebound");
+  expect_choice(falling_masses(), {"Time.Moreau-Jean.Theta=0.7", soon},
+                "Moreau-Jean (theta 0.5, restitution 0)", "rebound");
+  expect_choice(falling_masses("  set Stiffness = 1e9\n"), {soon}, "BDF2", "acts as rigid");
+}
+
+TEST(Schemes, automatic_knows_restitution_or_says_so)
+{
+  const std::string half = "Time.Moreau-Jean.Restitution=0.5", soon = "Time.End=0.01";
+  expect_choice(falling_masses(), {half, soon}, "Moreau-Jean (theta 0.5, restitution 0.5)",
+                "restitution");
+  expect_choice(falling_masses("  set Stiffness = 1e9\n"), {half, soon},
+                "error:", "Time/Moreau-Jean/Restitution");
+  expect_choice(falling_masses("  set Stiffness = 1\n"), {half, soon}, "error:", "Stiffness");
+  expect_choice(scene_file("bar_on_wall"), {half, soon}, "error:", "'floor'");
+  expect_choice(falling_masses(),
+                {"Network.Link floor.Type=joint", "Network.Link floor.Gap=0", half, soon},
+                "error:", "has others or none");
+  Session by_name(falling_masses(), {"Time.Scheme=BDF2", half, soon});
+  by_name.run([](const taut::StepView &) {});
+  EXPECT_NE(by_name.log().find("Restitution is not used"), std::string::npos);
+}
+
+TEST(Schemes, automatic_is_nearer_to_the_wave_equation)
+{
+  const std::string reduced = "Network.Wire bar.Mass matrix=reduced";
+  for (const double elements : {.05, .2, .5, 1., 2.})
+  {
+    const double chosen = bar_error(elements, {"Time.Scheme=automatic"}),
+                 bdf2 = bar_error(elements, {"Time.Scheme=BDF2"}),
+                 euler = bar_error(elements, {"Time.Scheme=backward Euler"});
+    const std::string at = ", " + std::to_string(elements) + " elements a step";
+    figure("bar on a wall, error of the motion, automatic" + at, chosen);
+    figure("bar on a wall, error of the motion, BDF2" + at, bdf2);
+    figure("bar on a wall, error of the motion, backward Euler" + at, euler);
+    EXPECT_LT(chosen, .7 * bdf2) << elements;
+    EXPECT_LT(chosen, .4 * euler) << elements;
+  }
+  EXPECT_LT(bar_error(1., {"Time.Scheme=automatic", reduced}), 1e-9);
+}
+
+// The mass stays on the floor; BDF2 lets it rebound, by more or less as the step is.
+TEST(Schemes, automatic_leaves_a_rigid_mass_where_it_fell)
+{
+  const auto rebound = [](const std::string &scheme, const std::string &step)
+  {
+    double largest = 0.;
+    run_scene(falling_masses(), {"Time.Scheme=" + scheme, "Time.Step=" + step},
+              [&](const taut::StepView &view)
+              {
+                if (view.state.time > .41)
+                  largest = std::max(largest, std::fabs(view.state.geometric_gap[0]));
+              });
+    return largest;
+  };
+  double bdf2 = 0.;
+  for (const std::string step : {"3.3e-3", "1.1e-3", "3.3e-4"})
+  {
+    const double chosen = rebound("automatic", step);
+    bdf2 = std::max(bdf2, rebound("BDF2", step));
+    figure("mass on a floor, automatic, gap after the impact, step " + step + " s", 1e3 * chosen,
+           "mm");
+    EXPECT_LT(chosen, 4. * std::stod(step) + 1e-9) << "a step of motion";
+  }
+  figure("mass on a floor, BDF2, largest rebound", 1e3 * bdf2, "mm");
+  EXPECT_GT(bdf2, .05);
+}
+
+TEST(Schemes, a_scheme_by_name_keeps_the_mass_of_its_nodes)
+{
+  const auto largest = [](const Overrides &overrides)
+  {
+    double N = 0.;
+    run_scene(scene_file("bar_on_wall"), overrides,
+              [&](const taut::StepView &view) { N = std::max(N, view.state.multiplier[0]); });
+    return N;
+  };
+  const double by_name = largest({"Time.Scheme=BDF2"});
+  EXPECT_EQ(by_name, largest({"Time.Scheme=BDF2", "Time.Massless contact=no"}));
+  EXPECT_NE(by_name, largest({"Time.Scheme=BDF2", "Time.Massless contact=mass"}));
+}
