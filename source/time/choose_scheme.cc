@@ -76,6 +76,18 @@ namespace taut
       return link.contact_mass != ContactMass::stays && is_on_wire(link);
     }
 
+    /// True if the wires at a link are bars or strings whose waves cross at most four elements a
+    /// step: the elements beside a node without mass then are a spring that no scheme rings on.
+    bool is_springy(const Scene &scene, const Link &link, const double step)
+    {
+      for (const Attachment *end : {&link.from, &link.to})
+        if (end->kind == Attachment::Kind::wire &&
+            (link.rotational || bends(scene.wires[end->index], link.direction) ||
+             !(courant_number(scene, *end, link.direction, step) <= most_courant_number)))
+          return false;
+      return true;
+    }
+
     std::vector<RigidContact> find_rigid_contacts(const Scene &scene, const Structure &structure,
                                                   const ContactRows &rows,
                                                   const SolverParameters &parameters,
@@ -144,6 +156,72 @@ namespace taut
           return true;
       return false;
     }
+
+    SchemeChoice impulses(const std::string &reason)
+    {
+      return {"Moreau-Jean", {{"Theta", "0.5"}, {"Conditions", "velocities"}}, reason};
+    }
+
+    SchemeChoice choose_for_restitution(const Scene &scene, const ContactRows &rows,
+                                        const std::vector<RigidContact> &rigid)
+    {
+      const std::string entry = "Time/Moreau-Jean/Restitution";
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        if (rows[i].unilateral && is_on_wire(scene.links[rows[i].link]))
+          throw EntryError(entry, "a wire rebounds by its own waves, and with restitution its node "
+                                  "would bounce at link '" +
+                                      rows[i].name + "'. Set it to 0");
+      if (rigid.empty() || !std::all_of(rigid.begin(), rigid.end(),
+                                        [](const RigidContact &c) { return c.exactly_rigid; }))
+        throw EntryError(entry, "restitution is a law of rigid one-sided links, and the scene has "
+                                "others or none. Set it to 0, or remove their Stiffness");
+      return impulses("only it knows the restitution asked for");
+    }
+
+    SchemeChoice choose_for_rigid(const Scene &scene, const ContactRows &rows,
+                                  const std::vector<RigidContact> &rigid)
+    {
+      const auto all = [&](const auto &property)
+      { return std::all_of(rigid.begin(), rigid.end(), property); };
+      const auto lumped =
+          std::find_if(rigid.begin(), rigid.end(),
+                       [](const RigidContact &c) { return !c.on_wire && c.exactly_rigid; });
+      if (lumped != rigid.end())
+      {
+        const std::string reason = "masses collide at the rigid one-sided link '" +
+                                   rows[lumped->row].name + "', and other schemes let them rebound";
+        if (all([](const RigidContact &c)
+                { return c.exactly_rigid && c.matrix != MassMatrix::reduced; }) &&
+            std::none_of(scene.links.begin(), scene.links.end(), is_massless))
+          return impulses(reason);
+        return {"backward Euler", {}, reason};
+      }
+
+      const RigidContact &worst = *std::min_element(rigid.begin(), rigid.end(),
+                                                    [](const RigidContact &a, const RigidContact &b)
+                                                    { return a.courant < b.courant; });
+      const std::string name = rows[worst.row].name;
+      if (all(
+              [](const RigidContact &c) {
+                return c.exactly_rigid && c.matrix == MassMatrix::reduced && !c.on_beam &&
+                       is_one(c.courant);
+              }))
+        return {"Moreau-Jean",
+                {{"Theta", "0.5"}, {"Conditions", "gaps"}},
+                "with the mass matrix 'reduced', waves cross one element a step, undistorted, at "
+                "the rigid one-sided link '" +
+                    name + "'"};
+      std::ostringstream reason;
+      reason << "one-sided link '" << name << "' acts as rigid; waves cross " << worst.courant
+             << " elements a step";
+      if (worst.courant >= least_courant_number)
+        return {"BDF2", {}, reason.str()};
+      if (all([](const RigidContact &c) { return c.on_beam || !c.on_wire; }))
+        return {"generalised-alpha",
+                {{"Spectral radius", "0"}},
+                reason.str() + ", and bend what they cross"};
+      return {"backward Euler", {}, reason.str()};
+    }
   } // namespace
 
   void take_contact_mass(Scene &scene, const double step)
@@ -155,7 +233,7 @@ namespace taut
     {
       if (!link.unilateral() || !link.rigid() || link.axial_stiffness != 0.)
         continue;
-      if (link.kind != LinkKind::stop || link.rotational)
+      if (link.kind != LinkKind::stop || !is_springy(scene, link, step))
         return;
       const std::size_t n_before = nodes.size();
       for (const Attachment *end : {&link.from, &link.to})
@@ -165,8 +243,7 @@ namespace taut
         const Wire &wire = scene.wires[end->index];
         const double courant = courant_number(scene, *end, link.direction, step),
                      room = 2. * wire.element_size * (1. - 1e-9);
-        if (bends(wire, link.direction) || !(courant <= most_courant_number) ||
-            wire.length() < room)
+        if (wire.length() < room)
           return;
         for (const auto &[index, position] : nodes)
           if (index == end->index && std::fabs(position - end->position) < room)
@@ -188,76 +265,26 @@ namespace taut
                              const ContactRows &rows, const SolverParameters &parameters,
                              const double step, const double restitution)
   {
-    const SchemeChoice impulses{
-        "Moreau-Jean", {{"Theta", "0.5"}, {"Conditions", "velocities"}}, ""};
-    const auto with_reason = [](SchemeChoice choice, const std::string &reason)
-    {
-      choice.reason = reason;
-      return choice;
-    };
     if (!has_one_sided_rows(rows) && !(restitution > 0.))
       return {"generalised-alpha", {}, "no one-sided links"};
     const std::vector<RigidContact> rigid =
         find_rigid_contacts(scene, structure, rows, parameters, step);
-    const auto all = [&](const auto &property)
-    { return std::all_of(rigid.begin(), rigid.end(), property); };
-
     if (restitution > 0.)
-    {
-      const std::string entry = "Time/Moreau-Jean/Restitution";
-      for (std::size_t i = 0; i < rows.size(); ++i)
-        if (rows[i].unilateral && is_on_wire(scene.links[rows[i].link]))
-          throw EntryError(entry, "a wire rebounds by its own waves, and with restitution its node "
-                                  "would bounce at link '" +
-                                      rows[i].name + "'. Set it to 0");
-      if (rigid.empty() || !all([](const RigidContact &c) { return c.exactly_rigid; }))
-        throw EntryError(entry, "restitution is a law of rigid one-sided links, and the scene has "
-                                "others or none. Set it to 0, or remove their Stiffness");
-      return with_reason(impulses, "only it knows the restitution asked for");
-    }
-    if (rigid.empty())
+      return choose_for_restitution(scene, rows, rigid);
+    if (!rigid.empty())
+      return choose_for_rigid(scene, rows, rigid);
+
+    const std::vector<Link> &links = scene.links;
+    if (std::none_of(links.begin(), links.end(), is_massless))
       return {"generalised-alpha",
               {},
-              std::any_of(scene.links.begin(), scene.links.end(), is_massless)
-                  ? "nodes of wires at rigid one-sided links gave their mass to their neighbours"
-                  : "all one-sided links are more compliant than the bodies in one step"};
-
-    const RigidContact &worst = *std::min_element(rigid.begin(), rigid.end(),
-                                                  [](const RigidContact &a, const RigidContact &b)
-                                                  { return a.courant < b.courant; });
-    const auto lumped =
-        std::find_if(rigid.begin(), rigid.end(),
-                     [](const RigidContact &c) { return !c.on_wire && c.exactly_rigid; });
-    if (lumped != rigid.end())
-    {
-      const std::string reason = "masses collide at the rigid one-sided link '" +
-                                 rows[lumped->row].name + "', and other schemes let them rebound";
-      if (all([](const RigidContact &c)
-              { return c.exactly_rigid && c.matrix != MassMatrix::reduced; }) &&
-          std::none_of(scene.links.begin(), scene.links.end(), is_massless))
-        return with_reason(impulses, reason);
-      return {"backward Euler", {}, reason};
-    }
-    if (all(
-            [](const RigidContact &c) {
-              return c.exactly_rigid && c.matrix == MassMatrix::reduced && !c.on_beam &&
-                     is_one(c.courant);
-            }))
-      return {"Moreau-Jean",
-              {{"Theta", "0.5"}, {"Conditions", "gaps"}},
-              "with the mass matrix 'reduced', waves cross one element a step, undistorted, at "
-              "the rigid one-sided link '" +
-                  rows[worst.row].name + "'"};
-    std::ostringstream reason;
-    reason << "one-sided link '" << rows[worst.row].name << "' acts as rigid; waves cross "
-           << worst.courant << " elements a step";
-    if (worst.courant >= least_courant_number)
-      return {"BDF2", {}, reason.str()};
-    if (all([](const RigidContact &c) { return c.on_beam || !c.on_wire; }))
-      return {"generalised-alpha",
-              {{"Spectral radius", "0"}},
-              reason.str() + ", and bend what they cross"};
-    return {"backward Euler", {}, reason.str()};
+              "all one-sided links are more compliant than the bodies in one step"};
+    const bool springy = std::all_of(
+        links.begin(), links.end(),
+        [&](const Link &link) { return !is_massless(link) || is_springy(scene, link, step); });
+    return {springy ? "generalised-alpha" : "BDF2",
+            {},
+            "nodes of wires at rigid one-sided links gave their mass to their neighbours"};
   }
 
   void check_scheme(const TimeIntegrator &integrator, const Scene &scene,

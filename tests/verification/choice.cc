@@ -108,6 +108,8 @@ TEST(Schemes, automatic_follows_from_links_bodies_and_step)
   expect_choice(beam, {soon}, "BDF2", "'support 1' acts as rigid");
   expect_choice(beam, {"Time.Step=1e-5", "Time.End=1e-4"}, "generalised-alpha (spectral radius 0)",
                 "bend");
+  expect_choice(beam, {"Time.Massless contact=mass", soon}, "BDF2", massless);
+  expect_choice(bar, {"Time.Massless contact=mass", "Time.Step=5e-3", soon}, "BDF2", massless);
   // Masses.
   expect_choice(falling_masses(), {soon}, "Moreau-Jean (theta 0.5, restitution 0)",
                 "'floor', and other schemes let them rebound");

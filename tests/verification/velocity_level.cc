@@ -69,7 +69,7 @@ TEST(MoreauJean, a_ball_bounces_with_newtons_restitution)
           largest_gap_error = std::max(largest_gap_error, -view.state.geometric_gap[0]);
         });
     figure("bouncing ball, largest error of the height, step " + number(step), 1e3 * error, "mm");
-    EXPECT_LT(largest_gap_error, 4. * step) << "a gap is open to half a step of motion";
+    EXPECT_LT(largest_gap_error, 4. * step) << "a gap is open to a step of motion";
     errors[fine] = error;
   }
   EXPECT_LT(errors[1], 2e-3);
