@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <tuple>
 
 namespace taut
 {
@@ -45,16 +46,34 @@ namespace taut
       }
     }
     begin.assign(1, 0);
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      append_entries(i);
+    for (std::size_t i = 0; i < fixed; ++i)
+      append(i);
+    std::sort(sizes.begin(), sizes.end(),
+              [](const Size &a, const Size &b)
+              { return std::tie(a.body, a.kind, a.row) < std::tie(b.body, b.kind, b.row); });
+    n_fixed_sizes = sizes.size();
+    for (std::size_t i = fixed; i < rows.size(); ++i)
+      append(i);
   }
 
-  void ContactRows::append_entries(const std::size_t i)
+  /// Entries and sizes of a row, behind those that are known.
+  void ContactRows::append(const std::size_t i)
   {
+    const std::size_t first_size = sizes.size();
     for (const auto &[k, form] : rows[i].terms)
       for (std::size_t j = 0; j < form.index.size(); ++j)
-        entries.push_back({form.value[j], static_cast<unsigned int>(k), form.index[j],
-                           structure[k].kind(form.index[j])});
+      {
+        const unsigned int body = static_cast<unsigned int>(k), dof = form.index[j],
+                           kind = structure[k].kind(dof);
+        entries.push_back({form.value[j], body, dof});
+        const auto known =
+            std::find_if(sizes.begin() + first_size, sizes.end(),
+                         [&](const Size &s) { return s.body == body && s.kind == kind; });
+        if (known == sizes.end())
+          sizes.push_back({std::fabs(form.value[j]), body, kind, static_cast<unsigned int>(i)});
+        else
+          known->value = std::max(known->value, std::fabs(form.value[j]));
+      }
     begin.push_back(entries.size());
   }
 
@@ -94,10 +113,11 @@ namespace taut
   {
     begin.resize(fixed + 1);
     entries.resize(begin.back());
+    sizes.resize(n_fixed_sizes);
     for (std::size_t i = fixed; i < rows.size(); ++i)
     {
       set_terms(rows[i], t);
-      append_entries(i);
+      append(i);
     }
   }
 
@@ -151,14 +171,17 @@ namespace taut
                                    std::vector<std::array<double, 2>> &result) const
   {
     result.assign(structure.size(), {0., 0.});
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      if (N[i] != 0.)
-        for (std::size_t e = begin[i]; e < begin[i + 1]; ++e)
-        {
-          double &largest = result[entries[e].body][entries[e].kind];
-          const double force = std::fabs(entries[e].value * N[i]);
-          largest = force > largest || std::isnan(force) ? force : largest;
-        }
+    for (auto size = sizes.begin(); size != sizes.end();)
+    {
+      const unsigned int body = size->body, kind = size->kind;
+      double largest = result[body][kind];
+      for (; size != sizes.end() && size->body == body && size->kind == kind; ++size)
+      {
+        const double force = size->value * std::fabs(N[size->row]);
+        largest = force > largest || std::isnan(force) ? force : largest;
+      }
+      result[body][kind] = largest;
+    }
   }
 
   std::string ContactRows::names(const std::vector<std::size_t> &indices) const

@@ -86,11 +86,11 @@ namespace taut
     struct Entry
     {
       double value;
-      unsigned int body, dof, kind;
+      unsigned int body, dof;
     };
 
     void set_terms(Row &row, double t) const;
-    void append_entries(std::size_t i);
+    void append(std::size_t i);
 
     const Scene &scene;
     const Structure &structure;
@@ -100,6 +100,15 @@ namespace taut
 
     std::vector<Entry> entries;     ///< of all rows, one row after the other
     std::vector<std::size_t> begin; ///< of each row; one number more
+
+    /// The largest |B_i| of a row on a body, of one kind.
+    struct Size
+    {
+      double value;
+      unsigned int body, kind, row;
+    };
+    std::vector<Size> sizes; ///< of the fixed rows by body and kind, then of the moving ones
+    std::size_t n_fixed_sizes = 0;
   };
 } // namespace taut
 
