@@ -45,7 +45,8 @@ namespace taut
       open(supports, "supports.csv", support_columns);
     if (!probe_columns.empty())
       open(probes, "probes.csv", probe_columns);
-    open(certificate, "certificate.csv", {"complementarity [1]", "balance [1]", "iterations [1]"});
+    open(certificate, "certificate.csv",
+         {"complementarity [1]", "balance [1]", "drift [m, rad]", "iterations [1]"});
   }
 
   void Series::open(std::unique_ptr<CsvFile> &file, const std::string &name,
@@ -88,7 +89,7 @@ namespace taut
     if (probes)
       write_line(*probes, state.time, step.probes);
     *certificate << state.time << step.certificate.complementarity << step.certificate.balance
-                 << step.certificate.iterations;
+                 << step.certificate.drift << step.certificate.iterations;
     certificate->end_line();
   }
 

@@ -174,6 +174,7 @@ namespace taut
       worst.balance = step.certificate.balance;
       worst_balance_time = state.time;
     }
+    worst.drift = std::max(worst.drift, step.certificate.drift);
   }
 
   Statistics::ContactFigures Statistics::figures(const Contact &recorded) const

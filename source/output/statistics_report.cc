@@ -195,6 +195,7 @@ namespace taut
         {"complementarity, worst at [s]", worst_complementarity_time},
         {"balance", worst.balance},
         {"balance, worst at [s]", worst_balance_time},
+        {"drift [m, rad]", worst.drift},
         {"steps", n_steps},
         {"active-set iterations a step", n_steps > 0 ? double(n_iterations) / n_steps : 0.},
         {"fallbacks", n_fallbacks}};
