@@ -13,6 +13,9 @@ namespace taut
     /// it stays: some rows are much smaller than the largest, and s_i is an upper bound only.
     constexpr double rough_part = .1, exact_part = 1e-3;
 
+    /// Gaps that are nothing but rounding, over their terms.
+    constexpr double rounding = 1e-16;
+
     /// Largest |D_i| / s_i on the set; not-a-number if one is.
     double largest_gap(const std::vector<std::size_t> &set, const std::vector<double> &gap,
                        const std::vector<double> &terms)
@@ -54,6 +57,7 @@ namespace taut
     shift = 0.;
     kernel_is_ready = false;
     double last_gap = 0., last_step = 0.;
+    bool is_solved = false;
     double now = matrix.is_iterative() ? largest_gap(set, solution.gap, terms) : 1.;
     for (unsigned int correction = 0; correction <= options.max_corrections; ++correction)
     {
@@ -70,17 +74,19 @@ namespace taut
       const double size = shift == 0. ? 0. : largest_step(set, matrix, step);
       const bool shrinks = shift == 0. || (correction > 0 && size <= 0.5 * last_step);
       if ((gap <= tolerance && shrinks) || tolerance > options.linear_tolerance)
-      {
-        if (problem.n_kernel() > 0 && !solves_with_kernel(problem, matrix))
-          balance(problem, matrix, set, solution);
-        return Outcome::solved;
-      }
+        is_solved = true;
+      // A shift leaves more in the gaps than rounding does, and rows that nearly depend on each
+      // other make much of it.
+      if (is_solved && (shift == 0. || gap <= rounding || tolerance > options.linear_tolerance))
+        break;
       if (correction > 0 && !(gap < 0.5 * last_gap && shrinks))
         break;
       last_gap = gap;
       last_step = size;
     }
-    return Outcome::unsettled;
+    if (is_solved && problem.n_kernel() > 0 && !solves_with_kernel(problem, matrix))
+      balance(problem, matrix, set, solution);
+    return is_solved ? Outcome::solved : Outcome::unsettled;
   }
 
   /// Multipliers and amplitudes to start from, their gaps and terms.

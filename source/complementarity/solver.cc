@@ -76,13 +76,13 @@ namespace taut
                                                 ComplementarityOperator &matrix)
   {
     const auto outcome = newton.solve(problem, matrix, result.solution);
-    result.iterations = newton.n_iterations();
+    result.iterations += newton.n_iterations();
     result.residual = newton.residual();
     return outcome == SemismoothNewton::Outcome::solved && result.residual.max <= options.tolerance;
   }
 
   void ComplementaritySolver::solve_energy_ordered(const MixedComplementarityProblem &problem,
-                                                   const ComplementarityOperator &matrix)
+                                                   ComplementarityOperator &matrix)
   {
     using Outcome = EnergyOrderedActiveSet::Outcome;
     const Outcome outcome = energy_ordered.solve(problem, matrix, result.solution);
@@ -99,13 +99,22 @@ namespace taut
       throw BodyNotHeld("no admissible multiplier balances the load on " +
                             list("kernel vector", failed) + ": hold the body",
                         failed);
-    if (!(result.residual.max <= options.tolerance))
+    if (result.residual.max <= options.tolerance)
+      return;
+    // Newton's method solves small multipliers beside large gaps apart from these. It starts from
+    // the set that was found, or from all rows where that leaves a body free.
+    const double missed = result.residual.max;
+    if (solve_with_newton(problem, matrix))
+      return;
+    if (problem.n_kernel() > 0)
     {
-      std::ostringstream text;
-      text << "the complementarity problem is not solved: its residual is " << result.residual.max
-           << ", more than " << options.tolerance
-           << "; check the free gaps, or raise the tolerance";
-      throw NotSolved(text.str());
+      result.solution.closed.assign(problem.size(), 1);
+      if (solve_with_newton(problem, matrix))
+        return;
     }
+    std::ostringstream text;
+    text << "the complementarity problem is not solved: its residual is " << missed
+         << ", more than " << options.tolerance << "; check the free gaps, or raise the tolerance";
+    throw NotSolved(text.str());
   }
 } // namespace taut

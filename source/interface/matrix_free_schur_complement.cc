@@ -41,7 +41,7 @@ namespace taut
       : parameters(parameters), solvers(solvers), rows(rows), body_rows(solvers.structure(), rows),
         F(solvers, body_rows, rows.size()),
         preconditioner(parameters.preconditioner, solvers, body_rows),
-        flexibilities(body_rows.size()), tolerance(smallest_residual),
+        flexibilities(solvers, body_rows), tolerance(smallest_residual),
         work(solvers.structure().zero())
   {
     if (parameters.coarse_space != "kernels" && parameters.coarse_space != "none")
@@ -64,7 +64,10 @@ namespace taut
     is_stale = true;
     body_rows.update();
     for (std::size_t k = 0; k < body_rows.size(); ++k)
-      compute_flexibilities(k);
+    {
+      flexibilities.find_coupling(k);
+      flexibilities.compute(k);
+    }
     compute_diagonal();
   }
 
@@ -89,23 +92,14 @@ namespace taut
     for (const std::size_t k : mark())
       touched.push_back(k);
     for (const std::size_t k : touched)
-      compute_flexibilities(k);
+      flexibilities.compute(k);
     compute_diagonal();
-  }
-
-  void MatrixFreeSchurComplement::compute_flexibilities(const std::size_t k)
-  {
-    flexibilities[k].clear();
-    for (const BodyRows::Entry &entry : body_rows[k])
-      flexibilities[k].push_back(solvers[k].flexibility(entry.form));
   }
 
   void MatrixFreeSchurComplement::compute_diagonal()
   {
     diagonal_entries.assign(rows.size(), 0.);
-    for (std::size_t k = 0; k < body_rows.size(); ++k)
-      for (std::size_t e = 0; e < body_rows[k].size(); ++e)
-        diagonal_entries[body_rows[k][e].row] += flexibilities[k][e];
+    flexibilities.add_to_diagonal(diagonal_entries);
     solvers.structure().communicator().sum(diagonal_entries);
     const std::vector<double> local =
         solvers.is_generalised_inverse() ? local_flexibilities() : diagonal_entries;
@@ -180,19 +174,11 @@ namespace taut
     F.apply(x.data(), y.data());
   }
 
-  /// Body by body: |F_ij| <= sum_k sqrt(f_ik f_jk) over the bodies that both rows act on.
   void MatrixFreeSchurComplement::apply_absolute(const std::vector<double> &x,
                                                  std::vector<double> &y) const
   {
     share.assign(x.size(), 0.);
-    for (std::size_t k = 0; k < body_rows.size(); ++k)
-    {
-      double sum = 0.;
-      for (std::size_t e = 0; e < body_rows[k].size(); ++e)
-        sum += std::sqrt(flexibilities[k][e]) * std::fabs(x[body_rows[k][e].row]);
-      for (std::size_t e = 0; e < body_rows[k].size(); ++e)
-        share[body_rows[k][e].row] += std::sqrt(flexibilities[k][e]) * sum;
-    }
+    flexibilities.add_bound(x, share);
     solvers.structure().communicator().sum(share);
     y.resize(x.size());
     for (std::size_t i = 0; i < x.size(); ++i)

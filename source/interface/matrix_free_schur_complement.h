@@ -4,6 +4,7 @@
 
 #include "coarse_space.h"
 #include "natural_coarse_problem.h"
+#include "row_flexibilities.h"
 #include "row_preconditioner.h"
 
 #include <taut/interface/contact_schur_operator.h>
@@ -50,7 +51,6 @@ namespace taut
     bool is_iterative() const override { return true; }
     void set_tolerance(double wanted) override;
 
-    void compute_flexibilities(std::size_t k);
     void compute_diagonal();
     std::vector<double> local_flexibilities() const;
     void prepare(const std::vector<std::size_t> &set, double shift);
@@ -65,9 +65,9 @@ namespace taut
     BodyRows body_rows;
     ContactSchurOperator F;
     RowPreconditioner preconditioner;
+    RowFlexibilities flexibilities;
     std::unique_ptr<CoarseSpace> coarse_space; ///< null: none, or in statics
     std::vector<double> compliance, diagonal_entries;
-    std::vector<std::vector<double>> flexibilities; ///< B_ik^T A_k^-1 B_ik, by body
     std::vector<double> scale;    ///< F_ii^-1/2; in statics of the unknowns at the row only
     std::vector<char> active;     ///< rows that everything is prepared for
     std::vector<char> is_changed; ///< bodies that it is not prepared for

@@ -127,9 +127,12 @@ namespace taut
           start.multiplier[i] = std::max(0., start.multiplier[i]);
       }
       start.link_springs[i].u = u;
-      // Rounding of the gap over a small compliance would be a force.
+      // Rounding of the gap over a small compliance, or over what a short step moves, would be a
+      // force.
       if (model.start == Start::equilibrium && (!row.unilateral || start.multiplier[i] > 0.))
         start.geometric_gap[i] = -u;
+      else if (model.start == Start::equilibrium)
+        start.geometric_gap[i] = std::max(0., start.geometric_gap[i]);
       start.gap[i] = start.geometric_gap[i] + u;
       if (model.start != Start::equilibrium && start.gap[i] < 0. && row.unilateral)
         throw EntryError(links.origin(i), "link '" + row.name + "' starts with a gap of " +

@@ -160,7 +160,6 @@ namespace taut
   void FactoredStructure::factor_body(const std::size_t k, const bool use_amplitudes)
   {
     const std::vector<ScaledMatrix> A = summands(k);
-    const bool has_choice = use_amplitudes && !bodies[k].kernel().vectors.empty();
     double loss = 0.;
     motions[k] = {};
     try
@@ -170,13 +169,30 @@ namespace taut
     }
     catch (const BodyNotHeld &)
     {
-      if (has_choice && set_free_motions(k))
-        return;
-      throw;
+      if (!take_apart(k, use_amplitudes))
+        throw;
+      return;
     }
-    if (loss > largest_loss_beside_amplitudes && has_choice && set_free_motions(k))
+    if (loss > (use_amplitudes ? largest_loss_beside_amplitudes : largest_loss) &&
+        take_apart(k, use_amplitudes))
       return;
     check_digits(k, loss);
+  }
+
+  /// False if the free motions cannot be unknowns; where they only may not, says what allows it.
+  bool FactoredStructure::take_apart(const std::size_t k, const bool use_amplitudes)
+  {
+    const Substructure &body = bodies[k];
+    if (body.kernel().vectors.empty() || !set_free_motions(k))
+      return false;
+    if (!use_amplitudes)
+      throw EntryError(body.origin(),
+                       "body '" + body.name() +
+                           "': what resists its motion, inertia in one step, is lost in the "
+                           "rounding of its stiffness. Only the assembled forms solve for its free "
+                           "motions apart from that: set Solver/Interface operator = assembled "
+                           "sparse (or assembled dense), or take a smaller step");
+    return true;
   }
 
   /// False if elastic motions resist the inertia less than the free ones, so that E would cancel.

@@ -13,7 +13,7 @@ namespace taut
      * terms s_i of its gap. At least the inner tolerance if the operator solves iteratively. With
      * 0, exact touch (N = D = 0) flips for ever on rounding noise.
      */
-    double dead_band = 1e-12;
+    double dead_band = 1e-13;
 
     /// Gaps of closed rows are corrected until they are below this. At least the inner tolerance,
     /// as above.

@@ -60,7 +60,7 @@ namespace taut
     bool solve_with_newton(const MixedComplementarityProblem &problem,
                            ComplementarityOperator &matrix);
     void solve_energy_ordered(const MixedComplementarityProblem &problem,
-                              const ComplementarityOperator &matrix);
+                              ComplementarityOperator &matrix);
 
     ComplementarityOptions options;
     bool use_newton;

@@ -21,8 +21,8 @@ namespace taut
     /**
      * A_k = mass M_k + damping C_k + K_k, mass in 1/s^2, damping in 1/s. Where that is so close to
      * singular that motions lose their sixth digit, free_motions() has them apart from the factor;
-     * if the body has none, or without @p use_amplitudes, an EntryError names it. BodyNotHeld names
-     * a body that nothing holds.
+     * if the body has none, or without @p use_amplitudes, an EntryError names it and what helps.
+     * BodyNotHeld names a body that nothing holds.
      */
     void factor(double mass, double damping, bool use_amplitudes = true);
 
@@ -94,6 +94,7 @@ namespace taut
                        const std::vector<ScaledMatrix> &summands) const;
     void check_digits(std::size_t k, double loss) const;
     void factor_body(std::size_t k, bool use_amplitudes);
+    bool take_apart(std::size_t k, bool use_amplitudes);
     bool set_free_motions(std::size_t k);
 
     const Structure &bodies;

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_row_flexibilities_h
+#define taut_row_flexibilities_h
+
+#include <taut/interface/body_rows.h>
+#include <taut/substructure/factored_structure.h>
+
+#include <vector>
+
+namespace taut
+{
+  /**
+   * What each row moves under its own unit force, B_ik^T A_k^-1 B_ik, by body and by DoFs of a body
+   * that nothing couples: a deflection and a rotation of a mass may share no entry of A_k. They
+   * bound F where no entry of it is known.
+   */
+  class RowFlexibilities
+  {
+  public:
+    /// The arguments are kept by reference.
+    RowFlexibilities(const FactoredStructure &solvers, const BodyRows &rows);
+
+    /// After factoring: of body k.
+    void find_coupling(std::size_t k);
+
+    /// Of the rows of body k, after they or its factor have changed.
+    void compute(std::size_t k);
+
+    /// Adds the share of this rank to the diagonal of B^T A^-1 B.
+    void add_to_diagonal(std::vector<double> &diagonal) const;
+
+    /// Adds the share of this rank to a bound of sum_j |(B^T A^-1 B)_ij| |x_j|, |F_ij| <= sqrt(f_i
+    /// f_j) over what both rows act on.
+    void add_bound(const std::vector<double> &x, std::vector<double> &y) const;
+
+  private:
+    struct Part
+    {
+      std::size_t row;
+      unsigned int group;
+      double flexibility;
+    };
+
+    const FactoredStructure &solvers;
+    const BodyRows &rows;
+    std::vector<std::vector<Part>> parts;            ///< by body
+    std::vector<std::vector<unsigned int>> group_of; ///< of the DoFs; empty if there is one
+    std::vector<unsigned int> n_groups;
+    mutable std::vector<double> sums;
+  };
+} // namespace taut
+
+#endif
