@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: in long steps, where the inertia of a floating body is lost in the rounding of its
+// stiffness, its free motions are unknowns of the rows, and the answer is that of the equations of
+// motion; ordinary scenes never need it.
+// Source: the bar in one step of backward Euler, EA u" = rho/step^2 u, by hyperbolic functions;
+// rigid bodies by Newton's law.
+#include "run.h"
+
+#include <taut/base/exceptions.h>
+#include <taut/time/integrator.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+using namespace verification;
+
+namespace
+{
+  /// Mass, length and axial stiffness of the bar are 1 or as given, in kg, m, N.
+  struct Bar
+  {
+    double element_size = 1e-3, axial_stiffness = 1., load = 1., gap = 0., step = 10.;
+    unsigned int n_steps = 1, n_parts = 1;
+    std::string form = "assembled dense", method = "semismooth Newton";
+  };
+
+  /// A load pushes at x = 0, a rigid stop waits at a distance of x = 1.
+  std::string text(const Bar &bar)
+  {
+    std::ostringstream out;
+    out.precision(17);
+    out << "set Generator = network\nset Gravity = 0, 0\nset Start = undeformed\n"
+           "subsection Network\n set Wires = bar\n set Loads = push\n set Links = stop\n"
+           " subsection Wire bar\n  set To = 1, 0\n  set Components = bar\n"
+           "  set Mass per length = 1\n  set Degree = 1\n  set Axial stiffness = "
+        << bar.axial_stiffness << "\n  set Element size = " << bar.element_size
+        << "\n end\n subsection Load push\n  set On = bar @ 0\n  set Direction = 1, 0\n"
+           "  set Magnitude = "
+        << bar.load
+        << "\n end\n subsection Link stop\n  set Type = stop\n  set From = bar @ 1\n"
+           "  set To = ground\n  set Direction = 1, 0\n  set Gap = "
+        << bar.gap
+        << "\n end\nend\nsubsection Time\n set Scheme = backward Euler\n set Step = " << bar.step
+        << "\n set End = " << bar.n_steps * bar.step
+        << "\nend\nsubsection Partition\n set Number of substructures = " << bar.n_parts
+        << "\nend\nsubsection Solver\n set Interface operator = " << bar.form
+        << "\n set Complementarity = " << bar.method << "\nend\n";
+    return out.str();
+  }
+
+  /// A free beam of 2 m and 3 kg under a load at x = 0, a rigid stop at x = 2.
+  std::string beam(const double load, const double gap, const double step,
+                   const unsigned int n_parts)
+  {
+    std::ostringstream out;
+    out.precision(17);
+    out << "set Generator = network\nset Gravity = 0, 0\nset Start = undeformed\n"
+           "subsection Network\n set Wires = beam\n set Loads = push\n set Links = stop\n"
+           " subsection Wire beam\n  set To = 2, 0\n  set Components = beam\n"
+           "  set Mass per length = 1.5\n  set Bending stiffness = 1e3\n  set Element size = 0.25\n"
+           " end\n subsection Load push\n  set On = beam @ 0\n  set Direction = 0, 1\n"
+           "  set Magnitude = "
+        << load
+        << "\n end\n subsection Link stop\n  set Type = stop\n  set From = ground\n"
+           "  set To = beam @ 2\n  set Direction = 0, 1\n  set Gap = "
+        << gap << "\n end\nend\nsubsection Time\n set Scheme = backward Euler\n set Step = " << step
+        << "\n set End = " << 3 * step
+        << "\nend\nsubsection Partition\n set Number of substructures = " << n_parts << "\nend\n";
+    return out.str();
+  }
+
+  bool has_free_motions(const taut::Structure &structure, const taut::StepCoefficients &c)
+  {
+    taut::FactoredStructure solvers(structure, "block tridiagonal");
+    solvers.factor(c.mass_factor(), c.velocity);
+    return solvers.has_free_motions();
+  }
+
+  void expect_near(const double value, const double expected, const double relative)
+  {
+    EXPECT_NEAR(value, expected, relative * std::fabs(expected));
+  }
+} // namespace
+
+TEST(FreeMotions, a_step_of_a_free_bar_is_that_of_its_differential_equation)
+{
+  double worst = 0.;
+  for (const double step : {20., 1e3, 1e6})
+    for (const double part_of_way : {0., .25, 2.})
+      for (const std::string way : {"assembled dense", "assembled sparse", "energy-ordered"})
+      {
+        const double lambda = 1. / step, far = 1. / (lambda * std::sinh(lambda)),
+                     near = std::cosh(lambda) * far;
+        Bar bar;
+        bar.step = step;
+        bar.gap = part_of_way * far;
+        (way == "energy-ordered" ? bar.method : bar.form) = way;
+        SCOPED_TRACE(text(bar));
+        Session session(text(bar));
+        EXPECT_TRUE(has_free_motions(session.simulation().structure(), taut::backward_euler(step)));
+        session.run(
+            [&](const taut::StepView &view)
+            {
+              if (view.state.time == 0.)
+                return;
+              const double N = std::max(0., (far - bar.gap) / near),
+                           // far N and near nearly cancel: (near^2 - far^2)/near = tanh/lambda
+                  u = N > 0. ? std::tanh(lambda) / lambda + bar.gap * far / near : near;
+              const double found = displacement(view, 0, 0., {1., 0.});
+              expect_near(view.state.multiplier[0], N, 1e-7);
+              expect_near(found, u, 1e-7);
+              worst = std::max(
+                  {worst, std::fabs(view.state.multiplier[0] - N), std::fabs(found / u - 1.)});
+            });
+      }
+  figure("free bar in one step, largest relative error of motion and contact force", worst);
+}
+
+TEST(FreeMotions, a_bar_flies_stops_and_is_pressed_as_momentum_says)
+{
+  // 3e-6 N move 1 kg by 3 m in the first step of 1000 s and by 6 m in the second, of which 2 are
+  // left: the stop takes the velocity of one step after the other.
+  Bar bar;
+  bar.element_size = .0625;
+  bar.axial_stiffness = 1e7;
+  bar.load = 3e-6;
+  bar.gap = 5.;
+  bar.step = 1e3;
+  bar.n_steps = 5;
+  const std::vector<double> U = {0., 3., 5., 5., 5., 5.}, N = {0., 0., 4e-6, 5e-6, 3e-6, 3e-6};
+  for (const unsigned int n_parts : {1u, 2u, 3u})
+  {
+    bar.n_parts = n_parts;
+    SCOPED_TRACE(text(bar));
+    Overrides overrides;
+    if (n_parts == 2)
+      overrides = {"Partition/Method=given", "Partition/Cuts=bar @ 0.5"};
+    Session session(text(bar), overrides);
+    EXPECT_TRUE(has_free_motions(session.simulation().structure(), taut::backward_euler(bar.step)));
+    std::size_t i = 0;
+    session.run(
+        [&](const taut::StepView &view)
+        {
+          EXPECT_NEAR(displacement(view, 0, .5, {1., 0.}), U[i], 1e-9);
+          EXPECT_NEAR(view.state.multiplier[0], N[i], 1e-12);
+          // Half the bar has half the mass: what its other half pushes it with.
+          if (n_parts == 2 && i > 0)
+          {
+            const double a = i == 1 ? 3e-6 : i == 2 ? -1e-6 : i == 3 ? -2e-6 : 0.;
+            EXPECT_NEAR(std::fabs(view.state.multiplier[1]), std::fabs(N[i] + .5 * a), 1e-12);
+          }
+          ++i;
+        });
+    EXPECT_EQ(i, U.size());
+  }
+}
+
+TEST(FreeMotions, a_beam_turns_about_the_stop_at_its_end)
+{
+  // m = 3, L = 2: a force at x moves y by step^2 (1/m + (x - 1)(y - 1)/J), J = 1.
+  const double step = 1e3, unit = step * step, load = 3e-6;
+  const auto motion = [&](const double x, const double y)
+  { return unit * (1. / 3. + (x - 1.) * (y - 1.)); };
+  for (const double gap : {0., .5, 1e3})
+    for (const unsigned int n_parts : {1u, 2u, 4u})
+    {
+      SCOPED_TRACE(beam(load, gap, step, n_parts));
+      Session session(beam(load, gap, step, n_parts));
+      EXPECT_TRUE(has_free_motions(session.simulation().structure(), taut::backward_euler(step)));
+      double left = 0., right = 0., left_before = 0., right_before = 0.;
+      session.run(
+          [&](const taut::StepView &view)
+          {
+            if (view.state.time > 0.)
+            {
+              // Without forces a step repeats the one before.
+              double dl = left - left_before + load * motion(0., 0.),
+                     dr = right - right_before + load * motion(0., 2.);
+              const double N = std::max(0., -(gap + right + dr) / motion(2., 2.));
+              dl += N * motion(2., 0.);
+              dr += N * motion(2., 2.);
+              left_before = left;
+              right_before = right;
+              left += dl;
+              right += dr;
+              EXPECT_NEAR(view.state.multiplier[0], N, 1e-6 * load);
+            }
+            EXPECT_NEAR(displacement(view, 0, 0.), left, 1e-7 * (1. + std::fabs(left)));
+            EXPECT_NEAR(displacement(view, 0, 2.), right, 1e-7 * (1. + std::fabs(right)));
+          });
+    }
+}
+
+TEST(FreeMotions, the_matrix_free_form_names_those_that_have_them)
+{
+  Bar bar;
+  bar.step = 1e6;
+  bar.form = "matrix-free";
+  try
+  {
+    run_scene(text(bar), {}, [](const taut::StepView &) {});
+    FAIL() << "accepted";
+  }
+  catch (const taut::UserError &e)
+  {
+    EXPECT_NE(std::string(e.what()).find("Solver/Interface operator = assembled"),
+              std::string::npos)
+        << e.what();
+  }
+}
+
+TEST(FreeMotions, scenes_of_the_folder_prm_need_them_in_no_step)
+{
+  unsigned int n_scenes = 0;
+  for (const auto &file : std::filesystem::directory_iterator(TAUT_PRM_FOLDER))
+    if (file.path().extension() == ".prm")
+    {
+      ++n_scenes;
+      Session session(file.path().string());
+      // Four times the step of the file.
+      EXPECT_FALSE(has_free_motions(session.simulation().structure(),
+                                    taut::backward_euler(4. * session.parameters().step)))
+          << file.path();
+    }
+  EXPECT_GE(n_scenes, 13u);
+}
