@@ -94,29 +94,36 @@ namespace taut
 
   void RowMotions::set_free_motions(const FactoredStructure &solvers, const BlockVector &P)
   {
+    set_free_motions(solvers, P, conditions);
+  }
+
+  void RowMotions::set_free_motions(const FactoredStructure &solvers, const BlockVector &P,
+                                    MixedComplementarityProblem &problem)
+  {
     KernelVectors vectors;
     for (const FactoredStructure::FreeMotions &motions : solvers.free_motions())
       vectors.push_back(&motions.vectors);
     const Communicator &processes = structure.communicator();
-    std::size_t next = set_kernel_rows(vectors, processes, rows, P, conditions);
-    conditions.kernel_resistance.assign(conditions.n_kernel(), 0.);
+    std::size_t next = set_kernel_rows(vectors, processes, rows, P, problem);
+    problem.kernel_resistance.assign(problem.n_kernel(), 0.);
     first_of_body.clear();
     for (const FactoredStructure::FreeMotions &motions : solvers.free_motions())
     {
       first_of_body.push_back(next);
       for (const double resistance : motions.resistance)
-        conditions.kernel_resistance[next++] = resistance;
+        problem.kernel_resistance[next++] = resistance;
     }
-    processes.sum(conditions.kernel_resistance);
+    processes.sum(problem.kernel_resistance);
   }
 
   void RowMotions::add_free_motions(const FactoredStructure &solvers, const std::size_t k,
+                                    const std::vector<double> &amplitudes,
                                     std::vector<double> &dU) const
   {
     const auto &vectors = solvers.free_motions()[k].vectors;
     for (std::size_t v = 0; v < vectors.size(); ++v)
       for (std::size_t i = 0; i < dU.size(); ++i)
-        dU[i] += amplitude[first_of_body[k] + v] * vectors[v][i];
+        dU[i] += amplitudes[first_of_body[k] + v] * vectors[v][i];
   }
 
   void RowMotions::set_multipliers(const MixedComplementaritySolution &solution, State &state)

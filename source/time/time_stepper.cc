@@ -18,6 +18,10 @@ namespace taut
       return rows;
     }
 
+    /// Balance from which a step is refined, and how often: ordinary steps are below 1e-11.
+    constexpr double refined_balance = 1e-10;
+    constexpr int most_refinements = 3;
+
     /// What is known of velocity and acceleration at the end of a step before its increment is.
     class KnownMotion
     {
@@ -325,9 +329,16 @@ namespace taut
   {
     const Communicator &processes = structure.communicator();
     double own_balance = 0.;
-    processes.agree([&]
-                    { own_balance = balance.measure(coefficients, forces, row_motions, current); });
-    last.balance = processes.max(own_balance);
+    for (int refinements = 0;; ++refinements)
+    {
+      processes.agree(
+          [&] { own_balance = balance.measure(coefficients, forces, row_motions, current); });
+      last.balance = processes.max(own_balance);
+      if (!(last.balance > refined_balance) || refinements == most_refinements ||
+          coefficients.velocity_level || processes.max(balance.is_way() ? 0. : 1.) > 0.)
+        break;
+      refine();
+    }
     last.worst_body = balance.worst_body();
     certify_rows();
     if (!(last.balance <= parameters.contact_tolerance))

@@ -53,7 +53,16 @@ namespace taut
 
     /// Adds those of the solution to the increments of the bodies.
     void add_free_motions(const FactoredStructure &solvers, std::size_t k,
-                          std::vector<double> &dU) const;
+                          std::vector<double> &dU) const
+    {
+      add_free_motions(solvers, k, amplitude, dU);
+    }
+    /// The same of the correction.
+    void add_corrected_motions(const FactoredStructure &solvers, std::size_t k,
+                               std::vector<double> &dU) const
+    {
+      add_free_motions(solvers, k, correction.kernel_amplitude, dU);
+    }
 
     /**
      * Takes the solution of the problem, multipliers L with A dU = P^ + B L. state.multiplier
@@ -71,6 +80,19 @@ namespace taut
     /// Gaps and springs of the state, whose displacements are those of the end of the step.
     void update(State &state);
 
+    /**
+     * After update(), with schemes at position level: what the rows answer to forces @p left that
+     * the balance of the bodies lacks, so that the gaps of the closed rows close again. Changes of
+     * the multipliers, and of the amplitudes for add_corrected_motions(). Called by all ranks
+     * together.
+     */
+    const std::vector<double> &correct(const State &state, SchurComplement &schur,
+                                       const FactoredStructure &solvers, const BlockVector &left);
+
+    /// Adds these changes, and the motions @p dU that they are a part of, to gaps, springs and
+    /// multipliers.
+    void add_correction(const BlockVector &dU, State &state);
+
     /// Largest residual of a row, with D or D' recomputed from the displacements; and its index.
     double residual(const State &state, const ComplementarityOperator &F, std::size_t &worst);
 
@@ -78,6 +100,10 @@ namespace taut
     double drift(const State &state) const;
 
   private:
+    void set_free_motions(const FactoredStructure &solvers, const BlockVector &P,
+                          MixedComplementarityProblem &problem);
+    void add_free_motions(const FactoredStructure &solvers, std::size_t k,
+                          const std::vector<double> &amplitudes, std::vector<double> &dU) const;
     double moving_gap(std::size_t i) const;
     double largest_stray(const State &state, std::size_t &worst);
     void add_body_terms(const BlockVector &U);
@@ -119,6 +145,7 @@ namespace taut
     std::vector<double> motion_size;         ///< what B^T dU rounds with
     std::vector<double> convection;          ///< (B - B_0)^T U_0 + D0 - D0_0
     std::vector<double> rates_before;        ///< D'_0
+    MixedComplementaritySolution correction; ///< of correct()
     MixedComplementaritySolution recomputed; ///< of residual()
     ComplementarityResidual found;
     std::vector<double> weights;

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/time/time_stepper.h>
+
+namespace taut
+{
+  /**
+   * Iterative refinement of an accepted step. A step that brings a body back from afar ends with
+   * the rounding of its way; what the balance at its end lacks is solved for once more.
+   */
+  void TimeStepper::refine()
+  {
+    const StepCoefficients &c = coefficients;
+    const double kappa = c.alpha_f / (1. - c.alpha_f);
+    const double old = c.alpha_m / (1. - c.alpha_f), now = (1. - c.alpha_m) / (1. - c.alpha_f);
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      const Substructure &body = structure[k];
+      solvers.remove_rounding(k, current.KU[k], current.balance[k]);
+      std::vector<double> &left = right_hand_side[k];
+      for (std::size_t i = 0; i < left.size(); ++i)
+      {
+        left[i] = current.balance[k][i] + kappa * old_balance[k][i];
+        work_a[i] = now * current.A[k][i] + old * old_A[k][i];
+      }
+      body.mass().vmult_add(-1., work_a.data(), left.data());
+      for (const ConstrainedDof &constraint : body.constraints())
+        left[constraint.dof] = 0.;
+    }
+    rows.add_forces(row_motions.correct(current, *schur, solvers, right_hand_side),
+                    right_hand_side);
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      std::vector<double> &dU = right_hand_side[k];
+      solvers[k].solve(dU);
+      row_motions.add_corrected_motions(solvers, k, dU);
+      for (const ConstrainedDof &constraint : structure[k].constraints())
+        dU[constraint.dof] = 0.;
+      for (std::size_t i = 0; i < dU.size(); ++i)
+      {
+        current.U[k][i] += dU[i];
+        current.dU[k][i] += dU[i];
+        current.V[k][i] += c.velocity * dU[i];
+        current.A[k][i] += c.acceleration * dU[i];
+      }
+    }
+    row_motions.add_correction(right_hand_side, current);
+  }
+} // namespace taut
