@@ -52,6 +52,8 @@ namespace taut
   void RowMotions::set_problem(const State &before, const SchurComplement &schur,
                                const BlockVector &P, const BlockVector &lift)
   {
+    if (rows.size() == 0)
+      return;
     share_free_motion(before, schur, P, lift);
     for (std::size_t i = 0; i < rows.size(); ++i)
     {

@@ -123,7 +123,7 @@ TEST(FreeMotions, a_bar_flies_stops_and_is_pressed_as_momentum_says)
   // 3e-6 N move 1 kg by 3 m in the first step of 1000 s and by 6 m in the second, of which 2 are
   // left: the stop takes the velocity of one step after the other.
   Bar bar;
-  bar.element_size = .0625;
+  bar.element_size = .05;
   bar.axial_stiffness = 1e7;
   bar.load = 3e-6;
   bar.gap = 5.;
