@@ -15,6 +15,9 @@ namespace taut
 
     /// A block-tridiagonal matrix reaches so many DoFs further at most.
     constexpr std::size_t reach = 8;
+
+    /// Part of the way that its rounding may be; what is more is an error.
+    constexpr double rounding_of_way = 1e-10;
   } // namespace
 
   BalanceCertificate::BalanceCertificate(const Structure &structure, const ContactRows &rows,
@@ -50,6 +53,7 @@ namespace taut
     rows.largest_forces(state.multiplier, contact_force);
 
     double result = 0.;
+    may_be_way = true;
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       const Sizes sizes = measure_body(k, c, forces, has_impulses, state);
@@ -122,7 +126,7 @@ namespace taut
 
   double BalanceCertificate::relative_residual(const std::size_t k, const StepCoefficients &c,
                                                const StepForces &forces, const Sizes &sizes,
-                                               const double time) const
+                                               const double time)
   {
     // P and B N may cancel, and both against the forces of the reference: each counts.
     PerKind force = forces.external_size[k];
@@ -138,21 +142,23 @@ namespace taut
         check_size(structure[k], force, sizes.displacement, sizes.velocity, when.str());
       }
 
-    // A step that brings a body back from afar ends with the rounding of the way.
-    PerKind inertial = sizes.increment, way = sizes.displacement;
-    for (int kind = 0; kind < 2; ++kind)
-    {
-      inertial[kind] *= c.mass_factor();
-      way[kind] += sizes.increment[kind];
-    }
+    PerKind inertial = sizes.increment;
+    for (double &d : inertial)
+      d *= c.mass_factor();
     const PerKind by_mass = norms[k][0].times(inertial),
                   by_damping = norms[k][1].times(sizes.velocity),
-                  by_stiffness = norms[k][2].times(way);
+                  by_stiffness = norms[k][2].times(sizes.displacement),
+                  way = norms[k][2].times(sizes.increment);
     double result = 0.;
     for (int kind = 0; kind < 2; ++kind)
     {
-      const double size = force[kind] + by_mass[kind] + by_damping[kind] + by_stiffness[kind],
-                   relative = sizes.residual[kind] == 0. ? 0. : sizes.residual[kind] / size;
+      double size = force[kind] + by_mass[kind] + by_damping[kind] + by_stiffness[kind];
+      if (sizes.residual[kind] > rounding_of_way * (size + way[kind]))
+        may_be_way = false;
+      // At velocity level nothing is refined.
+      if (c.velocity_level)
+        size += way[kind];
+      const double relative = sizes.residual[kind] == 0. ? 0. : sizes.residual[kind] / size;
       if (!(relative <= result) && !std::isnan(result))
         result = relative;
     }

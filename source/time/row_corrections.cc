@@ -25,13 +25,25 @@ namespace taut
     const ComplementarityOptions options;
     std::vector<double> terms;
     correction.reset(problem);
-    if ((closed.empty() && problem.n_kernel() == 0) ||
-        ActiveSetSystem(options).solve(problem, schur.matrix(), closed, options.linear_tolerance,
-                                       correction, terms) == ActiveSetSystem::Outcome::inadmissible)
-      correction.reset(problem);
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      if (rows[i].unilateral)
-        correction.multiplier[i] = std::max(correction.multiplier[i], -applied_multiplier[i]);
+    for (bool is_admissible = false; !is_admissible;)
+    {
+      if ((!closed.empty() || problem.n_kernel() > 0) &&
+          ActiveSetSystem(options).solve(problem, schur.matrix(), closed, options.linear_tolerance,
+                                         correction, terms) != ActiveSetSystem::Outcome::solved)
+      {
+        correction.reset(problem);
+        break;
+      }
+      // A row that would pull has a force that is nothing but rounding: it stays as it is.
+      const std::size_t n = closed.size();
+      closed.erase(std::remove_if(closed.begin(), closed.end(),
+                                  [&](const std::size_t i) {
+                                    return rows[i].unilateral &&
+                                           applied_multiplier[i] + correction.multiplier[i] < 0.;
+                                  }),
+                   closed.end());
+      is_admissible = closed.size() == n;
+    }
     return correction.multiplier;
   }
 

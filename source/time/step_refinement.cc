@@ -19,8 +19,8 @@ namespace taut
       std::vector<double> &left = right_hand_side[k];
       for (std::size_t i = 0; i < left.size(); ++i)
       {
-        left[i] = current.balance[k][i] + kappa * old_balance[k][i];
-        work_a[i] = now * current.A[k][i] + old * old_A[k][i];
+        left[i] = current.balance[k][i] + kappa * forces.old_balance[k][i];
+        work_a[i] = now * current.A[k][i] + old * forces.old_A[k][i];
       }
       body.mass().vmult_add(-1., work_a.data(), left.data());
       for (const ConstrainedDof &constraint : body.constraints())

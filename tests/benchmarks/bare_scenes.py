@@ -79,7 +79,7 @@ def instructions(program, text, settings, end):
                              cwd=folder, capture_output=True, text=True)
         if run.returncode != 0:
             sys.exit(f"{program} {settings} ends with {run.returncode}:\n{run.stdout[-2000:]}\n{run.stderr[-2000:]}")
-        steps = re.search(r"(\d+) steps", run.stdout)
+        steps = re.search(r"^(\d+) steps in", run.stdout, re.MULTILINE)
         return int(re.search(r"^(?:summary|totals): (\d+)", out.read_text(), re.MULTILINE).group(1)), int(steps.group(1))
 
 

@@ -46,6 +46,10 @@ namespace taut
     /// Body of the largest residual.
     std::size_t worst_body() const { return worst; }
 
+    /// True if no residual of this rank's bodies is more than the rounding of |K||dU|, the way that
+    /// the step took to where it ends.
+    bool is_way() const { return may_be_way; }
+
   private:
     /// Largest entries of a body, of what the residual is a difference of.
     struct Sizes
@@ -57,7 +61,7 @@ namespace taut
     Sizes measure_body(std::size_t k, const StepCoefficients &c, const StepForces &forces,
                        bool has_impulses, State &state);
     double relative_residual(std::size_t k, const StepCoefficients &c, const StepForces &forces,
-                             const Sizes &sizes, double time) const;
+                             const Sizes &sizes, double time);
 
     const Structure &structure;
     const ContactRows &rows;
@@ -68,6 +72,7 @@ namespace taut
     std::vector<double> mean_A;                 ///< accelerations that M acts on, of one body
     std::vector<double> inertia, damping;       ///< forces of a few rows
     std::size_t worst = 0;
+    bool may_be_way = true;
   };
 } // namespace taut
 
