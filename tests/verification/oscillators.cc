@@ -110,27 +110,30 @@ TEST(Oscillator, mass_hangs_at_rest_below_a_sunken_support)
 }
 
 // Claim: a step that brings a body back from afar does not end with the rounding of its way.
-// Expected: one step of backward Euler of two joined masses on a spring,
-// ((m1 + m2)/step^2 + k) u = P + (m1 + m2) u0/step^2.
+// Expected: one step of backward Euler of two joined masses, each on
+// a spring, ((m1 + m2)/step^2 + k1 + k2) u = P + (m1 + m2) u0/step^2.
 TEST(Oscillator, a_step_from_afar_ends_as_accurately_as_any)
 {
-  const double m1 = 1., m2 = 3., k = 1000., P = 1e-9, u0 = 10., step = 1e6;
+  const double m1 = 1., m2 = 3., k1 = 1000., k2 = 3000., P = 1e-9, u0 = 10., step = 1e6;
   const char *const scene =
       "set Generator = network\nset Gravity = 0, 0\nset Start = given\n"
-      "subsection Network\n set Masses = one, two\n set Springs = spring\n set Loads = push\n"
+      "subsection Network\n set Masses = one, two\n set Springs = first, second\n set Loads = "
+      "push\n"
       " set Links = joint\n"
       " subsection Mass one\n  set Position = 0, 0\n  set Mass = 1\n  set Motions = y\n"
       "  set Initial displacement = 0, 10, 0\n end\n"
       " subsection Mass two\n  set Position = 0, 1\n  set Mass = 3\n  set Motions = y\n"
       "  set Initial displacement = 0, 10, 0\n end\n"
-      " subsection Spring spring\n  set From = ground\n  set To = one\n  set Direction = 0, 1\n"
+      " subsection Spring first\n  set From = ground\n  set To = one\n  set Direction = 0, 1\n"
       "  set Stiffness = 1000\n end\n"
+      " subsection Spring second\n  set From = ground\n  set To = two\n  set Direction = 0, 1\n"
+      "  set Stiffness = 3000\n end\n"
       " subsection Load push\n  set On = one\n  set Direction = 0, 1\n  set Magnitude = 1e-9\n "
       "end\n"
       " subsection Link joint\n  set Type = joint\n  set From = one\n  set To = two\n"
       "  set Direction = 0, 1\n  set Stiffness = rigid\n end\nend\n"
       "subsection Time\n set Scheme = backward Euler\n set Step = 1e6\n set End = 1e6\nend\n";
-  const double m = (m1 + m2) / (step * step), u = (P + m * u0) / (m + k);
+  const double m = (m1 + m2) / (step * step), u = (P + m * u0) / (m + k1 + k2);
   run_scene(scene, {},
             [&](const taut::StepView &view)
             {
@@ -138,7 +141,8 @@ TEST(Oscillator, a_step_from_afar_ends_as_accurately_as_any)
                 return;
               EXPECT_NEAR(view.state.U[0][0], u, 1e-9 * u);
               EXPECT_NEAR(view.state.U[1][0], u, 1e-9 * u);
-              const double N = m2 / (step * step) * (u - u0);
-              EXPECT_NEAR(view.state.multiplier[0], N, 1e-9 * std::fabs(N));
+              const double N = k2 * u + m2 / (step * step) * (u - u0);
+              EXPECT_NEAR(std::fabs(view.state.multiplier[0]), N, 1e-9 * N);
+              EXPECT_NEAR(view.state.geometric_gap[0], 0., 1e-9 * u);
             });
 }
