@@ -155,8 +155,8 @@ namespace taut
       double size = force[kind] + by_mass[kind] + by_damping[kind] + by_stiffness[kind];
       if (sizes.residual[kind] > rounding_of_way * (size + way[kind]))
         may_be_way = false;
-      // At velocity level nothing is refined.
-      if (c.velocity_level)
+      // With mean forces nothing is refined.
+      if (c.mean_force)
         size += way[kind];
       const double relative = sizes.residual[kind] == 0. ? 0. : sizes.residual[kind] / size;
       if (!(relative <= result) && !std::isnan(result))

@@ -19,7 +19,7 @@ namespace taut
     std::size_t worst_row = 0;
 
     /// Largest residual of the equation of motion of a body, over |P| + |B N| + |K||U| + |C||V| +
-    /// |M||dU|/step^2; at velocity level |K||dU| besides.
+    /// |M||dU|/step^2; with mean forces |K||dU| besides.
     double balance = 0.;
     std::size_t worst_body = 0; ///< of this rank
 

@@ -81,7 +81,7 @@ namespace taut
     void update(State &state);
 
     /**
-     * After update(), with schemes at position level: what the rows answer to forces @p left that
+     * After update(), with schemes without mean forces: what the rows answer to forces @p left that
      * the balance of the bodies lacks, so that the gaps of the closed rows close again. Changes of
      * the multipliers, and of the amplitudes for add_corrected_motions(). Called by all ranks
      * together.
