@@ -144,11 +144,7 @@ namespace taut
     solvers.solve(work);
     d.resize(rows.size());
     terms_size.resize(rows.size());
-    for (std::size_t i = 0; i < rows.size(); ++i)
-    {
-      d[i] = evaluate(rows[i].terms, work);
-      terms_size[i] = magnitude(rows[i].terms, work);
-    }
+    rows.share_of_motions(work, d, terms_size);
   }
 
   std::string MatrixFreeSchurComplement::description() const

@@ -230,8 +230,9 @@ namespace taut
   double magnitude(const std::vector<Term> &terms, const BlockVector &U)
   {
     double sum = 0.;
-    for (const Term &term : terms)
-      sum += std::fabs(term.form.dot(U[term.substructure]));
+    for (const auto &[k, form] : terms)
+      for (std::size_t j = 0; j < form.index.size(); ++j)
+        sum += std::fabs(form.value[j] * U[k][form.index[j]]);
     return sum;
   }
 

@@ -84,7 +84,7 @@ def instructions(program, text, settings, end):
 
 
 def of_a_step(program, text, settings):
-    ends = (0.1, 0.5)
+    ends = (0.6, 1.0) if text is BAR else (0.1, 0.5)  # the bar is in contact from 0.5 s on
     (first, n_first), (last, n_last) = (instructions(program, text, settings, end) for end in ends)
     return (last - first) / (n_last - n_first), n_last - n_first
 

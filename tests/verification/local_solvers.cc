@@ -109,57 +109,58 @@ TEST(LocalSolvers, repeated_rows_multiply_as_if_they_were_read)
 {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> value(-1., 1.);
-  constexpr unsigned int n_nodes = 301;
   for (unsigned int b = 1; b <= 4; ++b)
-  {
-    SCOPED_TRACE("blocks of " + std::to_string(b));
-    const unsigned int size = b * n_nodes;
-    std::vector<double> element(4 * b * b);
-    for (double &v : element)
-      v = value(random);
-    const auto matrix = taut::make_block_tridiagonal(b, size);
-    for (unsigned int node = 0; node + 1 < n_nodes; ++node)
-      for (unsigned int i = 0; i < 2 * b; ++i)
-        for (unsigned int j = 0; j <= i; ++j)
-          matrix->add(b * node + i, b * node + j, element[2 * b * i + j]);
-    matrix->add(b * 100, b * 100, 3.);
-    matrix->add(b * 200 + b - 1, b * 199, 2.);
-
-    std::vector<double> x(size), expected(size, 0.);
-    for (double &v : x)
-      v = value(random);
-    matrix->visit(
-        [&](const unsigned int i, const unsigned int j, const double v)
-        {
-          expected[i] += v * x[j];
-          if (i != j)
-            expected[j] += v * x[i];
-        });
-    for (const bool repeated : {false, true})
+    for (const unsigned int n_nodes : {1u, 2u, 3u, 4u, 5u, 301u})
     {
-      if (repeated)
-        matrix->find_repetitions();
-      std::vector<double> product(size, 1.);
-      matrix->vmult_add(2., x.data(), product.data());
-      for (unsigned int i = 0; i < size; ++i)
-        EXPECT_NEAR(product[i], 1. + 2. * expected[i], 1e-13) << i;
-      for (const unsigned int begin : {0u, b, 17 * b, 100 * b, size - 2 * b})
-        for (const unsigned int end : {size, size - b, 120 * b})
-        {
-          std::vector<double> part(end > begin ? end - begin : 0, 1.);
-          if (part.empty())
-            continue;
-          matrix->vmult_rows(begin, end, x.data(), part.data());
-          for (unsigned int i = begin; i < end; ++i)
-            EXPECT_NEAR(part[i - begin], expected[i], 1e-13) << i;
-        }
+      SCOPED_TRACE("blocks of " + std::to_string(b) + ", nodes: " + std::to_string(n_nodes));
+      const unsigned int size = b * n_nodes;
+      std::vector<double> element(4 * b * b);
+      for (double &v : element)
+        v = value(random);
+      const auto matrix = taut::make_block_tridiagonal(b, size);
+      for (unsigned int node = 0; node + 1 < n_nodes; ++node)
+        for (unsigned int i = 0; i < 2 * b; ++i)
+          for (unsigned int j = 0; j <= i; ++j)
+            matrix->add(b * node + i, b * node + j, element[2 * b * i + j]);
+      matrix->add(b * (n_nodes / 3), b * (n_nodes / 3), 3.);
+      matrix->add(b * (2 * n_nodes / 3) + b - 1, b * (2 * n_nodes / 3), 2.);
+
+      std::vector<double> x(size), expected(size, 0.);
+      for (double &v : x)
+        v = value(random);
+      matrix->visit(
+          [&](const unsigned int i, const unsigned int j, const double v)
+          {
+            expected[i] += v * x[j];
+            if (i != j)
+              expected[j] += v * x[i];
+          });
+      for (const bool repeated : {false, true})
+      {
+        if (repeated)
+          matrix->find_repetitions();
+        std::vector<double> product(size, 1.);
+        matrix->vmult_add(2., x.data(), product.data());
+        for (unsigned int i = 0; i < size; ++i)
+          EXPECT_NEAR(product[i], 1. + 2. * expected[i], 1e-13) << i;
+        for (const unsigned int begin : {0u, b, 17 * b, 100 * b, size - b})
+          for (const unsigned int end : {size, size - b, 120 * b})
+          {
+            if (end <= begin || end > size)
+              continue;
+            std::vector<double> part(end - begin, 1.);
+            matrix->vmult_rows(begin, end, x.data(), part.data());
+            for (unsigned int i = begin; i < end; ++i)
+              EXPECT_NEAR(part[i - begin], expected[i], 1e-13) << i;
+          }
+      }
+      // What is added later counts.
+      const unsigned int later = b * (n_nodes / 2);
+      matrix->add(later, later, 1.);
+      std::vector<double> product(size);
+      matrix->vmult_rows(0, size, x.data(), product.data());
+      EXPECT_NEAR(product[later], expected[later] + x[later], 1e-13);
     }
-    // What is added later counts.
-    matrix->add(b * 50, b * 50, 1.);
-    std::vector<double> product(size);
-    matrix->vmult_rows(0, size, x.data(), product.data());
-    EXPECT_NEAR(product[b * 50], expected[b * 50] + x[b * 50], 1e-13);
-  }
 }
 
 // Two bodies of different lengths, in one loop and one after the other; and of different solvers.
@@ -169,7 +170,7 @@ TEST(LocalSolvers, bodies_side_by_side_are_solved_like_one_by_one)
   std::uniform_real_distribution<double> value(-1., 1.);
   for (unsigned int b = 1; b <= 4; ++b)
     for (const std::string name : {"block tridiagonal", "sparse direct"})
-      for (const unsigned int n_nodes : {2u, 3u, 40u, 93u})
+      for (const unsigned int n_nodes : {1u, 2u, 3u, 40u, 93u})
       {
         const auto make = [&](const unsigned int nodes)
         {
@@ -197,6 +198,40 @@ TEST(LocalSolvers, bodies_side_by_side_are_solved_like_one_by_one)
         for (std::size_t i = 0; i < y.size(); ++i)
           EXPECT_NEAR(y[i], y_alone[i], 1e-14) << i;
       }
+}
+
+// Windows of any length at any place, padded or not.
+TEST(LocalSolvers, scalar_products_of_windows_are_sums_of_their_terms)
+{
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> value(-1., 1.);
+  std::vector<double> x(60);
+  for (double &v : x)
+    v = value(random);
+  for (unsigned int first : {0u, 1u, 20u, 50u})
+    for (unsigned int length = 0; first + length <= x.size(); ++length)
+    {
+      taut::WindowedVector window;
+      window.first = first;
+      double sum = 0., size = 0.;
+      for (unsigned int i = first; i < first + length; ++i)
+      {
+        window.value.push_back(value(random));
+        sum += window.value.back() * x[i];
+        size += std::fabs(window.value.back() * x[i]);
+      }
+      for (const bool padded : {false, true})
+      {
+        if (padded)
+          window.pad(taut::ScalarProduct::lanes, x.size());
+        ASSERT_LE(window.first + window.value.size(), x.size());
+        taut::ScalarProduct product;
+        product.add(window, x);
+        product.add(window, x);
+        EXPECT_NEAR(product.value(), 2. * sum, 1e-14) << first << ", " << length;
+        EXPECT_NEAR(product.size(), 2. * size, 1e-13) << first << ", " << length;
+      }
+    }
 }
 
 TEST(LocalSolvers, refuse_what_is_not_held)

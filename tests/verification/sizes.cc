@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: the sizes that certificates divide by are those of the vectors and rows, not-a-number
+// included. Source: a loop over all entries.
+#include "run.h"
+
+#include <taut/interface/contact_rows.h>
+#include <taut/time/matrix_norms.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+using namespace verification;
+
+namespace
+{
+  /// A body of n DoFs whose kinds repeat themselves.
+  class Body : public taut::Substructure
+  {
+  public:
+    Body(const unsigned int n, const std::vector<unsigned char> &pattern) : Substructure("body")
+    {
+      for (auto *matrix : {&M, &C, &K})
+        *matrix = std::make_unique<taut::CoordinateMatrix>(n);
+      kinds = pattern;
+    }
+    void initial_state(std::vector<double> &, std::vector<double> &) const override {}
+    Kernel kernel() const override { return {}; }
+  };
+
+  void raise(double &largest, const double x)
+  {
+    if (std::isnan(x) || x > largest)
+      largest = std::isnan(largest) ? largest : x;
+  }
+
+  void expect_same(const double a, const double b)
+  {
+    EXPECT_EQ(std::isnan(a), std::isnan(b));
+    if (!std::isnan(b))
+    {
+      EXPECT_EQ(a, b);
+    }
+  }
+} // namespace
+
+TEST(Sizes, largest_entries_of_vectors_are_those_of_a_loop)
+{
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> value(-1., 1.);
+  const std::vector<std::vector<unsigned char>> patterns = {
+      {0}, {1}, {0, 1}, {0, 0, 1}, {0, 1, 1, 0}};
+  for (const std::vector<unsigned char> &pattern : patterns)
+    for (unsigned int n = pattern.size(); n < 90; n += pattern.size())
+      for (const bool with_nan : {false, true})
+      {
+        SCOPED_TRACE(std::to_string(pattern.size()) + " kinds, " + std::to_string(n) + " DoFs");
+        const Body body(n, pattern);
+        std::array<std::vector<double>, 4> x;
+        for (std::vector<double> &v : x)
+        {
+          v.resize(n);
+          for (double &entry : v)
+            entry = value(random);
+          if (with_nan && value(random) > 0.)
+            v[random() % n] = std::numeric_limits<double>::quiet_NaN();
+        }
+        // One piece, or two of which the first has whole nodes.
+        for (const unsigned int first : {n, n / 48 * 48})
+        {
+          taut::Largest<4> sizes(body);
+          sizes.add({x[0].data(), x[1].data(), x[2].data(), x[3].data()}, first);
+          sizes.add(
+              {x[0].data() + first, x[1].data() + first, x[2].data() + first, x[3].data() + first},
+              n - first);
+          for (int v = 0; v < 4; ++v)
+          {
+            taut::PerKind expected = {0., 0.};
+            for (unsigned int i = 0; i < n; ++i)
+              raise(expected[body.kind(i)], std::fabs(x[v][i]));
+            for (int kind = 0; kind < 2; ++kind)
+            {
+              expect_same(sizes.result()[v][kind], expected[kind]);
+              expect_same(taut::largest(body, x[v])[kind], expected[kind]);
+            }
+          }
+        }
+      }
+}
+
+TEST(Sizes, largest_forces_of_rows_are_those_of_a_loop)
+{
+  Session session(scene_file("en50318_2002_250_two"), {"Time.End=0.01"});
+  session.run([](const taut::StepView &) {});
+  const taut::Structure &structure = session.simulation().structure();
+  taut::ContactRows rows(session.simulation().scene(), structure);
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> value(-1., 1.);
+  for (int i = 0; i < 20; ++i)
+  {
+    rows.update(.01 * i);
+    std::vector<double> N(rows.size());
+    for (double &force : N)
+      force = value(random) > 0. ? value(random) : 0.;
+    if (i % 5 == 0)
+      N[random() % N.size()] = std::numeric_limits<double>::quiet_NaN();
+    std::vector<taut::PerKind> expected(structure.size(), {0., 0.}), found;
+    std::vector<double> motion(rows.size()), size(rows.size());
+    taut::BlockVector U = structure.zero(), P = structure.zero(), P_expected = P;
+    for (std::vector<double> &u : U)
+      for (double &entry : u)
+        entry = value(random);
+    rows.share_of_motions(U, motion, size);
+    rows.add_forces(N, P);
+    for (std::size_t r = 0; r < rows.size(); ++r)
+    {
+      for (const auto &[k, form] : rows[r].terms)
+      {
+        form.add_to(N[r], P_expected[k]);
+        for (std::size_t j = 0; j < form.index.size(); ++j)
+          raise(expected[k][structure[k].kind(form.index[j])], std::fabs(form.value[j] * N[r]));
+      }
+      EXPECT_NEAR(motion[r], evaluate(rows[r].terms, U), 1e-15);
+      EXPECT_NEAR(size[r], magnitude(rows[r].terms, U), 1e-15);
+    }
+    rows.largest_forces(N, found);
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t k = 0; k < found.size(); ++k)
+    {
+      for (int kind = 0; kind < 2; ++kind)
+        expect_same(found[k][kind], expected[k][kind]);
+      for (std::size_t j = 0; j < P[k].size(); ++j)
+        expect_same(P[k][j], P_expected[k][j]);
+    }
+  }
+}
