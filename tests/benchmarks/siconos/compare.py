@@ -100,9 +100,9 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", required=True, help="siconos_bar of the build")
     parser.add_argument("--repeats", type=int, default=3, help="runs of each setting, the fastest counts")
-    parser.add_argument("--schemes", default="Moreau-Jean lumped,Moreau-Jean lumped theta-1,Moreau-Jean reduced,BDF2,"
+    parser.add_argument("--schemes", default="Moreau-Jean lumped,Moreau-Jean lumped theta-1,Moreau-Jean reduced,Moreau-Jean gaps reduced,BDF2,"
                         "BDF2 massless reduced,Newmark massless,Newmark massless reduced,backward Euler",
-                        help="separated by commas; after a name 'massless', 'lumped', 'reduced', 'theta-1'")
+                        help="separated by commas; after a name 'massless', 'lumped', 'reduced', 'gaps', 'theta-1'")
     arguments = parser.parse_args()
 
     def options(scheme):
@@ -174,7 +174,7 @@ def main():
 
 # Words after the name of a scheme.
 EXTRA = {"massless": "Time.Massless contact=mass", "lumped": "Network.Wire bar.Mass matrix=lumped",
-         "reduced": "Network.Wire bar.Mass matrix=reduced", "theta-1": "Time.Moreau-Jean.Theta=1"}
+         "reduced": "Network.Wire bar.Mass matrix=reduced", "gaps": "Time.Moreau-Jean.Conditions=gaps", "theta-1": "Time.Moreau-Jean.Theta=1"}
 
 if __name__ == "__main__":
     main()
