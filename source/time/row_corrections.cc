@@ -1,50 +1,55 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/complementarity/active_set_system.h>
+#include <taut/base/exceptions.h>
+#include <taut/complementarity/solver.h>
 #include <taut/time/row_motions.h>
 
-#include <algorithm>
+#include <cmath>
 
 namespace taut
 {
-  const std::vector<double> &RowMotions::correct(const State &state, SchurComplement &schur,
-                                                 const FactoredStructure &solvers,
-                                                 const BlockVector &left)
+  /// The unknowns are the multipliers as they become and not their changes, so that conditions and
+  /// search are those of a step.
+  bool RowMotions::correct(const State &state, SchurComplement &schur,
+                           const FactoredStructure &solvers, const BlockVector &left)
   {
     MixedComplementarityProblem problem;
-    problem.unilateral.assign(rows.size(), 0);
+    problem.unilateral = conditions.unilateral;
     schur.free_motion(left, problem.free_gap, problem.gap_scale);
     share({&problem.free_gap, &problem.gap_scale});
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      problem.free_gap[i] += state.gap[i];
     if (!conditions.kernel_resistance.empty())
       set_free_motions(solvers, left, problem);
-    std::vector<std::size_t> closed;
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      if (applied_multiplier[i] != 0.)
-        closed.push_back(i);
-    const ComplementarityOptions options;
-    std::vector<double> terms;
     correction.reset(problem);
-    for (bool is_admissible = false; !is_admissible;)
+    if (rows.size() == 0 && problem.n_kernel() == 0)
+      return true;
+
+    std::vector<double> before(rows.size());
+    std::vector<char> closed(rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i)
     {
-      if ((!closed.empty() || problem.n_kernel() > 0) &&
-          ActiveSetSystem(options).solve(problem, schur.matrix(), closed, options.linear_tolerance,
-                                         correction, terms) != ActiveSetSystem::Outcome::solved)
-      {
-        correction.reset(problem);
-        break;
-      }
-      // A row that would pull has a force that is nothing but rounding: it stays as it is.
-      const std::size_t n = closed.size();
-      closed.erase(std::remove_if(closed.begin(), closed.end(),
-                                  [&](const std::size_t i) {
-                                    return rows[i].unilateral &&
-                                           applied_multiplier[i] + correction.multiplier[i] < 0.;
-                                  }),
-                   closed.end());
-      is_admissible = closed.size() == n;
+      problem.free_gap[i] += state.gap[i];
+      problem.gap_scale[i] += std::fabs(state.gap[i]) + terms_size[i];
+      if (rows[i].moving)
+        problem.gap_scale[i] += std::fabs(rows[i].gap);
+      before[i] = -applied_multiplier[i];
+      closed[i] = applied_multiplier[i] != 0. || problem.free_gap[i] < 0.;
     }
-    return correction.multiplier;
+    gaps(problem, schur.matrix(), before, correction.kernel_amplitude, work);
+    problem.free_gap.swap(work);
+    for (std::size_t k = 0; k < problem.n_kernel(); ++k)
+      problem.kernel_load[k] += problem.kernel[k].dot(before);
+    try
+    {
+      ComplementaritySolver search;
+      search.start_from(closed);
+      correction = search.solve(problem, schur.matrix()).solution;
+    }
+    catch (const UserError &)
+    {
+      return false;
+    }
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      correction.multiplier[i] -= applied_multiplier[i];
+    return true;
   }
 
   void RowMotions::add_correction(const BlockVector &dU, State &state)

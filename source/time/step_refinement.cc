@@ -5,9 +5,10 @@ namespace taut
 {
   /**
    * Iterative refinement of an accepted step. A step that brings a body back from afar ends with
-   * the rounding of its way; what the balance at its end lacks is solved for once more.
+   * the rounding of its way; what the balance at its end lacks is solved for. False, and nothing
+   * changes, if the rows have no answer to it.
    */
-  void TimeStepper::refine()
+  bool TimeStepper::refine()
   {
     const StepCoefficients &c = coefficients;
     const double kappa = c.alpha_f / (1. - c.alpha_f);
@@ -26,12 +27,13 @@ namespace taut
       for (const ConstrainedDof &constraint : body.constraints())
         left[constraint.dof] = 0.;
     }
-    rows.add_forces(row_motions.correct(current, *schur, solvers, right_hand_side),
-                    right_hand_side);
+    if (!row_motions.correct(current, *schur, solvers, right_hand_side))
+      return false;
+    rows.add_forces(row_motions.corrections(), right_hand_side);
+    solvers.solve(right_hand_side);
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       std::vector<double> &dU = right_hand_side[k];
-      solvers[k].solve(dU);
       row_motions.add_corrected_motions(solvers, k, dU);
       for (const ConstrainedDof &constraint : structure[k].constraints())
         dU[constraint.dof] = 0.;
@@ -44,5 +46,6 @@ namespace taut
       }
     }
     row_motions.add_correction(right_hand_side, current);
+    return true;
   }
 } // namespace taut

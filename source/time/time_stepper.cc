@@ -335,9 +335,8 @@ namespace taut
           [&] { own_balance = balance.measure(coefficients, forces, row_motions, current); });
       last.balance = processes.max(own_balance);
       if (!(last.balance > refined_balance) || refinements == most_refinements ||
-          coefficients.mean_force || processes.max(balance.is_way() ? 0. : 1.) > 0.)
+          coefficients.mean_force || processes.max(balance.is_way() ? 0. : 1.) > 0. || !refine())
         break;
-      refine();
     }
     last.worst_body = balance.worst_body();
     certify_rows();

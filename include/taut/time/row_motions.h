@@ -82,12 +82,15 @@ namespace taut
 
     /**
      * After update(), with schemes without mean forces: what the rows answer to forces @p left that
-     * the balance of the bodies lacks, so that the gaps of the closed rows close again. Changes of
-     * the multipliers, and of the amplitudes for add_corrected_motions(). Called by all ranks
-     * together.
+     * the balance of the bodies lacks, so that their conditions hold again. False if no answer is
+     * found. Called by all ranks together.
      */
-    const std::vector<double> &correct(const State &state, SchurComplement &schur,
-                                       const FactoredStructure &solvers, const BlockVector &left);
+    bool correct(const State &state, SchurComplement &schur, const FactoredStructure &solvers,
+                 const BlockVector &left);
+
+    /// The answer: changes of the multipliers [N, N m]. Those of the amplitudes are for
+    /// add_corrected_motions().
+    const std::vector<double> &corrections() const { return correction.multiplier; }
 
     /// Adds these changes, and the motions @p dU that they are a part of, to gaps, springs and
     /// multipliers.

@@ -77,7 +77,7 @@ namespace taut
     void accept(std::size_t k);
     void start_balance();
     void certify();
-    void refine();
+    bool refine();
     void certify_rows();
     void fail_balance() const;
     void fail(const std::string &what, const std::string &entry = "") const;
