@@ -11,6 +11,8 @@
 #include <taut/time/choose_scheme.h>
 #include <taut/time/form_finding.h>
 
+#include <deal.II/base/utilities.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -253,8 +255,9 @@ namespace taut
 
   const TimeIntegrator &Simulation::choose_integrator()
   {
+    // The entry itself: as part of a scheme that is not taken it need not make sense.
     const double restitution =
-        parameters.integrator("Moreau-Jean").coefficients(parameters.step).restitution;
+        dealii::Utilities::string_to_double(parameters.values().at("Time/Moreau-Jean/Restitution"));
     std::string name = parameters.scheme;
     if (name == "automatic")
     {

@@ -130,9 +130,18 @@ TEST(Schemes, automatic_knows_restitution_or_says_so)
   expect_choice(falling_masses(),
                 {"Network.Link floor.Type=joint", "Network.Link floor.Gap=0", half, soon},
                 "error:", "has others or none");
-  Session by_name(falling_masses(), {"Time.Scheme=BDF2", half, soon});
-  by_name.run([](const taut::StepView &) {});
-  EXPECT_NE(by_name.log().find("Restitution is not used"), std::string::npos);
+  // Entries of a scheme that is not taken need not make one, but say that they are not used.
+  const std::string gaps = "Time.Moreau-Jean.Conditions=gaps";
+  expect_choice(falling_masses(), {half, gaps, soon}, "Moreau-Jean (theta 0.5, restitution 0.5)",
+                "restitution");
+  for (const Overrides &more : {Overrides{half, soon}, Overrides{half, gaps, soon}})
+  {
+    Overrides overrides = {"Time.Scheme=BDF2"};
+    overrides.insert(overrides.end(), more.begin(), more.end());
+    Session by_name(falling_masses(), overrides);
+    by_name.run([](const taut::StepView &) {});
+    EXPECT_NE(by_name.log().find("Restitution is not used"), std::string::npos);
+  }
 }
 
 TEST(Schemes, automatic_is_nearer_to_the_wave_equation)
