@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "courant_numbers.h"
+
 #include <taut/base/exceptions.h>
 #include <taut/interface/schur_complement.h>
 #include <taut/time/choose_scheme.h>
@@ -13,52 +15,26 @@ namespace taut
 {
   namespace
   {
-    /// Courant number below which BDF2's multipliers oscillate.
-    constexpr double least_courant_number = .25;
+    /// Elements a step from which on BDF2 is the better choice at rigid links; from its own
+    /// least_courant_number() on it is merely not refused.
+    constexpr double preferred_courant_number = .25;
 
-    /// Courant number up to which nodes without mass were measured.
+    /// Elements a step up to which nodes without mass were measured.
     constexpr double most_courant_number = 4.;
 
-    bool is_one(const double courant)
-    {
-      return std::fabs(courant - 1.) < 1e-6;
-    }
+    /// Of elements that shall be equal, and of steps written in decimals.
+    constexpr double rounding = 1e-6;
 
-    /// True if a motion of the wire along the direction is across it, and bends it.
-    bool bends(const Wire &wire, const Point &direction)
+    bool is_one(const CourantRange &courant)
     {
-      const Point n = wire.normal();
-      return wire.transverse == TransverseKind::beam &&
-             std::fabs(direction.x * n.x + direction.y * n.y) > 1e-12;
-    }
-
-    /// Wave speed times step over element size, of the wire that an attachment is on, for motion
-    /// along a direction.
-    double courant_number(const Scene &scene, const Attachment &end, const Point &direction,
-                          const double step)
-    {
-      if (end.kind != Attachment::Kind::wire)
-        return std::numeric_limits<double>::infinity();
-      const Wire &wire = scene.wires[end.index];
-      const Point t = wire.tangent(), n = wire.normal();
-      double squared = std::numeric_limits<double>::infinity();
-      if (wire.has_axial && std::fabs(direction.x * t.x + direction.y * t.y) > 1e-12)
-        squared = wire.axial_stiffness;
-      if (wire.transverse != TransverseKind::none &&
-          std::fabs(direction.x * n.x + direction.y * n.y) > 1e-12)
-      {
-        const double wave_number = std::acos(-1.) / wire.element_size;
-        squared =
-            std::min(squared, wire.tension + wire.bending_stiffness * wave_number * wave_number);
-      }
-      return std::sqrt(squared / wire.mass_per_length) * step / wire.element_size;
+      return courant.least > 1. - rounding && courant.most < 1. + rounding;
     }
 
     /// An end on a wire of a one-sided row that acts as rigid, or such a row without wires.
     struct RigidContact
     {
       std::size_t row;
-      double courant; ///< elements that waves of its wire cross in a step
+      CourantRange courant;
       MassMatrix matrix;
       bool exactly_rigid;
       bool on_wire, on_beam;
@@ -78,12 +54,12 @@ namespace taut
 
     /// True if the wires at a link are bars or strings whose waves cross at most four elements a
     /// step: the elements beside a node without mass then are a spring that no scheme rings on.
-    bool is_springy(const Scene &scene, const Link &link, const double step)
+    bool is_springy(const Scene &scene, const CourantNumbers &courant, const Link &link)
     {
       for (const Attachment *end : {&link.from, &link.to})
         if (end->kind == Attachment::Kind::wire &&
             (link.rotational || bends(scene.wires[end->index], link.direction) ||
-             !(courant_number(scene, *end, link.direction, step) <= most_courant_number)))
+             !(courant.at(link, *end).most <= (1. + rounding) * most_courant_number)))
           return false;
       return true;
     }
@@ -98,13 +74,11 @@ namespace taut
       const Communicator &processes = structure.communicator();
       processes.agree([&] { solvers.factor(c.mass_factor(), c.velocity); });
       std::vector<double> flexibility(rows.size(), 0.);
-      WindowedVector column;
       for (std::size_t i = 0; i < rows.size(); ++i)
         for (const Term &term : rows[i].terms)
           if (rows[i].unilateral)
           {
-            solvers[term.substructure].column(term.form, column);
-            flexibility[i] += column.dot(term.form);
+            flexibility[i] += solvers[term.substructure].flexibility(term.form);
             const auto &motions = solvers.free_motions()[term.substructure];
             for (std::size_t v = 0; v < motions.vectors.size(); ++v)
             {
@@ -114,6 +88,8 @@ namespace taut
           }
       processes.sum(flexibility);
 
+      const CourantNumbers courant(scene, step);
+      constexpr double infinity = std::numeric_limits<double>::infinity();
       std::vector<RigidContact> result;
       for (std::size_t i = 0; i < rows.size(); ++i)
       {
@@ -128,13 +104,12 @@ namespace taut
           if (end->kind == Attachment::Kind::wire)
           {
             const Wire &wire = scene.wires[end->index];
-            result.push_back({i, courant_number(scene, *end, link.direction, step),
-                              wire.mass_matrix, exactly_rigid, true,
+            result.push_back({i, courant.at(link, *end), wire.mass_matrix, exactly_rigid, true,
                               link.rotational || bends(wire, link.direction)});
           }
         if (!is_on_wire(link))
-          result.push_back({i, std::numeric_limits<double>::infinity(), MassMatrix::lumped,
-                            exactly_rigid, false, false});
+          result.push_back(
+              {i, {infinity, infinity}, MassMatrix::lumped, exactly_rigid, false, false});
       }
       return result;
     }
@@ -199,7 +174,7 @@ namespace taut
 
       const RigidContact &worst = *std::min_element(rigid.begin(), rigid.end(),
                                                     [](const RigidContact &a, const RigidContact &b)
-                                                    { return a.courant < b.courant; });
+                                                    { return a.courant.least < b.courant.least; });
       const std::string name = rows[worst.row].name;
       if (all(
               [](const RigidContact &c) {
@@ -212,9 +187,9 @@ namespace taut
                 "the rigid one-sided link '" +
                     name + "'"};
       std::ostringstream reason;
-      reason << "one-sided link '" << name << "' acts as rigid; waves cross " << worst.courant
+      reason << "one-sided link '" << name << "' acts as rigid; waves cross " << worst.courant.least
              << " elements a step";
-      if (worst.courant >= least_courant_number)
+      if (worst.courant.least >= (1. - rounding) * preferred_courant_number)
         return {"BDF2", {}, reason.str()};
       if (all([](const RigidContact &c) { return c.on_beam || !c.on_wire; }))
         return {"generalised-alpha",
@@ -226,39 +201,37 @@ namespace taut
 
   void take_contact_mass(Scene &scene, const double step)
   {
+    const CourantNumbers courant(scene, step);
     bool carries_fronts = true;
     std::vector<Link *> stops;
-    std::vector<std::pair<std::size_t, double>> nodes; // wire and position
+    std::vector<std::pair<std::size_t, std::size_t>> nodes; // wire and node
     for (Link &link : scene.links)
     {
       if (!link.unilateral() || !link.rigid() || link.axial_stiffness != 0.)
         continue;
-      if (link.kind != LinkKind::stop || !is_springy(scene, link, step))
+      if (link.kind != LinkKind::stop || !is_on_wire(link) || !is_springy(scene, courant, link))
         return;
-      const std::size_t n_before = nodes.size();
       for (const Attachment *end : {&link.from, &link.to})
-      {
-        if (end->kind != Attachment::Kind::wire)
-          continue;
-        const Wire &wire = scene.wires[end->index];
-        const double courant = courant_number(scene, *end, link.direction, step),
-                     room = 2. * wire.element_size * (1. - 1e-9);
-        if (wire.length() < room)
-          return;
-        for (const auto &[index, position] : nodes)
-          if (index == end->index && std::fabs(position - end->position) < room)
+        if (end->kind == Attachment::Kind::wire)
+        {
+          if (courant.n_elements(end->index) < 2)
             return;
-        nodes.emplace_back(end->index, end->position);
-        carries_fronts =
-            carries_fronts && wire.mass_matrix == MassMatrix::reduced && is_one(courant);
-      }
-      if (nodes.size() == n_before)
-        return;
+          nodes.emplace_back(end->index, courant.node(*end));
+          carries_fronts = carries_fronts && is_one(courant.at(link, *end)) &&
+                           scene.wires[end->index].mass_matrix == MassMatrix::reduced;
+        }
       stops.push_back(&link);
     }
-    if (!carries_fronts)
-      for (Link *link : stops)
-        link->contact_mass = ContactMass::keeps_total;
+    std::sort(nodes.begin(), nodes.end());
+    const bool are_close =
+        std::adjacent_find(nodes.begin(), nodes.end(),
+                           [](const auto &a, const auto &b) {
+                             return a.first == b.first && b.second - a.second < 2;
+                           }) != nodes.end();
+    if (carries_fronts || are_close)
+      return;
+    for (Link *link : stops)
+      link->contact_mass = ContactMass::keeps_total;
   }
 
   SchemeChoice choose_scheme(const Scene &scene, const Structure &structure,
@@ -279,9 +252,10 @@ namespace taut
       return {"generalised-alpha",
               {},
               "all one-sided links are more compliant than the bodies in one step"};
+    const CourantNumbers courant(scene, step);
     const bool springy = std::all_of(
         links.begin(), links.end(),
-        [&](const Link &link) { return !is_massless(link) || is_springy(scene, link, step); });
+        [&](const Link &link) { return !is_massless(link) || is_springy(scene, courant, link); });
     return {springy ? "generalised-alpha" : "BDF2",
             {},
             "nodes of wires at rigid one-sided links gave their mass to their neighbours"};
@@ -305,14 +279,14 @@ namespace taut
          find_rigid_contacts(scene, structure, rows, parameters, step))
     {
       const double least = integrator.least_courant_number(contact.matrix, contact.exactly_rigid);
-      if (!(contact.courant < (1. - 1e-6) * least))
+      if (!(contact.courant.least < (1. - rounding) * least))
         continue;
       std::ostringstream out;
       out << integrator.description() << " fails at one-sided links that act as rigid, here '"
           << rows[contact.row].name << "'";
       if (contact.matrix == MassMatrix::reduced)
         out << " on a wire with the mass matrix 'reduced'";
-      out << ": its forces ring. Waves cross " << contact.courant << " elements a step there";
+      out << ": its forces ring. Waves cross " << contact.courant.least << " elements a step there";
       if (std::isfinite(least))
         out << " and would have to cross " << least;
       out << ". Take 'automatic' or more dissipation, give the link a Stiffness, set "

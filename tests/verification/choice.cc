@@ -104,6 +104,27 @@ TEST(Schemes, automatic_follows_from_links_bodies_and_step)
   // Two stops need two elements between them.
   expect_choice(bar, {"Network.Link floor.To=bar @ 0, 0.05", soon}, smooth, massless);
   expect_choice(bar, {"Network.Link floor.To=bar @ 0, 0.025", soon}, "BDF2", "'floor");
+  // Elements that are there: 0.04 m between two stops are two of 0.02 m, 0.03 m two of 0.015 m, of
+  // which waves cross 3.8 and 4.2 a step; two of 5 m, where 6 m are allowed, 0.27 a step.
+  const std::string close = "Network.Link floor.To=bar @ 0, 0.03";
+  expect_choice(bar, {"Network.Link floor.To=bar @ 0, 0.04", soon}, smooth, massless);
+  expect_choice(bar, {close, "Time.Step=1.9e-3", soon}, smooth, massless);
+  expect_choice(bar, {close, "Time.Step=2.1e-3", soon}, "BDF2", "waves cross 2.52");
+  expect_choice(bar, {stays, "Network.Wire bar.Element size=6", "Time.Step=0.045", "Time.End=0.09"},
+                "BDF2", "0.27 elements a step");
+  // Obliquely, waves of 30 m/s along and 3 m/s across: the fastest cross 3.96 and 4.2 elements a
+  // step, the slowest 0.42.
+  const Overrides oblique = {"Network.Wire bar.Components=bar, string",
+                             "Network.Wire bar.Tension=9", "Network.Link floor.Direction=0.6, 0.8",
+                             soon};
+  const auto obliquely = [&](const std::string &step)
+  {
+    Overrides overrides = oblique;
+    overrides.push_back("Time.Step=" + step);
+    return overrides;
+  };
+  expect_choice(bar, obliquely("3.3e-3"), smooth, massless);
+  expect_choice(bar, obliquely("3.5e-3"), "BDF2", "0.42 elements a step");
   // Beams: 5 and 0.05 elements a step.
   expect_choice(beam, {soon}, "BDF2", "'support 1' acts as rigid");
   expect_choice(beam, {"Time.Step=1e-5", "Time.End=1e-4"}, "generalised-alpha (spectral radius 0)",

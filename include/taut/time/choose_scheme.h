@@ -23,8 +23,8 @@ namespace taut
    * Takes the mass from the nodes of wires at rigid stops, as Massless contact = mass does, if that
    * was measured to be best at a step [s] (doc/accuracy.md, "What automatic chooses"): if all rigid
    * one-sided links of the scene are such stops, on bars or strings, at least two elements apart,
-   * whose waves cross at most four elements a step; not if they cross just one on reduced mass
-   * matrices, where Moreau-Jean with conditions on gaps is exact.
+   * whose fastest waves cross at most four elements a step; not if they cross just one on reduced
+   * mass matrices, where Moreau-Jean with conditions on gaps is exact.
    */
   void take_contact_mass(Scene &scene, double step);
 
@@ -39,9 +39,10 @@ namespace taut
                              double step, double restitution);
 
   /**
-   * Throws an EntryError on Time/Scheme if a scheme is known to fail on a row of the scene: a rigid
-   * one-sided row on a wire whose waves cross fewer elements a step than the scheme needs there, or
-   * Moreau-Jean of velocities without damping beside nodes without mass.
+   * Throws an EntryError if a scheme is known to fail on a row of the scene: on Time/Scheme at a
+   * rigid one-sided row on a wire whose slowest waves cross fewer elements a step than the scheme
+   * needs there, on Time/Massless contact where Moreau-Jean of velocities without damping meets a
+   * node without mass.
    */
   void check_scheme(const TimeIntegrator &integrator, const Scene &scene,
                     const Structure &structure, const ContactRows &rows,

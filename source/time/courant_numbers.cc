@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "courant_numbers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace taut
+{
+  namespace
+  {
+    bool has_part(const Point &direction, const Point &along)
+    {
+      return std::fabs(direction.x * along.x + direction.y * along.y) > 1e-12;
+    }
+
+    /// Speed of the shortest waves that elements of a length carry across a wire, squared.
+    double transverse_speed_squared(const Wire &wire, const double element)
+    {
+      const double wave_number = std::acos(-1.) / element;
+      return (wire.tension + wire.bending_stiffness * wave_number * wave_number) /
+             wire.mass_per_length;
+    }
+  } // namespace
+
+  bool bends(const Wire &wire, const Point &direction)
+  {
+    return wire.transverse == TransverseKind::beam && has_part(direction, wire.normal());
+  }
+
+  CourantNumbers::CourantNumbers(const Scene &scene, const double step) : scene(scene), step(step)
+  {
+    for (std::size_t i = 0; i < scene.wires.size(); ++i)
+      grids.push_back(grid(scene, i));
+  }
+
+  std::size_t CourantNumbers::node(const Attachment &end) const
+  {
+    const std::vector<double> &nodes = grids[end.index];
+    const auto next = std::lower_bound(nodes.begin() + 1, nodes.end() - 1, end.position);
+    const bool is_nearer = *next - end.position < end.position - *(next - 1);
+    return static_cast<std::size_t>(next - nodes.begin()) - (is_nearer ? 0 : 1);
+  }
+
+  CourantRange CourantNumbers::at(const Link &link, const Attachment &end) const
+  {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    if (end.kind != Attachment::Kind::wire)
+      return {infinity, infinity};
+    const Wire &wire = scene.wires[end.index];
+    const std::vector<double> &nodes = grids[end.index];
+    std::size_t first = 0, last = n_elements(end.index);
+    if (!link.moving() || &end != &link.to)
+    {
+      const std::size_t middle = node(end);
+      first = middle > 0 ? middle - 1 : middle;
+      last = std::min(middle + 1, last);
+    }
+    double shortest = infinity, longest = 0.;
+    for (std::size_t i = first; i < last; ++i)
+    {
+      shortest = std::min(shortest, nodes[i + 1] - nodes[i]);
+      longest = std::max(longest, nodes[i + 1] - nodes[i]);
+    }
+
+    CourantRange range = {infinity, 0.};
+    const auto add = [&](const double slow_squared, const double fast_squared)
+    {
+      range.least = std::min(range.least, std::sqrt(slow_squared) * step / longest);
+      range.most = std::max(range.most, std::sqrt(fast_squared) * step / shortest);
+    };
+    if (wire.has_axial && !link.rotational && has_part(link.direction, wire.tangent()))
+      add(wire.axial_stiffness / wire.mass_per_length, wire.axial_stiffness / wire.mass_per_length);
+    if (wire.transverse != TransverseKind::none &&
+        (link.rotational || has_part(link.direction, wire.normal())))
+      add(transverse_speed_squared(wire, longest), transverse_speed_squared(wire, shortest));
+    return range.least < infinity ? range : CourantRange{infinity, infinity};
+  }
+} // namespace taut
