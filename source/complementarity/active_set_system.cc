@@ -58,19 +58,36 @@ namespace taut
     kernel_is_ready = false;
     double last_gap = 0., last_step = 0.;
     bool is_solved = false;
+    MixedComplementaritySolution best; // of the corrections of one that is solved
+    std::vector<double> best_terms;
     double now = matrix.is_iterative() ? largest_gap(set, solution.gap, terms) : 1.;
     for (unsigned int correction = 0; correction <= options.max_corrections; ++correction)
     {
       const double part = tolerance > options.linear_tolerance ? rough_part : exact_part;
       matrix.set_tolerance(part * tolerance / std::max(now, tolerance));
+      if (is_solved)
+      {
+        best = solution;
+        best_terms = terms;
+      }
       if (!correct(problem, matrix, set, solution))
+      {
+        if (is_solved)
+          break;
         return Outcome::inadmissible;
+      }
       gaps(problem, matrix, solution.multiplier, solution.kernel_amplitude, solution.gap);
       gap_terms(problem, matrix, solution.multiplier, solution.kernel_amplitude, terms);
 
       // Contradictory rows grow by the same step in each correction, and so do the terms that gaps
       // are measured with: with a shift, gaps are small only if the steps are getting small, too.
       const double gap = now = largest_gap(set, solution.gap, terms);
+      if (is_solved && !(gap < last_gap))
+      {
+        solution = best;
+        terms = best_terms;
+        break;
+      }
       const double size = shift == 0. ? 0. : largest_step(set, matrix, step);
       const bool shrinks = shift == 0. || (correction > 0 && size <= 0.5 * last_step);
       if ((gap <= tolerance && shrinks) || tolerance > options.linear_tolerance)

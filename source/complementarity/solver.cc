@@ -104,6 +104,7 @@ namespace taut
     // Newton's method solves small multipliers beside large gaps apart from these. It starts from
     // the set that was found, or from all rows where that leaves a body free.
     const double missed = result.residual.max;
+    result.used_fallback = !use_newton;
     if (solve_with_newton(problem, matrix))
       return;
     if (problem.n_kernel() > 0)

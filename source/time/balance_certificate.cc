@@ -16,7 +16,7 @@ namespace taut
     /// A block-tridiagonal matrix reaches so many DoFs further at most.
     constexpr std::size_t reach = 8;
 
-    /// Part of the way that its rounding may be; what is more is an error.
+    /// Part of way and terms that their rounding may be; what is more is an error.
     constexpr double rounding_of_way = 1e-10;
   } // namespace
 
@@ -54,6 +54,7 @@ namespace taut
 
     double result = 0.;
     may_be_way = true;
+    worst = 0;
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       const Sizes sizes = measure_body(k, c, forces, has_impulses, state);

@@ -35,7 +35,8 @@ namespace taut
     prm.add_parameter("Complementarity", complementarity,
                       "Search for the closed links. 'semismooth Newton': starts from the last step "
                       "and hands over to the other if it cycles. 'energy-ordered': one link at a "
-                      "time, the energy falls at each change; finite, slower.",
+                      "time, the energy falls at each change; finite, slower; hands over if it "
+                      "misses the tolerance.",
                       Patterns::Selection("semismooth Newton|energy-ordered"));
     prm.add_parameter("Contact tolerance", contact_tolerance,
                       "A step whose certificate, the relative residual of its equations, is larger "

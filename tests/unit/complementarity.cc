@@ -889,4 +889,79 @@ namespace
     EXPECT_TRUE(result.used_fallback);
     expect_near(result.solution.multiplier, {0., 8. / 38., 22. / 38.});
   }
+
+  /// One that tells its entries with an error of 1e-6.
+  class RoughEntries : public CountingOperator
+  {
+  public:
+    using CountingOperator::CountingOperator;
+    void apply(const Vector &x, Vector &y) const override
+    {
+      CountingOperator::apply(x, y);
+      if (std::count(x.begin(), x.end(), 0.) + 1 == std::ptrdiff_t(x.size()) &&
+          *std::max_element(x.begin(), x.end()) == 1.)
+        for (double &value : y)
+          value *= 1. + 1e-6;
+    }
+  };
+
+  TEST(complementarity, the_flag_says_which_method_got_to_the_end)
+  {
+    // Newton's method cycles; what the energy-ordered set finds misses the tolerance, and Newton's
+    // method ends what it began or what the other did.
+    for (const std::string method : {"semismooth Newton", "energy-ordered"})
+    {
+      RoughEntries F(dense(cycling_matrix));
+      ComplementaritySolver solver(method);
+      const auto &result = solver.solve(problem({1, 1, 1}, {2., 1., -3.}), F);
+      EXPECT_EQ(result.used_fallback, method == "energy-ordered");
+      expect_near(result.solution.multiplier, {0., 8. / 38., 22. / 38.});
+    }
+  }
+
+  /// Solves with an error of 1e-5, and after three of them with a worse one or not at all.
+  class WorseningOperator : public CountingOperator
+  {
+  public:
+    WorseningOperator(DenseOperator matrix, const bool fails)
+        : CountingOperator(std::move(matrix)), fails(fails)
+    {
+      solve_error = 1e-5;
+    }
+    bool solve(const std::vector<std::size_t> &set, const Vector &rhs, double shift,
+               Vector &x) override
+    {
+      if (!CountingOperator::solve(set, rhs, shift, x))
+        return false;
+      if (++n_solved <= 3)
+        return true;
+      for (const std::size_t i : set)
+        x[i] += 1e-6;
+      return !fails;
+    }
+
+  private:
+    const bool fails;
+    int n_solved = 0;
+  };
+
+  TEST(complementarity, corrections_of_what_is_solved_make_nothing_worse)
+  {
+    for (const bool fails : {false, true})
+    {
+      WorseningOperator F(dense({{1, 1}, {1, 1}}), fails);
+      MixedComplementaritySolution solution;
+      Vector terms;
+      const ComplementarityOptions options;
+      const auto outcome = ActiveSetSystem(options).solve(
+          problem({1, 1}, {-1., -1.}), F, {0, 1}, options.linear_tolerance, solution, terms);
+      EXPECT_EQ(outcome, ActiveSetSystem::Outcome::solved);
+      EXPECT_GE(F.n_solves, 5u);
+      for (int i = 0; i < 2; ++i)
+      {
+        EXPECT_NEAR(solution.multiplier[i], .5, 1e-8);
+        EXPECT_NEAR(solution.gap[i], 0., 1e-12);
+      }
+    }
+  }
 } // namespace

@@ -10,13 +10,11 @@ namespace taut
   {
     /**
      * Half-width of the band around N = 0 and D = 0 in which a row keeps its state, relative to the
-     * terms s_i of its gap. At least the inner tolerance if the operator solves iteratively. With
-     * 0, exact touch (N = D = 0) flips for ever on rounding noise.
+     * terms s_i of its gap. With 0, exact touch (N = D = 0) flips for ever on rounding noise.
      */
     double dead_band = 1e-13;
 
-    /// Gaps of closed rows are corrected until they are below this. At least the inner tolerance,
-    /// as above.
+    /// Gaps of closed rows are corrected until they are below this.
     double linear_tolerance = 1e-12;
 
     /**

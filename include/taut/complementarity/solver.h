@@ -14,11 +14,11 @@ namespace taut
   {
     MixedComplementaritySolution solution;
 
-    /// Active sets that were solved for: of Newton's method, then changes of one row each if it
-    /// handed over.
+    /// Active sets that Newton's method solved for, and changes of one row each by the
+    /// energy-ordered set: of all attempts.
     unsigned int iterations = 0;
 
-    /// Newton's method did not get to the end.
+    /// The method that was not chosen got to the end.
     bool used_fallback = false;
 
     /// At most the tolerance.
@@ -35,7 +35,8 @@ namespace taut
   public:
     /**
      * @p method is "semismooth Newton", with the energy-ordered active set taking over whenever it
-     * does not get to the end, or "energy-ordered" for this one alone. Another name is a UserError.
+     * does not get to the end, or "energy-ordered" to begin with this one. Where this one misses
+     * the tolerance, Newton's method tries from the set that it found. Another name is a UserError.
      */
     explicit ComplementaritySolver(
         const std::string &method = "semismooth Newton",

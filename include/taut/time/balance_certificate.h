@@ -46,8 +46,8 @@ namespace taut
     /// Body of the largest residual.
     std::size_t worst_body() const { return worst; }
 
-    /// True if no residual of this rank's bodies is more than the rounding of |K||dU|, the way that
-    /// the step took to where it ends.
+    /// True if no residual of this rank's bodies is more than 1e-10 of its terms and of |K||dU|,
+    /// the way that the step took to where it ends: what may be its rounding.
     bool is_way() const { return may_be_way; }
 
   private:

@@ -18,8 +18,8 @@ namespace taut
     double complementarity = 0.;
     std::size_t worst_row = 0;
 
-    /// Largest residual of the equation of motion of a body, over |P| + |B N| + |K||U| + |C||V| +
-    /// |M||dU|/step^2; with mean forces |K||dU| besides.
+    /// Largest residual of the equation of motion of a body, over |P| + max_i |B_i N_i| + |K U_ref|
+    /// + |K||U| + |C||V| + |M||dU|/step^2; with mean forces |K||dU| besides.
     double balance = 0.;
     std::size_t worst_body = 0; ///< of this rank
 
@@ -28,7 +28,7 @@ namespace taut
     double drift = 0.;
 
     unsigned int iterations = 0; ///< of the complementarity solver
-    bool fallback = false;       ///< the energy-ordered active set finished the step
+    bool fallback = false;       ///< the method that was not chosen finished the step
 
     /// The larger of both; not-a-number if one is.
     double max() const
