@@ -43,7 +43,7 @@ namespace taut
     Scene prepare_contacts(Scene scene, const Parameters &parameters)
     {
       if (parameters.chooses_contact_mass())
-        take_contact_mass(scene, parameters.step);
+        take_contact_mass(scene, parameters.solver, parameters.step);
       return scene;
     }
   } // namespace
@@ -258,6 +258,13 @@ namespace taut
     // The entry itself: as part of a scheme that is not taken it need not make sense.
     const double restitution =
         dealii::Utilities::string_to_double(parameters.values().at("Time/Moreau-Jean/Restitution"));
+    std::vector<std::size_t> massless;
+    for (std::size_t i = 0; i < links.size(); ++i)
+      if (!links[i].is_cut() && is_massless(model.links[links[i].link]))
+        massless.push_back(i);
+    if (!massless.empty())
+      log << "Massless contact: nodes of wires under " << links.names(massless)
+          << " gave their mass to their neighbours\n";
     std::string name = parameters.scheme;
     if (name == "automatic")
     {

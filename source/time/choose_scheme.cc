@@ -45,13 +45,6 @@ namespace taut
       return link.from.kind == Attachment::Kind::wire || link.to.kind == Attachment::Kind::wire;
     }
 
-    /// True if the wire's node under a rigid link carries no mass: its force then is that of the
-    /// elements beside it.
-    bool is_massless(const Link &link)
-    {
-      return link.contact_mass != ContactMass::stays && is_on_wire(link);
-    }
-
     /// True if the wires at a link are bars or strings whose waves cross at most four elements a
     /// step: the elements beside a node without mass then are a spring that no scheme rings on.
     bool is_springy(const Scene &scene, const CourantNumbers &courant, const Link &link)
@@ -114,6 +107,40 @@ namespace taut
       return result;
     }
 
+    /// The exactly rigid one-sided links, if nodes without mass suit all of them; otherwise none.
+    std::vector<std::size_t> find_springy_stops(const Scene &scene, const double step)
+    {
+      const CourantNumbers courant(scene, step);
+      bool carries_fronts = true;
+      std::vector<std::size_t> stops;
+      std::vector<std::pair<std::size_t, std::size_t>> nodes; // wire and node
+      for (std::size_t i = 0; i < scene.links.size(); ++i)
+      {
+        const Link &link = scene.links[i];
+        if (!link.unilateral() || !link.rigid() || link.axial_stiffness != 0.)
+          continue;
+        if (link.kind != LinkKind::stop || !is_on_wire(link) || !is_springy(scene, courant, link))
+          return {};
+        for (const Attachment *end : {&link.from, &link.to})
+          if (end->kind == Attachment::Kind::wire)
+          {
+            if (courant.n_elements(end->index) < 2)
+              return {};
+            nodes.emplace_back(end->index, courant.node(*end));
+            carries_fronts = carries_fronts && is_one(courant.at(link, *end)) &&
+                             scene.wires[end->index].mass_matrix == MassMatrix::reduced;
+          }
+        stops.push_back(i);
+      }
+      std::sort(nodes.begin(), nodes.end());
+      const bool are_close =
+          std::adjacent_find(nodes.begin(), nodes.end(),
+                             [](const auto &a, const auto &b) {
+                               return a.first == b.first && b.second - a.second < 2;
+                             }) != nodes.end();
+      return carries_fronts || are_close ? std::vector<std::size_t>() : stops;
+    }
+
     bool may_fail(const TimeIntegrator &integrator)
     {
       for (const MassMatrix matrix :
@@ -130,6 +157,11 @@ namespace taut
         if (rows[i].unilateral)
           return true;
       return false;
+    }
+
+    SchemeChoice smooth(const std::string &reason)
+    {
+      return {"generalised-alpha", {{"Spectral radius", "0.8"}}, reason};
     }
 
     SchemeChoice impulses(const std::string &reason)
@@ -158,13 +190,19 @@ namespace taut
     {
       const auto all = [&](const auto &property)
       { return std::all_of(rigid.begin(), rigid.end(), property); };
-      const auto lumped =
-          std::find_if(rigid.begin(), rigid.end(),
-                       [](const RigidContact &c) { return !c.on_wire && c.exactly_rigid; });
-      if (lumped != rigid.end())
+      const auto between_masses = std::find_if(rigid.begin(), rigid.end(),
+                                               [](const RigidContact &c) { return !c.on_wire; });
+      if (between_masses != rigid.end())
       {
-        const std::string reason = "masses collide at the rigid one-sided link '" +
-                                   rows[lumped->row].name + "', and other schemes let them rebound";
+        const std::string name = "'" + rows[between_masses->row].name + "'";
+        if (!between_masses->exactly_rigid)
+          return {"backward Euler",
+                  {},
+                  "masses collide at one-sided link " + name +
+                      ", stiffer than the step resolves, and other schemes let them rebound at "
+                      "random; without its Stiffness, Moreau-Jean would suit"};
+        const std::string reason = "masses collide at the rigid one-sided link " + name +
+                                   ", and other schemes let them rebound";
         if (all([](const RigidContact &c)
                 { return c.exactly_rigid && c.matrix != MassMatrix::reduced; }) &&
             std::none_of(scene.links.begin(), scene.links.end(), is_massless))
@@ -191,7 +229,7 @@ namespace taut
              << " elements a step";
       if (worst.courant.least >= (1. - rounding) * preferred_courant_number)
         return {"BDF2", {}, reason.str()};
-      if (all([](const RigidContact &c) { return c.on_beam || !c.on_wire; }))
+      if (all([](const RigidContact &c) { return c.on_beam; }))
         return {"generalised-alpha",
                 {{"Spectral radius", "0"}},
                 reason.str() + ", and bend what they cross"};
@@ -199,39 +237,29 @@ namespace taut
     }
   } // namespace
 
-  void take_contact_mass(Scene &scene, const double step)
+  bool is_massless(const Link &link)
   {
-    const CourantNumbers courant(scene, step);
-    bool carries_fronts = true;
-    std::vector<Link *> stops;
-    std::vector<std::pair<std::size_t, std::size_t>> nodes; // wire and node
-    for (Link &link : scene.links)
-    {
-      if (!link.unilateral() || !link.rigid() || link.axial_stiffness != 0.)
-        continue;
-      if (link.kind != LinkKind::stop || !is_on_wire(link) || !is_springy(scene, courant, link))
-        return;
-      for (const Attachment *end : {&link.from, &link.to})
-        if (end->kind == Attachment::Kind::wire)
-        {
-          if (courant.n_elements(end->index) < 2)
-            return;
-          nodes.emplace_back(end->index, courant.node(*end));
-          carries_fronts = carries_fronts && is_one(courant.at(link, *end)) &&
-                           scene.wires[end->index].mass_matrix == MassMatrix::reduced;
-        }
-      stops.push_back(&link);
-    }
-    std::sort(nodes.begin(), nodes.end());
-    const bool are_close =
-        std::adjacent_find(nodes.begin(), nodes.end(),
-                           [](const auto &a, const auto &b) {
-                             return a.first == b.first && b.second - a.second < 2;
-                           }) != nodes.end();
-    if (carries_fronts || are_close)
+    return link.contact_mass != ContactMass::stays && is_on_wire(link);
+  }
+
+  void take_contact_mass(Scene &scene, const SolverParameters &parameters, const double step)
+  {
+    const std::vector<std::size_t> stops = find_springy_stops(scene, step);
+    if (stops.empty())
       return;
-    for (Link *link : stops)
-      link->contact_mass = ContactMass::keeps_total;
+    Scene lighter = scene;
+    for (const std::size_t i : stops)
+      lighter.links[i].contact_mass = ContactMass::keeps_total;
+    // Links with a stiffness may act as rigid, too: that depends on the bodies.
+    if (std::any_of(lighter.links.begin(), lighter.links.end(),
+                    [](const Link &link) { return link.unilateral() && !is_massless(link); }))
+    {
+      const Structure structure(lighter);
+      const ContactRows rows(lighter, structure);
+      if (!find_rigid_contacts(lighter, structure, rows, parameters, step).empty())
+        return;
+    }
+    scene = std::move(lighter);
   }
 
   SchemeChoice choose_scheme(const Scene &scene, const Structure &structure,
@@ -239,7 +267,7 @@ namespace taut
                              const double step, const double restitution)
   {
     if (!has_one_sided_rows(rows) && !(restitution > 0.))
-      return {"generalised-alpha", {}, "no one-sided links"};
+      return smooth("no one-sided links");
     const std::vector<RigidContact> rigid =
         find_rigid_contacts(scene, structure, rows, parameters, step);
     if (restitution > 0.)
@@ -249,16 +277,15 @@ namespace taut
 
     const std::vector<Link> &links = scene.links;
     if (std::none_of(links.begin(), links.end(), is_massless))
-      return {"generalised-alpha",
-              {},
-              "all one-sided links are more compliant than the bodies in one step"};
+      return smooth("all one-sided links are more compliant than the bodies in one step");
     const CourantNumbers courant(scene, step);
-    const bool springy = std::all_of(
-        links.begin(), links.end(),
-        [&](const Link &link) { return !is_massless(link) || is_springy(scene, courant, link); });
-    return {springy ? "generalised-alpha" : "BDF2",
-            {},
-            "nodes of wires at rigid one-sided links gave their mass to their neighbours"};
+    const std::string reason =
+        "nodes of wires at rigid one-sided links gave their mass to their neighbours";
+    if (std::all_of(links.begin(), links.end(),
+                    [&](const Link &link)
+                    { return !is_massless(link) || is_springy(scene, courant, link); }))
+      return smooth(reason);
+    return {"BDF2", {}, reason};
   }
 
   void check_scheme(const TimeIntegrator &integrator, const Scene &scene,

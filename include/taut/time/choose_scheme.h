@@ -19,14 +19,19 @@ namespace taut
     std::string reason;
   };
 
+  /// True if the wire's node under a rigid link carries no mass: its force then is that of the
+  /// elements beside it.
+  bool is_massless(const Link &link);
+
   /**
    * Takes the mass from the nodes of wires at rigid stops, as Massless contact = mass does, if that
-   * was measured to be best at a step [s] (doc/accuracy.md, "What automatic chooses"): if all rigid
+   * was measured to be best at a step [s] (doc/accuracy.md, "What automatic chooses"): if the rigid
    * one-sided links of the scene are such stops, on bars or strings, at least two elements apart,
-   * whose fastest waves cross at most four elements a step; not if they cross just one on reduced
-   * mass matrices, where Moreau-Jean with conditions on gaps is exact.
+   * whose fastest waves cross at most four elements a step, and no link with a stiffness acts as
+   * rigid; not if waves cross just one element on reduced mass matrices, where Moreau-Jean with
+   * conditions on gaps is exact. Throws an EntryError if a body cannot be factored.
    */
-  void take_contact_mass(Scene &scene, double step);
+  void take_contact_mass(Scene &scene, const SolverParameters &parameters, double step);
 
   /**
    * The scheme that suits the rows of a scene at a step [s]. A one-sided row behaves as compliant
