@@ -73,8 +73,7 @@ namespace taut
                                                              const StepForces &forces,
                                                              const bool has_impulses, State &state)
   {
-    const double kappa = c.alpha_f / (1. - c.alpha_f), old = c.alpha_m / (1. - c.alpha_f),
-                 now = (1. - c.alpha_m) / (1. - c.alpha_f);
+    const double kappa = c.old_balance(), old = c.old_inertia(), now = c.new_inertia();
     const Substructure &body = structure[k];
     const std::size_t n = body.n_dofs(), at_once = body.mass().block_size() == 0 ? n : tile;
     const double *A = state.A[k].data(), *A0 = forces.old_A[k].data(),

@@ -11,8 +11,8 @@ namespace taut
   bool TimeStepper::refine()
   {
     const StepCoefficients &c = coefficients;
-    const double kappa = c.alpha_f / (1. - c.alpha_f);
-    const double old = c.alpha_m / (1. - c.alpha_f), now = (1. - c.alpha_m) / (1. - c.alpha_f);
+    const double kappa = c.old_balance();
+    const double old = c.old_inertia(), now = c.new_inertia();
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       const Substructure &body = structure[k];

@@ -176,8 +176,8 @@ namespace taut
       set_external_force(k);
     solvers.remove_rounding(k, current.KU[k], current.balance[k]);
 
-    const double kappa = c.alpha_f / (1. - c.alpha_f);
-    const double old = c.alpha_m / (1. - c.alpha_f), now = (1. - c.alpha_m) / (1. - c.alpha_f);
+    const double kappa = c.old_balance();
+    const double old = c.old_inertia(), now = c.new_inertia();
     const double *A = current.A[k].data(), *p = forces.P[k].data(), *KU = current.KU[k].data(),
                  *r = current.balance[k].data();
     double *v = work_v.data(), *m = work_a.data(), *R = right_hand_side[k].data();

@@ -41,8 +41,13 @@ namespace taut
     bool velocity_level = false; ///< for rigid one-sided rows; needs mean_force
     double restitution = 0.;     ///< Newton's, of one-sided rows at velocity level [1]
 
-    /// Factor of M in A, after division by 1 - alpha_f [1/s^2]; C has `velocity`, K has 1.
-    double mass_factor() const { return (1. - alpha_m) / (1. - alpha_f) * acceleration; }
+    /// Weights of M A, M A0 and r0 in the equation of motion after division by 1 - alpha_f [1].
+    double new_inertia() const { return (1. - alpha_m) / (1. - alpha_f); }
+    double old_inertia() const { return alpha_m / (1. - alpha_f); }
+    double old_balance() const { return alpha_f / (1. - alpha_f); }
+
+    /// Factor of M in A, after that division [1/s^2]; C has `velocity`, K has 1.
+    double mass_factor() const { return new_inertia() * acceleration; }
 
     /// True if velocity or acceleration need more of the past than V0 and A0.
     bool looks_back() const { return v_dU != 0. || a_dU != 0. || a_V_old != 0.; }
