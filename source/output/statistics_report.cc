@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/exceptions.h>
+#include <taut/base/write_file.h>
 #include <taut/output/statistics.h>
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <fstream>
 #include <iomanip>
 #include <ostream>
 #include <sstream>
@@ -199,11 +198,6 @@ namespace taut
         {"steps", n_steps},
         {"active-set iterations a step", n_steps > 0 ? double(n_iterations) / n_steps : 0.},
         {"fallbacks", n_fallbacks}};
-    std::ofstream file(path);
-    file << root.dump(2) << '\n';
-    file.close();
-    if (!file)
-      throw UserError("cannot write '" + path +
-                      "': check that its folder is writable and the disk not full");
+    write_file(path, root.dump(2));
   }
 } // namespace taut

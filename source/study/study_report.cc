@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/exceptions.h>
 #include <taut/base/version.h>
+#include <taut/base/write_file.h>
 #include <taut/output/csv_file.h>
 #include <taut/simulation/stored_study.h>
 #include <taut/study/study_report.h>
@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <fstream>
 #include <iomanip>
 #include <limits>
 #include <ostream>
@@ -244,11 +243,6 @@ namespace taut
       }
       root["settings"].push_back(entry);
     }
-    std::ofstream out(path);
-    out << root.dump(2) << '\n';
-    out.close();
-    if (!out)
-      throw UserError("cannot write '" + path +
-                      "': check that its folder is writable and the disk not full");
+    write_file(path, root.dump(2));
   }
 } // namespace taut
