@@ -121,6 +121,48 @@ namespace taut
     }
   }
 
+  double ContactRows::share_of_convection(const std::size_t i, const double t,
+                                          const BlockVector &reference, const BlockVector &U) const
+  {
+    const Link &link = scene.links[rows[i].link];
+    Attachment to = link.to;
+    to.position = position(i, t);
+    std::vector<Term> slope;
+    structure.slope(to, link.direction, link.speed, slope);
+    return evaluate(slope, reference) + evaluate(slope, U);
+  }
+
+  double ContactRows::profile_rate(const std::size_t i, const double t, const double step) const
+  {
+    const Link &link = scene.links[rows[i].link];
+    if (link.profile.is_zero())
+      return 0.;
+    // Central differences of fourth order: their error is below rounding of what a step resolves.
+    const double delta = 1e-2 * step;
+    const auto height = [&](const double time) { return link.profile(position(i, time), time); };
+    return (8. * (height(t + delta) - height(t - delta)) -
+            (height(t + 2. * delta) - height(t - 2. * delta))) /
+           (12. * delta);
+  }
+
+  std::vector<char> ContactRows::without_mass() const
+  {
+    std::vector<double> count(rows.size(), 0.);
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      const std::vector<unsigned int> dofs = structure[k].dofs_without_mass();
+      for (std::size_t e = 0, i = 0; e < begin[fixed]; ++e)
+      {
+        while (e >= begin[i + 1])
+          ++i;
+        if (entries[e].body == k && entries[e].value != 0.)
+          count[i] += std::binary_search(dofs.begin(), dofs.end(), entries[e].dof);
+      }
+    }
+    structure.communicator().sum(count);
+    return {count.begin(), count.end()};
+  }
+
   std::vector<double> ContactRows::motions(const BlockVector &U) const
   {
     std::vector<double> result(rows.size());

@@ -43,7 +43,8 @@ namespace taut
     Scene prepare_contacts(Scene scene, const Parameters &parameters)
     {
       if (parameters.chooses_contact_mass())
-        take_contact_mass(scene, parameters.solver, parameters.step);
+        take_contact_mass(scene, parameters.solver,
+                          parameters.step_parameters.shortest(parameters.step));
       return scene;
     }
   } // namespace
@@ -255,6 +256,7 @@ namespace taut
 
   const TimeIntegrator &Simulation::choose_integrator()
   {
+    const double step = parameters.step_parameters.shortest(parameters.step);
     // The entry itself: as part of a scheme that is not taken it need not make sense.
     const double restitution =
         dealii::Utilities::string_to_double(parameters.values().at("Time/Moreau-Jean/Restitution"));
@@ -269,7 +271,7 @@ namespace taut
     if (name == "automatic")
     {
       const SchemeChoice choice =
-          choose_scheme(model, bodies, links, parameters.solver, parameters.step, restitution);
+          choose_scheme(model, bodies, links, parameters.solver, step, restitution);
       chosen_integrator = parameters.integrator(choice.name, choice.entries);
       log << "Scheme (automatic): " << chosen_integrator->description() << ", because "
           << choice.reason << '\n';
@@ -277,10 +279,11 @@ namespace taut
     }
     const TimeIntegrator &integrator = parameters.integrator(name);
     log << "Scheme: " << integrator.description() << '\n';
-    if (restitution > 0. && integrator.coefficients(parameters.step).restitution == 0.)
+    if (restitution > 0. && integrator.coefficients(step).restitution == 0.)
       log << "  it has no restitution: Time/Moreau-Jean/Restitution is not used\n";
+    check_mass(integrator, bodies, step);
     if (!parameters.allow_unsuitable_scheme)
-      check_scheme(integrator, model, bodies, links, parameters.solver, parameters.step);
+      check_scheme(integrator, bodies, links, parameters.solver, step);
     return integrator;
   }
 

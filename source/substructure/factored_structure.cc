@@ -90,8 +90,10 @@ namespace taut
 
   std::vector<ScaledMatrix> FactoredStructure::summands(const std::size_t k) const
   {
-    if (is_static)
+    if (kind == Kind::stiffness)
       return {{1., &bodies[k].stiffness()}};
+    if (kind == Kind::mass)
+      return {{1., &bodies[k].mass()}};
     return {{mass_factor, &bodies[k].mass()},
             {damping_factor, &bodies[k].damping()},
             {1., &bodies[k].stiffness()}};
@@ -152,7 +154,7 @@ namespace taut
   {
     mass_factor = mass;
     damping_factor = damping;
-    is_static = false;
+    kind = Kind::step;
     for (std::size_t k = 0; k < solvers.size(); ++k)
       factor_body(k, use_amplitudes);
   }
@@ -292,13 +294,28 @@ namespace taut
 
   void FactoredStructure::factor_stiffness(const std::vector<Substructure::Kernel> &kernels)
   {
-    is_static = true;
+    kind = Kind::stiffness;
     motions.assign(solvers.size(), {});
     for (std::size_t k = 0; k < solvers.size(); ++k)
     {
       const auto held = with_springs(bodies[k].stiffness(), kernels[k].fixing_dofs);
       factor(k, *solvers[k], {{1., held.get()}}, bodies[k].constrained_dofs());
       check_digits(k, lost_digits(k, *solvers[k], {{1., held.get()}}));
+    }
+  }
+
+  void FactoredStructure::factor_mass()
+  {
+    kind = Kind::mass;
+    motions.assign(solvers.size(), {});
+    for (std::size_t k = 0; k < solvers.size(); ++k)
+    {
+      std::vector<unsigned int> held = bodies[k].constrained_dofs();
+      const std::vector<unsigned int> without_mass = bodies[k].dofs_without_mass();
+      held.insert(held.end(), without_mass.begin(), without_mass.end());
+      std::sort(held.begin(), held.end());
+      held.erase(std::unique(held.begin(), held.end()), held.end());
+      factor(k, *solvers[k], summands(k), held);
     }
   }
 
@@ -318,7 +335,7 @@ namespace taut
     std::sort(all.begin(), all.end());
     all.erase(std::unique(all.begin(), all.end()), all.end());
     auto solver = make_local_solver(solver_name, bodies[k].stiffness());
-    if (is_static || !motions[k].vectors.empty())
+    if (kind == Kind::stiffness || !motions[k].vectors.empty())
     {
       const Substructure::Kernel kernel = bodies[k].kernel();
       if (!are_held(kernel.vectors, held))

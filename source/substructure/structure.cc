@@ -175,8 +175,9 @@ namespace taut
     return U;
   }
 
-  void Structure::motion(const Attachment &point, const bool rotational, const Point &direction,
-                         const double factor, std::vector<Term> &terms) const
+  void Structure::append_motion(const Attachment &point, const bool rotational,
+                                const Point &direction, const double factor, const bool derivative,
+                                std::vector<Term> &terms) const
   {
     const auto append = [&](const std::size_t k, const double f, SparseVector form)
     {
@@ -214,14 +215,21 @@ namespace taut
         append(parts.transverse[p], factor, form);
         return;
       }
+      const auto evaluate = [&](const std::size_t k)
+      {
+        if (derivative)
+          wire(k).slope_at(point.position, form);
+        else
+          wire(k).value_at(point.position, form);
+      };
       if (has_axial && along != 0.)
       {
-        wire(parts.axial[p]).value_at(point.position, form);
+        evaluate(parts.axial[p]);
         append(parts.axial[p], factor * along, form);
       }
       if (has_transverse && across != 0.)
       {
-        wire(parts.transverse[p]).value_at(point.position, form);
+        evaluate(parts.transverse[p]);
         append(parts.transverse[p], factor * across, form);
       }
     }

@@ -7,6 +7,22 @@
 
 namespace taut
 {
+  std::vector<unsigned int> Substructure::dofs_without_mass() const
+  {
+    std::vector<char> has_mass(n_dofs(), 0);
+    M->visit(
+        [&](const unsigned int i, const unsigned int j, const double value)
+        {
+          if (value != 0.)
+            has_mass[i] = has_mass[j] = 1;
+        });
+    std::vector<unsigned int> result;
+    for (unsigned int i = 0; i < has_mass.size(); ++i)
+      if (!has_mass[i])
+        result.push_back(i);
+    return result;
+  }
+
   std::vector<unsigned int> Substructure::constrained_dofs() const
   {
     std::vector<unsigned int> dofs;

@@ -93,6 +93,7 @@ namespace taut
     bends_freely = beam && wire.tension == 0.;
     degree = beam ? 3 : wire.degree;
     dofs_per_node = beam ? 2 : degree;
+    mass_matrix = wire.mass_matrix;
     start = motion == WireMotion::axial ? wire.axial_start : wire.transverse_start;
     discretisation = std::make_unique<Discretisation>(wire, nodes, beam, degree);
 

@@ -8,110 +8,79 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 namespace taut
 {
   namespace
   {
-    /// Elements a step from which on BDF2 is the better choice at rigid links; from its own
-    /// least_courant_number() on it is merely not refused.
-    constexpr double preferred_courant_number = .25;
+    /// Elements a step up to which the elements beside a node without mass are a spring that no
+    /// scheme rings on (measured on the bar that hits a wall, doc/accuracy.md).
+    constexpr double most_courant_number = 4. * (1. + 1e-6);
 
-    /// Elements a step up to which nodes without mass were measured.
-    constexpr double most_courant_number = 4.;
-
-    /// Of elements that shall be equal, and of steps written in decimals.
-    constexpr double rounding = 1e-6;
-
-    bool is_one(const CourantRange &courant)
-    {
-      return courant.least > 1. - rounding && courant.most < 1. + rounding;
-    }
-
-    /// An end on a wire of a one-sided row that acts as rigid, or such a row without wires.
-    struct RigidContact
-    {
-      std::size_t row;
-      CourantRange courant;
-      MassMatrix matrix;
-      bool exactly_rigid;
-      bool on_wire, on_beam;
-    };
+    /// Part of itself that the error of a rigid constraint's force may keep from step to step: with
+    /// this one it is below a thousandth after ten steps.
+    constexpr double most_ringing = .5;
 
     bool is_on_wire(const Link &link)
     {
       return link.from.kind == Attachment::Kind::wire || link.to.kind == Attachment::Kind::wire;
     }
 
-    /// True if the wires at a link are bars or strings whose waves cross at most four elements a
-    /// step: the elements beside a node without mass then are a spring that no scheme rings on.
-    bool is_springy(const Scene &scene, const CourantNumbers &courant, const Link &link)
+    /// B^T A^-1 B of the one-sided rows, 0 for the others.
+    std::vector<double> flexibilities(const Structure &structure, const ContactRows &rows,
+                                      const SolverParameters &parameters, const StepCoefficients &c)
     {
-      for (const Attachment *end : {&link.from, &link.to})
-        if (end->kind == Attachment::Kind::wire &&
-            (link.rotational || bends(scene.wires[end->index], link.direction) ||
-             !(courant.at(link, *end).most <= (1. + rounding) * most_courant_number)))
-          return false;
-      return true;
-    }
-
-    std::vector<RigidContact> find_rigid_contacts(const Scene &scene, const Structure &structure,
-                                                  const ContactRows &rows,
-                                                  const SolverParameters &parameters,
-                                                  const double step)
-    {
-      const StepCoefficients c = generalised_alpha(step, .8);
       FactoredStructure solvers(structure, parameters.local_solver);
       const Communicator &processes = structure.communicator();
       processes.agree([&] { solvers.factor(c.mass_factor(), c.velocity); });
-      std::vector<double> flexibility(rows.size(), 0.);
+      std::vector<double> result(rows.size(), 0.);
       for (std::size_t i = 0; i < rows.size(); ++i)
         for (const Term &term : rows[i].terms)
           if (rows[i].unilateral)
           {
-            flexibility[i] += solvers[term.substructure].flexibility(term.form);
+            result[i] += solvers[term.substructure].flexibility(term.form);
             const auto &motions = solvers.free_motions()[term.substructure];
             for (std::size_t v = 0; v < motions.vectors.size(); ++v)
             {
               const double motion = term.form.dot(motions.vectors[v]);
-              flexibility[i] += motion * motion / motions.resistance[v];
+              result[i] += motion * motion / motions.resistance[v];
             }
           }
-      processes.sum(flexibility);
-
-      const CourantNumbers courant(scene, step);
-      constexpr double infinity = std::numeric_limits<double>::infinity();
-      std::vector<RigidContact> result;
-      for (std::size_t i = 0; i < rows.size(); ++i)
-      {
-        if (!rows[i].unilateral)
-          continue;
-        const Link &link = scene.links[rows[i].link];
-        const double compliance = 1. / (rows[i].stiffness + c.velocity * rows[i].damping);
-        if (compliance >= flexibility[i] || is_massless(link))
-          continue;
-        const bool exactly_rigid = compliance == 0.;
-        for (const Attachment *end : {&link.from, &link.to})
-          if (end->kind == Attachment::Kind::wire)
-          {
-            const Wire &wire = scene.wires[end->index];
-            result.push_back({i, courant.at(link, *end), wire.mass_matrix, exactly_rigid, true,
-                              link.rotational || bends(wire, link.direction)});
-          }
-        if (!is_on_wire(link))
-          result.push_back(
-              {i, {infinity, infinity}, MassMatrix::lumped, exactly_rigid, false, false});
-      }
+      processes.sum(result);
       return result;
     }
 
-    /// The exactly rigid one-sided links, if nodes without mass suit all of them; otherwise none.
+    /// One-sided rows that act as rigid at a step [s]: less compliant than the bodies in one step.
+    /// One on DoFs without mass is as compliant as the elements beside them.
+    std::vector<std::size_t> rigid_rows(const Structure &structure, const ContactRows &rows,
+                                        const SolverParameters &parameters, const double step)
+    {
+      const auto is_unilateral = [&]()
+      {
+        for (std::size_t i = 0; i < rows.size(); ++i)
+          if (rows[i].unilateral)
+            return true;
+        return false;
+      };
+      std::vector<std::size_t> result;
+      if (!is_unilateral())
+        return result;
+      const StepCoefficients c = generalised_alpha(step, .8);
+      const std::vector<double> flexibility = flexibilities(structure, rows, parameters, c);
+      const std::vector<char> without_mass = rows.without_mass();
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        if (rows[i].unilateral && !without_mass[i] &&
+            1. / (rows[i].stiffness + c.velocity * rows[i].damping) < flexibility[i])
+          result.push_back(i);
+      return result;
+    }
+
+    /// The exactly rigid one-sided links, if nodes without mass suit all of them: stops on bars or
+    /// strings, two elements apart, whose waves are slow enough; otherwise none.
     std::vector<std::size_t> find_springy_stops(const Scene &scene, const double step)
     {
       const CourantNumbers courant(scene, step);
-      bool carries_fronts = true;
       std::vector<std::size_t> stops;
       std::vector<std::pair<std::size_t, std::size_t>> nodes; // wire and node
       for (std::size_t i = 0; i < scene.links.size(); ++i)
@@ -119,17 +88,18 @@ namespace taut
         const Link &link = scene.links[i];
         if (!link.unilateral() || !link.rigid() || link.axial_stiffness != 0.)
           continue;
-        if (link.kind != LinkKind::stop || !is_on_wire(link) || !is_springy(scene, courant, link))
+        if (link.kind != LinkKind::stop || !is_on_wire(link))
           return {};
         for (const Attachment *end : {&link.from, &link.to})
-          if (end->kind == Attachment::Kind::wire)
-          {
-            if (courant.n_elements(end->index) < 2)
-              return {};
-            nodes.emplace_back(end->index, courant.node(*end));
-            carries_fronts = carries_fronts && is_one(courant.at(link, *end)) &&
-                             scene.wires[end->index].mass_matrix == MassMatrix::reduced;
-          }
+        {
+          if (end->kind != Attachment::Kind::wire)
+            continue;
+          if (link.rotational || bends(scene.wires[end->index], link.direction) ||
+              !(courant.at(link, *end) <= most_courant_number) ||
+              courant.n_elements(end->index) < 2)
+            return {};
+          nodes.emplace_back(end->index, courant.node(*end));
+        }
         stops.push_back(i);
       }
       std::sort(nodes.begin(), nodes.end());
@@ -138,102 +108,40 @@ namespace taut
                              [](const auto &a, const auto &b) {
                                return a.first == b.first && b.second - a.second < 2;
                              }) != nodes.end();
-      return carries_fronts || are_close ? std::vector<std::size_t>() : stops;
+      return are_close ? std::vector<std::size_t>() : stops;
     }
 
-    bool may_fail(const TimeIntegrator &integrator)
-    {
-      for (const MassMatrix matrix :
-           {MassMatrix::consistent, MassMatrix::lumped, MassMatrix::reduced})
-        for (const bool rigid : {true, false})
-          if (integrator.least_courant_number(matrix, rigid) > 0.)
-            return true;
-      return false;
-    }
-
-    bool has_one_sided_rows(const ContactRows &rows)
-    {
-      for (std::size_t i = 0; i < rows.size(); ++i)
-        if (rows[i].unilateral)
-          return true;
-      return false;
-    }
-
-    SchemeChoice smooth(const std::string &reason)
-    {
-      return {"generalised-alpha", {{"Spectral radius", "0.8"}}, reason};
-    }
-
-    SchemeChoice impulses(const std::string &reason)
-    {
-      return {"Moreau-Jean", {{"Theta", "0.5"}, {"Conditions", "velocities"}}, reason};
-    }
-
-    SchemeChoice choose_for_restitution(const Scene &scene, const ContactRows &rows,
-                                        const std::vector<RigidContact> &rigid)
+    void check_restitution(const ContactRows &rows, const std::vector<std::size_t> &rigid,
+                           const Scene &scene)
     {
       const std::string entry = "Time/Moreau-Jean/Restitution";
-      for (std::size_t i = 0; i < rows.size(); ++i)
-        if (rows[i].unilateral && is_on_wire(scene.links[rows[i].link]))
+      bool has_one = false;
+      for (const std::size_t i : rigid)
+      {
+        if (!std::isinf(rows[i].stiffness))
+          continue;
+        has_one = true;
+        if (is_on_wire(scene.links[rows[i].link]))
           throw EntryError(entry, "a wire rebounds by its own waves, and with restitution its node "
-                                  "would bounce at link '" +
+                                  "would bounce at the rigid link '" +
                                       rows[i].name + "'. Set it to 0");
-      if (rigid.empty() || !std::all_of(rigid.begin(), rigid.end(),
-                                        [](const RigidContact &c) { return c.exactly_rigid; }))
+      }
+      if (!has_one)
         throw EntryError(entry, "restitution is a law of rigid one-sided links, and the scene has "
-                                "others or none. Set it to 0, or remove their Stiffness");
-      return impulses("only it knows the restitution asked for");
+                                "none. Set it to 0, or remove the Stiffness of a link");
     }
 
-    SchemeChoice choose_for_rigid(const Scene &scene, const ContactRows &rows,
-                                  const std::vector<RigidContact> &rigid)
+    /// Name of a body whose mass matrix cannot be inverted; empty: none.
+    std::string body_without_definite_mass(const Structure &structure)
     {
-      const auto all = [&](const auto &property)
-      { return std::all_of(rigid.begin(), rigid.end(), property); };
-      const auto between_masses = std::find_if(rigid.begin(), rigid.end(),
-                                               [](const RigidContact &c) { return !c.on_wire; });
-      if (between_masses != rigid.end())
-      {
-        const std::string name = "'" + rows[between_masses->row].name + "'";
-        if (!between_masses->exactly_rigid)
-          return {"backward Euler",
-                  {},
-                  "masses collide at one-sided link " + name +
-                      ", stiffer than the step resolves, and other schemes let them rebound at "
-                      "random; without its Stiffness, Moreau-Jean would suit"};
-        const std::string reason = "masses collide at the rigid one-sided link " + name +
-                                   ", and other schemes let them rebound";
-        if (all([](const RigidContact &c)
-                { return c.exactly_rigid && c.matrix != MassMatrix::reduced; }) &&
-            std::none_of(scene.links.begin(), scene.links.end(), is_massless))
-          return impulses(reason);
-        return {"backward Euler", {}, reason};
-      }
-
-      const RigidContact &worst = *std::min_element(rigid.begin(), rigid.end(),
-                                                    [](const RigidContact &a, const RigidContact &b)
-                                                    { return a.courant.least < b.courant.least; });
-      const std::string name = rows[worst.row].name;
-      if (all(
-              [](const RigidContact &c) {
-                return c.exactly_rigid && c.matrix == MassMatrix::reduced && !c.on_beam &&
-                       is_one(c.courant);
-              }))
-        return {"Moreau-Jean",
-                {{"Theta", "0.5"}, {"Conditions", "gaps"}},
-                "with the mass matrix 'reduced', waves cross one element a step, undistorted, at "
-                "the rigid one-sided link '" +
-                    name + "'"};
-      std::ostringstream reason;
-      reason << "one-sided link '" << name << "' acts as rigid; waves cross " << worst.courant.least
-             << " elements a step";
-      if (worst.courant.least >= (1. - rounding) * preferred_courant_number)
-        return {"BDF2", {}, reason.str()};
-      if (all([](const RigidContact &c) { return c.on_beam; }))
-        return {"generalised-alpha",
-                {{"Spectral radius", "0"}},
-                reason.str() + ", and bend what they cross"};
-      return {"backward Euler", {}, reason.str()};
+      double index = -1.;
+      for (std::size_t k = 0; k < structure.size(); ++k)
+        if (!structure[k].has_definite_mass())
+          for (std::size_t b = 0; b < structure.all_bodies().size(); ++b)
+            if (structure.all_bodies()[b].name == structure[k].name())
+              index = b;
+      index = structure.communicator().max(index);
+      return index < 0. ? "" : structure.all_bodies()[static_cast<std::size_t>(index)].name;
     }
   } // namespace
 
@@ -256,7 +164,7 @@ namespace taut
     {
       const Structure structure(lighter);
       const ContactRows rows(lighter, structure);
-      if (!find_rigid_contacts(lighter, structure, rows, parameters, step).empty())
+      if (!rigid_rows(structure, rows, parameters, step).empty())
         return;
     }
     scene = std::move(lighter);
@@ -266,60 +174,70 @@ namespace taut
                              const ContactRows &rows, const SolverParameters &parameters,
                              const double step, const double restitution)
   {
-    if (!has_one_sided_rows(rows) && !(restitution > 0.))
-      return smooth("no one-sided links");
-    const std::vector<RigidContact> rigid =
-        find_rigid_contacts(scene, structure, rows, parameters, step);
+    const std::vector<std::size_t> rigid = rigid_rows(structure, rows, parameters, step);
     if (restitution > 0.)
-      return choose_for_restitution(scene, rows, rigid);
-    if (!rigid.empty())
-      return choose_for_rigid(scene, rows, rigid);
-
-    const std::vector<Link> &links = scene.links;
-    if (std::none_of(links.begin(), links.end(), is_massless))
-      return smooth("all one-sided links are more compliant than the bodies in one step");
-    const CourantNumbers courant(scene, step);
-    const std::string reason =
-        "nodes of wires at rigid one-sided links gave their mass to their neighbours";
-    if (std::all_of(links.begin(), links.end(),
-                    [&](const Link &link)
-                    { return !is_massless(link) || is_springy(scene, courant, link); }))
-      return smooth(reason);
-    return {"BDF2", {}, reason};
+      check_restitution(rows, rigid, scene);
+    if (rigid.empty())
+      return {"generalised-alpha",
+              {{"Spectral radius", "0.8"}},
+              "no one-sided link is stiffer than the bodies in one step"};
+    const std::string reason = "one-sided link '" + rows[rigid.front()].name +
+                               "' acts as rigid: it is stiffer than the bodies in one step";
+    const std::string body = body_without_definite_mass(structure);
+    if (body.empty())
+      return {"Moreau-Jean", {{"Theta", "0.5"}, {"Conditions", "gaps then velocities"}}, reason};
+    if (restitution > 0.)
+      throw EntryError("Time/Moreau-Jean/Restitution",
+                       "restitution needs a mass matrix that can be inverted, and that of body '" +
+                           body + "' is 'reduced'. Set it to 0, or take another Mass matrix");
+    return {"Moreau-Jean",
+            {{"Theta", "0.5"}, {"Conditions", "gaps"}},
+            reason + ", and the mass matrix of '" + body + "', 'reduced', has no inverse"};
   }
 
-  void check_scheme(const TimeIntegrator &integrator, const Scene &scene,
-                    const Structure &structure, const ContactRows &rows,
-                    const SolverParameters &parameters, const double step)
+  void check_scheme(const TimeIntegrator &integrator, const Structure &structure,
+                    const ContactRows &rows, const SolverParameters &parameters, const double step)
   {
-    const std::string anyway = ", or set 'Time/Allow unsuitable scheme'";
     const StepCoefficients c = integrator.coefficients(step);
-    for (const Link &link : scene.links)
-      if (c.velocity_level && c.alpha_f == .5 && is_massless(link))
-        throw EntryError("Time/Massless contact",
-                         "Moreau-Jean with Theta 1/2 never damps the force of a node without mass, "
-                         "here at link '" +
-                             link.name + "'; take Theta > 1/2, another scheme" + anyway);
-    if (!has_one_sided_rows(rows) || !may_fail(integrator))
-      return;
-    for (const RigidContact &contact :
-         find_rigid_contacts(scene, structure, rows, parameters, step))
+    const std::string anyway = ", or set 'Time/Allow unsuitable scheme'";
+    const std::vector<char> without_mass = rows.without_mass();
+    for (std::size_t i = 0; c.velocity_level && i < rows.size(); ++i)
     {
-      const double least = integrator.least_courant_number(contact.matrix, contact.exactly_rigid);
-      if (!(contact.courant.least < (1. - rounding) * least))
-        continue;
-      std::ostringstream out;
-      out << integrator.description() << " fails at one-sided links that act as rigid, here '"
-          << rows[contact.row].name << "'";
-      if (contact.matrix == MassMatrix::reduced)
-        out << " on a wire with the mass matrix 'reduced'";
-      out << ": its forces ring. Waves cross " << contact.courant.least << " elements a step there";
-      if (std::isfinite(least))
-        out << " and would have to cross " << least;
-      out << ". Take 'automatic' or more dissipation, give the link a Stiffness, set "
-             "'Time/Massless contact'"
-          << anyway;
-      throw EntryError("Time/Scheme", out.str());
+      if (without_mass[i] && c.alpha_f == .5)
+        throw EntryError("Time/Massless contact",
+                         "Moreau-Jean with conditions on velocities and Theta 1/2 never damps the "
+                         "force of a node without mass, here at link '" +
+                             rows[i].name + "'; take other Conditions, Theta > 1/2" + anyway);
+      if (rows[i].moving && std::isinf(rows[i].stiffness))
+        throw EntryError("Time/Moreau-Jean/Conditions",
+                         "conditions on velocities let the gap of a moving rigid contact drift, "
+                         "here of '" +
+                             rows[i].name + "'; take 'gaps then velocities'" + anyway);
     }
+    const double ringing = c.ringing();
+    if (c.mean_force || ringing <= most_ringing)
+      return;
+    const std::vector<std::size_t> rigid = rigid_rows(structure, rows, parameters, step);
+    if (rigid.empty())
+      return;
+    std::ostringstream out;
+    out << integrator.description() << " fails at one-sided links that act as rigid, here '"
+        << rows[rigid.front()].name << "': an error of its force keeps " << ringing
+        << " of itself from step to step, so that it rings. Take 'automatic' or more dissipation, "
+           "give the link a Stiffness, set 'Time/Massless contact'"
+        << anyway;
+    throw EntryError("Time/Scheme", out.str());
+  }
+
+  void check_mass(const TimeIntegrator &integrator, const Structure &structure, const double step)
+  {
+    if (!integrator.coefficients(step).velocity_projection)
+      return;
+    const std::string body = body_without_definite_mass(structure);
+    if (!body.empty())
+      throw EntryError("Time/Moreau-Jean/Conditions",
+                       "'gaps then velocities' needs mass matrices that can be inverted, and that "
+                       "of body '" +
+                           body + "' is 'reduced'; take 'gaps', or another Mass matrix");
   }
 } // namespace taut

@@ -42,38 +42,20 @@ namespace taut
     return static_cast<std::size_t>(next - nodes.begin()) - (is_nearer ? 0 : 1);
   }
 
-  CourantRange CourantNumbers::at(const Link &link, const Attachment &end) const
+  double CourantNumbers::at(const Link &link, const Attachment &end) const
   {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    if (end.kind != Attachment::Kind::wire)
-      return {infinity, infinity};
     const Wire &wire = scene.wires[end.index];
     const std::vector<double> &nodes = grids[end.index];
-    std::size_t first = 0, last = n_elements(end.index);
-    if (!link.moving() || &end != &link.to)
-    {
-      const std::size_t middle = node(end);
-      first = middle > 0 ? middle - 1 : middle;
-      last = std::min(middle + 1, last);
-    }
-    double shortest = infinity, longest = 0.;
+    const std::size_t middle = node(end), first = middle > 0 ? middle - 1 : middle,
+                      last = std::min(middle + 1, n_elements(end.index));
+    double shortest = std::numeric_limits<double>::infinity();
     for (std::size_t i = first; i < last; ++i)
-    {
       shortest = std::min(shortest, nodes[i + 1] - nodes[i]);
-      longest = std::max(longest, nodes[i + 1] - nodes[i]);
-    }
-
-    CourantRange range = {infinity, 0.};
-    const auto add = [&](const double slow_squared, const double fast_squared)
-    {
-      range.least = std::min(range.least, std::sqrt(slow_squared) * step / longest);
-      range.most = std::max(range.most, std::sqrt(fast_squared) * step / shortest);
-    };
-    if (wire.has_axial && !link.rotational && has_part(link.direction, wire.tangent()))
-      add(wire.axial_stiffness / wire.mass_per_length, wire.axial_stiffness / wire.mass_per_length);
-    if (wire.transverse != TransverseKind::none &&
-        (link.rotational || has_part(link.direction, wire.normal())))
-      add(transverse_speed_squared(wire, longest), transverse_speed_squared(wire, shortest));
-    return range.least < infinity ? range : CourantRange{infinity, infinity};
+    double speed_squared = 0.;
+    if (wire.has_axial && has_part(link.direction, wire.tangent()))
+      speed_squared = wire.axial_stiffness / wire.mass_per_length;
+    if (wire.transverse != TransverseKind::none && has_part(link.direction, wire.normal()))
+      speed_squared = std::max(speed_squared, transverse_speed_squared(wire, shortest));
+    return std::sqrt(speed_squared) * step / shortest;
   }
 } // namespace taut

@@ -9,12 +9,6 @@
 
 namespace taut
 {
-  /// Elements that the slowest and the fastest waves of a place cross in a step [1].
-  struct CourantRange
-  {
-    double least, most;
-  };
-
   /// How far waves get in a step [s] at the ends of links on wires, on the elements of the grid.
   class CourantNumbers
   {
@@ -22,13 +16,9 @@ namespace taut
     /// @p scene is kept by reference.
     CourantNumbers(const Scene &scene, double step);
 
-    /**
-     * Wave speed times step over element, of the waves that the link's motion starts at one of its
-     * ends: along the wire, across it, or both, the slowest on the longest element beside the end
-     * and the fastest on the shortest one. The end that moves passes all elements of its wire.
-     * Infinite where there is no wire.
-     */
-    CourantRange at(const Link &link, const Attachment &end) const;
+    /// Elements that the fastest waves cross in a step which the link's motion starts at one of its
+    /// ends on a wire: wave speed times step over the shortest element beside the end [1].
+    double at(const Link &link, const Attachment &end) const;
 
     /// Index in grid(scene, wire) of the node nearest to an attachment on a wire.
     std::size_t node(const Attachment &end) const;

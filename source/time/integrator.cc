@@ -4,7 +4,8 @@
 
 #include <deal.II/base/parameter_handler.h>
 
-#include <limits>
+#include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <tuple>
 
@@ -13,9 +14,21 @@ namespace taut
   bool StepCoefficients::operator==(const StepCoefficients &o) const
   {
     return std::tie(velocity, acceleration, v_V, v_A, v_dU, a_V, a_A, a_dU, a_V_old, alpha_m,
-                    alpha_f, mean_force, velocity_level, restitution) ==
+                    alpha_f, mean_force, velocity_level, velocity_projection, restitution) ==
            std::tie(o.velocity, o.acceleration, o.v_V, o.v_A, o.v_dU, o.a_V, o.a_A, o.a_dU,
-                    o.a_V_old, o.alpha_m, o.alpha_f, o.mean_force, o.velocity_level, o.restitution);
+                    o.a_V_old, o.alpha_m, o.alpha_f, o.mean_force, o.velocity_level,
+                    o.velocity_projection, o.restitution);
+  }
+
+  double StepCoefficients::ringing() const
+  {
+    // V = v_V V0 + v_A A0, A = a_V V0 + a_A A0, and N = -old_balance N0 + ...; what the scheme
+    // needs of the steps before is gone after two of them.
+    const double half_trace = .5 * (v_V + a_A), determinant = v_V * a_A - v_A * a_V,
+                 discriminant = half_trace * half_trace - determinant;
+    const double radius = discriminant < 0. ? std::sqrt(determinant)
+                                            : std::fabs(half_trace) + std::sqrt(discriminant);
+    return std::max(radius, std::fabs(old_balance()));
   }
 
   StepCoefficients backward_euler(const double step)
@@ -105,10 +118,16 @@ namespace taut
     return c;
   }
 
+  StepCoefficients gaps_then_velocities(const double step, const double restitution)
+  {
+    StepCoefficients c = moreau_jean(step, .5, restitution);
+    c.velocity_level = false;
+    c.velocity_projection = true;
+    return c;
+  }
+
   namespace
   {
-    constexpr double never = std::numeric_limits<double>::infinity();
-
     class BackwardEuler : public TimeIntegrator
     {
     public:
@@ -127,7 +146,6 @@ namespace taut
       {
         return bdf2(step, last_step);
       }
-      double least_courant_number(MassMatrix, bool) const override { return .1; }
       std::string description() const override { return "BDF2"; }
     };
 
@@ -152,10 +170,6 @@ namespace taut
           throw EntryError("Time/Newmark/Beta",
                            "Newmark is solved for the displacement and needs a positive one");
         return newmark(step, beta, gamma);
-      }
-      double least_courant_number(MassMatrix, bool) const override
-      {
-        return gamma >= .6 ? .25 : never;
       }
       std::string description() const override
       {
@@ -185,10 +199,6 @@ namespace taut
       {
         return generalised_alpha(step, rho);
       }
-      double least_courant_number(MassMatrix, bool) const override
-      {
-        return rho == 0. ? 0. : rho <= .5 ? .5 : rho <= .8 ? 2. : never;
-      }
       std::string description() const override
       {
         std::ostringstream out;
@@ -213,10 +223,6 @@ namespace taut
         prm.leave_subsection();
       }
       StepCoefficients coefficients(const double step) const override { return hht(step, alpha); }
-      double least_courant_number(MassMatrix, bool) const override
-      {
-        return alpha >= .3 ? .5 : alpha >= .1 ? 1. : never;
-      }
       std::string description() const override
       {
         std::ostringstream out;
@@ -245,58 +251,55 @@ namespace taut
                           dealii::Patterns::Double(0., 1.));
         prm.add_parameter(
             "Conditions", conditions,
-            "What rigid one-sided links ask for. 'velocities': no approach at the end of a step in "
-            "which they touch. 'gaps': no penetration at its end, and no restitution; with "
-            "Theta 1/2 for linear elements with the mass matrix 'reduced' and steps of "
-            "element over wave speed, which carry fronts undistorted",
-            dealii::Patterns::Selection("velocities|gaps"));
+            "What rigid links ask for. 'gaps then velocities': no penetration at the end of a "
+            "step, "
+            "and then no approach, by impulses: second order, and a fixed link never gives energy; "
+            "with Theta 1/2 only. 'velocities': no approach at the end of a step in which they "
+            "touch; gaps are open to a step of motion. 'gaps': no penetration at its end, and no "
+            "restitution; with Theta 1/2 for linear elements with the mass matrix 'reduced' and "
+            "steps of element over wave speed, which carry fronts undistorted",
+            dealii::Patterns::Selection("gaps then velocities|velocities|gaps"));
         prm.leave_subsection();
       }
       StepCoefficients coefficients(const double step) const override
       {
-        if (!of_gaps())
+        if (conditions == "velocities")
           return moreau_jean(step, theta, restitution);
+        if (conditions == "gaps then velocities")
+        {
+          if (theta != .5)
+            throw EntryError(
+                "Time/Moreau-Jean/Theta",
+                "conditions on gaps, then velocities, are for Theta 1/2; set it to 0.5, "
+                "or 'Conditions' to 'gaps' or 'velocities'");
+          return gaps_then_velocities(step, restitution);
+        }
         if (restitution > 0.)
           throw EntryError("Time/Moreau-Jean/Restitution",
                            "restitution is a law of velocities; set it to 0, or 'Conditions' to "
-                           "'velocities'");
+                           "'gaps then velocities'");
         return moreau_jean_of_gaps(step, theta);
-      }
-      double least_courant_number(const MassMatrix matrix, const bool exactly_rigid) const override
-      {
-        if (restitution > 0.)
-          return never;
-        constexpr double least_damping_theta = .52;
-        if (theta >= least_damping_theta)
-          return 0.;
-        const bool reduced = matrix == MassMatrix::reduced;
-        if (!exactly_rigid)
-          return never;
-        return of_gaps() ? (reduced ? 1. : never) : (reduced ? never : 0.);
       }
       std::string description() const override
       {
         std::ostringstream out;
-        out << "Moreau-Jean (theta " << theta;
-        if (of_gaps())
-          out << ", gaps)";
-        else
-          out << ", restitution " << restitution << ")";
+        out << "Moreau-Jean (theta " << theta << ", " << conditions;
+        if (conditions != "gaps")
+          out << ", restitution " << restitution;
+        out << ')';
         return out.str();
       }
 
     private:
-      bool of_gaps() const { return conditions == "gaps"; }
-
       double theta = .5, restitution = 0.;
-      std::string conditions = "velocities";
+      std::string conditions = "gaps then velocities";
     };
 
     const Register<TimeIntegrator, BackwardEuler> register_backward_euler(
         "backward Euler", "first order, dissipates; forces of rigid one-sided links never ring");
     const Register<TimeIntegrator, BDF2>
-        register_bdf2("BDF2", "second order, dissipates high frequencies; for rigid one-sided "
-                              "links, best where waves cross a quarter of an element a step");
+        register_bdf2("BDF2", "second order, dissipates high frequencies; at rigid one-sided links "
+                              "bodies rebound at random");
     const Register<TimeIntegrator, Newmark>
         register_newmark("Newmark", "second order at gamma 1/2; for smooth problems, compliant "
                                     "links, and rigid ones with 'Massless contact'");
@@ -305,9 +308,9 @@ namespace taut
                                    "second order, dissipation chosen by the spectral radius; for "
                                    "compliant links, with spectral radius 0 for rigid ones");
     const Register<TimeIntegrator, MoreauJean> register_moreau_jean(
-        "Moreau-Jean", "theta method with impulses: rigid links are conditions on velocities, with "
-                       "restitution, and their gaps are open to a step of motion; for rigid "
-                       "one-sided links and for rigid bodies that bounce");
+        "Moreau-Jean",
+        "theta method with impulses, for rigid one-sided links: conditions on gaps, on "
+        "velocities, or on both, and restitution");
     const Register<TimeIntegrator, HHT>
         register_hht("HHT", "second order, dissipation chosen by alpha; for smooth problems, "
                             "compliant links, and rigid ones with 'Massless contact'");

@@ -13,9 +13,9 @@ namespace taut
       : structure(structure), rows(rows), origin(origin)
   {
     const std::size_t n = rows.size();
-    for (auto *v :
-         {&S, &applied_multiplier, &balanced, &impulses, &link_history, &gap_terms, &gap_correction,
-          &motion, &position, &terms_size, &velocity, &motion_size, &convection, &rates_before})
+    for (auto *v : {&S, &applied_multiplier, &balanced, &impulses, &link_history, &gap_terms,
+                    &gap_correction, &motion, &position, &terms_size, &velocity, &velocity_size,
+                    &rate_of_place, &motion_size, &convection, &rates_before})
       v->assign(n, 0.);
     conditions.unilateral.resize(n);
     conditions.free_gap.resize(n);
@@ -31,6 +31,8 @@ namespace taut
       else if (!origin.gap.empty())
         reference_gap[i] = origin.gap[i];
     }
+    mean.assign(n, 0);
+    without_mass = rows.without_mass();
     add_body_terms(origin.displacement);
     for (std::size_t k = 0; k < structure.size(); ++k)
       supports_move = supports_move || structure[k].has_moving_constraints();
@@ -46,7 +48,11 @@ namespace taut
     amplitude.clear();
     conditions.held_open.assign(c.velocity_level ? rows.size() : 0, 0);
     for (std::size_t i = 0; i < rows.size(); ++i)
+    {
       S[i] = 1. / (rows[i].stiffness + c.velocity * rows[i].damping);
+      mean[i] = c.mean_force && (S[i] == 0. || (c.velocity_projection && rows[i].unilateral)) &&
+                !(c.velocity_projection && without_mass[i]);
+    }
   }
 
   void RowMotions::set_problem(const State &before, const SchurComplement &schur,
@@ -59,13 +65,7 @@ namespace taut
     {
       const Row &row = rows[i];
       // Kelvin-Voigt: N = k u + c u' with u' = velocity du + known.
-      const State::LinkSpring &spring = before.link_springs[i];
-      link_history[i] = 0.;
-      if (row.damping > 0.)
-      {
-        const double known = c.v_V * spring.v + c.v_A * spring.a + c.v_dU * spring.du;
-        link_history[i] = S[i] * row.damping * (c.velocity * spring.u - known);
-      }
+      link_history[i] = spring_history(i, before);
 
       double gap = before.geometric_gap[i], scale = std::fabs(gap);
       if (row.moving)
@@ -80,6 +80,22 @@ namespace taut
       if (velocity_level(i))
         set_velocity_condition(i, before);
     }
+  }
+
+  /// The part of the compression of a link's spring that does not depend on N.
+  double RowMotions::spring_history(const std::size_t i, const State &before) const
+  {
+    const Row &row = rows[i];
+    const State::LinkSpring &spring = before.link_springs[i];
+    if (elastic_mean(i))
+    {
+      const double theta = 1. - c.alpha_f, rate = row.damping / step;
+      return -((1. - theta) * row.stiffness - rate) / (theta * row.stiffness + rate) * spring.u;
+    }
+    if (!(row.damping > 0.))
+      return 0.;
+    const double known = c.v_V * spring.v + c.v_A * spring.a + c.v_dU * spring.du;
+    return S[i] * row.damping * (c.velocity * spring.u - known);
   }
 
   /// (1 - alpha_f) step (D' + e D'_0) without multipliers.
@@ -138,12 +154,23 @@ namespace taut
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
       impulses[i] = 0.;
-      if (!mean_force(i))
+      if (!mean[i])
         continue;
-      impulses[i] = L[i];
+      impulses[i] = L[i] + (rows[i].moving && c.velocity_projection ? shifted[i] : 0.);
       balanced[i] = 0.;
       state.multiplier[i] = (1. - c.alpha_f) * L[i];
     }
+  }
+
+  const std::vector<double> &RowMotions::old_place(const State &before)
+  {
+    if (!c.velocity_projection || rows.n_fixed() == rows.size())
+      return none;
+    shifted.assign(rows.size(), 0.);
+    for (std::size_t i = rows.n_fixed(); i < rows.size(); ++i)
+      if (mean[i])
+        shifted[i] = -c.old_balance() * before.multiplier[i];
+    return shifted;
   }
 
   double RowMotions::moving_gap(const std::size_t i) const
@@ -180,11 +207,31 @@ namespace taut
     rows.share_of_motions(state.U, position, terms_size);
     for (std::size_t i = rows.n_fixed(); i < rows.size(); ++i)
       position[i] += evaluate(rows[i].terms, origin.displacement);
-    if (c.mean_force)
-      rows.share_of_motions(state.V, velocity);
     share({&motion, &position, &terms_size});
     if (c.mean_force)
-      share({&velocity});
+    {
+      rows.share_of_motions(state.V, velocity, velocity_size);
+      share({&velocity, &velocity_size});
+    }
+  }
+
+  /// D' of the moving rows besides B^T V, with their places exact.
+  void RowMotions::share_convection(const State &state)
+  {
+    for (std::size_t i = rows.n_fixed(); i < rows.size(); ++i)
+      rate_of_place[i] = rows.share_of_convection(i, state.time, origin.displacement, state.U);
+    if (rows.n_fixed() < rows.size())
+      share({&rate_of_place});
+    for (std::size_t i = rows.n_fixed(); i < rows.size(); ++i)
+      rate_of_place[i] += rows.profile_rate(i, state.time, step);
+  }
+
+  void RowMotions::update_rates(State &state)
+  {
+    rows.share_of_motions(state.V, velocity, velocity_size);
+    share({&velocity, &velocity_size});
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      state.gap_rate[i] = velocity[i] + rate_of_place[i];
   }
 
   /// Sums vectors over the rows, each with the shares of the bodies of this rank, over all ranks.
@@ -208,6 +255,8 @@ namespace taut
   void RowMotions::update(State &state)
   {
     share_motions(state);
+    if (c.velocity_projection)
+      share_convection(state);
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
       double &gap = state.geometric_gap[i];
@@ -219,7 +268,9 @@ namespace taut
       State::LinkSpring &spring = state.link_springs[i];
       const double known_v = c.v_V * spring.v + c.v_A * spring.a + c.v_dU * spring.du;
       const double known_a = c.a_V * spring.v + c.a_A * spring.a + c.a_dU * spring.du;
-      const double u = S[i] * balanced[i] + link_history[i];
+      const double u = elastic_mean(i)
+                           ? std::max(0., S[i] * applied_multiplier[i] + link_history[i])
+                           : S[i] * balanced[i] + link_history[i];
       spring.du = u - spring.u;
       spring.u = u;
       spring.v = c.velocity * spring.du + known_v;
@@ -228,7 +279,8 @@ namespace taut
       if (c.mean_force)
       {
         rates_before[i] = state.gap_rate[i];
-        state.gap_rate[i] = velocity[i] + convection[i] / step;
+        state.gap_rate[i] =
+            velocity[i] + (c.velocity_projection ? rate_of_place[i] : convection[i] / step);
       }
     }
   }
@@ -244,7 +296,9 @@ namespace taut
     recomputed.kernel_amplitude = amplitude;
     recomputed.gap = state.gap;
     for (std::size_t i = 0; i < rows.size(); ++i)
-      if (velocity_level(i))
+      if (elastic_mean(i))
+        recomputed.gap[i] = state.geometric_gap[i] + S[i] * applied_multiplier[i] + link_history[i];
+      else if (velocity_level(i))
       {
         const double rebound = rows[i].unilateral ? c.restitution * rates_before[i] : 0.;
         recomputed.gap[i] = (1. - c.alpha_f) * step * (state.gap_rate[i] + rebound);

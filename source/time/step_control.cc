@@ -10,11 +10,10 @@ namespace taut
   void StepParameters::declare_parameters(dealii::ParameterHandler &prm)
   {
     using namespace dealii::Patterns;
-    prm.add_parameter(
-        "Step control", control,
-        "'fixed': all steps have the length Step. 'adaptive': Step times powers of "
-        "two, by the local error, and short where rigid one-sided links open or close",
-        Selection("fixed|adaptive"));
+    prm.add_parameter("Step control", control,
+                      "'fixed': all steps have the length Step. 'adaptive': Step times powers of "
+                      "two, by the local error",
+                      Selection("fixed|adaptive"));
     prm.enter_subsection("Adaptive step");
     prm.add_parameter("Tolerance", tolerance,
                       "Largest local error of a step over the largest displacement so far [1]",
@@ -27,9 +26,7 @@ namespace taut
   }
 
   StepControl::StepControl(const StepParameters &parameters, const double step, const long n_steps)
-      : parameters(parameters),
-        shortest(parameters.adaptive() ? std::ldexp(step, -static_cast<int>(parameters.n_halvings))
-                                       : step),
+      : parameters(parameters), shortest(parameters.shortest(step)),
         end(parameters.adaptive() ? n_steps << parameters.n_halvings : n_steps),
         level(parameters.adaptive() ? parameters.n_halvings : 0)
   {
@@ -48,12 +45,14 @@ namespace taut
     while (position + length() > end)
       --level;
     double error;
+    bool has_changed;
     for (;;)
     {
       stepper.set_step(shortest * length());
       stepper.advance();
       error = stepper.local_error() / parameters.tolerance;
-      if (level == 0 || (!(error > 1.) && !stepper.rigid_row_changed(before)))
+      has_changed = stepper.rigid_row_changed(before);
+      if (level == 0 || has_changed || had_changed || !(error > 1.))
         break;
       stepper.restore(before);
       --level;
@@ -61,7 +60,8 @@ namespace taut
       n_calm = 0;
     }
     position += length();
-    n_calm = error < .1 && !is_first ? n_calm + 1 : 0;
+    n_calm = error < .1 && !is_first && !has_changed && !had_changed ? n_calm + 1 : 0;
+    had_changed = has_changed;
     if (n_calm >= 4 && level < parameters.n_halvings + parameters.n_doublings &&
         position % (2 * length()) == 0)
     {

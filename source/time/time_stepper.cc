@@ -80,13 +80,13 @@ namespace taut
         v->resize(std::max<std::size_t>(v->size(), body.n_dofs()));
     }
     const StepCoefficients c = integrator.coefficients(step);
+    first_step_by_source = first_step_by_source && !c.starts_itself();
+    prepare(first_step_by_source ? backward_euler(step) : c);
     if (c.starts_itself())
     {
-      first_step_by_source = false;
       structure.communicator().agree([&] { start_balance(); });
       current.gap_rate = rows.motions(current.V);
     }
-    prepare(first_step_by_source ? backward_euler(step) : c);
   }
 
   /// r = P + B N - C V - K U at the start, where no rigid row has a force that a scheme would need.
@@ -102,9 +102,19 @@ namespace taut
     }
     std::vector<double> N = current.multiplier;
     for (std::size_t i = 0; i < rows.size(); ++i)
-      if (std::isinf(rows[i].stiffness))
+      if (row_motions.mean_force(i) && !(projection && rows[i].moving))
         N[i] = 0.;
     rows.add_forces(N, current.balance);
+    hold_dofs_without_mass();
+  }
+
+  /// With a velocity projection they are in equilibrium at the ends of steps.
+  void TimeStepper::hold_dofs_without_mass()
+  {
+    if (projection)
+      for (std::size_t k = 0; k < structure.size(); ++k)
+        for (const unsigned int dof : projection->dofs_without_mass()[k])
+          current.balance[k][dof] = 0.;
   }
 
   void TimeStepper::prepare(const StepCoefficients &c)
@@ -116,6 +126,11 @@ namespace taut
     has_free_motions = solvers.has_free_motions();
     row_motions.prepare(c, step);
     schur->setup(row_motions.compliance());
+    if (!c.velocity_projection)
+      return;
+    if (!projection)
+      projection = std::make_unique<VelocityProjection>(structure, rows, parameters);
+    projection->prepare(c, step, row_motions.compliance(), schur->matrix());
   }
 
   void TimeStepper::advance()
@@ -129,6 +144,7 @@ namespace taut
     if (c != coefficients)
       prepare(c);
     current.time = segment_start + ++n_in_segment * step;
+    step_before = current.last_step;
     current.last_step = step;
     rows.update(current.time);
     schur->update_moving();
@@ -139,6 +155,8 @@ namespace taut
           for (std::size_t k = 0; k < structure.size(); ++k)
             set_history(k);
         });
+    if (const std::vector<double> &old = row_motions.old_place(current); !old.empty())
+      rows.add_forces(old, right_hand_side);
     row_motions.set_problem(current, *schur, right_hand_side, lift);
     if (has_free_motions)
       row_motions.set_free_motions(solvers, right_hand_side);
@@ -152,6 +170,8 @@ namespace taut
     }
     row_motions.update(current);
     certify();
+    if (c.velocity_projection)
+      project_velocities();
   }
 
   /// P - P_ref at the time of the state.
@@ -240,8 +260,11 @@ namespace taut
     {
       const std::vector<double> &dU = current.dU[k], &V = current.V_old[k], &A = current.A[k],
                                 &A0 = forces.old_A[k];
+      const double mean = step * step / (6. * (1. + step_before / step));
       for (std::size_t i = 0; i < dU.size(); ++i)
-        work_v[i] = dU[i] - step * (V[i] + step * (A0[i] / 3. + A[i] / 6.));
+        work_v[i] = coefficients.mean_force
+                        ? mean * (A[i] - A0[i])
+                        : dU[i] - step * (V[i] + step * (A0[i] / 3. + A[i] / 6.));
       const PerKind e = largest(structure[k], work_v), v = largest(structure[k], V);
       for (std::size_t i = 0; i < dU.size(); ++i)
         work_v[i] = origin.displacement[k][i] + current.U[k][i];
@@ -277,13 +300,45 @@ namespace taut
   {
     if (rows.size() == 0 && !has_free_motions)
       return;
+    solve_or_fail(
+        [&]
+        {
+          const ComplementarityResult &result =
+              complementarity.solve(row_motions.problem(), schur->matrix());
+          row_motions.set_multipliers(result.solution, current);
+          last.iterations = result.iterations;
+          last.fallback = result.used_fallback;
+        });
+  }
+
+  /// Velocities and forces that the step ends with, and the balance that the next one looks back
+  /// at.
+  void TimeStepper::project_velocities()
+  {
+    solve_or_fail([&] { projection->project(row_motions, current); });
+    if (!(projection->residual() <= last.complementarity))
+    {
+      last.complementarity = projection->residual();
+      last.worst_row = projection->worst_row();
+    }
+    check_rows();
+    current.work_of_impulses = projection->work();
+    // Forces of moving rows act half in their old place.
+    std::vector<double> &moving = work_rows;
+    moving = current.multiplier;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (!rows[i].moving || !row_motions.mean_force(i))
+        moving[i] = 0.;
+    rows.add_forces(moving, current.balance);
+    hold_dofs_without_mass();
+  }
+
+  template <typename Solve>
+  void TimeStepper::solve_or_fail(const Solve &solve) const
+  {
     try
     {
-      const ComplementarityResult &result =
-          complementarity.solve(row_motions.problem(), schur->matrix());
-      row_motions.set_multipliers(result.solution, current);
-      last.iterations = result.iterations;
-      last.fallback = result.used_fallback;
+      solve();
     }
     catch (const NotSolved &e)
     {
@@ -353,6 +408,11 @@ namespace taut
   {
     last.complementarity = row_motions.residual(current, schur->matrix(), last.worst_row);
     last.drift = row_motions.drift(current);
+    check_rows();
+  }
+
+  void TimeStepper::check_rows() const
+  {
     if (!(last.complementarity <= parameters.contact_tolerance))
     {
       std::ostringstream out;

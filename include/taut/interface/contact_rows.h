@@ -61,6 +61,20 @@ namespace taut
     void share_of_motions(const BlockVector &U, std::vector<double> &motion,
                           std::vector<double> &terms_size) const;
 
+    /**
+     * Rate at which a moving row's place changes its gap at time @p t [s], in D' = B^T V + this:
+     * its speed times the slope of the displacements, this rank's share of it [m/s].
+     */
+    double share_of_convection(std::size_t i, double t, const BlockVector &reference,
+                               const BlockVector &U) const;
+
+    /// The same of the height profile under a moving row, from differences within a part of a step
+    /// [s]; the same on all ranks [m/s].
+    double profile_rate(std::size_t i, double t, double step) const;
+
+    /// Of each row: not 0 where it is fixed and acts on a DoF without mass.
+    std::vector<char> without_mass() const;
+
     /// P += B N.
     void add_forces(const std::vector<double> &N, BlockVector &P) const;
 

@@ -71,8 +71,12 @@ namespace taut
     /// X_k = A_k^-1 X_k for all k.
     void solve(BlockVector &X) const;
 
+    /// A_k = M_k, with DoFs without mass held at zero. BodyNotHeld names a body with a singular
+    /// one.
+    void factor_mass();
+
     /// True after factor_stiffness().
-    bool is_generalised_inverse() const { return is_static; }
+    bool is_generalised_inverse() const { return kind == Kind::stiffness; }
 
     /// Calls the visitor for the entries of A_k, without the springs of factor_stiffness().
     void visit(std::size_t k, const SymmetricMatrix::Visitor &visitor) const;
@@ -99,8 +103,15 @@ namespace taut
 
     const Structure &bodies;
     const std::string solver_name;
-    double mass_factor = 0., damping_factor = 0.; ///< of A_k; both 0 in statics
-    bool is_static = false;
+    /// What A_k is.
+    enum class Kind
+    {
+      step,
+      stiffness,
+      mass
+    };
+    Kind kind = Kind::step;
+    double mass_factor = 0., damping_factor = 0.; ///< of A_k in a step
     std::vector<std::unique_ptr<LocalSolver>> solvers;
     std::vector<FreeMotions> motions;
   };

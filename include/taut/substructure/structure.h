@@ -71,7 +71,18 @@ namespace taut
      * counts only the components it has.
      */
     void motion(const Attachment &point, bool rotational, const Point &direction, double factor,
-                std::vector<Term> &terms) const;
+                std::vector<Term> &terms) const
+    {
+      append_motion(point, rotational, direction, factor, false, terms);
+    }
+
+    /// The same of the derivative of the displacement by the position along the wire [1/m]: what a
+    /// contact that slides is displaced by.
+    void slope(const Attachment &point, const Point &direction, double factor,
+               std::vector<Term> &terms) const
+    {
+      append_motion(point, false, direction, factor, true, terms);
+    }
 
     /// One row a cut for each motion that is continuous there: displacement, and slope of a beam.
     const std::vector<CutRow> &cut_rows() const { return cuts; }
@@ -83,6 +94,8 @@ namespace taut
     BlockVector zero() const;
 
   private:
+    void append_motion(const Attachment &point, bool rotational, const Point &direction,
+                       double factor, bool derivative, std::vector<Term> &terms) const;
     static constexpr std::size_t elsewhere = -1; ///< a substructure of another rank
 
     /// Substructures of a wire's pieces, in order; none where it lacks the component.

@@ -56,6 +56,9 @@ namespace taut
     const std::vector<ConstrainedDof> &constraints() const { return constrained; }
     std::vector<unsigned int> constrained_dofs() const;
 
+    /// DoFs whose row of M is zero, sorted.
+    std::vector<unsigned int> dofs_without_mass() const;
+
     /// True if a support moves: an increment then has a given part.
     bool has_moving_constraints() const { return moving_constraints; }
 
@@ -75,6 +78,10 @@ namespace taut
 
     /// The kinds of the first DoFs, repeated over all: {0, 1} for a beam.
     const std::vector<unsigned char> &kind_pattern() const { return kinds; }
+
+    /// True if inertia resists all motions but those of DoFs whose row of M is zero: M without
+    /// these rows has an inverse that is worth its name.
+    virtual bool has_definite_mass() const { return true; }
 
     /// Displacement and velocity at t = 0 as given in the scene.
     virtual void initial_state(std::vector<double> &U, std::vector<double> &V) const = 0;

@@ -56,6 +56,9 @@ namespace taut
     /// True if slopes are DoFs, so that moments and angular gaps make sense.
     bool has_slopes() const { return beam; }
 
+    /// One Gauss point fewer than nodes sees next to nothing of the shortest wave.
+    bool has_definite_mass() const override { return mass_matrix != MassMatrix::reduced || beam; }
+
     void initial_state(std::vector<double> &U, std::vector<double> &V) const override;
     Kernel kernel() const override;
 
@@ -82,6 +85,7 @@ namespace taut
     bool beam = false;
     bool bends_freely = false; ///< no tension: a rigid rotation costs nothing
     unsigned int degree = 1, dofs_per_node = 1;
+    MassMatrix mass_matrix = MassMatrix::consistent;
     InitialMotion start;
     std::vector<unsigned int> sprung_dofs; ///< of elastic supports
 

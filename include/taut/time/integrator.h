@@ -3,7 +3,6 @@
 #define taut_integrator_h
 
 #include <taut/base/registry.h>
-#include <taut/scene/scene.h>
 
 #include <memory>
 #include <string>
@@ -28,7 +27,9 @@ namespace taut
    *
    * The contact force so enters old and new with its own B, and gaps hold at the end of the step.
    * With mean forces, those of rigid rows are impulses over the step instead, without a past, and
-   * their conditions may be on velocities after the step: see RowMotions.
+   * their conditions may be on velocities after the step: see RowMotions. With a velocity
+   * projection, those of elastic one-sided rows are means, too, and the velocities that a step ends
+   * with are corrected by impulses: see VelocityProjection.
    */
   struct StepCoefficients
   {
@@ -37,9 +38,10 @@ namespace taut
     double v_V = 0., v_A = 0., v_dU = 0.;
     double a_V = 0., a_A = 0., a_dU = 0., a_V_old = 0.;
     double alpha_m = 0., alpha_f = 0.;
-    bool mean_force = false;     ///< of rigid rows; bilateral ones then are at velocity level
-    bool velocity_level = false; ///< for rigid one-sided rows; needs mean_force
-    double restitution = 0.;     ///< Newton's, of one-sided rows at velocity level [1]
+    bool mean_force = false;          ///< of rigid rows; bilateral ones then are at velocity level
+    bool velocity_level = false;      ///< for rigid one-sided rows; needs mean_force
+    bool velocity_projection = false; ///< after conditions on gaps; needs mean_force
+    double restitution = 0.;          ///< Newton's, of one-sided rows [1]
 
     /// Weights of M A, M A0 and r0 in the equation of motion after division by 1 - alpha_f [1].
     double new_inertia() const { return (1. - alpha_m) / (1. - alpha_f); }
@@ -57,6 +59,10 @@ namespace taut
     {
       return v_A == 0. && v_dU == 0. && a_A == 0. && a_dU == 0. && a_V_old == 0. && alpha_m == 0.;
     }
+
+    /// Part of itself that an error of the force of a rigid constraint keeps from step to step
+    /// without mean forces, where U is held: the spectral radius of what is left of the scheme [1].
+    double ringing() const;
 
     bool operator==(const StepCoefficients &other) const;
     bool operator!=(const StepCoefficients &other) const { return !(*this == other); }
@@ -82,18 +88,6 @@ namespace taut
     {
       (void)last_step;
       return coefficients(step);
-    }
-
-    /**
-     * Waves have to cross at least so many elements a step where a one-sided link that acts as
-     * rigid presses on a wire with this mass matrix, or the multipliers ring by more than a tenth
-     * of their size: measured for a bar that hits a wall (doc/accuracy.md). Infinite: at any step.
-     * @p exactly_rigid is false if the link has a stiffness, if a large one.
-     */
-    virtual double least_courant_number(MassMatrix matrix, bool exactly_rigid) const
-    {
-      (void)matrix, (void)exactly_rigid;
-      return 0.;
     }
 
     /// Name with parameters, for the log.
@@ -136,6 +130,15 @@ namespace taut
    * does the work N (D - D_0) = -N D_0 <= 0 there: it never gives energy.
    */
   StepCoefficients moreau_jean_of_gaps(double step, double theta);
+
+  /**
+   * The same at theta = 1/2, followed by a projection of the velocities: constraints hold for gaps
+   * and for velocities at the end of each step, as in the nonsmooth schemes with both levels
+   * (C. W. Gear, B. Leimkuhler, G. K. Gupta, J. Comput. Appl. Math. 12-13 (1985); O. Brüls, V.
+   * Acary, A. Cardona, Comput. Methods Appl. Mech. Engrg. 281 (2014)). Second order where the
+   * motion is smooth; fixed rigid constraints never give energy. @p restitution is Newton's [1].
+   */
+  StepCoefficients gaps_then_velocities(double step, double restitution);
 } // namespace taut
 
 #endif

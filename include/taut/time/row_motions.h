@@ -28,6 +28,15 @@ namespace taut
    * At either level the force of a rigid row may be a mean over the step: it acts in this step only
    * and with all its weight. Bilateral rows of such schemes ask for D' = 0: D = 0 would let their
    * velocities alternate for ever at theta = 1/2.
+   *
+   * A scheme with a velocity projection asks for gaps of all rows, and its elastic one-sided rows
+   * have mean forces, too: with u the compression of their springs,
+   *
+   *     0 <= N  _|_  D + S N + h >= 0,    h = -((1 - theta) k - c / step) / (theta k + c / step)
+   * u_0,
+   *
+   * S = 1 / (k + c / (theta step)) and u = max(0, S N + h). Rows on DoFs without mass keep forces
+   * at the ends of steps, where they hold these DoFs in equilibrium.
    */
   class RowMotions
   {
@@ -77,6 +86,25 @@ namespace taut
     const std::vector<double> &in_balance() const { return balanced; }
     const std::vector<double> &impulsive() const { return c.mean_force ? impulses : none; }
 
+    /// Forces of moving rows with a mean force, which the step counts half in their old place:
+    /// minus their part in the new place. Empty without such rows. [N, N m]
+    const std::vector<double> &old_place(const State &before);
+
+    /// True if the force of the row is a mean over the step.
+    bool mean_force(std::size_t i) const { return mean[i]; }
+
+    /// With mean forces: B^T V at the end of the step, the sums of its absolute terms, and D' at
+    /// the start of the step [m/s, rad/s].
+    const std::vector<double> &velocities() const { return velocity; }
+    const std::vector<double> &velocity_sizes() const { return velocity_size; }
+    const std::vector<double> &rates_before_step() const { return rates_before; }
+
+    /// B^T dU [m, rad].
+    const std::vector<double> &increments() const { return motion; }
+
+    /// After a change of the velocities: B^T V and D' anew. Called by all ranks together.
+    void update_rates(State &state);
+
     /// Gaps and springs of the state, whose displacements are those of the end of the step.
     void update(State &state);
 
@@ -110,11 +138,13 @@ namespace taut
     double moving_gap(std::size_t i) const;
     double largest_stray(const State &state, std::size_t &worst);
     void add_body_terms(const BlockVector &U);
-    bool mean_force(std::size_t i) const { return c.mean_force && S[i] == 0.; }
+    bool elastic_mean(std::size_t i) const { return mean[i] && S[i] > 0.; }
     bool velocity_level(std::size_t i) const
     {
-      return mean_force(i) && (c.velocity_level || !rows[i].unilateral);
+      return mean[i] && !c.velocity_projection && (c.velocity_level || !rows[i].unilateral);
     }
+    double spring_history(std::size_t i, const State &before) const;
+    void share_convection(const State &state);
     void set_velocity_condition(std::size_t i, const State &before);
     void share_free_motion(const State &before, const SchurComplement &schur, const BlockVector &P,
                            const BlockVector &lift);
@@ -130,6 +160,8 @@ namespace taut
 
     MixedComplementarityProblem conditions;
     std::vector<double> S;
+    std::vector<char> mean;                 ///< see mean_force()
+    std::vector<char> without_mass;         ///< fixed rows on DoFs without mass
     std::vector<double> amplitude;          ///< of the free motions, of all ranks
     std::vector<std::size_t> first_of_body; ///< free motion of each body here
     std::vector<double> applied_multiplier, balanced, impulses;
@@ -141,13 +173,16 @@ namespace taut
     /// Of the moving rows: gap of the start minus the one of its displacements, rounding that would
     /// be a force over a small compliance.
     std::vector<double> gap_correction;
-    std::vector<double> motion;              ///< B^T dU
-    std::vector<double> position;            ///< B^T U, with the reference's of a moving row
-    std::vector<double> terms_size;          ///< sum of the absolute terms of these
-    std::vector<double> velocity;            ///< B^T V
-    std::vector<double> motion_size;         ///< what B^T dU rounds with
-    std::vector<double> convection;          ///< (B - B_0)^T U_0 + D0 - D0_0
-    std::vector<double> rates_before;        ///< D'_0
+    std::vector<double> motion;        ///< B^T dU
+    std::vector<double> position;      ///< B^T U, with the reference's of a moving row
+    std::vector<double> terms_size;    ///< sum of the absolute terms of these
+    std::vector<double> velocity;      ///< B^T V
+    std::vector<double> velocity_size; ///< sum of the absolute terms of it
+    std::vector<double> rate_of_place; ///< D' of a row besides B^T V, with a velocity projection
+    std::vector<double> shifted;       ///< of old_place()
+    std::vector<double> motion_size;   ///< what B^T dU rounds with
+    std::vector<double> convection;    ///< (B - B_0)^T U_0 + D0 - D0_0
+    std::vector<double> rates_before;  ///< D'_0
     MixedComplementaritySolution correction; ///< of correct()
     MixedComplementaritySolution recomputed; ///< of residual()
     ComplementarityResidual found;

@@ -45,6 +45,10 @@ namespace taut
 
     std::vector<double> gap_rate; ///< D', of schemes with mean forces only [m/s, rad/s]
 
+    /// Work that the impulses of a velocity projection did on the bodies in the last step, of each
+    /// row; empty with other schemes [J].
+    std::vector<double> work_of_impulses;
+
     /// Compression of each link's spring and its rates, as one more body with the same time
     /// integration [m, rad].
     struct LinkSpring

@@ -4,6 +4,7 @@
 
 #include <taut/time/time_stepper.h>
 
+#include <cmath>
 #include <string>
 
 namespace dealii
@@ -23,14 +24,21 @@ namespace taut
     /// Declares the members in the current subsection.
     void declare_parameters(dealii::ParameterHandler &prm);
     bool adaptive() const { return control == "adaptive"; }
+
+    /// The shortest step that a Step [s] becomes [s].
+    double shortest(double step) const
+    {
+      return adaptive() ? std::ldexp(step, -static_cast<int>(n_halvings)) : step;
+    }
   };
 
   /**
    * Steps of a length times a power of two, so that matrices are factored anew only at a change and
    * times are multiples of the shortest step. A step is repeated at half its length if its local
-   * error is above the tolerance, or if a rigid one-sided row opens or closes in it, down to the
-   * shortest one, which counts as it is. After four steps with a tenth of the tolerance the length
-   * doubles, at a multiple of the new one.
+   * error is above the tolerance, down to the shortest one, which counts as it is; the error is not
+   * known, and the length stays, in a step where a rigid
+   * one-sided row opens or closes and in the next one, whose accelerations are jumps. After four
+   * steps with a tenth of the tolerance the length doubles, at a multiple of the new one.
    */
   class StepControl
   {
@@ -53,6 +61,7 @@ namespace taut
     const long end;        ///< in shortest steps
     long position = 0, repeated = 0;
     unsigned int level, n_calm = 0;
+    bool had_changed = false; ///< a rigid row in the last step: its accelerations are a jump
   };
 } // namespace taut
 

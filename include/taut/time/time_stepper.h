@@ -11,6 +11,7 @@
 #include <taut/time/row_motions.h>
 #include <taut/time/solver_parameters.h>
 #include <taut/time/state.h>
+#include <taut/time/velocity_projection.h>
 
 #include <memory>
 #include <vector>
@@ -20,7 +21,8 @@ namespace taut
   /**
    * Advances the bodies and the multipliers by steps:
    *
-   *     moving rows -> history P^_k -> free motion of the rows -> N -> U_k -> certificate.
+   *     moving rows -> history P^_k -> free motion of the rows -> N -> U_k -> certificate
+   *     -> velocities, with schemes that project them.
    *
    * Everything is in increments, A dU = P^ + B N; RowMotions says what the rows ask for.
    */
@@ -49,7 +51,9 @@ namespace taut
     /**
      * Largest local error of the last step over the largest displacement so far, from the third
      * derivative that the accelerations before and after show: dU - step V0 - step^2 (A0/3 + A/6)
-     * (O. C. Zienkiewicz, Y. M. Xie, Earthquake Engineering and Structural Dynamics 20 (1991)).
+     * (O. C. Zienkiewicz, Y. M. Xie, Earthquake Engineering and Structural Dynamics 20 (1991)). The
+     * accelerations of schemes with mean forces are means, and dU = step V0 + step^2 A/2: its error
+     * is step^3/12 of that derivative, step^2 (A - A0) / (6 (1 + last step / step)).
      * Displacements and slopes each for themselves. Called by all ranks together.
      */
     double local_error();
@@ -73,12 +77,17 @@ namespace taut
     void prepare(const StepCoefficients &c);
     void set_external_force(std::size_t k);
     void set_history(std::size_t k);
+    template <typename Solve>
+    void solve_or_fail(const Solve &solve) const;
     void solve_rows();
+    void project_velocities();
     void accept(std::size_t k);
     void start_balance();
+    void hold_dofs_without_mass();
     void certify();
     bool refine();
     void certify_rows();
+    void check_rows() const;
     void fail_balance() const;
     void fail(const std::string &what, const std::string &entry = "") const;
 
@@ -86,7 +95,7 @@ namespace taut
     ContactRows &rows;
     const SolverParameters parameters;
     const TimeIntegrator &integrator;
-    double step;
+    double step, step_before = 0.;
     const Reference origin;
     State current;
     Certificate last;
@@ -104,11 +113,13 @@ namespace taut
     RowMotions row_motions;
     bool has_free_motions = false; ///< a body of some rank
     BalanceCertificate balance;
+    std::unique_ptr<VelocityProjection> projection; ///< of schemes with one
 
     StepForces forces;
     BlockVector right_hand_side;        ///< then the increments
     BlockVector lift;                   ///< increments of moving supports
     std::vector<double> work_v, work_a; ///< as long as the longest body
+    std::vector<double> work_rows;
   };
 } // namespace taut
 

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_velocity_projection_h
+#define taut_velocity_projection_h
+
+#include <taut/complementarity/solver.h>
+#include <taut/interface/schur_complement.h>
+#include <taut/time/row_motions.h>
+#include <taut/time/solver_parameters.h>
+#include <taut/time/state.h>
+
+#include <memory>
+#include <vector>
+
+namespace taut
+{
+  /**
+   * The second part of a step whose first part has put conditions on gaps, with impulses p:
+   * impulses P after which the gaps do not close either,
+   *
+   *     V = V* + M^-1 B (P - p),    0 <= P _|_ D' >= 0 on the one-sided rows with p > 0,
+   *                                 D' = 0 on all rigid bilateral rows.
+   *
+   * U stays. An elastic row with p > 0 is softened, so that its compliance S fades from rigid to
+   * none: 0 <= P _|_ D' + f_ii (S / (alpha F_ii))^2 (P - p) >= 0 with f = B^T M^-1 B. With Newton's
+   * restitution e the condition is D' + e min(0, D'_0), and P goes only so far from the solution
+   * without it that the contacts do not give energy. DoFs without mass have no velocity of their
+   * own: theirs is the mean over the step.
+   */
+  class VelocityProjection
+  {
+  public:
+    /// The first two arguments are kept by reference.
+    VelocityProjection(const Structure &structure, const ContactRows &rows,
+                       const SolverParameters &parameters);
+
+    /// For steps with these coefficients from now on. @p F is the matrix of their first part, with
+    /// S on its diagonal.
+    void prepare(const StepCoefficients &c, double step, const std::vector<double> &S,
+                 const ComplementarityOperator &F);
+
+    /**
+     * Changes V, D' and multipliers of a state after the first part of a step, and takes the change
+     * of velocities' share of C V off its balance. Throws what ComplementaritySolver does. Called
+     * by all ranks together.
+     */
+    void project(RowMotions &motions, State &state);
+
+    /// Of the last step: largest residual of a rate, recomputed from the velocities, and its row.
+    double residual() const { return found; }
+    std::size_t worst_row() const { return worst; }
+
+    /// Of each body: DoFs without mass, where the step ends in equilibrium.
+    const std::vector<std::vector<unsigned int>> &dofs_without_mass() const { return without_mass; }
+
+    /// Work of the impulses P - p on the bodies in the last step, of each row [J].
+    const std::vector<double> &work() const { return work_of_rows; }
+
+  private:
+    bool has_to_act(const RowMotions &motions, const State &state);
+    void setup();
+    void set_problem(const State &state);
+    void solve(const RowMotions &motions, const State &state);
+    double largest_part(const RowMotions &motions, const State &state,
+                        const std::vector<double> &plain, const std::vector<double> &rebounding);
+    void set_velocities(RowMotions &motions, State &state);
+    void move_without_mass(State &state);
+    void change_velocities(State &state);
+
+    const Structure &structure;
+    const ContactRows &rows;
+    FactoredStructure solvers; ///< of M
+    std::unique_ptr<SchurComplement> schur;
+    ComplementaritySolver complementarity;
+    bool is_set_up = false, has_softening = false;
+    StepCoefficients c;
+    double step = 0.;
+
+    std::vector<std::vector<unsigned int>> without_mass; ///< DoFs of each body
+    bool some_without_mass = false;
+    std::vector<double> relative_softening; ///< (S / (alpha F_ii))^2 of each row
+    std::vector<double> softening;          ///< f_ii times that
+    std::vector<char> takes_part;
+    MixedComplementarityProblem problem;
+    std::vector<double> p, q, change; ///< impulses, P - p, f (P - p)
+    std::vector<double> rate, work_of_rows, work_vector;
+    BlockVector dV;
+    double found = 0.;
+    std::size_t worst = 0;
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/time/velocity_projection.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace taut
+{
+  namespace
+  {
+    /// Fades the projection of elastic rows out where S exceeds this part of F_ii.
+    constexpr double fading = .3;
+
+    /// Rates over their terms that are rounding: steps of thousands of operations, each with one of
+    /// 1e-16.
+    constexpr double rounding_of_rates = 1e-12;
+
+    /// Systems with M are well-conditioned: nothing has to be taken from the bodies' other solvers.
+    InterfaceParameters for_mass(InterfaceParameters parameters)
+    {
+      parameters.preconditioner = "diagonal";
+      parameters.coarse_space = "none";
+      return parameters;
+    }
+
+    double dot(const std::vector<double> &x, const std::vector<double> &y)
+    {
+      double sum = 0.;
+      for (std::size_t i = 0; i < x.size(); ++i)
+        sum += x[i] * y[i];
+      return sum;
+    }
+  } // namespace
+
+  VelocityProjection::VelocityProjection(const Structure &structure, const ContactRows &rows,
+                                         const SolverParameters &parameters)
+      : structure(structure), rows(rows), solvers(structure, parameters.local_solver),
+        schur(make_schur_complement(for_mass(parameters.interface), solvers, rows)),
+        complementarity(parameters.complementarity), dV(structure.zero())
+  {
+    const std::size_t n = rows.size();
+    for (std::vector<double> *v :
+         {&relative_softening, &softening, &p, &q, &change, &rate, &work_of_rows})
+      v->assign(n, 0.);
+    takes_part.assign(n, 0);
+    problem.free_gap.resize(n);
+    problem.gap_scale.resize(n);
+    problem.unilateral.resize(n);
+    problem.held_open.resize(n);
+    double n_without_mass = 0.;
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      const Substructure &body = structure[k];
+      without_mass.emplace_back();
+      const std::vector<unsigned int> constrained = body.constrained_dofs(),
+                                      all = body.dofs_without_mass();
+      std::set_difference(all.begin(), all.end(), constrained.begin(), constrained.end(),
+                          std::back_inserter(without_mass.back()));
+      n_without_mass += without_mass.back().size();
+    }
+    some_without_mass = structure.communicator().max(n_without_mass) > 0.;
+  }
+
+  void VelocityProjection::prepare(const StepCoefficients &coefficients, const double tau,
+                                   const std::vector<double> &S, const ComplementarityOperator &F)
+  {
+    c = coefficients;
+    step = tau;
+    const double theta = 1. - c.alpha_f;
+    has_softening = false;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      relative_softening[i] = 0.;
+      if (!rows[i].unilateral || S[i] == 0.)
+        continue;
+      const double flexibility = (F.diagonal(i) - S[i]) / theta,
+                   ratio = S[i] / (fading * flexibility);
+      relative_softening[i] = ratio * ratio;
+      has_softening = true;
+    }
+    if (is_set_up)
+      setup();
+  }
+
+  /// f and its diagonal; the mass matrices are factored at the first call.
+  void VelocityProjection::setup()
+  {
+    if (!is_set_up)
+      structure.communicator().agree([&] { solvers.factor_mass(); });
+    is_set_up = true;
+    std::fill(softening.begin(), softening.end(), 0.);
+    schur->setup(softening);
+    if (!has_softening)
+      return;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      const double f = schur->matrix().diagonal(i);
+      // Infinite: a row without flexibility of its own takes no part.
+      softening[i] =
+          f > 0. && std::isfinite(relative_softening[i]) ? f * relative_softening[i] : 0.;
+    }
+    schur->setup(softening);
+  }
+
+  /// Sets the rows that take part and their impulses. False if all their rates are as they shall
+  /// be.
+  bool VelocityProjection::has_to_act(const RowMotions &motions, const State &state)
+  {
+    bool acts = false;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      takes_part[i] = 0;
+      p[i] = motions.mean_force(i) ? step * state.multiplier[i] : 0.;
+      if (!motions.mean_force(i) || (rows[i].unilateral && !(p[i] > 0.)) ||
+          !std::isfinite(relative_softening[i]))
+        continue;
+      takes_part[i] = 1;
+      acts =
+          acts || std::fabs(state.gap_rate[i]) >
+                      rounding_of_rates * (motions.velocity_sizes()[i] +
+                                           std::fabs(state.gap_rate[i] - motions.velocities()[i]));
+      acts =
+          acts || (c.restitution > 0. && rows[i].unilateral && motions.rates_before_step()[i] < 0.);
+    }
+    return acts;
+  }
+
+  /// d = D'* - (f + softening) p on the rows that take part.
+  void VelocityProjection::set_problem(const State &state)
+  {
+    const ComplementarityOperator &f = schur->matrix();
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      if (!(f.diagonal(i) > 0.))
+        takes_part[i] = 0;
+      if (!takes_part[i])
+        p[i] = 0.;
+      problem.unilateral[i] = rows[i].unilateral || !takes_part[i];
+      problem.held_open[i] = !takes_part[i];
+    }
+    f.apply(p, change);
+    f.apply_absolute(p, work_vector);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      rate[i] = state.gap_rate[i];
+      problem.free_gap[i] = rate[i] - change[i];
+      problem.gap_scale[i] += work_vector[i];
+    }
+  }
+
+  void VelocityProjection::project(RowMotions &motions, State &state)
+  {
+    found = 0.;
+    std::fill(work_of_rows.begin(), work_of_rows.end(), 0.);
+    if (some_without_mass)
+    {
+      move_without_mass(state);
+      motions.update_rates(state);
+    }
+    if (!has_to_act(motions, state))
+      return;
+    if (!is_set_up)
+      setup();
+    else
+      schur->update_moving();
+    problem.gap_scale = motions.velocity_sizes();
+    set_problem(state);
+    solve(motions, state);
+    set_velocities(motions, state);
+  }
+
+  /// P - p.
+  void VelocityProjection::solve(const RowMotions &motions, const State &state)
+  {
+    const auto impulses = [&]()
+    {
+      std::vector<double> P = complementarity.solve(problem, schur->matrix()).solution.multiplier;
+      for (std::size_t i = 0; i < P.size(); ++i)
+        P[i] -= p[i];
+      return P;
+    };
+    q = impulses();
+    bool rebounds = false;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (takes_part[i] && rows[i].unilateral && motions.rates_before_step()[i] < 0. &&
+          c.restitution > 0. && softening[i] == 0.)
+      {
+        problem.free_gap[i] += c.restitution * motions.rates_before_step()[i];
+        rebounds = true;
+      }
+    if (!rebounds)
+      return;
+    std::vector<double> difference = impulses();
+    for (std::size_t i = 0; i < q.size(); ++i)
+      difference[i] -= q[i];
+    const double s = largest_part(motions, state, q, difference);
+    for (std::size_t i = 0; i < q.size(); ++i)
+      q[i] += s * difference[i];
+  }
+
+  /**
+   * The largest s in [0, 1] for which impulses q + s r, after p, give no energy: the contacts of a
+   * step do the work p . (D - D_0) / step + q . (D'* + D') / 2 with D' = D'* + f q, a convex
+   * parabola in s that is not positive at s = 0.
+   */
+  double VelocityProjection::largest_part(const RowMotions &motions, const State &state,
+                                          const std::vector<double> &plain,
+                                          const std::vector<double> &rebounding)
+  {
+    const auto response = [&](const std::vector<double> &impulses)
+    {
+      std::vector<double> result;
+      schur->matrix().apply(impulses, result);
+      for (std::size_t i = 0; i < result.size(); ++i)
+        result[i] -= softening[i] * impulses[i];
+      return result;
+    };
+    const std::vector<double> of_plain = response(plain), of_rebounding = response(rebounding);
+    double before = 0.;
+    for (std::size_t i = 0; i < rows.n_fixed(); ++i)
+      before += p[i] * motions.increments()[i] / step;
+    const double a = .5 * dot(rebounding, of_rebounding),
+                 b = dot(rebounding, state.gap_rate) + dot(rebounding, of_plain),
+                 constant = before + dot(plain, state.gap_rate) + .5 * dot(plain, of_plain);
+    if (a + b + constant <= 0. || !(a > 0.))
+      return 1.;
+    const double discriminant = b * b - 4. * a * std::min(0., constant);
+    return std::min(1., std::max(0., (-b + std::sqrt(discriminant)) / (2. * a)));
+  }
+
+  /// The mean velocity over the step instead of the one that the scheme found: this alternates.
+  void VelocityProjection::move_without_mass(State &state)
+  {
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      std::fill(dV[k].begin(), dV[k].end(), 0.);
+      for (const unsigned int dof : without_mass[k])
+        dV[k][dof] = state.dU[k][dof] / step - state.V[k][dof];
+    }
+    change_velocities(state);
+  }
+
+  void VelocityProjection::change_velocities(State &state)
+  {
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      for (std::size_t i = 0; i < dV[k].size(); ++i)
+        state.V[k][i] += dV[k][i];
+      structure[k].damping().vmult_add(-1., dV[k].data(), state.balance[k].data());
+    }
+  }
+
+  void VelocityProjection::set_velocities(RowMotions &motions, State &state)
+  {
+    for (std::vector<double> &v : dV)
+      std::fill(v.begin(), v.end(), 0.);
+    rows.add_forces(q, dV);
+    solvers.solve(dV);
+    change_velocities(state);
+    work_vector = motions.velocities();
+    motions.update_rates(state);
+    schur->matrix().apply(q, change);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      work_of_rows[i] = .5 * q[i] * (work_vector[i] + motions.velocities()[i]);
+      if (!takes_part[i])
+        continue;
+      const double expected = rate[i] + change[i] - softening[i] * q[i],
+                   size = problem.gap_scale[i] + std::fabs(rate[i]) + std::fabs(expected),
+                   error = std::fabs(state.gap_rate[i] - expected),
+                   relative = error == 0. ? 0. : error / size;
+      if (!(relative <= found) && !std::isnan(found))
+      {
+        found = relative;
+        worst = i;
+      }
+      state.multiplier[i] = (p[i] + q[i]) / step;
+    }
+  }
+} // namespace taut
