@@ -15,10 +15,10 @@ namespace taut
       return sum;
     }
 
-    /// True for a row whose force is an impulse over the step.
-    bool is_impulse(const Row &row, const StepCoefficients &c)
+    /// True for a row whose force is a mean over the step.
+    bool is_mean(const StepView &step, const std::size_t i)
     {
-      return c.mean_force && std::isinf(row.stiffness);
+      return !step.state.is_mean.empty() && step.state.is_mean[i];
     }
 
     /// Energy of a link's spring [J].
@@ -38,10 +38,9 @@ namespace taut
                                    "loads [J]", "supports [J]", "contacts [J]", "damping [J]",
                                    "link dampers [J]", "algorithmic [J]", "error [J]"});
     P = CV = balance = impulses = start.structure.zero();
-    const StepCoefficients none;
-    set_forces(start, none);
+    set_forces(start);
     Balance share;
-    add_bodies(start, none, share);
+    add_bodies(start, share);
     double sums[] = {share.kinetic, share.strain};
     start.structure.communicator().sum(sums, 2);
     total.kinetic = sums[0];
@@ -54,12 +53,12 @@ namespace taut
   }
 
   /// External forces, C V and P + B N - C V - K U of the present state, and impulses.
-  void Energy::set_forces(const StepView &step, const StepCoefficients &c)
+  void Energy::set_forces(const StepView &step)
   {
     const State &state = step.state;
     std::vector<double> in_balance = state.multiplier, impulsive(step.rows.size(), 0.);
     for (std::size_t i = 0; i < step.rows.size(); ++i)
-      if (is_impulse(step.rows[i], c))
+      if (is_mean(step, i))
         std::swap(in_balance[i], impulsive[i]);
     for (std::size_t k = 0; k < step.structure.size(); ++k)
     {
@@ -75,9 +74,10 @@ namespace taut
     step.rows.add_forces(impulsive, impulses);
   }
 
-  void Energy::add_bodies(const StepView &step, const StepCoefficients &c, Balance &share)
+  void Energy::add_bodies(const StepView &step, Balance &share)
   {
     const State &state = step.state;
+    const StepCoefficients &c = step.scheme;
     std::vector<double> product, a;
     for (std::size_t k = 0; k < step.structure.size(); ++k)
     {
@@ -98,10 +98,19 @@ namespace taut
       product.assign(n, 0.);
       body.mass().vmult_add(1., a.data(), product.data());
       const std::vector<double> &dU = state.dU[k];
+      std::vector<double> damping = CV[k];
+      if (c.velocity_projection)
+      {
+        // The equation of motion holds for the velocities before their projection.
+        for (std::size_t i = 0; i < n; ++i)
+          a[i] = state.V_old[k][i] + state.last_step * state.A[k][i];
+        damping.assign(n, 0.);
+        body.damping().vmult_add(1., a.data(), damping.data());
+      }
       for (std::size_t i = 0; i < n; ++i)
       {
         share.loads += .5 * (P0[k][i] + P[k][i]) * dU[i];
-        share.damping += .5 * (CV0[k][i] + CV[k][i]) * dU[i];
+        share.damping += .5 * (CV0[k][i] + damping[i]) * dU[i];
         share.algorithmic +=
             dU[i] * (product[i] - (.5 - c.alpha_f) * (balance[k][i] - balance0[k][i]));
       }
@@ -115,8 +124,7 @@ namespace taut
   }
 
   /// Work of the forces of moving rows on the bodies of this rank.
-  void Energy::add_moving_rows(const StepView &step, const StepCoefficients &c,
-                               Balance &share) const
+  void Energy::add_moving_rows(const StepView &step, Balance &share) const
   {
     const State &state = step.state;
     for (std::size_t i = step.rows.n_fixed(); i < step.rows.size(); ++i)
@@ -124,12 +132,15 @@ namespace taut
       const Row &row = step.rows[i];
       const double now = state.multiplier[i] * evaluate(row.terms, state.dU);
       const double before = N0[i] * evaluate(terms0[i - step.rows.n_fixed()], state.dU);
-      share.contacts += is_impulse(row, c) ? now : .5 * (before + now);
+      if (!is_mean(step, i))
+        share.contacts += .5 * (before + now);
+      else if (step.scheme.velocity_projection)
+        share.contacts += step.scheme.alpha_f * before;
     }
   }
 
-  /// Springs and dampers of the links, and the work of the fixed rows, from their own motions.
-  void Energy::add_rows(const StepView &step, const StepCoefficients &c)
+  /// Springs and dampers of the links, and the work of the rows from their own motions.
+  void Energy::add_rows(const StepView &step)
   {
     const State &state = step.state;
     total.links = 0.;
@@ -138,8 +149,18 @@ namespace taut
       const Row &row = step.rows[i];
       const State::LinkSpring &spring = state.link_springs[i];
       total.links += stored(row, spring);
-      const double mean =
-          is_impulse(row, c) ? state.multiplier[i] : .5 * (N0[i] + state.multiplier[i]);
+      if (is_mean(step, i))
+      {
+        // What the spring does not store of the work on it is the contact's.
+        const double damper = row.damping * spring.du * spring.du / state.last_step;
+        if (std::isfinite(damper))
+          total.link_dampers += damper;
+        total.contacts += state.row_work[i];
+        if (!std::isinf(row.stiffness))
+          total.contacts += stored(row, spring) - stored(row, springs0[i]) + damper;
+        continue;
+      }
+      const double mean = .5 * (N0[i] + state.multiplier[i]);
       if (!std::isinf(row.stiffness))
         total.link_dampers += row.damping * .5 * (springs0[i].v + spring.v) * spring.du;
       total.contacts += mean * (row.moving ? spring.du : state.gap[i] - gap0[i]);
@@ -163,23 +184,23 @@ namespace taut
       terms0.push_back(step.rows[i].terms);
   }
 
-  void Energy::record(const StepView &step, const StepCoefficients &c)
+  void Energy::record(const StepView &step)
   {
-    set_forces(step, c);
+    set_forces(step);
     Balance share;
-    add_bodies(step, c, share);
-    add_moving_rows(step, c, share);
+    add_bodies(step, share);
+    add_moving_rows(step, share);
     double sums[] = {share.kinetic,  share.strain,  share.loads,      share.supports,
                      share.contacts, share.damping, share.algorithmic};
     step.structure.communicator().sum(sums, 7);
-    total.algorithmic += sums[6] - (sums[0] - total.kinetic);
+    total.algorithmic += sums[6] - (sums[0] - total.kinetic) + step.state.impulse_work;
     total.kinetic = sums[0];
     total.strain = sums[1];
     total.loads += sums[2];
     total.supports += sums[3];
     total.contacts += sums[4];
     total.damping += sums[5];
-    add_rows(step, c);
+    add_rows(step);
     keep(step);
     if (step.state.time >= next - 1e-9 * interval)
       write(step.state.time);

@@ -46,7 +46,8 @@ namespace taut
     if (!probe_columns.empty())
       open(probes, "probes.csv", probe_columns);
     open(certificate, "certificate.csv",
-         {"complementarity [1]", "balance [1]", "drift [m, rad]", "iterations [1]"});
+         {"complementarity [1]", "balance [1]", "drift [m, rad]", "iterations [1]",
+          "contact energy [J]", "contact gap [m, rad]", "peak over mean [1]"});
   }
 
   void Series::open(std::unique_ptr<CsvFile> &file, const std::string &name,
@@ -90,6 +91,8 @@ namespace taut
       write_line(*probes, state.time, step.probes);
     *certificate << state.time << step.certificate.complementarity << step.certificate.balance
                  << step.certificate.drift << step.certificate.iterations;
+    const ContactMeasures::Summary contacts = step.measures.summary();
+    *certificate << contacts.contact_energy << contacts.gap << contacts.resolution;
     certificate->end_line();
   }
 

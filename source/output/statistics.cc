@@ -101,7 +101,7 @@ namespace taut
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
       if (rows[i].moving)
-        contacts.push_back({rows[i].name, i, {}, {}});
+        contacts.push_back({rows[i].name, i, {}, {}, {}});
       else if (!rows[i].is_cut())
       {
         link_names.push_back(rows[i].name);
@@ -126,10 +126,13 @@ namespace taut
     const State &state = step.state;
     const double dt = times.empty() ? 0. : state.time - times.back();
     times.push_back(state.time);
+    measures = &step.measures;
+    rows = &step.rows;
     for (Contact &contact : contacts)
     {
       contact.position.push_back(step.rows.position(contact.row, state.time));
       contact.force.push_back(state.multiplier[contact.row]);
+      contact.mean_force.push_back(step.measures.mean_force(contact.row));
     }
     for (std::size_t i = 0; i < link_figures.size(); ++i)
     {
@@ -140,8 +143,10 @@ namespace taut
       else
         link.closed_time += dt;
       link.impulse += force * dt;
-      if (std::fabs(force) > std::fabs(link.largest_force))
-        link.largest_force = force;
+      const double mean = link_unilateral[i] ? step.measures.mean_force(i) : force;
+      if (std::fabs(mean) > std::fabs(link.largest_force))
+        link.largest_force = mean;
+      link.largest_impulse = step.measures.largest_impulse(i);
     }
     for (std::size_t i = 0; i < uplift.size(); ++i)
     {
@@ -189,6 +194,7 @@ namespace taut
       const double interval = std::max(shortest, (times.back() - times.front()) / most_samples);
       contact.position = resample(times, recorded.position, interval);
       contact.force = resample(times, recorded.force, interval);
+      contact.mean_force = resample(times, recorded.mean_force, interval);
     }
     const auto in_window = [&](const std::vector<double> &record)
     {
@@ -205,6 +211,9 @@ namespace taut
     const std::vector<double> raw = in_window(contact.force);
     result.n_samples = raw.size();
     result.raw = result.filtered = Moments::of(raw);
+    // Peaks of impulses over a step say how short it is: peaks are those of the means.
+    result.raw.maximum = Moments::of(in_window(contact.mean_force)).maximum;
+    result.filtered.maximum = result.raw.maximum;
     if (!raw.empty())
       result.loss = static_cast<double>(std::count(raw.begin(), raw.end(), 0.)) / raw.size();
     const double step =
@@ -239,7 +248,8 @@ namespace taut
       list.insert(list.end(), {{link_names[i], "open time", f.open_time},
                                {link_names[i], "closed time", f.closed_time},
                                {link_names[i], "largest force", f.largest_force},
-                               {link_names[i], "impulse", f.impulse}});
+                               {link_names[i], "impulse", f.impulse},
+                               {link_names[i], "largest impulse", f.largest_impulse}});
     }
     for (std::size_t i = 0; i < probe_names.size(); ++i)
       list.insert(list.end(), {{probe_names[i], "largest", uplift[i]},

@@ -180,9 +180,11 @@ namespace taut
     }
     root["links"] = json::object();
     for (std::size_t i = 0; i < link_figures.size(); ++i)
-      root["links"][link_names[i]] = {{"open time [s]", link_figures[i].open_time},
-                                      {"largest force [N, N m]", link_figures[i].largest_force},
-                                      {"impulse [N s, N m s]", link_figures[i].impulse}};
+      root["links"][link_names[i]] = {
+          {"open time [s]", link_figures[i].open_time},
+          {"largest force [N, N m]", link_figures[i].largest_force},
+          {"impulse [N s, N m s]", link_figures[i].impulse},
+          {"largest impulse [N s, N m s]", link_figures[i].largest_impulse}};
     root["supports"] = json::object();
     for (std::size_t i = 0; i < support_figures.size(); ++i)
       root["supports"][support_names[i]] = {
@@ -198,6 +200,17 @@ namespace taut
         {"steps", n_steps},
         {"active-set iterations a step", n_steps > 0 ? double(n_iterations) / n_steps : 0.},
         {"fallbacks", n_fallbacks}};
+    if (measures && rows->size() > 0)
+    {
+      const ContactMeasures::Summary s = measures->summary();
+      root["certificate"]["contact energy [J]"] = s.contact_energy;
+      root["certificate"]["contact energy over the largest energies [1]"] = s.relative_energy;
+      root["certificate"]["contact energy, most at"] = (*rows)[s.energy_row].name;
+      root["certificate"]["contact gap [m, rad]"] = s.gap;
+      root["certificate"]["contact gap at"] = (*rows)[s.gap_row].name;
+      root["certificate"]["peak over mean [1]"] = s.resolution;
+      root["certificate"]["peak over mean at"] = (*rows)[s.resolution_row].name;
+    }
     write_file(path, root.dump(2));
   }
 } // namespace taut

@@ -141,6 +141,10 @@ namespace taut
     prm.add_parameter("Allow unsuitable scheme", allow_unsuitable_scheme,
                       "Run a scheme although it is known to fail with the links of the scene");
     prm.add_parameter(
+        "Allow energy gain", allow_energy_gain,
+        "Let a run succeed whose one-sided links gave more than a tenth of the energy "
+        "that moves, where they can only take it");
+    prm.add_parameter(
         "Massless contact", massless_contact,
         "Whether the node of a wire at a rigid stop or dropper gives its mass to its "
         "neighbours; impacts then take no energy and their force stays bounded as the step falls, "

@@ -70,6 +70,7 @@ namespace taut
     describe();
     find_start();
     find_rest_of_probes();
+    measures = std::make_unique<ContactMeasures>(bodies, links, reference, start);
     reactions.update_start(reference, start, links);
     const TimeIntegrator *integrator = parameters.end_time > 0. ? &choose_integrator() : nullptr;
 
@@ -144,6 +145,7 @@ namespace taut
           statistics.write(parameters.output.folder + "/statistics.json");
         });
     statistics.print(log);
+    log << measures->report();
     const long n_steps = stepper.n_steps_done();
     log << n_steps << " steps in " << all << " s, " << parameters.end_time / all
         << " x real time; without output " << 1e6 * seconds / n_steps << " us a step, "
@@ -156,6 +158,9 @@ namespace taut
           << static_cast<double>(solves.n_local_solves) / solves.n_applications
           << " bodies solved a product\n";
     log << "Results in " << parameters.output.folder << '\n';
+    const std::string error = measures->error();
+    if (!error.empty() && !parameters.allow_energy_gain)
+      throw EntryError(measures->error_origin(), error);
   }
 
   void Simulation::check()
@@ -237,10 +242,12 @@ namespace taut
     {
       const auto before = std::chrono::steady_clock::now();
       control.advance(stepper);
+      scheme = stepper.scheme();
+      measures->record(stepper.state(), scheme, stepper.certificate());
       seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
       show(stepper.state(), stepper.certificate());
       if (energy)
-        energy->record(view(stepper.state(), stepper.certificate()), stepper.scheme());
+        energy->record(view(stepper.state(), stepper.certificate()));
     }
     if (control.n_repeated() > 0)
       log << control.n_repeated() << " steps were repeated with a shorter one\n";
@@ -323,7 +330,8 @@ namespace taut
 
   StepView Simulation::view(const State &state, const Certificate &certificate) const
   {
-    return {model, bodies, links, reference, state, certificate, probe_values, reactions.forces()};
+    return {model,       bodies, links,     reference,    state,
+            certificate, scheme, *measures, probe_values, reactions.forces()};
   }
 
   void Simulation::update_probes(const State &state)

@@ -53,6 +53,7 @@ namespace taut
     rows.largest_forces(state.multiplier, contact_force);
 
     double result = 0.;
+    work_of_balance = 0.;
     may_be_way = true;
     worst = 0;
     for (std::size_t k = 0; k < structure.size(); ++k)
@@ -111,8 +112,16 @@ namespace taut
         for (std::size_t i = 0; i < size; ++i)
           residual[i] = factor * residual[i] - (r[begin + i] + kappa * r0[begin + i]);
       if (has_impulses)
+      {
+        const double *dU = state.dU[k].data() + begin;
+        double power = 0.;
         for (std::size_t i = 0; i < size; ++i)
+        {
           residual[i] -= impulses[k][begin + i];
+          power += dU[i] * (r[begin + i] + kappa * r0[begin + i]);
+        }
+        work_of_balance += (1. - c.alpha_f) * power;
+      }
       for (; constraint != body.constraints().end() && constraint->dof < end; ++constraint)
         residual[constraint->dof - begin] = 0.;
 

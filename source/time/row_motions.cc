@@ -257,6 +257,15 @@ namespace taut
     share_motions(state);
     if (c.velocity_projection)
       share_convection(state);
+    if (c.mean_force)
+    {
+      state.is_mean = mean;
+      state.row_work.assign(rows.size(), 0.);
+      state.impulse_work = 0.;
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        if (mean[i])
+          state.row_work[i] = (1. - c.alpha_f) * impulses[i] * motion[i];
+    }
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
       double &gap = state.geometric_gap[i];

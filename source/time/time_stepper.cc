@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <sstream>
 #include <type_traits>
 
@@ -81,6 +82,19 @@ namespace taut
     }
     const StepCoefficients c = integrator.coefficients(step);
     first_step_by_source = first_step_by_source && !c.starts_itself();
+    double moving_supports = 0.;
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      moving_supports += structure[k].has_moving_constraints();
+      std::fill(work_a.begin(), work_a.end(), 0.);
+      structure[k].mass().vmult_add(.5, current.V[k].data(), work_a.data());
+      current.kinetic_energy +=
+          std::inner_product(current.V[k].begin(), current.V[k].end(), work_a.begin(), 0.);
+    }
+    double sums[] = {moving_supports, current.kinetic_energy};
+    structure.communicator().sum(sums, 2);
+    supports_move = sums[0] > 0.;
+    current.kinetic_energy = sums[1];
     prepare(first_step_by_source ? backward_euler(step) : c);
     if (c.starts_itself())
     {
@@ -172,6 +186,42 @@ namespace taut
     certify();
     if (c.velocity_projection)
       project_velocities();
+    if (c.mean_force && !c.velocity_level)
+      measure_energy();
+  }
+
+  /**
+   * The change of kinetic energy, minus the work of all forces but those of fixed rows with a mean
+   * force, plus what the springs of these take: not positive but for rounding. Where supports move
+   * it would be the work of their forces, too, and is not measured.
+   */
+  void TimeStepper::measure_energy()
+  {
+    double sums[] = {0., -balance.work()};
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      std::vector<double> &V = current.V[k], &product = work_a;
+      std::fill(product.begin(), product.end(), 0.);
+      structure[k].mass().vmult_add(.5, V.data(), product.data());
+      sums[0] += std::inner_product(V.begin(), V.end(), product.begin(), 0.);
+    }
+    structure.communicator().sum(sums, 2);
+    double gain = sums[0] - current.kinetic_energy + sums[1];
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      if (!row_motions.mean_force(i))
+        continue;
+      if (rows[i].moving)
+        gain -= current.row_work[i];
+      if (!rows[i].moving && !std::isinf(rows[i].stiffness))
+      {
+        const State::LinkSpring &spring = current.link_springs[i];
+        const double before = spring.u - spring.du;
+        gain += .5 * rows[i].stiffness * (spring.u * spring.u - before * before);
+      }
+    }
+    last.kinetic_energy = current.kinetic_energy = sums[0];
+    last.energy_gain = supports_move ? 0. : gain;
   }
 
   /// P - P_ref at the time of the state.
@@ -322,7 +372,11 @@ namespace taut
       last.worst_row = projection->worst_row();
     }
     check_rows();
-    current.work_of_impulses = projection->work();
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      current.row_work[i] += projection->work()[i];
+      current.impulse_work += projection->work()[i];
+    }
     // Forces of moving rows act half in their old place.
     std::vector<double> &moving = work_rows;
     moving = current.multiplier;

@@ -31,9 +31,8 @@ namespace taut
     /// Each rank gives its own bodies; the root writes, at least @p interval apart [s].
     Energy(const std::string &folder, const StepView &start, double interval);
 
-    /// The step from the last call to this one was made with these coefficients. Called by all
-    /// ranks together.
-    void record(const StepView &step, const StepCoefficients &c);
+    /// A step after the last one. Called by all ranks together.
+    void record(const StepView &step);
 
     /// Throws UserError when the disk is full.
     void close();
@@ -47,11 +46,11 @@ namespace taut
       double damping = 0., link_dampers = 0., algorithmic = 0.;
     };
 
-    void add_bodies(const StepView &step, const StepCoefficients &c, Balance &share);
-    void add_moving_rows(const StepView &step, const StepCoefficients &c, Balance &share) const;
-    void add_rows(const StepView &step, const StepCoefficients &c);
+    void add_bodies(const StepView &step, Balance &share);
+    void add_moving_rows(const StepView &step, Balance &share) const;
+    void add_rows(const StepView &step);
     void keep(const StepView &step);
-    void set_forces(const StepView &step, const StepCoefficients &c);
+    void set_forces(const StepView &step);
     void write(double time);
 
     std::unique_ptr<CsvFile> file;

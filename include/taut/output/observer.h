@@ -4,6 +4,8 @@
 
 #include <taut/interface/contact_rows.h>
 #include <taut/time/certificate.h>
+#include <taut/time/contact_measures.h>
+#include <taut/time/integrator.h>
 #include <taut/time/state.h>
 
 #include <vector>
@@ -19,6 +21,10 @@ namespace taut
     const Reference &reference;
     const State &state;
     const Certificate &certificate;
+
+    /// The scheme of the step, and what the contacts did until its end.
+    const StepCoefficients &scheme;
+    const ContactMeasures &measures;
 
     /// Displacement of each probe from the equilibrium without sliding contacts, if the run starts
     /// from an equilibrium; otherwise from the undeformed position [m, rad].

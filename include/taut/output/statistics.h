@@ -90,11 +90,13 @@ namespace taut
       std::string name;
       std::size_t row;
       std::vector<double> position, force;
+      std::vector<double> mean_force = {}; ///< over the time that the element resolves
     };
     /// What a fixed link did.
     struct LinkFigures
     {
       double open_time = 0., closed_time = 0., largest_force = 0., impulse = 0.;
+      double largest_impulse = 0.;
     };
 
     /// Force of a support.
@@ -127,6 +129,8 @@ namespace taut
     std::vector<SupportFigures> support_figures;
     std::vector<double> times;
     Certificate worst;
+    const ContactMeasures *measures = nullptr; ///< of the last step
+    const ContactRows *rows = nullptr;
     double worst_complementarity_time = 0., worst_balance_time = 0.;
     std::size_t n_steps = 0, n_iterations = 0, n_fallbacks = 0;
   };

@@ -82,6 +82,7 @@ namespace taut
     double step = 1e-3, end_time = 6.912;
     std::string massless_contact = "automatic";
     bool allow_unsuitable_scheme = false;
+    bool allow_energy_gain = false;
     StepParameters step_parameters;
 
     SolverParameters solver;

@@ -77,6 +77,8 @@ namespace taut
     Reactions reactions;
     std::vector<Observer *> guests;
     std::unique_ptr<TimeIntegrator> chosen_integrator; ///< of Scheme = automatic
+    std::unique_ptr<ContactMeasures> measures;
+    StepCoefficients scheme; ///< of the last step
     double seconds = 0.;
   };
 } // namespace taut

@@ -19,6 +19,7 @@ namespace taut
     static std::string name_of(const Scene &scene, const std::vector<std::size_t> &members);
 
     void initial_state(std::vector<double> &U, std::vector<double> &V) const override;
+    bool is_lumped() const override { return true; }
     Kernel kernel() const override;
 
     /// Displacement along a direction, or the rotation, of a mass: result . U. Motions that the

@@ -83,6 +83,9 @@ namespace taut
     /// these rows has an inverse that is worth its name.
     virtual bool has_definite_mass() const { return true; }
 
+    /// True if the body is masses and springs: it has no element that resolves a force in time.
+    virtual bool is_lumped() const { return false; }
+
     /// Displacement and velocity at t = 0 as given in the scene.
     virtual void initial_state(std::vector<double> &U, std::vector<double> &V) const = 0;
 

@@ -43,6 +43,10 @@ namespace taut
     double measure(const StepCoefficients &c, const StepForces &forces,
                    const RowMotions &row_motions, State &state);
 
+    /// dU . [(1 - alpha_f) r + alpha_f r0] of this rank's bodies after measure(), with mean forces:
+    /// the work of all forces but the means of this step [J].
+    double work() const { return work_of_balance; }
+
     /// Body of the largest residual.
     std::size_t worst_body() const { return worst; }
 
@@ -71,6 +75,7 @@ namespace taut
     BlockVector impulses;                       ///< forces of this step only
     std::vector<double> mean_A;                 ///< accelerations that M acts on, of one body
     std::vector<double> inertia, damping;       ///< forces of a few rows
+    double work_of_balance = 0.;
     std::size_t worst = 0;
     bool may_be_way = true;
   };

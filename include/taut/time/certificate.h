@@ -27,6 +27,14 @@ namespace taut
     /// its position is free to drift [m, rad].
     double drift = 0.;
 
+    /// Kinetic energy of all bodies at the end of the step, of schemes with mean forces and
+    /// conditions on gaps only [J].
+    double kinetic_energy = 0.;
+
+    /// Energy that the system gained in such a step and that neither loads nor moving rows gave
+    /// [J].
+    double energy_gain = 0.;
+
     unsigned int iterations = 0; ///< of the complementarity solver
     bool fallback = false;       ///< the method that was not chosen finished the step
 

@@ -45,9 +45,16 @@ namespace taut
 
     std::vector<double> gap_rate; ///< D', of schemes with mean forces only [m/s, rad/s]
 
-    /// Work that the impulses of a velocity projection did on the bodies in the last step, of each
-    /// row; empty with other schemes [J].
-    std::vector<double> work_of_impulses;
+    double kinetic_energy = 0.; ///< with mean forces and conditions on gaps only [J]
+
+    /// Of schemes with mean forces, otherwise empty: not 0 for each row whose multiplier is a mean
+    /// over the last step, and the work of its forces on the bodies, without the part that those of
+    /// a moving row do in its old place [J].
+    std::vector<char> is_mean;
+    std::vector<double> row_work;
+
+    /// The part of that work that the impulses of a velocity projection did [J].
+    double impulse_work = 0.;
 
     /// Compression of each link's spring and its rates, as one more body with the same time
     /// integration [m, rad].

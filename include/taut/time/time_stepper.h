@@ -81,6 +81,7 @@ namespace taut
     void solve_or_fail(const Solve &solve) const;
     void solve_rows();
     void project_velocities();
+    void measure_energy();
     void accept(std::size_t k);
     void start_balance();
     void hold_dofs_without_mass();
@@ -112,6 +113,7 @@ namespace taut
     ComplementaritySolver complementarity;
     RowMotions row_motions;
     bool has_free_motions = false; ///< a body of some rank
+    bool supports_move = false;    ///< of a body of some rank
     BalanceCertificate balance;
     std::unique_ptr<VelocityProjection> projection; ///< of schemes with one
 

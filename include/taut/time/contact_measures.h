@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_contact_measures_h
+#define taut_contact_measures_h
+
+#include <taut/interface/contact_rows.h>
+#include <taut/time/certificate.h>
+#include <taut/time/integrator.h>
+#include <taut/time/state.h>
+
+#include <deque>
+#include <string>
+#include <vector>
+
+namespace taut
+{
+  /**
+   * What a run's contacts did, where the certificate of each step sees nothing: it proves that a
+   * step's equations are solved, not that the scheme suits the contacts.
+   *
+   * Contact energy: what contacts gave that only can take it. Forces at the ends of steps do the
+   * work W = (N_0 + N_1)(D_1 - D_0) / 2 on a one-sided row, and the positive ones are summed; with
+   * mean forces on conditions on velocities W = N (D_1 - D_0); with mean forces and conditions on
+   * gaps, where W cannot be positive, it is the gain of energy of the whole system that nothing
+   * explains (Certificate::energy_gain). Over the largest kinetic energy plus the largest strain
+   * energy plus the largest work of loads, measured from the reference.
+   *
+   * Gap: the largest penetration, or gap of a row that presses, of rigid one-sided rows.
+   *
+   * Resolution: largest force of a one-sided row over the largest of its means across the shortest
+   * time that its element resolves, max(step, 2 / omega_max). Far above one, the force is an
+   * impulse over a step, and its size says how short the step is.
+   */
+  class ContactMeasures
+  {
+  public:
+    /// The arguments but @p start are kept by reference.
+    ContactMeasures(const Structure &structure, const ContactRows &rows, const Reference &reference,
+                    const State &start);
+
+    /// An accepted step, made with these coefficients. Called by all ranks together.
+    void record(const State &state, const StepCoefficients &c, const Certificate &certificate);
+
+    /// Mean of the force of a row over the time that its element resolves [N, N m].
+    double mean_force(std::size_t i) const { return forces[i].mean; }
+
+    /// Largest impulse of a row from closing to opening [N s, N m s].
+    double largest_impulse(std::size_t i) const { return forces[i].largest_impulse; }
+
+    /// Results of the run so far.
+    struct Summary
+    {
+      double contact_energy = 0.;                ///< [J]
+      double scale = 0.;                         ///< kinetic + strain + loads [J]
+      double relative_energy = 0.;               ///< contact energy over the scale [1]
+      std::size_t energy_row = 0;                ///< of the contact that gave most
+      double energy_begin = 0., energy_end = 0.; ///< when it closed and opened [s]
+      double gap = 0.;                           ///< [m, rad]
+      std::size_t gap_row = 0;
+      bool gap_drifts = false; ///< more than a step of motion
+      double resolution = 1.;  ///< [1]
+      std::size_t resolution_row = 0;
+      double peak = 0., mean_peak = 0., mean_time = 0.; ///< of that row [N, N m; s]
+    };
+    Summary summary() const;
+
+    /// Part of the scale from which contact energy is a warning, and an error.
+    static constexpr double suspicious_energy = 1e-2, wrong_energy = .1;
+
+    /// Resolution above which it is said.
+    static constexpr double unresolved = 3.;
+
+    /// One line for the log, and a warning for each measure beyond its bound.
+    std::string report() const;
+
+    /// The message of a run whose contact energy is beyond wrong_energy; empty if it is not.
+    std::string error() const;
+
+    /// Path in the parameter file of what error() is about.
+    std::string error_origin() const { return rows.origin(summary().energy_row); }
+
+  private:
+    /// Force of a row in time.
+    struct Force
+    {
+      double window = 0.; ///< [s]; 0: each step for itself
+      std::deque<std::pair<double, double>>
+          impulses; ///< time and impulse until then, in the window
+      double impulse = 0., mean = 0., peak = 0., mean_peak = 0.;
+      double event_impulse = 0., largest_impulse = 0.;
+      double event_energy = 0., event_begin = 0.;
+      double gap = 0., motion = 0.; ///< largest, and of a step [m, rad]
+    };
+
+    void add_force(Force &force, double t, double dt, double value);
+    void add_energy(std::size_t i, const State &state, const StepCoefficients &c);
+    void add_gap(std::size_t i, const State &state, const StepCoefficients &c);
+    void measure_scale(const State &state, const Certificate &certificate);
+    std::vector<double> resolved_times() const;
+
+    const Structure &structure;
+    const ContactRows &rows;
+    const Reference &reference;
+    std::vector<Force> forces;
+    std::vector<double> multiplier0, gap0, noise;
+    Summary found;
+    double worst_event = 0.;
+    double kinetic = 0., strain = 0., loads = 0.; ///< largest so far [J]
+    long n_steps = 0;
+    std::vector<double> work;
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/time/contact_measures.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace taut
+{
+  namespace
+  {
+    /// Steps between two measurements of the energies that contact energy is compared with: they
+    /// cost as much as a tenth of a step.
+    constexpr long steps_between_scales = 16;
+
+    /// Motions of a step that a condition on velocities may leave a gap of: one, and the next
+    /// one's.
+    constexpr double most_steps_of_motion = 2.;
+
+    /// Part of the terms of a gap that its carried value may be off by.
+    constexpr double rounding_of_gaps = 1e-12;
+
+    double dot(const std::vector<double> &x, const std::vector<double> &y)
+    {
+      double sum = 0.;
+      for (std::size_t i = 0; i < x.size(); ++i)
+        sum += x[i] * y[i];
+      return sum;
+    }
+
+    /// Bound of the highest angular frequency at each DoF from the diagonals, 2 sqrt(K_jj / M_jj);
+    /// 0 where there is no mass or no stiffness [rad/s].
+    std::vector<double> frequencies(const Substructure &body)
+    {
+      std::vector<double> k(body.n_dofs(), 0.), m(body.n_dofs(), 0.);
+      const auto diagonal = [](std::vector<double> &d)
+      {
+        return [&d](const unsigned int i, const unsigned int j, const double value)
+        {
+          if (i == j)
+            d[i] = value;
+        };
+      };
+      body.stiffness().visit(diagonal(k));
+      body.mass().visit(diagonal(m));
+      for (std::size_t i = 0; i < k.size(); ++i)
+        k[i] = m[i] > 0. ? 2. * std::sqrt(k[i] / m[i]) : 0.;
+      return k;
+    }
+  } // namespace
+
+  ContactMeasures::ContactMeasures(const Structure &structure, const ContactRows &rows,
+                                   const Reference &reference, const State &start)
+      : structure(structure), rows(rows), reference(reference), forces(rows.size()),
+        multiplier0(start.multiplier), gap0(start.gap)
+  {
+    const std::vector<double> times = resolved_times();
+    rows.share_of_motions(reference.displacement, noise = std::vector<double>(rows.size()),
+                          work = std::vector<double>(rows.size()));
+    structure.communicator().sum(work);
+    noise.assign(rows.size(), 0.);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      noise[i] = rounding_of_gaps * (work[i] + std::fabs(rows[i].gap));
+      forces[i].window = times[i];
+      forces[i].mean = start.multiplier[i];
+      forces[i].impulses.push_back({start.time, 0.});
+    }
+    measure_scale(start, Certificate());
+  }
+
+  /// 2 / omega_max of the elements under each one-sided row; 0: lumped bodies only.
+  std::vector<double> ContactMeasures::resolved_times() const
+  {
+    std::vector<double> highest(rows.size(), 0.);
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      if (structure[k].is_lumped())
+        continue;
+      const std::vector<double> omega = frequencies(structure[k]);
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        for (const Term &term : rows[i].terms)
+          if (term.substructure == k && rows[i].unilateral)
+            for (const unsigned int dof : term.form.index)
+              highest[i] = std::max(highest[i], omega[dof]);
+    }
+    for (double &value : highest)
+    {
+      value = structure.communicator().max(value);
+      value = value > 0. ? 2. / value : 0.;
+    }
+    return highest;
+  }
+
+  void ContactMeasures::record(const State &state, const StepCoefficients &c,
+                               const Certificate &certificate)
+  {
+    ++n_steps;
+    const bool measures_gain = c.mean_force && !c.velocity_level;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      if (!rows[i].unilateral)
+        continue;
+      add_energy(i, state, c);
+      add_force(forces[i], state.time, state.last_step, state.multiplier[i]);
+      add_gap(i, state, c);
+      multiplier0[i] = state.multiplier[i];
+      gap0[i] = state.gap[i];
+    }
+    if (measures_gain)
+      found.contact_energy += std::max(0., certificate.energy_gain);
+    if (n_steps < steps_between_scales || n_steps % steps_between_scales == 0)
+      measure_scale(state, certificate);
+    kinetic = std::max(kinetic, certificate.kinetic_energy);
+  }
+
+  void ContactMeasures::add_energy(const std::size_t i, const State &state,
+                                   const StepCoefficients &c)
+  {
+    Force &force = forces[i];
+    const bool is_mean = c.mean_force && state.is_mean[i];
+    const double change = state.gap[i] - gap0[i];
+    double energy = 0.;
+    if (is_mean && !rows[i].moving && std::isinf(rows[i].stiffness))
+      energy = state.row_work[i];
+    else if (std::fabs(change) > noise[i])
+      energy = is_mean ? state.multiplier[i] * change
+                       : .5 * (multiplier0[i] + state.multiplier[i]) * change;
+    if (!(c.mean_force && !c.velocity_level))
+      found.contact_energy += std::max(0., energy);
+    if (!(multiplier0[i] > 0.))
+    {
+      force.event_energy = 0.;
+      force.event_begin = state.time;
+    }
+    force.event_energy += energy;
+    if (force.event_energy > worst_event)
+    {
+      worst_event = force.event_energy;
+      found.energy_row = i;
+      found.energy_begin = force.event_begin;
+      found.energy_end = state.time;
+    }
+  }
+
+  void ContactMeasures::add_force(Force &force, const double t, const double dt, const double value)
+  {
+    force.event_impulse = value > 0. ? force.event_impulse + value * dt : 0.;
+    force.largest_impulse = std::max(force.largest_impulse, force.event_impulse);
+    force.mean = value;
+    if (force.window > dt)
+    {
+      force.impulse += value * dt;
+      force.impulses.push_back({t, force.impulse});
+      while (force.impulses.size() > 2 && force.impulses[1].first <= t - force.window)
+        force.impulses.pop_front();
+      const auto &first = force.impulses[0], &second = force.impulses[1];
+      const double begin = std::max(first.first, t - force.window),
+                   before = first.second + (second.second - first.second) * (begin - first.first) /
+                                               (second.first - first.first);
+      force.mean = (force.impulse - before) / force.window;
+    }
+    force.peak = std::max(force.peak, value);
+    force.mean_peak = std::max(force.mean_peak, force.mean);
+  }
+
+  void ContactMeasures::add_gap(const std::size_t i, const State &state, const StepCoefficients &c)
+  {
+    if (!std::isinf(rows[i].stiffness))
+      return;
+    const double gap = state.multiplier[i] > 0. ? std::fabs(state.gap[i]) : -state.gap[i];
+    if (gap > found.gap)
+    {
+      found.gap = gap;
+      found.gap_row = i;
+    }
+    // A condition on velocities leaves a gap of the motion of a step.
+    Force &force = forces[i];
+    if (c.velocity_level)
+      force.motion = std::max(force.motion, state.last_step * std::fabs(state.gap_rate[i]));
+    force.gap = std::max(force.gap, gap);
+  }
+
+  void ContactMeasures::measure_scale(const State &state, const Certificate &certificate)
+  {
+    double sums[] = {0., 0., 0.};
+    std::vector<double> vector;
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      const Substructure &body = structure[k];
+      if (certificate.kinetic_energy == 0.)
+      {
+        vector.assign(body.n_dofs(), 0.);
+        body.mass().vmult_add(.5, state.V[k].data(), vector.data());
+        sums[0] += dot(vector, state.V[k]);
+      }
+      sums[1] += .5 * dot(state.U[k], state.KU[k]);
+      body.external_force(state.time, vector);
+      sums[2] += dot(vector, state.U[k]) - dot(reference.force[k], state.U[k]);
+    }
+    structure.communicator().sum(sums, 3);
+    kinetic = std::max(kinetic, sums[0]);
+    strain = std::max(strain, std::fabs(sums[1]));
+    loads = std::max(loads, std::fabs(sums[2]));
+    rows.share_of_motions(state.U, vector = std::vector<double>(rows.size()),
+                          work = std::vector<double>(rows.size()));
+    structure.communicator().sum(work);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      noise[i] = std::max(noise[i], rounding_of_gaps * work[i]);
+  }
+
+  ContactMeasures::Summary ContactMeasures::summary() const
+  {
+    Summary result = found;
+    result.scale = kinetic + strain + loads;
+    if (result.contact_energy > 0.)
+      result.relative_energy = result.contact_energy / result.scale;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      const Force &force = forces[i];
+      if (force.gap > most_steps_of_motion * force.motion && force.gap > noise[i] &&
+          force.motion > 0.)
+        result.gap_drifts = true;
+      if (!(force.peak > result.resolution * force.mean_peak) || !(force.mean_peak > 0.))
+        continue;
+      result.resolution = force.peak / force.mean_peak;
+      result.resolution_row = i;
+      result.peak = force.peak;
+      result.mean_peak = force.mean_peak;
+      result.mean_time = force.window;
+    }
+    return result;
+  }
+
+  std::string ContactMeasures::error() const
+  {
+    const Summary s = summary();
+    if (!(s.relative_energy > wrong_energy))
+      return "";
+    std::ostringstream out;
+    out << "one-sided links gave " << s.contact_energy << " J, " << s.relative_energy
+        << " of the energy that moves, where they can only take it: most at '"
+        << rows[s.energy_row].name << "' between t = " << s.energy_begin << " and " << s.energy_end
+        << " s. The motion is wrong. Set 'Time/Scheme' to 'automatic', take a smaller step, or set "
+           "'Time/Allow energy gain'";
+    return out.str();
+  }
+
+  std::string ContactMeasures::report() const
+  {
+    const Summary s = summary();
+    std::ostringstream out;
+    out.precision(2);
+    out << "Contacts: energy " << s.relative_energy << " of the largest, gap " << s.gap
+        << " m, peak over mean " << s.resolution << '\n';
+    if (s.relative_energy > suspicious_energy && !(s.relative_energy > wrong_energy))
+      out << "  Warning: one-sided links gave " << s.contact_energy << " J, most at '"
+          << rows[s.energy_row].name << "' between t = " << s.energy_begin << " and "
+          << s.energy_end << " s: take 'Scheme = automatic' or a smaller step\n";
+    if (s.gap_drifts)
+      out << "  Warning: '" << rows[s.gap_row].name
+          << "' presses across a gap, or penetrates, by more than the motion of a step: take "
+             "conditions on gaps\n";
+    if (s.resolution > unresolved)
+      out << "  Warning: the largest force of '" << rows[s.resolution_row].name << "', " << s.peak
+          << " N, is an impulse over a step; its largest mean over " << s.mean_time << " s is "
+          << s.mean_peak << " N: report that, or the impulse\n";
+    return out.str();
+  }
+} // namespace taut
