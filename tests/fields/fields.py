@@ -241,17 +241,63 @@ def check_plot_reads(folder, script):
 
 
 def check_filter(folder, script):
-    """The filtered figures of statistics.json from sliding.csv."""
+    """The filtered statistics of statistics.json from sliding.csv."""
     plot = load_plot(script)
-    figures = json.loads((folder / "statistics.json").read_text())["sliding contacts"]["pantograph"]
+    statistics = json.loads((folder / "statistics.json").read_text())
+
+    def said(*keys):
+        return plot.statistic(statistics, "sliding contacts", "pantograph", *keys)
+
     series = table(folder / "sliding.csv")
     time, x, force = (series[c] for c in ("time [s]", "pantograph position [m]", "pantograph force [N]"))
-    filtered = plot.low_pass(force, (time[-1] - time[0]) / (len(time) - 1), figures["filter frequency [Hz]"])
-    inside = filtered[(x >= figures["window [m]"][0] - 1e-6) & (x <= figures["window [m]"][1] + 1e-6)]
-    for name, value in (("mean [N]", inside.mean()), ("standard deviation [N]", inside.std()),
-                        ("minimum [N]", inside.min()), ("maximum [N]", inside.max())):
-        if abs(value - figures["filtered"][name]) > 1e-9 * abs(value):
-            errors.append(f"filtered {name}: {value} is not {figures['filtered'][name]}")
+    filtered = plot.low_pass(force, (time[-1] - time[0]) / (len(time) - 1), said("filter frequency"))
+    inside = filtered[(x >= said("window")[0] - 1e-6) & (x <= said("window")[1] + 1e-6)]
+    for name, value in (("mean", inside.mean()), ("standard deviation", inside.std()),
+                        ("minimum", inside.min()), ("maximum", inside.max())):
+        if abs(value - said("filtered", name)) > 1e-9 * abs(value):
+            errors.append(f"filtered {name}: {value} is not {said('filtered', name)}")
+
+
+def check_partial(whole, script):
+    """taut-plot draws what a killed run has written, whole lines only, and says until when."""
+    folder = whole.parent / "partial"
+    shutil.rmtree(folder, ignore_errors=True)
+    shutil.copytree(whole, folder, ignore=shutil.ignore_patterns("pictures"))
+    (folder / "statistics.json").unlink()
+    for name in ("sliding.csv", "links.csv"):
+        path = folder / name
+        text = path.read_text()
+        path.write_text(text[:text.rstrip().rfind("\n") + 9])  # a line that was being written
+    command = [sys.executable, script, folder, "--output", folder / "pictures", "--format", "png"]
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode != 0 or "not complete: pictures until t = " not in done.stdout:
+        errors.append(f"taut-plot of a killed run: {done.returncode}, {done.stdout}{done.stderr}")
+    for name in ("contact_force", "probes", "link_forces", "displacement_map"):
+        if not (folder / "pictures" / f"{name}.png").exists():
+            errors.append(f"no {name} of a killed run")
+
+
+def check_intervals(folder, script):
+    """A peak and an opening between two lines of links.csv are drawn where their columns are there; statistics.json is read
+    with units in its keys and with units beside its values."""
+    plot = load_plot(script)
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "used.prm").write_text("set Generator = network # default: catenary\n")
+    (folder / "certificate.csv").write_text("time [s]\n0\n")
+    (folder / "links.csv").write_text(
+        "time [s],buffer force [N],buffer force least [N],buffer force largest [N],buffer gap [m],buffer gap least [m],"
+        "buffer gap largest [m],buffer changes [1],rope force [N],rope gap [m]\n"
+        "0,0,0,0,1,1,1,0,5,-1\n1,0,0,258,0.5,-0.1,1,2,0,2\n2,7,6,8,-0.1,-0.1,-0.1,1,3,-1\n")
+    _, links = plot.fixed_links(plot.Results(str(folder)))
+    found = [(link.name, list(link.largest), list(link.least), link.has_band, list(link.is_open)) for link in links]
+    if found != [("buffer", [0, 258, 8], [0, 0, 6], True, [True, True, False]),
+                 ("rope", [5, 0, 3], [5, 0, 3], False, [False, True, False])]:
+        errors.append(f"taut-plot reads {found}")
+    for tree in ({"sliding contacts": {"a b": {"filter frequency [Hz]": 20}}},
+                 {"sliding_contacts": {"a b": {"filter_frequency": {"value": 20, "unit": "Hz"}}}},
+                 {"sliding_contacts": [{"name": "a b", "filter_frequency": {"value": 20, "unit": "Hz"}}]}):
+        if plot.statistic(tree, "sliding contacts", "a b", "filter frequency") != 20:
+            errors.append(f"taut-plot does not read {tree}")
 
 
 plot_script = arguments.root / "source" / "plot" / "taut-plot"
@@ -264,7 +310,9 @@ check_contact(results, 250 / 3.6, 60)
 check_order(results)
 check_killed("en50318_2002_250")
 check_filter(results, plot_script)
-check_pictures(results, ["contact_force", "probes", "link_forces", "link_map", "waterfall"], plot_script)
+check_partial(results, plot_script)
+check_intervals(arguments.results / "intervals", plot_script)
+check_pictures(results, ["contact_force", "probes", "link_forces", "link_map", "displacement_map"], plot_script)
 
 results = run("en50318_2002_300", "Time/End=0", "Output/Field interval=1", "Partition/Number of substructures=3")
 check_cuts(results, 3)
@@ -273,7 +321,7 @@ check_plot_reads(results, plot_script)
 results = run("inclined_cable", "Time/End=2", "Output/Field interval=0.1")
 check_links(results)
 check_probes(results, {"tip": ("beam", 3, 0, (0, 0, 1))})
-check_pictures(results, ["probes", "link_forces", "waterfall"], plot_script)
+check_pictures(results, ["probes", "link_forces", "displacement_map"], plot_script)
 forces = []
 for (_, wire_path), (_, link_path) in zip(collection(results / "wires.pvd"), collection(results / "links.pvd")):
     tip = Grid(wire_path).fields["displacement"][-1]
@@ -286,6 +334,8 @@ if not (max(forces) > 45 and min(forces) == 0):
 results = run("oscillator_with_stop", "Time/End=0.3", "Output/Field interval=0.01")
 check_links(results)
 check_pictures(results, ["probes", "link_forces"], plot_script)
+if (results / "pictures" / "displacement_map.png").exists():
+    errors.append("a displacement map of masses without a wire")
 
 # The start of the mast is a hand calculation: force, stretch, slack.
 results = run("guyed_mast", "Time/End=0")

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""README.md names every scene and has each of its two commands once, and all files that it links to exist."""
+"""README.md names every scene and has each of its two commands once."""
 import argparse
 import pathlib
 import re
@@ -17,7 +17,4 @@ for target in ("run_en50318", "check"):
     commands = re.findall(rf"^apt-get .*doc/packages\.txt.* --target {target}$", text, re.MULTILINE)
     if len(commands) != 1:
         errors.append(f"{len(commands)} commands end with --target {target}")
-links = [link for link in re.findall(r"\]\(([^)#]+)", text) if "://" not in link]
-errors += [f"'{link}' does not exist" for link in links if not (root / link).exists()]
-print(len(links), "links")
 sys.exit("\n".join(errors) or None)

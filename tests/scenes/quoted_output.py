@@ -1,0 +1,121 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""README.md and doc/tutorial.md quote what the program prints: every line of a block marked `text` there is a line of the run
+that the page describes, and the parameter file that the tutorial builds up is the one of prm/. Integers are the same,
+decimals to two units of the last digit quoted or a thousandth, residuals at rounding level on both sides."""
+import argparse
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+parser = argparse.ArgumentParser(description=__doc__)
+parser.add_argument("--root", type=pathlib.Path, required=True)
+parser.add_argument("--program", required=True)
+parser.add_argument("--results", type=pathlib.Path, required=True, help="folder that is made anew")
+arguments = parser.parse_args()
+arguments.root = arguments.root.resolve()
+NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w])")
+ROUNDING = 1e-9
+
+
+def blocks(path):
+    """(mark, lines) of the fenced blocks of a page, in order."""
+    found, current = [], None
+    for line in path.read_text(encoding="utf-8").splitlines():
+        if current is None and line.startswith("```"):
+            current = (line[3:].strip(), [])
+        elif line.startswith("```"):
+            found.append(current)
+            current = None
+        elif current is not None:
+            current[1].append(line)
+    return found
+
+
+def same_number(quoted, printed):
+    if re.fullmatch(r"[-+]?\d+", quoted):
+        return quoted == printed
+    a, b = float(quoted), float(printed)
+    if 0 < abs(a) < ROUNDING or 0 < abs(b) < ROUNDING:
+        return max(abs(a), abs(b)) < ROUNDING
+    last = 0 if "e" in quoted else 10.0 ** -len(quoted.partition(".")[2])
+    return abs(a - b) <= max(2.01 * last, 1e-3 * abs(a))
+
+
+def same_line(quoted, printed):
+    words = ([" ".join(part.split()) for part in NUMBER.split(line)] for line in (quoted, printed))
+    if list(next(words)) != list(next(words)):
+        return False
+    return all(map(same_number, NUMBER.findall(quoted), NUMBER.findall(printed)))
+
+
+def run(*command):
+    """What the program says, in the folder of the results."""
+    done = subprocess.run([arguments.program, *map(str, command)], cwd=arguments.results, text=True,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    return done.stdout.splitlines()
+
+
+errors, n_lines = [], 0
+
+
+def compare(page, quoted, printed):
+    global n_lines
+    for line in quoted:
+        if line.strip() == "...":
+            continue
+        n_lines += 1
+        if not any(same_line(line, other) for other in printed):
+            near = [other for other in printed if other.split()[:2] == line.split()[:2]][:1]
+            errors.append(f"{page} quotes\n  {line}\nwhich the program does not print" + (f"; it prints\n  {near[0]}" if near else ""))
+
+
+def wrapped(lines):
+    """A message that the page breaks into several lines."""
+    return [" ".join(line.strip() for line in lines)]
+
+
+shutil.rmtree(arguments.results, ignore_errors=True)
+arguments.results.mkdir(parents=True)
+line_run = run(arguments.root / "prm" / "en50318_2002_250.prm")
+for mark, lines in blocks(arguments.root / "README.md"):
+    if mark == "text":
+        compare("README.md", lines, line_run)
+
+# The second half of the tutorial writes mast.prm, block by block.
+mast, mast_run = "", None
+entries = [(mark, lines) for mark, lines in blocks(arguments.root / "doc" / "tutorial.md") if mark in ("prm", "text")]
+first = next(i for i, (_, lines) in enumerate(entries) if "set Generator = network" in lines)
+for i, (mark, lines) in enumerate(entries):
+    if i < first:
+        if mark == "text":
+            compare("tutorial.md", lines, line_run)
+    elif mark == "prm":
+        if "subsection Network" not in lines and lines[0].startswith("  ") and mast.endswith("end\n"):
+            mast = mast[:-len("end\n")]  # goes on inside of Network
+        mast += "\n".join(lines) + "\n"
+        if lines[0].startswith("  "):
+            mast += "end\n"
+        (arguments.results / "mast.prm").write_text(mast, encoding="utf-8")
+    elif lines[0].startswith("taut: "):
+        compare("tutorial.md", wrapped(lines), wrapped(run("mast.prm", "--check")[-1:]))
+    else:
+        if mast_run is None:
+            mast_run = run("mast.prm") + (arguments.results / "results/mast/start.csv").read_text().splitlines()
+        compare("tutorial.md", lines, mast_run)
+
+
+def statements(text):
+    """Lines of a parameter file in whatever order, without comments, its folder and what is the default."""
+    lines = (" ".join(line.split()) for line in text.splitlines() if line.strip() and not line.startswith("#"))
+    return sorted(line for line in lines if not line.startswith(("set Folder", "set Scheme = automatic")))
+
+
+if mast_run is None or statements(mast) != statements((arguments.root / "prm" / "guyed_mast.prm").read_text(encoding="utf-8")):
+    errors.append("the tutorial does not build up prm/guyed_mast.prm")
+print(n_lines, "lines compared")
+if n_lines < 20:
+    errors.append("hardly a line is quoted")
+sys.exit("\n".join(errors) or None)
