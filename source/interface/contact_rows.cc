@@ -1,49 +1,31 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/exceptions.h>
 #include <taut/interface/contact_rows.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <tuple>
 
 namespace taut
 {
-  ContactRows::ContactRows(const Scene &scene, const Structure &structure)
-      : scene(scene), structure(structure), row_index(scene.links.size())
+  ContactRows::ContactRows(const Structure &structure, std::vector<Row> all)
+      : structure(structure), rows(std::move(all))
   {
-    for (const bool moving : {false, true})
+    for (Row &row : rows)
+      row.moving = row.place != nullptr;
+    fixed = std::stable_partition(rows.begin(), rows.end(),
+                                  [](const Row &row) { return !row.moving; }) -
+            rows.begin();
+    for (std::size_t i = 0; i < rows.size(); ++i)
     {
-      for (std::size_t i = 0; i < scene.links.size(); ++i)
+      if (i >= fixed)
       {
-        const Link &link = scene.links[i];
-        if (link.moving() != moving)
-          continue;
-        Row row;
-        row.name = link.name;
-        row.link = i;
-        row.unilateral = link.unilateral();
-        row.moving = moving;
-        row.rotational = link.rotational;
-        row.stiffness = link.stiffness;
-        row.damping = link.damping;
-        set_terms(row, 0.);
-        row_index[i] = rows.size();
-        rows.push_back(std::move(row));
+        rows[i].terms = rows[i].place->terms(0.);
+        rows[i].gap = rows[i].place->gap(0.);
       }
-      if (!moving)
-      {
-        for (const CutRow &cut : structure.cut_rows())
-        {
-          Row row;
-          row.name = cut.name;
-          row.rotational = cut.rotational;
-          row.stiffness = std::numeric_limits<double>::infinity();
-          row.terms = cut.terms;
-          rows.push_back(std::move(row));
-        }
-        fixed = rows.size();
-      }
+      if (rows[i].link == no_link)
+        continue;
+      row_index.resize(std::max(row_index.size(), rows[i].link + 1), no_link);
+      row_index[rows[i].link] = i;
     }
     begin.assign(1, 0);
     for (std::size_t i = 0; i < fixed; ++i)
@@ -77,38 +59,6 @@ namespace taut
     begin.push_back(entries.size());
   }
 
-  double ContactRows::position(const std::size_t i, const double t) const
-  {
-    const Link &link = scene.links[rows[i].link];
-    return link.to.position + link.speed * t;
-  }
-
-  void ContactRows::set_terms(Row &row, const double t) const
-  {
-    const Link &link = scene.links[row.link];
-    Attachment to = link.to;
-    row.gap = link.gap;
-    if (row.moving)
-    {
-      to.position += link.speed * t;
-      const double length = scene.wires[to.index].length();
-      // A step that ends on the end of the wire up to rounding is on the wire.
-      if (to.position < -1e-9 * length || to.position > (1. + 1e-9) * length)
-      {
-        std::ostringstream out;
-        out << "sliding contact '" << link.name << "' leaves wire '" << scene.wires[to.index].name
-            << "' at t = " << t << " s, position " << to.position << " m of " << length
-            << " m. End the run earlier or lengthen the wire.";
-        throw EntryError(link.origin, out.str());
-      }
-      row.gap += link.profile(to.position, t);
-    }
-    const double sign = link.kind == LinkKind::dropper ? -1. : 1.;
-    row.terms.clear();
-    structure.motion(to, link.rotational, link.direction, sign, row.terms);
-    structure.motion(link.from, link.rotational, link.direction, -sign, row.terms);
-  }
-
   void ContactRows::update(const double t)
   {
     begin.resize(fixed + 1);
@@ -116,7 +66,8 @@ namespace taut
     sizes.resize(n_fixed_sizes);
     for (std::size_t i = fixed; i < rows.size(); ++i)
     {
-      set_terms(rows[i], t);
+      rows[i].terms = rows[i].place->terms(t);
+      rows[i].gap = rows[i].place->gap(t);
       append(i);
     }
   }
@@ -124,24 +75,17 @@ namespace taut
   double ContactRows::share_of_convection(const std::size_t i, const double t,
                                           const BlockVector &reference, const BlockVector &U) const
   {
-    const Link &link = scene.links[rows[i].link];
-    Attachment to = link.to;
-    to.position = position(i, t);
-    std::vector<Term> slope;
-    structure.slope(to, link.direction, link.speed, slope);
+    const std::vector<Term> slope = rows[i].place->rates(t);
     return evaluate(slope, reference) + evaluate(slope, U);
   }
 
   double ContactRows::profile_rate(const std::size_t i, const double t, const double step) const
   {
-    const Link &link = scene.links[rows[i].link];
-    if (link.profile.is_zero())
-      return 0.;
+    const MovingPlace &place = *rows[i].place;
     // Central differences of fourth order: their error is below rounding of what a step resolves.
     const double delta = 1e-2 * step;
-    const auto height = [&](const double time) { return link.profile(position(i, time), time); };
-    return (8. * (height(t + delta) - height(t - delta)) -
-            (height(t + 2. * delta) - height(t - 2. * delta))) /
+    return (8. * (place.gap(t + delta) - place.gap(t - delta)) -
+            (place.gap(t + 2. * delta) - place.gap(t - 2. * delta))) /
            (12. * delta);
   }
 

@@ -33,7 +33,7 @@ namespace taut
     }
   } // namespace
 
-  Fields::Fields(const std::string &folder, const Scene &scene, const Structure &structure,
+  Fields::Fields(const std::string &folder, const Scene &scene, const SceneBodies &structure,
                  const double interval, const unsigned int subdivisions)
       : folder(folder), interval(interval), wire_collection(folder + "/wires.pvd"),
         link_collection(folder + "/links.pvd")
@@ -46,7 +46,7 @@ namespace taut
       add_links(scene, structure);
   }
 
-  void Fields::add_wires(const Scene &scene, const Structure &structure,
+  void Fields::add_wires(const Scene &scene, const SceneBodies &structure,
                          const unsigned int subdivisions)
   {
     std::vector<std::vector<std::int32_t>> lines;
@@ -83,7 +83,7 @@ namespace taut
     wire_file->add(VtuFile::Location::cells, "name", names);
   }
 
-  void Fields::add_links(const Scene &scene, const Structure &structure)
+  void Fields::add_links(const Scene &scene, const SceneBodies &structure)
   {
     std::vector<std::vector<std::int32_t>> lines;
     std::vector<std::string> names;
@@ -115,7 +115,7 @@ namespace taut
     link_file->add(VtuFile::Location::cells, "name", names);
   }
 
-  Fields::Sample Fields::sample(const Scene &scene, const Structure &structure,
+  Fields::Sample Fields::sample(const Scene &scene, const SceneBodies &structure,
                                 const Attachment &at) const
   {
     Sample result;

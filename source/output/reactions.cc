@@ -45,7 +45,7 @@ namespace taut
     return points;
   }
 
-  Reactions::Reactions(const Scene &scene, const Structure &structure) : structure(structure)
+  Reactions::Reactions(const Scene &scene, const SceneBodies &structure) : structure(structure)
   {
     std::map<std::size_t, std::vector<unsigned int>> fixed;
     for (const SupportPoint &point : support_points(scene))

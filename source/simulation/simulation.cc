@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
 #include <taut/base/version.h>
+#include <taut/model/contact_mass.h>
+#include <taut/model/form_finding.h>
+#include <taut/model/scene_rows.h>
 #include <taut/output/energy.h>
 #include <taut/output/fields.h>
 #include <taut/output/scene_report.h>
@@ -9,7 +12,6 @@
 #include <taut/scene/entries.h>
 #include <taut/simulation/simulation.h>
 #include <taut/time/choose_scheme.h>
-#include <taut/time/form_finding.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -53,8 +55,8 @@ namespace taut
                          const Communicator &processes)
       : parameters(parameters), log(log), processes(processes),
         model(prepare_contacts(find_lengths(parameters.scene(), parameters.solver), parameters)),
-        bodies(model, make_partition(model, parameters.partition), processes), links(model, bodies),
-        reactions(model, bodies)
+        bodies(model, make_partition(model, parameters.partition), processes),
+        links(scene_rows(model, bodies)), reactions(model, bodies)
   {
     for (const Probe &probe : model.probes)
     {
@@ -278,7 +280,7 @@ namespace taut
     if (name == "automatic")
     {
       const SchemeChoice choice =
-          choose_scheme(model, bodies, links, parameters.solver, step, restitution);
+          choose_scheme(bodies, links, parameters.solver, step, restitution);
       chosen_integrator = parameters.integrator(choice.name, choice.entries);
       log << "Scheme (automatic): " << chosen_integrator->description() << ", because "
           << choice.reason << '\n';

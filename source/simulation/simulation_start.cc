@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/model/scene_rows.h>
 #include <taut/simulation/free_bodies.h>
 #include <taut/simulation/simulation.h>
 #include <taut/time/static_equilibrium.h>
@@ -101,7 +102,7 @@ namespace taut
             {
               bodies[k].initial_state(start.U[k], start.V[k]);
               for (const ConstrainedDof &constraint : bodies[k].constraints())
-                start.U[k][constraint.dof] = constraint.motion(0., 0.);
+                start.U[k][constraint.dof] = constraint.at(0.);
               bodies[k].stiffness().vmult_add(1., start.U[k].data(), start.KU[k].data());
             }
           });
@@ -182,7 +183,7 @@ namespace taut
       without.links.erase(std::remove_if(without.links.begin(), without.links.end(),
                                          [](const Link &link) { return link.moving(); }),
                           without.links.end());
-      const ContactRows fixed_rows(without, bodies);
+      const ContactRows fixed_rows = scene_rows(without, bodies);
       try
       {
         rest = static_equilibrium(bodies, fixed_rows, parameters.solver, 0.).displacement;

@@ -31,6 +31,17 @@ namespace taut
     return dofs;
   }
 
+  SparseVector Substructure::displacement(const Coordinates &, const Coordinates &) const
+  {
+    throw UserError("body '" + name() + "' has no places that a constraint could act on");
+  }
+
+  void Substructure::initial_state(std::vector<double> &U, std::vector<double> &V) const
+  {
+    U.assign(n_dofs(), 0.);
+    V.assign(n_dofs(), 0.);
+  }
+
   void Substructure::external_force(const double t, std::vector<double> &P) const
   {
     P = constant_force;
@@ -47,7 +58,7 @@ namespace taut
       if (i > 0 && constrained[i].dof == constrained[i - 1].dof)
         throw EntryError(
             origin(), name() + ": two supports hold the same motion of the same point; remove one");
-      moving_constraints = moving_constraints || !constrained[i].motion.is_zero();
+      moving_constraints = moving_constraints || constrained[i].motion;
     }
 
     bool finite = true;

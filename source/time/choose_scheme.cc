@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "courant_numbers.h"
-
 #include <taut/base/exceptions.h>
 #include <taut/interface/schur_complement.h>
 #include <taut/time/choose_scheme.h>
@@ -14,18 +12,9 @@ namespace taut
 {
   namespace
   {
-    /// Elements a step up to which the elements beside a node without mass are a spring that no
-    /// scheme rings on (measured on the bar that hits a wall, doc/accuracy.md).
-    constexpr double most_courant_number = 4. * (1. + 1e-6);
-
     /// Part of itself that the error of a rigid constraint's force may keep from step to step: with
     /// this one it is below a thousandth after ten steps.
     constexpr double most_ringing = .5;
-
-    bool is_on_wire(const Link &link)
-    {
-      return link.from.kind == Attachment::Kind::wire || link.to.kind == Attachment::Kind::wire;
-    }
 
     /// B^T A^-1 B of the one-sided rows, 0 for the others.
     std::vector<double> flexibilities(const Structure &structure, const ContactRows &rows,
@@ -51,69 +40,21 @@ namespace taut
       return result;
     }
 
-    /// One-sided rows that act as rigid at a step [s]: less compliant than the bodies in one step.
-    /// One on DoFs without mass is as compliant as the elements beside them.
-    std::vector<std::size_t> rigid_rows(const Structure &structure, const ContactRows &rows,
-                                        const SolverParameters &parameters, const double step)
+    /// Not 0 for each row that acts on elements, and not on lumped masses alone.
+    std::vector<double> rows_on_elements(const Structure &structure, const ContactRows &rows)
     {
-      const auto is_unilateral = [&]()
-      {
-        for (std::size_t i = 0; i < rows.size(); ++i)
-          if (rows[i].unilateral)
-            return true;
-        return false;
-      };
-      std::vector<std::size_t> result;
-      if (!is_unilateral())
-        return result;
-      const StepCoefficients c = generalised_alpha(step, .8);
-      const std::vector<double> flexibility = flexibilities(structure, rows, parameters, c);
-      const std::vector<char> without_mass = rows.without_mass();
+      std::vector<double> result(rows.size(), 0.);
       for (std::size_t i = 0; i < rows.size(); ++i)
-        if (rows[i].unilateral && !without_mass[i] &&
-            1. / (rows[i].stiffness + c.velocity * rows[i].damping) < flexibility[i])
-          result.push_back(i);
+        for (const Term &term : rows[i].terms)
+          result[i] += !structure[term.substructure].is_lumped();
+      structure.communicator().sum(result);
       return result;
     }
 
-    /// The exactly rigid one-sided links, if nodes without mass suit all of them: stops on bars or
-    /// strings, two elements apart, whose waves are slow enough; otherwise none.
-    std::vector<std::size_t> find_springy_stops(const Scene &scene, const double step)
+    void check_restitution(const Structure &structure, const ContactRows &rows,
+                           const std::vector<std::size_t> &rigid)
     {
-      const CourantNumbers courant(scene, step);
-      std::vector<std::size_t> stops;
-      std::vector<std::pair<std::size_t, std::size_t>> nodes; // wire and node
-      for (std::size_t i = 0; i < scene.links.size(); ++i)
-      {
-        const Link &link = scene.links[i];
-        if (!link.unilateral() || !link.rigid() || link.axial_stiffness != 0.)
-          continue;
-        if (link.kind != LinkKind::stop || !is_on_wire(link))
-          return {};
-        for (const Attachment *end : {&link.from, &link.to})
-        {
-          if (end->kind != Attachment::Kind::wire)
-            continue;
-          if (link.rotational || bends(scene.wires[end->index], link.direction) ||
-              !(courant.at(link, *end) <= most_courant_number) ||
-              courant.n_elements(end->index) < 2)
-            return {};
-          nodes.emplace_back(end->index, courant.node(*end));
-        }
-        stops.push_back(i);
-      }
-      std::sort(nodes.begin(), nodes.end());
-      const bool are_close =
-          std::adjacent_find(nodes.begin(), nodes.end(),
-                             [](const auto &a, const auto &b) {
-                               return a.first == b.first && b.second - a.second < 2;
-                             }) != nodes.end();
-      return are_close ? std::vector<std::size_t>() : stops;
-    }
-
-    void check_restitution(const ContactRows &rows, const std::vector<std::size_t> &rigid,
-                           const Scene &scene)
-    {
+      const std::vector<double> on_elements = rows_on_elements(structure, rows);
       const std::string entry = "Time/Moreau-Jean/Restitution";
       bool has_one = false;
       for (const std::size_t i : rigid)
@@ -121,9 +62,9 @@ namespace taut
         if (!std::isinf(rows[i].stiffness))
           continue;
         has_one = true;
-        if (is_on_wire(scene.links[rows[i].link]))
-          throw EntryError(entry, "a wire rebounds by its own waves, and with restitution its node "
-                                  "would bounce at the rigid link '" +
+        if (on_elements[i] > 0.)
+          throw EntryError(entry, "an elastic body rebounds by its own waves, and with restitution "
+                                  "its node would bounce at the rigid link '" +
                                       rows[i].name + "'. Set it to 0");
       }
       if (!has_one)
@@ -145,38 +86,36 @@ namespace taut
     }
   } // namespace
 
-  bool is_massless(const Link &link)
+  std::vector<std::size_t> rigid_rows(const Structure &structure, const ContactRows &rows,
+                                      const SolverParameters &parameters, const double step)
   {
-    return link.contact_mass != ContactMass::stays && is_on_wire(link);
-  }
-
-  void take_contact_mass(Scene &scene, const SolverParameters &parameters, const double step)
-  {
-    const std::vector<std::size_t> stops = find_springy_stops(scene, step);
-    if (stops.empty())
-      return;
-    Scene lighter = scene;
-    for (const std::size_t i : stops)
-      lighter.links[i].contact_mass = ContactMass::keeps_total;
-    // Links with a stiffness may act as rigid, too: that depends on the bodies.
-    if (std::any_of(lighter.links.begin(), lighter.links.end(),
-                    [](const Link &link) { return link.unilateral() && !is_massless(link); }))
+    const auto is_unilateral = [&]()
     {
-      const Structure structure(lighter);
-      const ContactRows rows(lighter, structure);
-      if (!rigid_rows(structure, rows, parameters, step).empty())
-        return;
-    }
-    scene = std::move(lighter);
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        if (rows[i].unilateral)
+          return true;
+      return false;
+    };
+    std::vector<std::size_t> result;
+    if (!is_unilateral())
+      return result;
+    const StepCoefficients c = generalised_alpha(step, .8);
+    const std::vector<double> flexibility = flexibilities(structure, rows, parameters, c);
+    const std::vector<char> without_mass = rows.without_mass();
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (rows[i].unilateral && !without_mass[i] &&
+          1. / (rows[i].stiffness + c.velocity * rows[i].damping) < flexibility[i])
+        result.push_back(i);
+    return result;
   }
 
-  SchemeChoice choose_scheme(const Scene &scene, const Structure &structure,
-                             const ContactRows &rows, const SolverParameters &parameters,
-                             const double step, const double restitution)
+  SchemeChoice choose_scheme(const Structure &structure, const ContactRows &rows,
+                             const SolverParameters &parameters, const double step,
+                             const double restitution)
   {
     const std::vector<std::size_t> rigid = rigid_rows(structure, rows, parameters, step);
     if (restitution > 0.)
-      check_restitution(rows, rigid, scene);
+      check_restitution(structure, rows, rigid);
     if (rigid.empty())
       return {"generalised-alpha",
               {{"Spectral radius", "0.8"}},

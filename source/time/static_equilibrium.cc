@@ -32,7 +32,7 @@ namespace taut
       {
         structure[k].external_force(t, P[k]);
         for (const ConstrainedDof &constraint : structure[k].constraints())
-          lift[k][constraint.dof] = constraint.motion(0., t);
+          lift[k][constraint.dof] = constraint.at(t);
         structure[k].stiffness().vmult_add(-1., lift[k].data(), P[k].data());
         for (const ConstrainedDof &constraint : structure[k].constraints())
           P[k][constraint.dof] = 0.;

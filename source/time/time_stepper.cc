@@ -278,7 +278,7 @@ namespace taut
     {
       std::vector<double> &L = lift[k];
       for (const ConstrainedDof &constraint : body.constraints())
-        L[constraint.dof] = constraint.motion(0., current.time) -
+        L[constraint.dof] = constraint.at(current.time) -
                             (origin.displacement[k][constraint.dof] + current.U[k][constraint.dof]);
       body.mass().vmult_add(-c.mass_factor(), L.data(), R);
       body.damping().vmult_add(-c.velocity, L.data(), R);

@@ -11,14 +11,15 @@ ROOMS = {
     "base": [],
     "complementarity": ["base"],
     "scene": ["base"],
-    "substructure": ["base", "scene"],
+    "substructure": ["base"],
+    "wire": ["base", "scene", "substructure"],
+    "mechanism": ["base", "scene", "substructure"],
     "partition": ["base", "scene"],
-    "interface": ["base", "complementarity", "scene", "substructure", "partition"],
-    "time": ["base", "complementarity", "scene", "substructure", "partition", "interface"],
-    "output": ["base", "complementarity", "scene", "substructure", "partition", "interface", "time"],
+    "interface": ["base", "complementarity", "substructure"],
+    "time": ["base", "complementarity", "substructure", "interface"],
 }
-ROOMS["simulation"] = list(ROOMS)
-ROOMS["study"] = list(ROOMS)
+for room in ("model", "output", "simulation", "study"):
+    ROOMS[room] = list(ROOMS)
 
 STANDARD = r"[a-z_0-9]+"  # <vector>
 # What is not std and not Taut, by folder: the longest match counts, no entry means anything but Trilinos.

@@ -111,7 +111,7 @@ namespace
         for (const taut::ConstrainedDof &c : structure[k].constraints())
         {
           constrained[offset + c.dof] = 1;
-          moving[offset + c.dof] = !c.motion.is_zero();
+          moving[offset + c.dof] = static_cast<bool>(c.motion);
         }
         offset += structure[k].n_dofs();
       }

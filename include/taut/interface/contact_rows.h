@@ -2,43 +2,63 @@
 #ifndef taut_contact_rows_h
 #define taut_contact_rows_h
 
-#include <taut/scene/scene.h>
 #include <taut/substructure/structure.h>
 
 #include <array>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace taut
 {
-  /// Index of the link of a row that holds the pieces of a cut wire together.
+  /// A row without a source in a scene, for example a cut of a wire.
   constexpr std::size_t no_link = std::numeric_limits<std::size_t>::max();
 
-  /// One multiplier: a link of the scene, or a cut of a wire, as a linear form B_i on the
-  /// displacements.
+  /// Where a constraint is that moves: its linear form at each time.
+  class MovingPlace
+  {
+  public:
+    virtual ~MovingPlace() = default;
+
+    /// Position on what it moves along at time @p t [s], for tables [m].
+    virtual double position(double t) const = 0;
+
+    /// B_i at time @p t; throws an EntryError if the constraint has no place then.
+    virtual std::vector<Term> terms(double t) const = 0;
+
+    /// The derivative of B_i by time: what the motion of the place adds to D', but for that of the
+    /// gap.
+    virtual std::vector<Term> rates(double t) const = 0;
+
+    /// D at U = 0, N = 0 [m].
+    virtual double gap(double t) const = 0;
+  };
+
+  /// One scalar condition with its multiplier, as a linear form B_i on the displacements.
   struct Row
   {
     std::string name;
-    std::size_t link = no_link; ///< index in the scene
-    bool unilateral = false;
-    bool moving = false;
-    bool rotational = false; ///< slopes and moments
-    double stiffness = 0.;   ///< [N/m, N m/rad]; infinite: rigid
-    double damping = 0.;     ///< [N s/m, N m s/rad]
-    double gap = 0.;         ///< D at U = 0, N = 0 [m, rad]
-    std::vector<Term> terms; ///< B_i: D = terms . U + gap + S N
+    std::string origin = {};    ///< path of its section in the parameter file, for messages
+    std::size_t link = no_link; ///< index of its source in the scene
+    bool unilateral = false;    ///< 0 <= D _|_ N >= 0; otherwise D = 0
+    bool rotational = false;    ///< slopes and moments
+    double stiffness = std::numeric_limits<double>::infinity(); ///< [N/m, N m/rad]
+    double damping = 0.;                                        ///< [N s/m, N m s/rad]
+    double gap = 0.;                                            ///< D at U = 0, N = 0 [m, rad]
+    std::vector<Term> terms = {};                  ///< B_i: D = terms . U + gap + N / stiffness
+    std::shared_ptr<const MovingPlace> place = {}; ///< of a row that moves; sets terms and gap
+    bool moving = false;                           ///< has a place
 
     bool is_cut() const { return link == no_link; }
   };
 
-  /// The rows of a scene: the fixed links in their order, then the cuts of wires, then the moving
-  /// links.
+  /// The rows of a system: the fixed ones in their order, then the moving ones.
   class ContactRows
   {
   public:
-    /// @p scene is kept by reference; @p structure was made from it.
-    ContactRows(const Scene &scene, const Structure &structure);
+    /// @p structure is kept by reference.
+    ContactRows(const Structure &structure, std::vector<Row> rows);
 
     std::size_t size() const { return rows.size(); }
     std::size_t n_fixed() const { return fixed; }
@@ -49,7 +69,7 @@ namespace taut
     void update(double t);
 
     /// Position on its wire of a moving row at time t [m].
-    double position(std::size_t i, double t) const;
+    double position(std::size_t i, double t) const { return rows[i].place->position(t); }
 
     /// B^T U of each row: the motion of the rows, summed over all ranks [m, rad].
     std::vector<double> motions(const BlockVector &U) const;
@@ -83,14 +103,11 @@ namespace taut
     void largest_forces(const std::vector<double> &N,
                         std::vector<std::array<double, 2>> &result) const;
 
-    /// Index of the row of a link.
+    /// Index of the row of a link of the scene.
     std::size_t row_of_link(std::size_t link) const { return row_index[link]; }
 
-    /// Path in the parameter file of the link of a row, for messages; empty for a cut.
-    std::string origin(std::size_t i) const
-    {
-      return rows[i].is_cut() ? "" : scene.links[rows[i].link].origin;
-    }
+    /// Path in the parameter file of a row, for messages; may be empty.
+    const std::string &origin(std::size_t i) const { return rows[i].origin; }
 
     /// Names of rows for a message: "a, b and 3 more".
     std::string names(const std::vector<std::size_t> &indices) const;
@@ -103,10 +120,8 @@ namespace taut
       unsigned int body, dof;
     };
 
-    void set_terms(Row &row, double t) const;
     void append(std::size_t i);
 
-    const Scene &scene;
     const Structure &structure;
     std::vector<Row> rows;
     std::vector<std::size_t> row_index;

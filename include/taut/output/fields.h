@@ -24,7 +24,7 @@ namespace taut
   public:
     /// @p interval: least time between two files [s]; @p subdivisions: pieces an element is drawn
     /// with.
-    Fields(const std::string &folder, const Scene &scene, const Structure &structure,
+    Fields(const std::string &folder, const Scene &scene, const SceneBodies &structure,
            double interval, unsigned int subdivisions);
 
     /// Called by all ranks together; the root writes. Throws UserError when a file cannot be
@@ -38,13 +38,13 @@ namespace taut
       Point place;
       std::vector<Term> x, y;
     };
-    Sample sample(const Scene &scene, const Structure &structure, const Attachment &at) const;
+    Sample sample(const Scene &scene, const SceneBodies &structure, const Attachment &at) const;
 
     /// Displacements of samples along x, 0, y from the undeformed line, summed over all ranks [m].
     std::vector<float> displacements(const std::vector<Sample> &samples,
                                      const StepView &step) const;
-    void add_wires(const Scene &scene, const Structure &structure, unsigned int subdivisions);
-    void add_links(const Scene &scene, const Structure &structure);
+    void add_wires(const Scene &scene, const SceneBodies &structure, unsigned int subdivisions);
+    void add_links(const Scene &scene, const SceneBodies &structure);
     void move_ends(const StepView &step);
     void set_links(const StepView &step);
     void write(const StepView &step, const std::string &name, const VtuFile &file,

@@ -3,6 +3,7 @@
 #define taut_observer_h
 
 #include <taut/interface/contact_rows.h>
+#include <taut/model/scene_bodies.h>
 #include <taut/time/certificate.h>
 #include <taut/time/contact_measures.h>
 #include <taut/time/integrator.h>
@@ -16,7 +17,7 @@ namespace taut
   struct StepView
   {
     const Scene &scene;
-    const Structure &structure;
+    const SceneBodies &structure;
     const ContactRows &rows;
     const Reference &reference;
     const State &state;

@@ -3,6 +3,7 @@
 #define taut_reactions_h
 
 #include <taut/interface/contact_rows.h>
+#include <taut/model/scene_bodies.h>
 #include <taut/time/state.h>
 
 #include <string>
@@ -39,7 +40,7 @@ namespace taut
   {
   public:
     /// @p scene and @p structure are kept by reference.
-    Reactions(const Scene &scene, const Structure &structure);
+    Reactions(const Scene &scene, const SceneBodies &structure);
 
     /// In a state whose balance is known: an accepted step. Called by all ranks together.
     void update(const Reference &reference, const State &state);
@@ -62,7 +63,7 @@ namespace taut
       bool fixed = false;
     };
 
-    const Structure &structure;
+    const SceneBodies &structure;
     std::vector<Place> places;
     std::vector<double> values;
   };

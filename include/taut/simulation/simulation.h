@@ -39,7 +39,7 @@ namespace taut
     void check();
 
     const Scene &scene() const { return model; }
-    const Structure &structure() const { return bodies; }
+    const SceneBodies &structure() const { return bodies; }
     const ContactRows &rows() const { return links; }
 
     /// Steps of a run: those that fit into its time.
@@ -66,7 +66,7 @@ namespace taut
     std::ostream &log;
     const Communicator processes;
     const Scene model;
-    const Structure bodies;
+    const SceneBodies bodies;
     ContactRows links;
 
     Reference reference;

@@ -3,11 +3,9 @@
 #define taut_structure_h
 
 #include <taut/base/communicator.h>
-#include <taut/scene/partition.h>
-#include <taut/scene/scene.h>
-#include <taut/substructure/mechanism.h>
-#include <taut/substructure/wire_component.h>
+#include <taut/substructure/substructure.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,29 +22,26 @@ namespace taut
   /// One vector of DoFs for each substructure.
   using BlockVector = std::vector<std::vector<double>>;
 
-  /// What holds two pieces of a wire together where it was cut: a linear form that is zero.
-  struct CutRow
-  {
-    std::string name;
-    bool rotational = false;
-    std::vector<Term> terms;
-  };
-
   /**
-   * The substructures of a scene, and where the scene's points are in them. A part of the partition
-   * lives on one rank, with all its pieces: this one knows its own substructures only, and of a
-   * point on another rank no terms.
+   * The substructures of a system, each on one rank. Every rank knows the names and sizes of all of
+   * them; of those on other ranks it has nothing else, and a point on one has no terms here.
    */
   class Structure
   {
   public:
-    /// All wires whole, on this rank.
-    explicit Structure(const Scene &scene) : Structure(scene, whole(scene)) {}
+    explicit Structure(const Communicator &processes = Communicator()) : processes(processes) {}
+    virtual ~Structure() = default;
 
-    /// The wires cut as @p partition says, the parts shared out so that all ranks have about the
-    /// same number of DoFs. Called by all ranks together.
-    Structure(const Scene &scene, const Partition &partition,
-              const Communicator &processes = Communicator());
+    /// Makes a substructure; called on its owner alone.
+    using Factory = std::function<std::unique_ptr<Substructure>()>;
+
+    /// Index of a substructure that is on another rank.
+    static constexpr std::size_t elsewhere = -1;
+
+    /// Adds the substructure that @p make returns on the rank @p owner. Called by all ranks
+    /// together; returns its index on the owner, and `elsewhere` on the others. Throws on all ranks
+    /// what @p make throws.
+    std::size_t add(const std::string &name, unsigned int owner, const Factory &make);
 
     const Communicator &communicator() const { return processes; }
 
@@ -62,64 +57,16 @@ namespace taut
       std::size_t n_dofs = 0;
     };
 
-    /// The substructures of all ranks, in the order of the scene.
+    /// The substructures of all ranks, in the order of their addition.
     const std::vector<Body> &all_bodies() const { return bodies; }
-
-    /**
-     * The displacement along @p direction, or the slope or rotation, of an attachment as linear
-     * forms: appends factor * form, nothing for the ground or for a body of another rank. A wire
-     * counts only the components it has.
-     */
-    void motion(const Attachment &point, bool rotational, const Point &direction, double factor,
-                std::vector<Term> &terms) const
-    {
-      append_motion(point, rotational, direction, factor, false, terms);
-    }
-
-    /// The same of the derivative of the displacement by the position along the wire [1/m]: what a
-    /// contact that slides is displaced by.
-    void slope(const Attachment &point, const Point &direction, double factor,
-               std::vector<Term> &terms) const
-    {
-      append_motion(point, false, direction, factor, true, terms);
-    }
-
-    /// One row a cut for each motion that is continuous there: displacement, and slope of a beam.
-    const std::vector<CutRow> &cut_rows() const { return cuts; }
-
-    /// Part of the partition that a point of a wire belongs to.
-    unsigned int part(std::size_t wire, double s) const;
 
     /// Zero vectors of the right sizes.
     BlockVector zero() const;
 
   private:
-    void append_motion(const Attachment &point, bool rotational, const Point &direction,
-                       double factor, bool derivative, std::vector<Term> &terms) const;
-    static constexpr std::size_t elsewhere = -1; ///< a substructure of another rank
-
-    /// Substructures of a wire's pieces, in order; none where it lacks the component.
-    struct WireParts
-    {
-      std::vector<double> begins; ///< position of the first node of each piece [m]
-      std::vector<unsigned int> part;
-      std::vector<std::size_t> axial, transverse;
-    };
-
-    void build(const Scene &scene, const Partition &partition);
-    void add_pieces(const Scene &scene, std::size_t wire, WireMotion motion,
-                    const std::vector<Partition::Piece> &pieces,
-                    const std::vector<unsigned int> &owner, std::vector<std::size_t> &indices);
-    std::size_t piece(const WireParts &parts, double s) const;
-
     Communicator processes;
     std::vector<std::unique_ptr<Substructure>> substructures;
     std::vector<Body> bodies;
-    std::vector<WireParts> wires;
-    std::vector<Point> tangents, normals;
-    std::vector<double> lengths;
-    std::vector<std::size_t> mechanism_of_mass;
-    std::vector<CutRow> cuts;
   };
 
   /// Sum of the absolute values of the terms applied to U: what a sum that cancels rounds against.

@@ -3,9 +3,10 @@
 #define taut_substructure_h
 
 #include <taut/base/sparse_vector.h>
-#include <taut/scene/expression.h>
 #include <taut/substructure/symmetric_matrix.h>
 
+#include <array>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,8 +27,16 @@ namespace taut
   struct ConstrainedDof
   {
     unsigned int dof = 0;
-    Expression motion; ///< u(t) [m, rad]
+
+    /// u(t) [m, rad] at t [s]; none: it stays at zero.
+    std::function<double(double)> motion = {};
+
+    double at(double t) const { return motion ? motion(t) : 0.; }
   };
+
+  /// A place or a direction in space. What a place means is up to a substructure: the position
+  /// along a wire is its first coordinate, a point of a finite-element model all of them [m].
+  using Coordinates = std::array<double, 3>;
 
   /**
    * One body between interfaces, discretised: M U" + C U' + K U = P + B N. Its DoFs are
@@ -86,8 +95,16 @@ namespace taut
     /// True if the body is masses and springs: it has no element that resolves a force in time.
     virtual bool is_lumped() const { return false; }
 
-    /// Displacement and velocity at t = 0 as given in the scene.
-    virtual void initial_state(std::vector<double> &U, std::vector<double> &V) const = 0;
+    /**
+     * The displacement of a place of its own along a direction, as a linear form on its DoFs [m]. A
+     * body of lumped masses without places ignores the place. Throws UserError if the place is not
+     * on the body, or if the body has no such places.
+     */
+    virtual SparseVector displacement(const Coordinates &place, const Coordinates &direction) const;
+
+    /// Displacement and velocity at t = 0; zero unless a body says otherwise. The vectors are
+    /// resized.
+    virtual void initial_state(std::vector<double> &U, std::vector<double> &V) const;
 
     /**
      * A basis of the motions that cost no energy and that no support prevents, and for each of them
@@ -99,7 +116,7 @@ namespace taut
       std::vector<std::vector<double>> vectors;
       std::vector<unsigned int> fixing_dofs;
     };
-    virtual Kernel kernel() const = 0;
+    virtual Kernel kernel() const { return {}; }
 
   protected:
     /// Sorts the constraints, notes whether one moves, and closes the matrices. Called at the end
@@ -118,23 +135,19 @@ namespace taut
     bool moving_constraints = false;
   };
 
-  /// P += magnitude(position, t) * shape.
+  /// P += magnitude(t) * shape.
   class PointLoad : public TimeLoad
   {
   public:
-    PointLoad(SparseVector shape, Expression magnitude, double position)
-        : shape(std::move(shape)), magnitude(std::move(magnitude)), position(position)
+    PointLoad(SparseVector shape, std::function<double(double)> magnitude)
+        : shape(std::move(shape)), magnitude(std::move(magnitude))
     {
     }
-    void add(double t, std::vector<double> &P) const override
-    {
-      shape.add_to(magnitude(position, t), P);
-    }
+    void add(double t, std::vector<double> &P) const override { shape.add_to(magnitude(t), P); }
 
   private:
     SparseVector shape;
-    Expression magnitude;
-    double position;
+    std::function<double(double)> magnitude;
   };
 } // namespace taut
 

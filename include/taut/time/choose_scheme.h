@@ -8,6 +8,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 namespace taut
 {
@@ -19,29 +20,20 @@ namespace taut
     std::string reason;
   };
 
-  /// True if the wire's node under a rigid link carries no mass: its force then is that of the
-  /// elements beside it.
-  bool is_massless(const Link &link);
+  /// One-sided rows that act as rigid at a step [s]: less compliant than the bodies in one step.
+  /// One on DoFs without mass is as compliant as the elements beside them.
+  std::vector<std::size_t> rigid_rows(const Structure &structure, const ContactRows &rows,
+                                      const SolverParameters &parameters, double step);
 
   /**
-   * Takes the mass from the nodes of wires at rigid stops, as Massless contact = mass does (mass
-   * redistribution), if the elements beside them then are a spring that the step [s] resolves
-   * (doc/accuracy.md): if the rigid one-sided links of the scene are such stops, on bars or
-   * strings, at least two elements apart, whose fastest waves cross at most four elements a step,
-   * and no other link acts as rigid. Throws an EntryError if a body cannot be factored.
+   * The scheme that suits the rows of a system at a step [s], the shortest of a run. A one-sided
+   * row acts as rigid when its S_ii is less than its (B^T A^-1 B)_ii, unless it acts on DoFs
+   * without mass. Without such rows generalised-alpha with spectral radius 0.8, otherwise
+   * Moreau-Jean with conditions on gaps, then velocities, or on gaps alone where a mass matrix has
+   * no inverse. Throws an EntryError if a @p restitution [1] is asked for that no row could have.
    */
-  void take_contact_mass(Scene &scene, const SolverParameters &parameters, double step);
-
-  /**
-   * The scheme that suits the rows of a scene at a step [s], the shortest of a run. A one-sided row
-   * acts as rigid when its S_ii is less than its (B^T A^-1 B)_ii, unless it acts on DoFs without
-   * mass. Without such rows generalised-alpha with spectral radius 0.8, otherwise Moreau-Jean with
-   * conditions on gaps, then velocities, or on gaps alone where a mass matrix has no inverse.
-   * Throws an EntryError if a @p restitution [1] is asked for that no row could have.
-   */
-  SchemeChoice choose_scheme(const Scene &scene, const Structure &structure,
-                             const ContactRows &rows, const SolverParameters &parameters,
-                             double step, double restitution);
+  SchemeChoice choose_scheme(const Structure &structure, const ContactRows &rows,
+                             const SolverParameters &parameters, double step, double restitution);
 
   /**
    * Throws an EntryError if a scheme is known to fail on a row: on Time/Scheme if its forces ring

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
-#include <taut/substructure/fe_hermite.h>
-#include <taut/substructure/hermite_shape.h>
+#include <taut/wire/fe_hermite.h>
+#include <taut/wire/hermite_shape.h>
 
 #include <deal.II/base/function.h>
 #include <deal.II/base/polynomial.h>

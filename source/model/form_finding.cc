@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/model/form_finding.h>
+#include <taut/model/scene_rows.h>
 #include <taut/scene/entries.h>
-#include <taut/time/form_finding.h>
 #include <taut/time/static_equilibrium.h>
 
 #include <algorithm>
@@ -60,8 +61,8 @@ namespace taut
         hold.gap = dropper.prescribed_displacement;
         scene.links.push_back(hold);
       }
-      const Structure structure(scene);
-      const ContactRows rows(scene, structure);
+      const SceneBodies structure(scene);
+      const ContactRows rows = scene_rows(scene, structure);
       const StaticState state = static_equilibrium(structure, rows, parameters, 0.);
       std::vector<double> result;
       for (std::size_t i = 0; i < droppers.size(); ++i)
@@ -92,8 +93,8 @@ namespace taut
         scene.loads.push_back(force(droppers[i], droppers[i].from, tension[i]));
         scene.loads.push_back(force(droppers[i], droppers[i].to, -tension[i]));
       }
-      const Structure structure(scene);
-      const ContactRows rows(scene, structure);
+      const SceneBodies structure(scene);
+      const ContactRows rows = scene_rows(scene, structure);
       const StaticState state = static_equilibrium(structure, rows, parameters, 0.);
       std::vector<double> result;
       for (const Link &dropper : droppers)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What acts on a wire: supports, point masses, loads.
-#include <taut/substructure/wire_component.h>
+#include <taut/wire/wire_component.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -28,7 +28,12 @@ namespace taut
                                            { return std::fabs(p - s) < std::fabs(q - s); });
         const unsigned int dof = dofs_per_node * (node - nodes.begin()) + offset;
         if (support.fixed)
-          constrained.push_back({dof, support.prescribed});
+        {
+          constrained.push_back({dof});
+          if (!support.prescribed.is_zero())
+            constrained.back().motion = [u = support.prescribed](const double t)
+            { return u(0., t); };
+        }
         else
         {
           K->add(dof, dof, support.stiffness);
@@ -160,7 +165,8 @@ namespace taut
           evaluate(load.target.position, load.rotational, shape);
           for (double &v : shape.value)
             v *= factor;
-          force = std::make_unique<PointLoad>(shape, load.magnitude, load.target.position);
+          force = std::make_unique<PointLoad>(shape, [f = load.magnitude, s = load.target.position](
+                                                         const double t) { return f(s, t); });
         }
         if (load.magnitude.depends_on_time())
           time_loads.push_back(std::move(force));

@@ -59,6 +59,11 @@ namespace taut
     /// One Gauss point fewer than nodes sees next to nothing of the shortest wave.
     bool has_definite_mass() const override { return mass_matrix != MassMatrix::reduced || beam; }
 
+    /// At position place[0] on the wire; the direction's part along the motion of this component, x
+    /// and y in the plane.
+    SparseVector displacement(const Coordinates &place,
+                              const Coordinates &direction) const override;
+
     void initial_state(std::vector<double> &U, std::vector<double> &V) const override;
     Kernel kernel() const override;
 

@@ -2,7 +2,7 @@
 #ifndef taut_wire_discretisation_h
 #define taut_wire_discretisation_h
 
-#include <taut/substructure/wire_component.h>
+#include <taut/wire/wire_component.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_handler.h>

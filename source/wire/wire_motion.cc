@@ -2,7 +2,8 @@
 // How a wire moves: its displacement at a point, the start, motions that nothing resists.
 #include "wire_discretisation.h"
 
-#include <taut/substructure/hermite_shape.h>
+#include <taut/base/exceptions.h>
+#include <taut/wire/hermite_shape.h>
 
 #include <algorithm>
 #include <cmath>
@@ -42,6 +43,19 @@ namespace taut
   void WireComponent::slope_at(const double s, SparseVector &result) const
   {
     evaluate(s, true, result);
+  }
+
+  SparseVector WireComponent::displacement(const Coordinates &place,
+                                           const Coordinates &direction) const
+  {
+    if (!(place[0] >= nodes.front()) || !(place[0] <= nodes.back()))
+      throw UserError("body '" + name() + "' ends at " + std::to_string(nodes.back()) +
+                      " m, and a constraint is to act at " + std::to_string(place[0]) + " m");
+    SparseVector form;
+    value_at(place[0], form);
+    for (double &value : form.value)
+      value *= component({direction[0], direction[1]});
+    return form;
   }
 
   void WireComponent::interpolate(const Expression &f, std::vector<double> &U) const

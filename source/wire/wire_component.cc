@@ -2,7 +2,7 @@
 #include "wire_discretisation.h"
 
 #include <taut/base/exceptions.h>
-#include <taut/substructure/fe_hermite.h>
+#include <taut/wire/fe_hermite.h>
 
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
@@ -111,7 +111,7 @@ namespace taut
 
     // The block of the last node has no element after it: its inner DoFs do not exist.
     for (unsigned int i = discretisation->dof_handler.n_dofs(); i < n; ++i)
-      constrained.push_back({i, Expression()});
+      constrained.push_back({i});
     finish();
   }
 

@@ -20,6 +20,10 @@ namespace taut
 
     void initial_state(std::vector<double> &U, std::vector<double> &V) const override;
     bool is_lumped() const override { return true; }
+
+    /// Of the mass whose number among those of this body is place[0]; x and y of the direction.
+    SparseVector displacement(const Coordinates &place,
+                              const Coordinates &direction) const override;
     Kernel kernel() const override;
 
     /// Displacement along a direction, or the rotation, of a mass: result . U. Motions that the

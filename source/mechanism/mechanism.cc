@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
-#include <taut/substructure/mechanism.h>
+#include <taut/mechanism/mechanism.h>
 
 #include <algorithm>
 #include <cmath>
@@ -78,7 +78,8 @@ namespace taut
       if (row.index.empty())
         continue;
       if (load.magnitude.depends_on_time())
-        time_loads.push_back(std::make_unique<PointLoad>(row, load.magnitude, 0.));
+        time_loads.push_back(std::make_unique<PointLoad>(row, [f = load.magnitude](const double t)
+                                                         { return f(0., t); }));
       else
         row.add_to(load.magnitude(0., 0.), constant_force);
     }
@@ -93,6 +94,21 @@ namespace taut
     for (unsigned int i = 0; i < dofs.size(); ++i)
       if (dofs[i].mass == mass && factor[dofs[i].motion] != 0.)
         result.add(i, factor[dofs[i].motion]);
+  }
+
+  SparseVector Mechanism::displacement(const Coordinates &place, const Coordinates &direction) const
+  {
+    std::vector<std::size_t> masses;
+    for (const Dof &dof : dofs)
+      if (masses.empty() || masses.back() != dof.mass)
+        masses.push_back(dof.mass);
+    if (!(place[0] >= 0.) || !(place[0] < masses.size()))
+      throw UserError("body '" + name() + "' has " + std::to_string(masses.size()) +
+                      " masses, counted from 0, and a constraint is to act on number " +
+                      std::to_string(place[0]));
+    SparseVector form;
+    motion(masses[static_cast<std::size_t>(place[0])], false, {direction[0], direction[1]}, form);
+    return form;
   }
 
   void Mechanism::initial_state(std::vector<double> &U, std::vector<double> &V) const

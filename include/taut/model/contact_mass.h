@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_contact_mass_h
+#define taut_contact_mass_h
+
+#include <taut/scene/scene.h>
+#include <taut/time/solver_parameters.h>
+
+namespace taut
+{
+  /// True if the wire's node under a rigid link carries no mass: its force then is that of the
+  /// elements beside it.
+  bool is_massless(const Link &link);
+
+  /**
+   * Takes the mass from the nodes of wires at rigid stops, as Massless contact = mass does (mass
+   * redistribution), if the elements beside them then are a spring that the step [s] resolves
+   * (doc/accuracy.md): if the rigid one-sided links of the scene are such stops, on bars or
+   * strings, at least two elements apart, whose fastest waves cross at most four elements a step,
+   * and no other link acts as rigid. Throws an EntryError if a body cannot be factored.
+   */
+  void take_contact_mass(Scene &scene, const SolverParameters &parameters, double step);
+} // namespace taut
+
+#endif

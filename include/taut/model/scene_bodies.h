@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_scene_bodies_h
+#define taut_scene_bodies_h
+
+#include <taut/scene/partition.h>
+#include <taut/scene/scene.h>
+#include <taut/substructure/structure.h>
+
+#include <string>
+#include <vector>
+
+namespace taut
+{
+  /// What holds two pieces of a wire together where it was cut: a linear form that is zero.
+  struct CutRow
+  {
+    std::string name;
+    bool rotational = false;
+    std::vector<Term> terms;
+  };
+
+  /// The substructures of a scene, and where the scene's points are in them.
+  class SceneBodies : public Structure
+  {
+  public:
+    /// All wires whole, on this rank.
+    explicit SceneBodies(const Scene &scene) : SceneBodies(scene, whole(scene)) {}
+
+    /// The wires cut as @p partition says, the parts shared out so that all ranks have about the
+    /// same number of DoFs. Called by all ranks together.
+    SceneBodies(const Scene &scene, const Partition &partition,
+                const Communicator &processes = Communicator());
+
+    /**
+     * The displacement along @p direction, or the slope or rotation, of an attachment as linear
+     * forms: appends factor * form, nothing for the ground or for a body of another rank. A wire
+     * counts only the components it has.
+     */
+    void motion(const Attachment &point, bool rotational, const Point &direction, double factor,
+                std::vector<Term> &terms) const
+    {
+      append_motion(point, rotational, direction, factor, false, terms);
+    }
+
+    /// The same of the derivative of the displacement by the position along the wire [1/m]: what a
+    /// contact that slides is displaced by.
+    void slope(const Attachment &point, const Point &direction, double factor,
+               std::vector<Term> &terms) const
+    {
+      append_motion(point, false, direction, factor, true, terms);
+    }
+
+    /// One row a cut for each motion that is continuous there: displacement, and slope of a beam.
+    const std::vector<CutRow> &cut_rows() const { return cuts; }
+
+    /// Part of the partition that a point of a wire belongs to.
+    unsigned int part(std::size_t wire, double s) const;
+
+  private:
+    void append_motion(const Attachment &point, bool rotational, const Point &direction,
+                       double factor, bool derivative, std::vector<Term> &terms) const;
+
+    /// Substructures of a wire's pieces, in order; none where it lacks the component.
+    struct WireParts
+    {
+      std::vector<double> begins; ///< position of the first node of each piece [m]
+      std::vector<unsigned int> part;
+      std::vector<std::size_t> axial, transverse;
+    };
+
+    void add_pieces(const Scene &scene, std::size_t wire, WireMotion motion,
+                    const std::vector<Partition::Piece> &pieces,
+                    const std::vector<unsigned int> &owner, std::vector<std::size_t> &indices);
+    std::size_t piece(const WireParts &parts, double s) const;
+
+    std::vector<WireParts> wires;
+    std::vector<Point> tangents, normals;
+    std::vector<double> lengths;
+    std::vector<std::size_t> mechanism_of_mass;
+    std::vector<CutRow> cuts;
+  };
+} // namespace taut
+
+#endif

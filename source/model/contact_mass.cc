@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "courant_numbers.h"
+
+#include <taut/model/contact_mass.h>
+#include <taut/model/scene_rows.h>
+#include <taut/time/choose_scheme.h>
+
+#include <algorithm>
+
+namespace taut
+{
+  namespace
+  {
+    /// Elements a step up to which the elements beside a node without mass are a spring that no
+    /// scheme rings on (measured on the bar that hits a wall, doc/accuracy.md).
+    constexpr double most_courant_number = 4. * (1. + 1e-6);
+
+    bool is_on_wire(const Link &link)
+    {
+      return link.from.kind == Attachment::Kind::wire || link.to.kind == Attachment::Kind::wire;
+    }
+
+    /// The exactly rigid one-sided links, if nodes without mass suit all of them: stops on bars or
+    /// strings, two elements apart, whose waves are slow enough; otherwise none.
+    std::vector<std::size_t> find_springy_stops(const Scene &scene, const double step)
+    {
+      const CourantNumbers courant(scene, step);
+      std::vector<std::size_t> stops;
+      std::vector<std::pair<std::size_t, std::size_t>> nodes; // wire and node
+      for (std::size_t i = 0; i < scene.links.size(); ++i)
+      {
+        const Link &link = scene.links[i];
+        if (!link.unilateral() || !link.rigid() || link.axial_stiffness != 0.)
+          continue;
+        if (link.kind != LinkKind::stop || !is_on_wire(link))
+          return {};
+        for (const Attachment *end : {&link.from, &link.to})
+        {
+          if (end->kind != Attachment::Kind::wire)
+            continue;
+          if (link.rotational || bends(scene.wires[end->index], link.direction) ||
+              !(courant.at(link, *end) <= most_courant_number) ||
+              courant.n_elements(end->index) < 2)
+            return {};
+          nodes.emplace_back(end->index, courant.node(*end));
+        }
+        stops.push_back(i);
+      }
+      std::sort(nodes.begin(), nodes.end());
+      const bool are_close =
+          std::adjacent_find(nodes.begin(), nodes.end(),
+                             [](const auto &a, const auto &b) {
+                               return a.first == b.first && b.second - a.second < 2;
+                             }) != nodes.end();
+      return are_close ? std::vector<std::size_t>() : stops;
+    }
+  } // namespace
+
+  bool is_massless(const Link &link)
+  {
+    return link.contact_mass != ContactMass::stays && is_on_wire(link);
+  }
+
+  void take_contact_mass(Scene &scene, const SolverParameters &parameters, const double step)
+  {
+    const std::vector<std::size_t> stops = find_springy_stops(scene, step);
+    if (stops.empty())
+      return;
+    Scene lighter = scene;
+    for (const std::size_t i : stops)
+      lighter.links[i].contact_mass = ContactMass::keeps_total;
+    // Links with a stiffness may act as rigid, too: that depends on the bodies.
+    if (std::any_of(lighter.links.begin(), lighter.links.end(),
+                    [](const Link &link) { return link.unilateral() && !is_massless(link); }))
+    {
+      const SceneBodies structure(lighter);
+      const ContactRows rows = scene_rows(lighter, structure);
+      if (!rigid_rows(structure, rows, parameters, step).empty())
+        return;
+    }
+    scene = std::move(lighter);
+  }
+} // namespace taut

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/mechanism/mechanism.h>
+#include <taut/model/scene_bodies.h>
+#include <taut/wire/wire_component.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <sstream>
+
+namespace taut
+{
+  namespace
+  {
+    unsigned int n_dofs_per_node(const Wire &wire)
+    {
+      return (wire.has_axial ? wire.degree : 0) + (wire.transverse == TransverseKind::beam ? 2
+                                                   : wire.transverse == TransverseKind::string
+                                                       ? wire.degree
+                                                       : 0);
+    }
+
+    /// The rank of each part and then of each mechanism: the largest first, each to the rank with
+    /// the fewest DoFs so far.
+    std::vector<unsigned int> share_out(const Scene &scene, const Partition &partition,
+                                        const std::vector<std::vector<std::size_t>> &mechanisms,
+                                        const unsigned int n_ranks)
+    {
+      std::vector<std::size_t> n_dofs(partition.n_parts, 0), load(n_ranks, 0);
+      for (std::size_t i = 0; n_ranks > 1 && i < scene.wires.size(); ++i)
+      {
+        const std::vector<Partition::Piece> &pieces = partition.wires[i];
+        const std::size_t n_nodes = grid(scene, i).size();
+        for (std::size_t p = 0; p < pieces.size(); ++p)
+          n_dofs[pieces[p].part] +=
+              n_dofs_per_node(scene.wires[i]) *
+              ((p + 1 < pieces.size() ? pieces[p + 1].first + 1 : n_nodes) - pieces[p].first);
+      }
+      for (const std::vector<std::size_t> &members : mechanisms)
+        n_dofs.push_back(members.size());
+
+      std::vector<std::size_t> order(n_dofs.size());
+      std::iota(order.begin(), order.end(), 0);
+      std::stable_sort(order.begin(), order.end(),
+                       [&](const std::size_t a, const std::size_t b)
+                       { return n_dofs[a] > n_dofs[b]; });
+      std::vector<unsigned int> rank(n_dofs.size());
+      for (const std::size_t part : order)
+      {
+        rank[part] = std::min_element(load.begin(), load.end()) - load.begin();
+        load[rank[part]] += n_dofs[part];
+      }
+      return rank;
+    }
+  } // namespace
+
+  SceneBodies::SceneBodies(const Scene &scene, const Partition &partition,
+                           const Communicator &processes)
+      : Structure(processes), wires(scene.wires.size()), mechanism_of_mass(scene.masses.size())
+  {
+    const auto mechanisms = connected_masses(scene);
+    const std::vector<unsigned int> owner =
+        share_out(scene, partition, mechanisms, processes.size());
+    for (std::size_t i = 0; i < scene.wires.size(); ++i)
+    {
+      const Wire &wire = scene.wires[i];
+      tangents.push_back(wire.tangent());
+      normals.push_back(wire.normal());
+      lengths.push_back(wire.length());
+      const std::vector<double> nodes = grid(scene, i);
+      for (const Partition::Piece &piece : partition.wires[i])
+      {
+        wires[i].begins.push_back(nodes[piece.first]);
+        wires[i].part.push_back(piece.part);
+      }
+      if (wire.has_axial)
+        add_pieces(scene, i, WireMotion::axial, partition.wires[i], owner, wires[i].axial);
+      if (wire.transverse != TransverseKind::none)
+        add_pieces(scene, i, WireMotion::transverse, partition.wires[i], owner,
+                   wires[i].transverse);
+    }
+    for (std::size_t m = 0; m < mechanisms.size(); ++m)
+    {
+      const std::size_t k =
+          add(Mechanism::name_of(scene, mechanisms[m]), owner[partition.n_parts + m],
+              [&] { return std::make_unique<Mechanism>(scene, mechanisms[m]); });
+      for (const std::size_t mass : mechanisms[m])
+        mechanism_of_mass[mass] = k;
+    }
+  }
+
+  void SceneBodies::add_pieces(const Scene &scene, const std::size_t wire, const WireMotion motion,
+                               const std::vector<Partition::Piece> &pieces,
+                               const std::vector<unsigned int> &owner,
+                               std::vector<std::size_t> &indices)
+  {
+    const std::vector<double> nodes = grid(scene, wire);
+    const std::string name = WireComponent::name_of(scene, wire, motion);
+    const bool has_slopes =
+        motion == WireMotion::transverse && scene.wires[wire].transverse == TransverseKind::beam;
+    const WireComponent *left = nullptr;
+    for (std::size_t p = 0; p < pieces.size(); ++p)
+    {
+      const std::size_t last = p + 1 < pieces.size() ? pieces[p + 1].first : nodes.size() - 1;
+      const WireComponent *right = nullptr;
+      indices.push_back(add(name, owner[pieces[p].part],
+                            [&]
+                            {
+                              auto made = std::make_unique<WireComponent>(
+                                  scene, wire, motion, nodes, pieces[p].first, last);
+                              right = made.get();
+                              return made;
+                            }));
+      for (unsigned int k = 0; p > 0 && k < (has_slopes ? 2u : 1u); ++k)
+      {
+        std::ostringstream title;
+        title << name << (k == 1 ? " slope" : "") << " cut at " << nodes[pieces[p].first] << " m";
+        CutRow row{title.str(), k == 1, {}};
+        const auto append = [&](const std::size_t body, const unsigned int dof, const double sign)
+        {
+          row.terms.push_back({body, {}});
+          row.terms.back().form.add(dof, sign);
+        };
+        if (left)
+          append(indices[p - 1], left->last_dof() + k, 1.);
+        if (right)
+          append(indices[p], right->first_dof() + k, -1.);
+        cuts.push_back(std::move(row));
+      }
+      left = right;
+    }
+  }
+
+  std::size_t SceneBodies::piece(const WireParts &parts, const double s) const
+  {
+    const double same = 1e-12 * lengths[&parts - wires.data()];
+    const auto after = std::upper_bound(parts.begins.begin() + 1, parts.begins.end(), s + same);
+    return after - parts.begins.begin() - 1;
+  }
+
+  unsigned int SceneBodies::part(const std::size_t wire, const double s) const
+  {
+    return wires[wire].part[piece(wires[wire], s)];
+  }
+
+  void SceneBodies::append_motion(const Attachment &point, const bool rotational,
+                                  const Point &direction, const double factor,
+                                  const bool derivative, std::vector<Term> &terms) const
+  {
+    const auto append = [&](const std::size_t k, const double f, SparseVector form)
+    {
+      for (double &v : form.value)
+        v *= f;
+      if (!form.index.empty())
+        terms.push_back({k, std::move(form)});
+    };
+    SparseVector form;
+    if (point.kind == Attachment::Kind::mass)
+    {
+      const std::size_t k = mechanism_of_mass[point.index];
+      if (k == elsewhere)
+        return;
+      static_cast<const Mechanism &>((*this)[k]).motion(point.index, rotational, direction, form);
+      append(k, factor, form);
+    }
+    else if (point.kind == Attachment::Kind::wire)
+    {
+      const WireParts &parts = wires[point.index];
+      const Point &t = tangents[point.index], &n = normals[point.index];
+      const double along = direction.x * t.x + direction.y * t.y,
+                   across = direction.x * n.x + direction.y * n.y;
+      const auto wire = [&](const std::size_t k) -> const WireComponent &
+      { return static_cast<const WireComponent &>((*this)[k]); };
+      const std::size_t p = piece(parts, point.position);
+      const bool has_axial = !parts.axial.empty() && parts.axial[p] != elsewhere,
+                 has_transverse = !parts.transverse.empty() && parts.transverse[p] != elsewhere;
+      if (rotational && !has_transverse)
+        return;
+      if (rotational)
+      {
+        wire(parts.transverse[p]).slope_at(point.position, form);
+        append(parts.transverse[p], factor, form);
+        return;
+      }
+      const auto evaluate = [&](const std::size_t k)
+      {
+        if (derivative)
+          wire(k).slope_at(point.position, form);
+        else
+          wire(k).value_at(point.position, form);
+      };
+      if (has_axial && along != 0.)
+      {
+        evaluate(parts.axial[p]);
+        append(parts.axial[p], factor * along, form);
+      }
+      if (has_transverse && across != 0.)
+      {
+        evaluate(parts.transverse[p]);
+        append(parts.transverse[p], factor * across, form);
+      }
+    }
+  }
+} // namespace taut
