@@ -2,6 +2,7 @@
 #include <taut/base/exceptions.h>
 #include <taut/simulation/free_bodies.h>
 #include <taut/simulation/simulation.h>
+#include <taut/time/form_finding.h>
 #include <taut/time/static_equilibrium.h>
 
 #include <algorithm>
@@ -178,10 +179,7 @@ namespace taut
     BlockVector rest = reference.displacement;
     if (links.n_fixed() < links.size())
     {
-      Scene without = model;
-      without.links.erase(std::remove_if(without.links.begin(), without.links.end(),
-                                         [](const Link &link) { return link.moving(); }),
-                          without.links.end());
+      const Scene without = without_sliding_contacts(model);
       const ContactRows fixed_rows(without, bodies);
       try
       {
