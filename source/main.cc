@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/interruption.h>
 #include <taut/base/version.h>
 #include <taut/output/progress.h>
 #include <taut/output/scene_report.h>
@@ -55,7 +56,9 @@ namespace
         throw taut::UserError("--study and --check exclude each other; choose one");
       if (arguments.count("sketch"))
         throw taut::UserError("--study draws no --sketch; draw it with --check");
-      taut::Study(file, overrides, arguments.count("overwrite") > 0, std::cout).run();
+      taut::Study study(file, overrides, arguments.count("overwrite") > 0, std::cout);
+      study.stop_if(taut::interruption);
+      study.run();
       return;
     }
     taut::Parameters parameters;
@@ -64,6 +67,7 @@ namespace
     try
     {
       taut::Simulation simulation(parameters, std::cout, processes);
+      simulation.stop_if(taut::interruption);
       // Before what may fail: the drawing shows why.
       if (arguments.count("sketch") && processes.is_root())
         taut::write_sketch(simulation.scene(), arguments["sketch"].as<std::string>());
@@ -83,11 +87,12 @@ namespace
   }
 
   /// Says once what all ranks have to say. Returns the exit code.
-  int report(const taut::Communicator &processes, const std::string &message)
+  int report(const taut::Communicator &processes, const std::string &message, const int code = 1)
   {
+    std::cout.flush();
     if (processes.is_root())
       std::cerr << "taut: " << message << '\n';
-    return 1;
+    return code;
   }
 } // namespace
 
@@ -101,6 +106,7 @@ int main(int argc, char **argv)
   }
   if (!processes.is_root())
     std::cout.setstate(std::ios::failbit);
+  taut::catch_interruptions(processes.is_root());
   po::options_description options("Options");
   options.add_options()("check", "read the file, check the scene and print it, without a run")(
       "sketch", po::value<std::string>()->value_name("FILE.svg"),
@@ -139,6 +145,10 @@ int main(int argc, char **argv)
   catch (const po::error &e)
   {
     return report(processes, e.what() + std::string("; see 'taut --help'"));
+  }
+  catch (const taut::Interrupted &e)
+  {
+    return report(processes, e.what(), 128 + e.signal());
   }
   catch (const taut::UserError &e)
   {

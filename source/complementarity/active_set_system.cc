@@ -41,7 +41,7 @@ namespace taut
     bool solves_with_kernel(const MixedComplementarityProblem &problem,
                             const ComplementarityOperator &matrix)
     {
-      return matrix.has_kernel_solver() && problem.kernel_resistance.empty();
+      return matrix.has_kernel_solver() && !problem.has_resistance();
     }
   } // namespace
 

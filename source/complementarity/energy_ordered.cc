@@ -121,9 +121,9 @@ namespace taut
     solution.reset(problem);
     DenseOperator dense = assemble(matrix);
     const Outcome outcome = problem.n_kernel() == 0 ? minimize(problem, dense, solution)
-                            : problem.kernel_resistance.empty()
-                                ? minimize_with_kernel(problem, dense, solution)
-                                : minimize_with_resistance(problem, dense, solution);
+                            : problem.has_resistance()
+                                ? minimize_with_resistance(problem, dense, solution)
+                                : minimize_with_kernel(problem, dense, solution);
 
     std::vector<double> terms, weights;
     gaps(problem, matrix, solution.multiplier, solution.kernel_amplitude, solution.gap);
@@ -147,8 +147,8 @@ namespace taut
     return is_consistent ? Outcome::finished : Outcome::contradictory;
   }
 
-  /// The amplitudes are eliminated, alpha = E^-1 (G N + e); the set that this finds is then solved
-  /// with them, because F is small beside G^T E^-1 G.
+  /// Amplitudes that something resists are eliminated, alpha = E^-1 (G N + e); the set that this
+  /// finds is then solved with them, because F is small beside G^T E^-1 G.
   EnergyOrderedActiveSet::Outcome
   EnergyOrderedActiveSet::minimize_with_resistance(const MixedComplementarityProblem &problem,
                                                    DenseOperator &matrix,
@@ -160,9 +160,18 @@ namespace taut
     without.kernel_load.clear();
     without.kernel_resistance.clear();
     without.gap_scale.resize(problem.size(), 0.);
+    std::vector<std::size_t> resisted, free;
     for (std::size_t k = 0; k < problem.n_kernel(); ++k)
     {
       const SparseVector &G = problem.kernel[k];
+      if (!(problem.resistance(k) > 0.))
+      {
+        without.kernel.push_back(G);
+        without.kernel_load.push_back(problem.kernel_load[k]);
+        free.push_back(k);
+        continue;
+      }
+      resisted.push_back(k);
       const double amplitude = problem.kernel_load[k] / problem.resistance(k);
       for (std::size_t e = 0; e < G.index.size(); ++e)
       {
@@ -175,8 +184,17 @@ namespace taut
                       whole(i, G.index[f]) + G.value[e] * G.value[f] / problem.resistance(k));
       }
     }
-    const Outcome outcome = minimize(without, whole, solution);
-    for (std::size_t k = 0; k < problem.n_kernel(); ++k)
+    MixedComplementaritySolution part;
+    part.reset(without);
+    const Outcome outcome =
+        free.empty() ? minimize(without, whole, part) : minimize_with_kernel(without, whole, part);
+    if (outcome == Outcome::not_held)
+      for (std::size_t &k : failed)
+        k = free[k];
+    solution.multiplier = part.multiplier;
+    for (std::size_t k = 0; k < free.size(); ++k)
+      solution.kernel_amplitude[free[k]] = part.kernel_amplitude[k];
+    for (const std::size_t k : resisted)
       solution.kernel_amplitude[k] =
           (problem.kernel[k].dot(solution.multiplier) + problem.kernel_load[k]) /
           problem.resistance(k);

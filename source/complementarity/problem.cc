@@ -34,6 +34,12 @@ namespace taut
     return result;
   }
 
+  bool MixedComplementarityProblem::has_resistance() const
+  {
+    return std::any_of(kernel_resistance.begin(), kernel_resistance.end(),
+                       [](const double value) { return value > 0.; });
+  }
+
   void MixedComplementarityProblem::check(const ComplementarityOperator &matrix) const
   {
     if (matrix.size() != size() || free_gap.size() != size() ||

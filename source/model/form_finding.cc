@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 namespace taut
 {
@@ -43,6 +44,36 @@ namespace taut
       load.direction = link.direction;
       load.magnitude = Expression(magnitude);
       return load;
+    }
+
+    /// Masses that springs and fixed links connect with a wire, directly or through other masses.
+    std::vector<char> masses_at_wires(const Scene &scene)
+    {
+      std::vector<char> result(scene.masses.size(), 0);
+      bool is_done = false;
+      const auto connect = [&](const std::size_t a, const std::size_t b)
+      {
+        if (a == ground || b == ground || result[a] == result[b])
+          return;
+        result[a] = result[b] = 1;
+        is_done = false;
+      };
+      for (const Link &link : scene.links)
+        for (const auto &[end, other] :
+             {std::pair(link.from, link.to), std::pair(link.to, link.from)})
+          if (!link.moving() && end.kind == Attachment::Kind::mass &&
+              other.kind == Attachment::Kind::wire)
+            result[end.index] = 1;
+      while (!is_done)
+      {
+        is_done = true;
+        for (const Spring &spring : scene.springs)
+          connect(spring.from, spring.to);
+        for (const Link &link : scene.links)
+          if (link.from.kind == Attachment::Kind::mass && link.to.kind == Attachment::Kind::mass)
+            connect(link.from.index, link.to.index);
+      }
+      return result;
     }
 
     /// Bilateral rows that hold the `to` ends: their multipliers are minus the tensions.
@@ -114,9 +145,28 @@ namespace taut
     }
   } // namespace
 
+  Scene without_sliding_contacts(Scene scene)
+  {
+    const std::vector<char> at_wires = masses_at_wires(scene);
+    std::vector<Link> links;
+    for (Link &link : scene.links)
+      if (!link.moving())
+        links.push_back(std::move(link));
+      else if (link.from.kind == Attachment::Kind::mass && !at_wires[link.from.index])
+      {
+        Link hold;
+        hold.name = link.name;
+        hold.origin = link.origin;
+        hold.to = link.from;
+        hold.direction = link.direction;
+        links.push_back(hold);
+      }
+    scene.links = std::move(links);
+    return scene;
+  }
+
   Scene find_lengths(Scene scene, const SolverParameters &parameters)
   {
-    Scene base = scene;
     std::vector<Link> droppers;
     for (const Link &link : scene.links)
       if (link.find_length)
@@ -126,8 +176,9 @@ namespace taut
       }
     if (droppers.empty())
       return scene;
+    Scene base = without_sliding_contacts(scene);
     base.links.erase(std::remove_if(base.links.begin(), base.links.end(),
-                                    [](const Link &l) { return l.find_length || l.moving(); }),
+                                    [](const Link &link) { return link.find_length; }),
                      base.links.end());
 
     std::vector<double> tension, length;

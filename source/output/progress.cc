@@ -30,7 +30,7 @@ namespace taut
       log << "\r  [" << std::string(filled, '=') << std::string(width - filled, ' ') << "] "
           << std::setw(3) << static_cast<int>(100. * fraction + 1e-9)
           << " %  t = " << step.state.time << " s  " << std::setprecision(3) << factor
-          << " x real time   " << std::setprecision(6) << (last ? "\n" : "") << std::flush;
+          << " x real time   " << std::setprecision(6) << std::flush;
       return;
     }
     const int tenths = static_cast<int>(10. * fraction + 1e-9);
@@ -38,5 +38,11 @@ namespace taut
       log << "  " << 10 * tenths << " %  t = " << step.state.time << " s, " << std::setprecision(3)
           << factor << " x real time" << std::setprecision(6) << std::endl;
     shown = tenths;
+  }
+
+  void Progress::finish()
+  {
+    if (terminal)
+      log << '\n';
   }
 } // namespace taut

@@ -132,7 +132,7 @@ namespace taut
     out.flags(flags);
   }
 
-  void Statistics::write(const std::string &path) const
+  void Statistics::write(const std::string &path, const bool is_partial) const
   {
     // In the order of the scene.
     using json = nlohmann::ordered_json;
@@ -146,6 +146,8 @@ namespace taut
                   {"minimum [N]", m.minimum}};
     };
     json root;
+    root["partial"] = is_partial;
+    root["until"] = until();
     root["sliding contacts"] = json::object();
     for (const Contact &contact : contacts)
     {

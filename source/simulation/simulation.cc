@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/interruption.h>
 #include <taut/base/version.h>
 #include <taut/model/contact_mass.h>
 #include <taut/model/form_finding.h>
@@ -21,6 +22,7 @@
 #include <filesystem>
 #include <fstream>
 #include <ostream>
+#include <sstream>
 
 namespace taut
 {
@@ -74,6 +76,7 @@ namespace taut
     find_rest_of_probes();
     measures = std::make_unique<ContactMeasures>(bodies, links, reference, start);
     reactions.update_start(reference, start, links);
+    stop_before_start();
     const TimeIntegrator *integrator = parameters.end_time > 0. ? &choose_integrator() : nullptr;
 
     // The first factorisation, which finds the bodies that nothing holds.
@@ -85,6 +88,7 @@ namespace taut
     if (time_stepper && links.size() > 0)
       log << "Interface operator: " << time_stepper->interface_description() << '\n';
 
+    stop_before_start();
     // Nothing on the disk was touched until here, where the scene is known to make sense.
     on_root(
         [&]
@@ -122,36 +126,68 @@ namespace taut
       energy = std::make_unique<Energy>(parameters.output.folder, view(start, start_certificate),
                                         parameters.output.interval);
 
+    const auto close = [&](const bool is_partial)
+    {
+      for (Observer *observer : observers)
+        observer->finish();
+      if (is_partial)
+        log << "Partial results: until t = " << statistics.until() << " s of "
+            << parameters.end_time << " s\n";
+      if (!processes.is_root())
+        return;
+      series->close();
+      if (energy)
+        energy->close();
+      statistics.write(parameters.output.folder + "/statistics.json", is_partial);
+    };
     const auto begin = std::chrono::steady_clock::now();
     try
     {
       advance(stepper, observers, fields, energy.get());
     }
-    catch (const UserError &)
+    catch (...)
     {
-      // What was computed before the error is kept; it may show the reason.
-      if (series)
-        series->close();
-      if (energy)
-        energy->close();
+      // What was computed before the error is kept; it may show the reason. An error that comes of
+      // it says less than the first. Other ranks may not be here.
+      try
+      {
+        close(true);
+        statistics.print(log);
+      }
+      catch (const std::exception &)
+      {
+      }
       throw;
     }
     const double all =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    on_root(
-        [&]
-        {
-          series->close();
-          if (energy)
-            energy->close();
-          statistics.write(parameters.output.folder + "/statistics.json");
-        });
+    processes.agree([&] { close(stop_signal != 0); });
     statistics.print(log);
     log << measures->report();
+    print_cost(stepper, statistics.until(), all);
+    log << "Results in " << parameters.output.folder << '\n';
+    if (stop_signal != 0)
+    {
+      std::ostringstream message;
+      message << "ended by " << signal_name(stop_signal)
+              << " after the step at t = " << statistics.until() << " s of " << parameters.end_time
+              << " s; the results until then are in " << parameters.output.folder;
+      throw Interrupted(stop_signal, message.str());
+    }
+    const std::string error = measures->error();
+    if (!error.empty() && !parameters.allow_energy_gain)
+      throw EntryError(measures->error_origin(), error);
+  }
+
+  void Simulation::print_cost(const TimeStepper &stepper, const double until,
+                              const double all) const
+  {
     const long n_steps = stepper.n_steps_done();
-    log << n_steps << " steps in " << all << " s, " << parameters.end_time / all
+    if (n_steps == 0)
+      return;
+    log << n_steps << " steps in " << all << " s, " << until / all
         << " x real time; without output " << 1e6 * seconds / n_steps << " us a step, "
-        << parameters.end_time / seconds << " x real time\n";
+        << until / seconds << " x real time\n";
     const InterfaceStatistics solves = stepper.interface_statistics();
     if (solves.n_systems > 0)
       log << "Conjugate gradients: " << static_cast<double>(solves.n_iterations) / solves.n_systems
@@ -159,10 +195,14 @@ namespace taut
           << " systems a step, "
           << static_cast<double>(solves.n_local_solves) / solves.n_applications
           << " bodies solved a product\n";
-    log << "Results in " << parameters.output.folder << '\n';
-    const std::string error = measures->error();
-    if (!error.empty() && !parameters.allow_energy_gain)
-      throw EntryError(measures->error_origin(), error);
+  }
+
+  void Simulation::stop_before_start()
+  {
+    stop_signal = static_cast<int>(processes.max(stop_asked ? stop_asked() : 0));
+    if (stop_signal != 0)
+      throw Interrupted(stop_signal, "ended by " + signal_name(stop_signal) +
+                                         " before the first step; nothing was written");
   }
 
   void Simulation::check()
@@ -170,6 +210,7 @@ namespace taut
     print_scene(model, log);
     describe();
     find_start();
+    stop_before_start();
     if (parameters.end_time > 0.)
       TimeStepper(bodies, links, parameters.solver, choose_integrator(), parameters.step, reference,
                   start, model.start == Start::equilibrium);
@@ -240,7 +281,7 @@ namespace taut
     };
     show(start, start_certificate);
     StepControl control(parameters.step_parameters, parameters.step, n_steps());
-    while (!control.is_finished())
+    while (!control.is_finished() && stop_signal == 0)
     {
       const auto before = std::chrono::steady_clock::now();
       control.advance(stepper);
@@ -251,6 +292,8 @@ namespace taut
       if (energy)
         energy->record(view(stepper.state(), stepper.certificate()));
     }
+    if (control.is_finished())
+      stop_signal = 0; // it came too late to matter
     if (control.n_repeated() > 0)
       log << control.n_repeated() << " steps were repeated with a shorter one\n";
   }
@@ -341,7 +384,13 @@ namespace taut
     for (std::size_t i = 0; i < probe_terms.size(); ++i)
       probe_values[i] =
           evaluate(probe_terms[i], reference.displacement) + evaluate(probe_terms[i], state.U);
+    // Whether to stop goes with them: one message for both, and all ranks stop at the same step.
+    const int asked = stop_asked ? stop_asked() : 0;
+    probe_values.push_back(asked);
     processes.sum(probe_values);
+    if (probe_values.back() > 0.)
+      stop_signal = static_cast<int>(processes.max(asked));
+    probe_values.pop_back();
     for (std::size_t i = 0; i < probe_terms.size(); ++i)
       probe_values[i] -= probe_rest[i];
   }

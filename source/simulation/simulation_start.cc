@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/model/form_finding.h>
 #include <taut/model/scene_rows.h>
 #include <taut/simulation/free_bodies.h>
 #include <taut/simulation/simulation.h>
@@ -179,10 +180,7 @@ namespace taut
     BlockVector rest = reference.displacement;
     if (links.n_fixed() < links.size())
     {
-      Scene without = model;
-      without.links.erase(std::remove_if(without.links.begin(), without.links.end(),
-                                         [](const Link &link) { return link.moving(); }),
-                          without.links.end());
+      const Scene without = without_sliding_contacts(model);
       const ContactRows fixed_rows = scene_rows(without, bodies);
       try
       {

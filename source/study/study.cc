@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/interruption.h>
 #include <taut/simulation/simulation.h>
 #include <taut/study/study.h>
 #include <taut/study/study_report.h>
@@ -96,20 +97,70 @@ namespace taut
     {
       throw UserError(parameters.explain(e));
     }
-    log << result.settings.size() << " settings, " << parameters.study.repeats << " runs each\n";
+    catch (const Interrupted &e)
+    {
+      std::filesystem::remove_all(parameters.study_folder() + "/run");
+      throw Interrupted(e.signal(), "study ended by " + signal_name(e.signal()) +
+                                        " before the first setting was measured");
+    }
+    const std::size_t n_settings = result.settings.size();
+    log << n_settings << " settings, " << parameters.study.repeats << " runs each\n";
+    try
+    {
+      measure_settings();
+    }
+    catch (const Interrupted &e)
+    {
+      keep_measured_settings();
+      write_results();
+      throw Interrupted(e.signal(), "study ended by " + signal_name(e.signal()) + " with " +
+                                        std::to_string(result.settings.size()) + " of " +
+                                        std::to_string(n_settings) + " settings measured");
+    }
+    write_results();
+    return result;
+  }
+
+  void Study::measure_settings()
+  {
     // All settings in turn, and again: a busy spell of the machine then meets few runs of each.
     for (unsigned int repeat = 0; repeat <= parameters.study.repeats; ++repeat)
       for (StudySetting &setting : result.settings)
         run_setting(setting, repeat == 0);
+  }
+
+  /// Of a study that ends early. A setting without a run for its cost alone has that of its run
+  /// with output; costs of both kinds are not compared.
+  void Study::keep_measured_settings()
+  {
+    std::vector<StudySetting> &settings = result.settings;
+    settings.erase(std::remove_if(settings.begin(), settings.end(),
+                                  [](const StudySetting &setting)
+                                  { return setting.figures.empty() && setting.message.empty(); }),
+                   settings.end());
+    result.is_partial = true;
+    const bool all_timed =
+        std::all_of(settings.begin(), settings.end(),
+                    [](const StudySetting &setting)
+                    { return !setting.seconds.empty() || !setting.message.empty(); });
+    if (all_timed)
+      return;
+    log << "Partial study: costs are those of the runs with output\n";
+    for (StudySetting &setting : settings)
+      setting.seconds = {setting.seconds_with_output};
+  }
+
+  void Study::write_results()
+  {
+    std::filesystem::remove_all(parameters.study_folder() + "/run");
+    if (result.is_partial && result.settings.empty())
+      return;
     find_bounds(result.ladders, result.settings);
     find_front(result.settings);
-    std::filesystem::remove_all(parameters.study_folder() + "/run");
-
     write_work_precision(result, parameters.study_folder() + "/work_precision.csv");
     write_study(result, parameters.values(), parameters.study_folder() + "/study.json");
     print_study(result, parameters.study.accuracies, log);
     log << "Study in " << parameters.study_folder() << '\n';
-    return result;
   }
 
   void Study::prepare_folder() const
@@ -254,6 +305,7 @@ namespace taut
       FigureRecorder recorder(chosen.study, chosen.statistics, simulation.scene(),
                               simulation.rows());
       Stopwatch stopwatch(simulation.n_steps());
+      simulation.stop_if(stop_asked);
       simulation.observe(stopwatch);
       if (with_figures)
         simulation.observe(recorder);

@@ -207,6 +207,7 @@ namespace taut
     json root;
     root["taut"] = version();
     root["end [s]"] = result.end_time;
+    root["partial"] = result.is_partial;
     root["scene"] = json::object();
     for (const auto &[entry, value] : scene)
       if (!is_irrelevant_for_study(entry))

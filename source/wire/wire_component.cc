@@ -2,7 +2,7 @@
 #include "wire_discretisation.h"
 
 #include <taut/base/exceptions.h>
-#include <taut/wire/fe_hermite.h>
+#include <taut/wire/fe_cubic_hermite.h>
 
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>

@@ -577,6 +577,74 @@ namespace
     }
   }
 
+  TEST(complementarity, kernel_vectors_with_and_without_resistance_mix)
+  {
+    // Claim: E_k = 0 is a kernel vector that contacts alone balance, beside others that E resists.
+    // By hand: N = 10 from the second balance, 2 alpha_0 = N - 4, alpha_1 = -(0.1 N + 0.5 +
+    // alpha_0).
+    for (const std::string &method : both_methods)
+    {
+      DenseOperator F = dense({{.1}});
+      auto both = problem({1}, {.5});
+      both.kernel = kernel_rows(1, {1., 1.});
+      both.kernel_load = {-4., -10.};
+      both.kernel_resistance = {2., 0.};
+      ComplementaritySolver solver(method);
+      const auto &result = solver.solve(both, F);
+      expect_near(result.solution.multiplier, {10.});
+      expect_near(result.solution.gap, {0.});
+      expect_near(result.solution.kernel_amplitude, {3., -4.5});
+      EXPECT_FALSE(result.used_fallback);
+    }
+  }
+
+  TEST(complementarity, a_body_that_nothing_resists_stands_beside_one_that_falls)
+  {
+    // Claim: the first body falls 5 / 100 of its gap of 0.1, the second stands with its load of 7;
+    // lifted, it is the second that is named.
+    for (const std::string &method : both_methods)
+    {
+      DenseOperator F(2);
+      auto two = problem({1, 1}, {.1, .2});
+      two.kernel = kernel_rows(2, {1., 0., 0., 1.});
+      two.kernel_load = {-5., -7.};
+      two.kernel_resistance = {100., 0.};
+      ComplementaritySolver solver(method);
+      const auto &result = solver.solve(two, F);
+      expect_near(result.solution.multiplier, {0., 7.});
+      expect_near(result.solution.gap, {.05, 0.});
+      expect_near(result.solution.kernel_amplitude, {-.05, -.2});
+      two.kernel_load[1] = 7.;
+      try
+      {
+        solver.solve(two, F);
+        ADD_FAILURE() << "no exception";
+      }
+      catch (const BodyNotHeld &error)
+      {
+        EXPECT_EQ(error.kernel(), (std::vector<std::size_t>{1}));
+      }
+    }
+  }
+
+  TEST(complementarity, resistances_that_are_zero_are_as_none)
+  {
+    // Claim: explicit zeros are the same problem to the last bit; the rigid beam of above.
+    for (const std::string &method : both_methods)
+    {
+      DenseOperator F(3);
+      auto beam = beam_on_stops(10., .3, {1e-3, 0., 0.});
+      const MixedComplementaritySolution none =
+          ComplementaritySolver(method).solve(beam, F).solution;
+      beam.kernel_resistance = {0., 0.};
+      const MixedComplementaritySolution zeros =
+          ComplementaritySolver(method).solve(beam, F).solution;
+      EXPECT_EQ(none.multiplier, zeros.multiplier);
+      EXPECT_EQ(none.gap, zeros.gap);
+      EXPECT_EQ(none.kernel_amplitude, zeros.kernel_amplitude);
+    }
+  }
+
   TEST(complementarity, a_body_without_rows_is_held_only_if_it_has_no_load)
   {
     for (const std::string &method : both_methods)

@@ -583,8 +583,9 @@ namespace
   }
 
   /// A floating problem with a known solution: d = D - F N - G^T alpha, e = -G N, in small
-  /// integers.
-  Problem generate_floating(unsigned int index)
+  /// integers. With @p resisted about half of the kernel vectors have a resistance E, the others an
+  /// explicit zero, and e = E alpha - G N.
+  Problem generate_floating(unsigned int index, bool resisted = false)
   {
     Generator generator(2 * n_problems + index);
     Problem problem;
@@ -626,6 +627,11 @@ namespace
         values.kernel_load[k] -= G[k * n + i] * N[i];
       }
     }
+    for (std::size_t k = 0; resisted && k < n_kernel; ++k)
+    {
+      values.kernel_resistance.push_back(generator.integer(2) * (1 + generator.integer(8)));
+      values.kernel_load[k] += values.kernel_resistance[k] * alpha[k];
+    }
     return problem;
   }
 
@@ -652,5 +658,45 @@ namespace
       }
     std::cout << n_fallbacks << " fallbacks, residual " << largest << std::endl;
     EXPECT_LE(n_fallbacks, 300u);
+  }
+
+  TEST(complementarity_generated, energy_ordered_active_set_takes_any_resistance)
+  {
+    // Claim: alone, on all resistances, half of them or none of them zero, it finds what Newton's
+    // method finds: residual below 1e-10, and the resisted amplitudes, which are unique.
+    double largest = 0., difference = 0.;
+    unsigned int n_zero = 0, n_mixed = 0, n_compared = 0;
+    for (unsigned int index = 0; index < 1000; ++index)
+    {
+      const Problem problem = generate_floating(index, true);
+      const Vector &E = problem.values.kernel_resistance;
+      const auto zeros = std::count(E.begin(), E.end(), 0.);
+      n_zero += zeros == long(E.size());
+      n_mixed += zeros > 0 && zeros < long(E.size());
+      DenseOperator F = problem.matrix();
+      EnergyOrderedActiveSet solver{ComplementarityOptions()};
+      MixedComplementaritySolution solution, newton;
+      SCOPED_TRACE(describe(index, problem));
+      ASSERT_EQ(solver.solve(problem.values, F, solution),
+                EnergyOrderedActiveSet::Outcome::finished);
+      EXPECT_LE(solver.residual().max, 1e-10);
+      largest = std::max(largest, solver.residual().max);
+      newton.closed.assign(problem.n, 1);
+      if (SemismoothNewton(ComplementarityOptions()).solve(problem.values, F, newton) !=
+          SemismoothNewton::Outcome::solved)
+        continue;
+      ++n_compared;
+      for (std::size_t k = 0; k < E.size(); ++k)
+        if (E[k] > 0.)
+          difference = std::max(
+              difference, std::abs(solution.kernel_amplitude[k] - newton.kernel_amplitude[k]));
+    }
+    std::cout << n_zero << " without resistance, " << n_mixed << " mixed, " << n_compared
+              << " compared, residual " << largest << ", difference of amplitudes " << difference
+              << std::endl;
+    EXPECT_GT(n_zero, 100u);
+    EXPECT_GT(n_mixed, 100u);
+    EXPECT_GT(n_compared, 800u);
+    EXPECT_LE(difference, 1e-8); // of up to 4
   }
 } // namespace

@@ -53,6 +53,9 @@ namespace taut
       return kernel_resistance.empty() ? 0. : kernel_resistance[k];
     }
 
+    /// Whether anything resists any of the kernel vectors.
+    bool has_resistance() const;
+
     std::size_t size() const { return unilateral.size(); }
     std::size_t n_kernel() const { return kernel_load.size(); }
 

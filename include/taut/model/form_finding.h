@@ -8,8 +8,15 @@
 namespace taut
 {
   /**
+   * The scene with its sliding contacts taken off the wires. A mass that one of them may hold, as
+   * nothing but other masses and the ground is connected with it, is held by a joint to the ground
+   * in its place instead, in the direction of the contact.
+   */
+  Scene without_sliding_contacts(Scene scene);
+
+  /**
    * Finds the lengths of the droppers that ask for it (Link::find_length), so that in static
-   * equilibrium without the sliding contacts their `to` ends stand at the prescribed displacement.
+   * equilibrium without_sliding_contacts() their `to` ends stand at the prescribed displacement.
    * Two stages: the prescribed heights as bilateral rows give the tensions; the `from` bodies under
    * these tensions give the lengths. Repeated until the lengths stand still where they decide about
    * stiffness and weight.

@@ -41,6 +41,9 @@ namespace taut
   public:
     virtual ~Observer() = default;
     virtual void record(const StepView &step) = 0;
+
+    /// Called once after the last step, also of a run that ends early or with an error.
+    virtual void finish() {}
   };
 } // namespace taut
 

@@ -16,6 +16,7 @@ namespace taut
   public:
     Progress(std::ostream &log, bool terminal, double end_time);
     void record(const StepView &step) override;
+    void finish() override;
 
   private:
     std::ostream &log;

@@ -80,8 +80,12 @@ namespace taut
     /// The table, with the expected ranges beside the figures.
     void print(std::ostream &out) const;
 
-    /// The same as JSON. Throws UserError if the file cannot be written.
-    void write(const std::string &path) const;
+    /// The same as JSON. @p is_partial marks a run that ended before its end. Throws UserError if
+    /// the file cannot be written.
+    void write(const std::string &path, bool is_partial = false) const;
+
+    /// Time of the last step recorded, 0 without one [s].
+    double until() const { return times.empty() ? 0. : times.back(); }
 
   private:
     /// Record of one sliding contact.

@@ -32,7 +32,15 @@ namespace taut
     /// kept by reference.
     void observe(Observer &observer) { guests.push_back(&observer); }
 
-    /// Runs to the end and writes the results. Throws UserError.
+    /// @p asked is called on each rank after each step; what is not 0 on any of them is the signal
+    /// that ends the run there. For taut::interruption, or a hook of the caller's own.
+    void stop_if(std::function<int()> asked) { stop_asked = std::move(asked); }
+
+    /**
+     * Runs to the end and writes the results. Throws UserError, and Interrupted if it was asked to
+     * stop. If it ends early in one of these ways, the results up to the last step are written and
+     * marked as partial; nothing is written if it ends before the first one.
+     */
     void run();
 
     /// Everything up to the first step, and the scene in tables; writes nothing. Throws UserError.
@@ -58,6 +66,8 @@ namespace taut
     void write_start() const;
     StepView view(const State &state, const Certificate &certificate) const;
     void update_probes(const State &state);
+    void stop_before_start();
+    void print_cost(const TimeStepper &stepper, double until, double all) const;
     void advance(TimeStepper &stepper, const std::vector<Observer *> &observers, Fields &fields,
                  Energy *energy);
     void on_root(const std::function<void()> &work) const;
@@ -80,6 +90,8 @@ namespace taut
     std::unique_ptr<ContactMeasures> measures;
     StepCoefficients scheme; ///< of the last step
     double seconds = 0.;
+    std::function<int()> stop_asked;
+    int stop_signal = 0; ///< the same on all ranks; 0: go on
   };
 } // namespace taut
 

@@ -5,6 +5,7 @@
 #include <taut/simulation/parameters.h>
 #include <taut/study/refined_reference.h>
 
+#include <functional>
 #include <iosfwd>
 #include <string>
 #include <vector>
@@ -39,7 +40,8 @@ namespace taut
     std::vector<std::string> figure_names;
     std::vector<FigureReference> references;
     std::vector<StudySetting> settings;
-    double end_time = 0.; ///< [s]
+    double end_time = 0.;    ///< [s]
+    bool is_partial = false; ///< ended early: settings or repeated runs are missing
   };
 
   /**
@@ -54,14 +56,23 @@ namespace taut
     Study(const std::string &file, const std::vector<std::string> &overrides, bool overwrite,
           std::ostream &log);
 
-    /// Runs everything and writes work_precision.csv and study.json. A setting that cannot be run
-    /// is a row with its error. Throws UserError.
+    /// As Simulation::stop_if(), asked after each step of each run.
+    void stop_if(std::function<int()> asked) { stop_asked = std::move(asked); }
+
+    /**
+     * Runs everything and writes work_precision.csv and study.json. A setting that cannot be run
+     * is a row with its error. Throws UserError, and Interrupted if it was asked to stop: then the
+     * files hold the settings measured until then, and none is written if there are none.
+     */
     const StudyResult &run();
 
   private:
     struct Run;
     void prepare_folder() const;
     void make_settings();
+    void measure_settings();
+    void keep_measured_settings();
+    void write_results();
     void check_figures() const;
     void find_references();
     std::vector<std::string> reference_values(unsigned int level) const;
@@ -75,6 +86,7 @@ namespace taut
     std::ostream &log;
     Parameters parameters;
     StudyResult result;
+    std::function<int()> stop_asked;
   };
 
   /**

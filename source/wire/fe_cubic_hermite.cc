@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
-#include <taut/wire/fe_hermite.h>
+#include <taut/wire/fe_cubic_hermite.h>
 #include <taut/wire/hermite_shape.h>
 
 #include <deal.II/base/function.h>

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_interruption_h
+#define taut_interruption_h
+
+#include <stdexcept>
+#include <string>
+
+namespace taut
+{
+  /// Thrown by work that a signal ended early, after it has written what it had computed.
+  class Interrupted : public std::runtime_error
+  {
+  public:
+    Interrupted(const int signal, const std::string &message)
+        : std::runtime_error(message), number(signal)
+    {
+    }
+
+    int signal() const { return number; }
+
+  private:
+    int number;
+  };
+
+  /**
+   * For a program, not for a library: from now on the first SIGINT or SIGTERM only sets what
+   * interruption() returns, and a second one ends the process at once, with exit code 128 plus
+   * its number. With @p says_so the first one says so on the standard error.
+   */
+  void catch_interruptions(bool says_so);
+
+  /// The signal that asked the process to end; 0: none.
+  int interruption();
+
+  /// "SIGINT", "SIGTERM", or the number of another signal.
+  std::string signal_name(int signal);
+} // namespace taut
+
+#endif

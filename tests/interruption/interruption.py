@@ -1,0 +1,258 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A run that a signal or an error ends early has the results of a run with that end, marked as partial; a second signal
+ends it at once. Expected numbers come from that shorter run; exit codes are 128 plus the signal, and 1."""
+import argparse
+import csv
+import json
+import math
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+parser = argparse.ArgumentParser(description=__doc__)
+parser.add_argument("--program", required=True)
+parser.add_argument("--mpiexec", required=True)
+parser.add_argument("--prm", type=pathlib.Path, required=True)
+arguments = parser.parse_args()
+
+LINE = [str(arguments.prm / "en50318_2002_250.prm"), "--set", "Statistics/Window="]
+STEP = ["--set", "Time/Step=2e-5", "--set", "Time/End=0.5"]  # 25000 steps: none is done before the signal comes
+LARGE = [*LINE, "--set", "Catenary/Contact wire/Element size=5e-3"]  # seconds before the first step
+FAILING = """set Generator = network
+set Start     = given
+subsection Network
+  set Masses  = block
+  set Springs = spring
+  set Loads   = push
+  subsection Mass block
+    set Motions = y
+    set Mass    = 2
+  end
+  subsection Spring spring
+    set To        = block
+    set Stiffness = 200
+  end
+  subsection Load push
+    set On        = block
+    set Magnitude = 1 / (t < 0.505)
+  end
+end
+subsection Time
+  set Step = 0.01
+  set End  = 2
+end
+"""
+errors = []
+
+
+def expect(what, is_true, found=""):
+    if not is_true:
+        errors.append(f"{what}: {found}")
+
+
+class Program:
+    """A program that runs; its two outputs go to files."""
+
+    def __init__(self, folder, options, ranks=1):
+        self.out, self.err = folder / "out", folder / "err"
+        command = [arguments.program, *options]
+        if ranks > 1:
+            command = [arguments.mpiexec, "-np", str(ranks), *command]
+        with open(self.out, "w") as out, open(self.err, "w") as err:
+            self.process = subprocess.Popen(command, stdout=out, stderr=err)
+
+    def wait_for(self, condition):
+        end = time.monotonic() + 120.
+        while not condition():
+            if self.process.poll() is not None or time.monotonic() > end:
+                self.process.kill()
+                sys.exit(f"too early or late: {self.process.args}\n{self.out.read_text()[-2000:]}\n{self.err.read_text()}")
+            time.sleep(0.01)
+
+    def says(self, pattern):
+        self.wait_for(lambda: re.search(pattern, self.out.read_text() + self.err.read_text(), re.MULTILINE))
+
+    def catches_signals(self):
+        """Waits until the program has its own handler of SIGINT."""
+        status = pathlib.Path(f"/proc/{self.process.pid}/status")
+        mask = 1 << (signal.SIGINT - 1)
+        self.wait_for(lambda: int(re.search(r"SigCgt:\s*(\w+)", status.read_text())[1], 16) & mask)
+
+    def end(self):
+        """Exit code, after which outputs are complete."""
+        try:
+            return self.process.wait(120)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            return "no end"
+
+
+def rank_pid(mpirun, rank):
+    """Process id of a rank."""
+    children = pathlib.Path(f"/proc/{mpirun}/task/{mpirun}/children").read_text().split()
+    for child in children:
+        environment = pathlib.Path(f"/proc/{child}/environ").read_bytes().split(b"\0")
+        if f"OMPI_COMM_WORLD_RANK={rank}".encode() in environment:
+            return int(child)
+    sys.exit(f"no rank {rank} under mpirun")
+
+
+def statistics(folder):
+    path = folder / "statistics.json"
+    if not path.exists():
+        errors.append(f"no {path}")
+        return {"partial": None, "until": math.nan}
+    return json.loads(path.read_text())
+
+
+def check_partial(what, program, results):
+    """What must be there after an early end; returns until when."""
+    found = statistics(results)
+    until = found["until"]
+    expect(f"{what}: marked as partial", found["partial"] is True, found["partial"])
+    said = re.search(r"^Partial results: until t = (\S+) s of", program.out.read_text(), re.MULTILINE)
+    expect(f"{what}: the log says until when", said and math.isclose(float(said[1]), until, rel_tol=1e-5), said)
+    lines = (results / "certificate.csv").read_text().splitlines()
+    expect(f"{what}: the tables reach the end", math.isclose(float(lines[-1].split(",")[0]), until), lines[-1])
+    return until
+
+
+def check_same(what, results, options, folder, tolerance):
+    """The tables are those of a run with this end."""
+    until = statistics(results)["until"]
+    shorter = folder / "shorter"
+    subprocess.run([arguments.program, *options, "--set", f"Time/End={until}", "--set", f"Output/Folder={shorter}"],
+                   check=True, stdout=subprocess.DEVNULL)
+    full = statistics(shorter)
+    expect(f"{what}: a run to its end is not partial", full["partial"] is False, full["partial"])
+    expect(f"{what}: same end", math.isclose(full["until"], until), (full["until"], until))
+    for table in ("sliding.csv", "links.csv", "supports.csv", "probes.csv"):
+        with open(results / table) as f, open(shorter / table) as g:
+            a, b = list(csv.reader(f)), list(csv.reader(g))
+        expect(f"{what}: {table} has all lines", len(a) == len(b), (len(a), len(b)))
+        worst = max(abs(float(x) - float(y)) / max(1., abs(float(y))) for p, q in zip(a[1:], b[1:])
+                    for x, y in zip(p, q))
+        expect(f"{what}: {table} is that of a run with this end", worst <= tolerance, worst)
+
+
+def check_signal(folder, number):
+    """One process."""
+    options = [*LINE, *STEP, "--set", "Output/Energy=true"]
+    results = folder / "results"
+    program = Program(folder, [*options, "--set", f"Output/Folder={results}"])
+    program.says(r" [1-9]\d %  t = ")
+    program.process.send_signal(number)
+    code = program.end()
+    expect(f"{number.name}: exit code", code == 128 + number, code)
+    said = [line for line in program.err.read_text().splitlines() if line]
+    expect(f"{number.name}: one line when it comes, one when it ends",
+           len(said) == 2 and re.match(rf"taut: ended by {number.name} after the step at t = ", said[1]), said)
+    until = check_partial(number.name, program, results)
+    energies = (results / "energy.csv").read_text().splitlines()
+    expect(f"{number.name}: energies reach the end", math.isclose(float(energies[-1].split(",")[0]), until), energies[-1])
+    check_same(number.name, results, options, folder, 0.)
+
+
+def check_ranks(folder, number, rank):
+    """Two processes; the signal goes to one of them, or to mpirun (None), which has its own exit code."""
+    options = [*LINE, "--set", "Time/Step=5e-4"]
+    results = folder / "results"
+    program = Program(folder, [*options, "--set", f"Output/Folder={results}"], 2)
+    program.says(r" [1-9]\d %  t = ")
+    what = f"{number.name} to {'mpirun' if rank is None else f'rank {rank}'}"
+    pid = program.process.pid
+    os.kill(pid if rank is None else rank_pid(pid, rank), number)
+    code = program.end()
+    expect(f"{what}: exit code", code == 128 + number if rank is not None else code != 0, code)
+    if rank is not None:
+        said = [line for line in program.err.read_text().splitlines() if line.startswith("taut: ended by")]
+        expect(f"{what}: one line says so", len(said) == 1 and number.name in said[0], said)
+    check_partial(what, program, results)
+    check_same(what, results, options, folder, 1e-7)
+
+
+def check_second_signal(folder, first, second):
+    results = folder / "results"
+    program = Program(folder, [*LARGE, "--set", f"Output/Folder={results}"])
+    program.catches_signals()
+    program.process.send_signal(first)
+    program.says("A second signal ends at once")
+    begin = time.monotonic()
+    program.process.send_signal(second)
+    code = program.end()
+    seconds = time.monotonic() - begin
+    expect("second signal: exit code", code == 128 + second, code)
+    expect("second signal: at once", seconds < 0.5, seconds)
+    print(f"figure | end after a second signal | {seconds:.3f} s")
+
+
+def check_before_start(folder, option):
+    """Nothing is written by what has computed no step."""
+    results = folder / "results"
+    program = Program(folder, [*LARGE, *option, "--set", f"Output/Folder={results}"])
+    program.catches_signals()
+    program.process.send_signal(signal.SIGINT)
+    code = program.end()
+    what = f"SIGINT before the first step {option}"
+    expect(f"{what}: exit code", code == 130, code)
+    expect(f"{what}: says so", "before the first step; nothing was written" in program.err.read_text(),
+           program.err.read_text())
+    expect(f"{what}: nothing written", not results.exists())
+
+
+def check_error(folder, ranks):
+    """A force that becomes infinite in mid-run."""
+    scene, results = folder / "failing.prm", folder / "results"
+    scene.write_text(FAILING)
+    program = Program(folder, [str(scene), "--set", f"Output/Folder={results}"], ranks)
+    code = program.end()
+    what = f"error on {ranks} ranks"
+    expect(f"{what}: exit code", code == 1, code)
+    expect(f"{what}: it is said", "push" in program.err.read_text(), program.err.read_text())
+    until = check_partial(what, program, results)
+    expect(f"{what}: until the step before", math.isclose(until, 0.5), until)
+
+
+def check_study(folder):
+    scene = [LINE[0], "--study", "--set", "Time/End=0.5", "--set", "Statistics/Window=",
+             "--set", "Study/Reference levels=2", "--set", "Study/Accuracy=0", "--set", f"Study/Folder={folder}/study",
+             "--set", "Study/Ladder step/Values=4e-3, 2e-3, 5e-4"]
+    program = Program(folder, scene)
+    program.says(r"^  scheme = BDF2")
+    program.process.send_signal(signal.SIGINT)
+    code = program.end()
+    expect("study: exit code", code == 130, code)
+    said = re.search(r"taut: study ended by SIGINT with (\d+) of (\d+) settings measured", program.err.read_text())
+    expect("study: says so", said, program.err.read_text())
+    found = json.loads((folder / "study" / "study.json").read_text())
+    n = len(found["settings"])
+    expect("study: marked as partial", found["partial"] is True, found["partial"])
+    expect("study: keeps what was measured", said and n == int(said[1]) and 2 <= n < int(said[2]), n)
+    expect("study: each setting has its error and cost",
+           all("message" in s or s["error"] >= 0. and s["seconds"] > 0. for s in found["settings"]), found["settings"])
+    rows = (folder / "study" / "work_precision.csv").read_text().splitlines()
+    expect("study: table", len(rows) == n + 1, len(rows))
+    expect("study: no left-over run", not (folder / "study" / "run").exists())
+
+
+with tempfile.TemporaryDirectory() as name:
+    cases = [(check_signal, signal.SIGINT), (check_signal, signal.SIGTERM),
+             (check_ranks, signal.SIGINT, 1), (check_ranks, signal.SIGTERM, 0), (check_ranks, signal.SIGTERM, None),
+             (check_ranks, signal.SIGINT, None),
+             (check_second_signal, signal.SIGINT, signal.SIGINT), (check_second_signal, signal.SIGINT, signal.SIGTERM),
+             (check_before_start, []), (check_before_start, ["--check"]),
+             (check_error, 1), (check_error, 2), (check_study,)]
+    for i, (check, *options) in enumerate(cases):
+        folder = pathlib.Path(name) / str(i)
+        folder.mkdir()
+        begin = time.monotonic()
+        check(folder, *options)
+        print(f"{check.__name__} {options}: {time.monotonic() - begin:.1f} s", flush=True)
+
+sys.exit("\n".join(error[:2000] for error in errors) or None)

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: a pantograph that only the contact wire holds, as with a pneumatic lift, runs. Reference:
+// an independent program for the line of EN 50318:2002 at 250 km/h without the spring at the base:
+// mean 120.84 N, standard deviation 30.94 N. At the start the contact force is the static one,
+// 120 N, by balance.
+#include "run.h"
+
+#include <taut/output/statistics.h>
+#include <taut/time/form_finding.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace verification;
+
+namespace
+{
+  const char *const no_base_spring = "Catenary/Pantograph pantograph/Stiffnesses=4200, 0";
+}
+
+TEST(PneumaticLift, mean_and_deviation_are_those_of_an_independent_program)
+{
+  Session session(scene_file("en50318_2002_250"), {no_base_spring});
+  taut::Statistics statistics(session.parameters().statistics, session.simulation().scene(),
+                              session.simulation().rows());
+  double start = 0.;
+  session.run(
+      [&](const taut::StepView &view)
+      {
+        if (view.state.time == 0.)
+          start = view.state.multiplier.back();
+        statistics.record(view);
+      });
+  const taut::Moments force = statistics.contact_figures(0).filtered;
+  figure("force at the start without a base spring", start, "N");
+  figure("mean force without a base spring", force.mean, "N");
+  figure("standard deviation without a base spring", force.deviation, "N");
+  EXPECT_NEAR(start, 120., 1e-9);
+  EXPECT_NEAR(force.mean, 120.84, .01);
+  EXPECT_NEAR(force.deviation, 30.94, .01);
+  EXPECT_EQ(session.log().find("Probes: no equilibrium"), std::string::npos) << session.log();
+}
+
+// Claim: form finding does not depend on what slides along the wire: the same droppers with a base
+// spring and without one.
+TEST(PneumaticLift, droppers_do_not_depend_on_the_pantograph)
+{
+  const Overrides variants[] = {{}, {no_base_spring}};
+  std::vector<std::vector<double>> lengths;
+  for (const Overrides &overrides : variants)
+  {
+    Session session(scene_file("en50318_2002_250"), overrides);
+    lengths.emplace_back();
+    for (const taut::Link &link : session.simulation().scene().links)
+      if (link.kind == taut::LinkKind::dropper)
+        lengths.back().push_back(link.length);
+  }
+  ASSERT_EQ(lengths[0].size(), 90u);
+  ASSERT_EQ(lengths[1].size(), lengths[0].size());
+  for (std::size_t i = 0; i < lengths[0].size(); ++i)
+    EXPECT_NEAR(lengths[1][i], lengths[0][i], 1e-13);
+}
+
+// Claim: a joint stands in for a contact only where it may be all that holds its mass: not where a
+// spring or a fixed link leads to a wire, which the joint would hold with it.
+TEST(PneumaticLift, a_joint_replaces_the_contact_of_a_mass_apart_from_the_wires_only)
+{
+  using Kind = taut::Attachment::Kind;
+  taut::Scene scene;
+  scene.masses.resize(4);
+  taut::Link contact;
+  contact.kind = taut::LinkKind::sliding_contact;
+  contact.to.kind = Kind::wire;
+  contact.direction = {0.6, 0.8};
+  for (const std::size_t mass : {0, 2})
+  {
+    contact.from = {Kind::mass, mass, 0.};
+    scene.links.push_back(contact);
+  }
+  taut::Link hanger; // mass 3, which mass 2 is on, hangs from a wire
+  hanger.from.kind = Kind::wire;
+  hanger.to = {Kind::mass, 3, 0.};
+  scene.links.push_back(hanger);
+  taut::Spring spring;
+  spring.from = 0;
+  spring.to = 1;
+  scene.springs.push_back(spring);
+  spring.from = 3;
+  spring.to = 2;
+  scene.springs.push_back(spring);
+  spring.from = 2;
+  spring.to = taut::ground;
+  scene.springs.push_back(spring);
+  spring.from = taut::ground;
+  spring.to = 0;
+  scene.springs.push_back(spring);
+
+  const taut::Scene without = taut::without_sliding_contacts(scene);
+  ASSERT_EQ(without.links.size(), 2u);
+  EXPECT_EQ(without.links[0].kind, taut::LinkKind::joint);
+  EXPECT_EQ(without.links[0].from.kind, Kind::ground);
+  EXPECT_EQ(without.links[0].to.kind, Kind::mass);
+  EXPECT_EQ(without.links[0].to.index, 0u);
+  EXPECT_EQ(without.links[0].direction.x, 0.6);
+  EXPECT_EQ(without.links[0].direction.y, 0.8);
+  EXPECT_EQ(without.links[1].from.kind, Kind::wire);
+}
