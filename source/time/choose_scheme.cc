@@ -173,15 +173,25 @@ namespace taut
                                         const std::vector<RigidContact> &rigid)
     {
       const std::string entry = "Time/Moreau-Jean/Restitution";
+      bool any_rigid = false;
       for (std::size_t i = 0; i < rows.size(); ++i)
-        if (rows[i].unilateral && is_on_wire(scene.links[rows[i].link]))
-          throw EntryError(entry, "a wire rebounds by its own waves, and with restitution its node "
-                                  "would bounce at link '" +
-                                      rows[i].name + "'. Set it to 0");
-      if (rigid.empty() || !std::all_of(rigid.begin(), rigid.end(),
-                                        [](const RigidContact &c) { return c.exactly_rigid; }))
+        if (rows[i].unilateral && std::isinf(rows[i].stiffness))
+        {
+          if (is_on_wire(scene.links[rows[i].link]))
+            throw EntryError(entry, "a wire rebounds by its own waves, and with restitution its "
+                                    "node would bounce at the rigid link '" +
+                                        rows[i].name + "'. Set it to 0");
+          any_rigid = true;
+        }
+      if (!any_rigid)
         throw EntryError(entry, "restitution is a law of rigid one-sided links, and the scene has "
-                                "others or none. Set it to 0, or remove their Stiffness");
+                                "none. Set it to 0, or a link's Stiffness to 'rigid'");
+      for (const RigidContact &contact : rigid)
+        if (!contact.exactly_rigid)
+          throw EntryError(entry, "restitution is a law of rigid one-sided links, and link '" +
+                                      rows[contact.row].name +
+                                      "' acts as rigid with a Stiffness. Set it to 0, or that "
+                                      "Stiffness to 'rigid'");
       return impulses("only it knows the restitution asked for");
     }
 
