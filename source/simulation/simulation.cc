@@ -40,6 +40,30 @@ namespace taut
       return is_numbered("wires") || is_numbered("links");
     }
 
+    /// True if there are files in a folder that a run writes. One that cannot be read has none:
+    /// writing then says what is wrong.
+    bool holds_results(const std::filesystem::path &folder)
+    {
+      std::error_code error;
+      const std::filesystem::directory_iterator content(folder, error), none;
+      return std::any_of(content, none,
+                         [](const auto &entry)
+                         { return is_result(entry.path().filename().string()); });
+    }
+
+    void check_folder(const OutputParameters &output)
+    {
+      namespace fs = std::filesystem;
+      std::error_code error;
+      if (fs::exists(output.folder, error) && !fs::is_directory(output.folder, error))
+        throw EntryError("Output/Folder", "it is a file; name a folder");
+      if (!output.overwrite && holds_results(output.folder))
+        throw EntryError(
+            "Output/Folder",
+            "'" + output.folder +
+                "' holds the results of a run; name another folder, or run with --overwrite");
+    }
+
     Scene prepare_contacts(Scene scene, const Parameters &parameters)
     {
       if (parameters.chooses_contact_mass())
@@ -47,6 +71,16 @@ namespace taut
       return scene;
     }
   } // namespace
+
+  void check_results_folder(const Parameters &parameters, const Communicator &processes)
+  {
+    processes.agree(
+        [&]
+        {
+          if (processes.is_root())
+            check_folder(parameters.output);
+        });
+  }
 
   Simulation::Simulation(const Parameters &parameters, std::ostream &log,
                          const Communicator &processes)
@@ -66,6 +100,7 @@ namespace taut
 
   void Simulation::run()
   {
+    check_results_folder(parameters, processes);
     describe();
     find_start();
     find_rest_of_probes();
@@ -88,12 +123,18 @@ namespace taut
           prepare_folder();
           write_start();
         });
+    // At least a hundred times a run, and too seldom to be felt.
+    limits = std::make_unique<ModelLimits>(model, bodies,
+                                           integrator ? parameters.statistics.filter_frequency : 0.,
+                                           parameters.step, integrator ? std::clamp(n_steps() / 100, 1L, 50L) : 1L);
     Fields fields(parameters.output.folder, model, bodies, parameters.output.field_interval,
                   parameters.output.subdivisions);
     if (!integrator)
     {
       update_probes(start);
       fields.record(view(start, start_certificate));
+      limits->record(view(start, start_certificate));
+      limits->print(log);
       log << "Results in " << parameters.output.folder << '\n';
       return;
     }
@@ -126,6 +167,7 @@ namespace taut
     catch (const UserError &)
     {
       // What was computed before the error is kept; it may show the reason.
+      limits->print(log);
       if (series)
         series->close();
       if (energy)
@@ -140,9 +182,10 @@ namespace taut
           series->close();
           if (energy)
             energy->close();
-          statistics.write(parameters.output.folder + "/statistics.json");
+          statistics.write(parameters.output.folder + "/statistics.json", description());
         });
     statistics.print(log);
+    limits->print(log);
     const long n_steps = stepper.n_steps_done();
     log << n_steps << " steps in " << all << " s, " << parameters.end_time / all
         << " x real time; without output " << 1e6 * seconds / n_steps << " us a step, "
@@ -173,23 +216,12 @@ namespace taut
     namespace fs = std::filesystem;
     const fs::path folder = parameters.output.folder;
     std::error_code error;
-    if (fs::exists(folder, error) && !fs::is_directory(folder, error))
-      throw EntryError("Output/Folder", "it is a file; name a folder");
-    // A loop over a folder that cannot be read has no turns; writing then says what is wrong.
-    const fs::directory_iterator content(folder, error), none;
-    if (std::any_of(content, none,
-                    [](const auto &entry) { return is_result(entry.path().filename().string()); }))
-    {
-      if (!parameters.output.overwrite)
-        throw EntryError(
-            "Output/Folder",
-            "'" + folder.string() +
-                "' holds the results of a run; name another folder, or run with --overwrite");
-      // Files of a longer run would mix with those of this one.
+    check_folder(parameters.output);
+    // Files of a longer run would mix with those of this one.
+    if (holds_results(folder))
       for (const fs::directory_entry &entry : fs::directory_iterator(folder, error))
         if (is_result(entry.path().filename().string()))
           fs::remove(entry.path(), error);
-    }
     fs::create_directories(folder, error);
     if (error)
       throw EntryError("Output/Folder",
@@ -197,6 +229,10 @@ namespace taut
     std::ofstream used(folder / "used.prm");
     used << "# Written by taut " << version()
          << "; the entries of the run whose results are beside this file.\n";
+    if (!scheme.empty())
+      used << "# The scheme was " << scheme << ".\n";
+    for (const std::string &entry : unused_entries)
+      used << "# Not used by it: " << entry << '\n';
     parameters.print(used);
     used.close();
     if (!used)
@@ -229,6 +265,7 @@ namespace taut
               observer->record(view(state, certificate));
           });
       fields.record(view(state, certificate));
+      limits->record(view(state, certificate));
     };
     show(start, start_certificate);
     StepControl control(parameters.step_parameters, parameters.step, n_steps());
@@ -273,15 +310,30 @@ namespace taut
       chosen_integrator = parameters.integrator(choice.name, choice.entries);
       log << "Scheme (automatic): " << chosen_integrator->description() << ", because "
           << choice.reason << '\n';
+      keep_scheme(*chosen_integrator,
+                  parameters.unused_scheme_entries(choice.name, choice.entries));
       return *chosen_integrator;
     }
     const TimeIntegrator &integrator = parameters.integrator(name);
     log << "Scheme: " << integrator.description() << '\n';
-    if (restitution > 0. && integrator.coefficients(parameters.step).restitution == 0.)
-      log << "  it has no restitution: Time/Moreau-Jean/Restitution is not used\n";
+    keep_scheme(integrator, parameters.unused_scheme_entries(name, {}));
     if (!parameters.allow_unsuitable_scheme)
       check_scheme(integrator, model, bodies, links, parameters.solver, parameters.step);
     return integrator;
+  }
+
+  void Simulation::keep_scheme(const TimeIntegrator &integrator, std::vector<std::string> unused)
+  {
+    scheme = integrator.description();
+    unused_entries = std::move(unused);
+    for (const std::string &entry : unused_entries)
+      log << "  not used by it: " << entry << '\n';
+  }
+
+  RunDescription Simulation::description() const
+  {
+    return {parameters.file_name(), parameters.generator_name,   scheme,
+            parameters.step,        n_steps() * parameters.step, limits->warnings()};
   }
 
   void Simulation::write_start() const
@@ -294,7 +346,7 @@ namespace taut
       for (const SupportPoint &point : supports)
         columns.push_back(support_column(point));
       CsvFile file(parameters.output.folder + "/supports.csv", columns);
-      file << 0.;
+      file.begin_line(0.);
       for (const double force : reactions.forces())
         file << force;
       file.end_line();

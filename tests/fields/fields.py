@@ -243,15 +243,17 @@ def check_plot_reads(folder, script):
 def check_filter(folder, script):
     """The filtered figures of statistics.json from sliding.csv."""
     plot = load_plot(script)
-    figures = json.loads((folder / "statistics.json").read_text())["sliding contacts"]["pantograph"]
+    figures = json.loads((folder / "statistics.json").read_text())["sliding_contacts"]["pantograph"]
     series = table(folder / "sliding.csv")
     time, x, force = (series[c] for c in ("time [s]", "pantograph position [m]", "pantograph force [N]"))
-    filtered = plot.low_pass(force, (time[-1] - time[0]) / (len(time) - 1), figures["filter frequency [Hz]"])
-    inside = filtered[(x >= figures["window [m]"][0] - 1e-6) & (x <= figures["window [m]"][1] + 1e-6)]
-    for name, value in (("mean [N]", inside.mean()), ("standard deviation [N]", inside.std()),
-                        ("minimum [N]", inside.min()), ("maximum [N]", inside.max())):
-        if abs(value - figures["filtered"][name]) > 1e-9 * abs(value):
-            errors.append(f"filtered {name}: {value} is not {figures['filtered'][name]}")
+    filtered = plot.low_pass(force, (time[-1] - time[0]) / (len(time) - 1), figures["filter_frequency"]["value"])
+    first, last = figures["window"]["value"]
+    inside = filtered[(x >= first - 1e-6) & (x <= last + 1e-6)]
+    for name, value in (("mean", inside.mean()), ("standard_deviation", inside.std()),
+                        ("minimum", inside.min()), ("maximum", inside.max())):
+        said = figures["filtered"][name]["value"]
+        if abs(value - said) > 1e-9 * abs(value):
+            errors.append(f"filtered {name}: {value} is not {said}")
 
 
 plot_script = arguments.root / "source" / "plot" / "taut-plot"
