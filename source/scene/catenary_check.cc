@@ -38,6 +38,12 @@ namespace taut
         throw EntryError(std::string("Catenary/") + section + "/Tension",
                          "it must be positive: the wire of an overhead line hangs by its tension");
 
+    const double length = n_spans * span_length;
+    for (const double x : uplift_positions)
+      if (!(x >= 0. && x <= length))
+        throw EntryError("Catenary/Uplift positions",
+                         number(x) + " m is outside wire 'contact', 0 to " + number(length) + " m");
+
     std::vector<double> sorted = dropper_positions;
     std::sort(sorted.begin(), sorted.end());
     const double same = 1e-12 * n_spans * span_length;

@@ -653,7 +653,7 @@ end
         {"dropper_beside_a_mast",
          catenary,
          {{"= 5, 10, 15", "= 0.0002, 10"},
-          {"subsection Messenger wire", "subsection Messenger wire # here"},
+          {"subsection Contact wire", "subsection Contact wire # here"},
           {"set Span length     = 20", "set Span length     = 200"}},
          {"0.0002 m long beside others of 2 m", "Move what stands at its two ends"}},
         {"catenary_without_tension",
