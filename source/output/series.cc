@@ -23,7 +23,7 @@ namespace taut
       if (!table->is_empty())
         table->open(folder + name);
     const std::vector<std::string> columns = {"time [s]", "complementarity [1]", "balance [1]",
-                                              "drift [m, rad]", "iterations [1]"};
+                                              "drift [m or rad]", "iterations [1]"};
     certificate = std::make_unique<CsvFile>(folder + "/certificate.csv", columns);
   }
 

@@ -116,7 +116,7 @@ namespace taut
     root["certificate"] = {
         {"complementarity", residual(worst.complementarity, worst_complementarity_time)},
         {"balance", residual(worst.balance, worst_balance_time)},
-        {"drift", figure(worst.drift, "m, rad")},
+        {"drift", figure(worst.drift, "m or rad")},
         {"steps", n_steps},
         {"iterations_per_step", n_steps > 0 ? double(n_iterations) / n_steps : 0.},
         {"fallbacks", n_fallbacks}};

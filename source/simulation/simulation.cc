@@ -124,9 +124,9 @@ namespace taut
           write_start();
         });
     // At least a hundred times a run, and too seldom to be felt.
-    limits = std::make_unique<ModelLimits>(model, bodies,
-                                           integrator ? parameters.statistics.filter_frequency : 0.,
-                                           parameters.step, integrator ? std::clamp(n_steps() / 100, 1L, 50L) : 1L);
+    limits = std::make_unique<ModelLimits>(
+        model, bodies, integrator ? parameters.statistics.filter_frequency : 0., parameters.step,
+        integrator ? std::clamp(n_steps() / 100, 1L, 50L) : 1L);
     Fields fields(parameters.output.folder, model, bodies, parameters.output.field_interval,
                   parameters.output.subdivisions);
     if (!integrator)
@@ -355,7 +355,7 @@ namespace taut
     if (links.size() == 0)
       return;
     CsvFile file(parameters.output.folder + "/start.csv",
-                 {"link", "x [m]", "y [m]", "force [N, N m]", "gap [m, rad]", "length [m]"});
+                 {"link", "x [m]", "y [m]", "force [N or N m]", "gap [m or rad]", "length [m]"});
     for (std::size_t i = 0; i < links.size(); ++i)
     {
       if (links[i].is_cut())

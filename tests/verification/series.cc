@@ -172,12 +172,13 @@ TEST(Series, columns_have_names_that_numpy_can_tell_apart)
                    "Catenary.Uplift positions=24.5, 245, 2.45",
                    "Statistics.Window=", "Output.Field interval=0"});
   session.run([](const taut::StepView &) {});
-  for (const char *name : {"links", "probes", "supports", "sliding"})
+  for (const char *name : {"links", "probes", "supports", "sliding", "certificate", "start"})
   {
     std::istringstream lines(text(session.folder() + "/" + name + ".csv"));
     std::string head;
     std::getline(lines, head);
     std::map<std::string, std::string> known;
+    EXPECT_EQ(head.find('"'), std::string::npos) << "numpy knows no quotes";
     for (const std::string &column : cells_of(head))
     {
       std::string plain;
