@@ -70,6 +70,9 @@ subsection Study
     set Entries = Time/Step
     set Values  = 1
   end
+  subsection Figure ITEM
+    set Of = ITEM
+  end
 end
 """
 

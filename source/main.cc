@@ -66,6 +66,8 @@ namespace
     parameters.output.overwrite = arguments.count("overwrite") > 0;
     try
     {
+      if (!arguments.count("check"))
+        taut::check_results_folder(parameters, processes);
       taut::Simulation simulation(parameters, std::cout, processes);
       simulation.stop_if(taut::interruption);
       // Before what may fail: the drawing shows why.

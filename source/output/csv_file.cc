@@ -22,6 +22,15 @@ namespace taut
     }
   } // namespace
 
+  std::string time_text(const double time)
+  {
+    constexpr int n_digits = 14;
+    char digits[32];
+    const auto result =
+        std::to_chars(digits, digits + sizeof digits, time, std::chars_format::general, n_digits);
+    return std::string(digits, result.ptr);
+  }
+
   CsvFile::CsvFile(const std::string &path, const std::vector<std::string> &columns)
       : path(path), file(path)
   {
@@ -49,6 +58,13 @@ namespace taut
       buffer += ',';
     line_begins = false;
     buffer += quoted(text);
+    return *this;
+  }
+
+  CsvFile &CsvFile::begin_line(const double time)
+  {
+    buffer += time_text(time);
+    line_begins = false;
     return *this;
   }
 

@@ -214,8 +214,9 @@ namespace taut
     const Balance &b = total;
     const double error = b.kinetic + b.strain + b.links - start_energy - b.loads - b.supports -
                          b.contacts + b.damping + b.link_dampers + b.algorithmic;
-    *file << time << b.kinetic << b.strain << b.links << b.loads << b.supports << b.contacts
-          << b.damping << b.link_dampers << b.algorithmic << error;
+    file->begin_line(time);
+    *file << b.kinetic << b.strain << b.links << b.loads << b.supports << b.contacts << b.damping
+          << b.link_dampers << b.algorithmic << error;
     file->end_line();
   }
 

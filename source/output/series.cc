@@ -4,92 +4,86 @@
 
 namespace taut
 {
-  namespace
-  {
-    void write_line(CsvFile &file, const double time, const std::vector<double> &values)
-    {
-      file << time;
-      for (const double value : values)
-        file << value;
-      file.end_line();
-    }
-  } // namespace
-
   Series::Series(const std::string &folder, const Scene &scene, const ContactRows &rows,
                  const double interval, const double link_interval)
-      : folder(folder), interval(interval), link_interval(link_interval)
+      : interval(interval), sliding(interval), links(link_interval), supports(link_interval),
+        probes(interval)
   {
-    std::vector<std::string> sliding_columns, link_columns, support_columns, probe_columns;
     for (std::size_t i = 0; i < rows.size(); ++i)
-    {
-      if (rows[i].is_cut())
-        continue;
-      const bool angular = scene.links[rows[i].link].rotational;
-      const std::string force = rows[i].name + (angular ? " moment [N m]" : " force [N]"),
-                        gap = rows[i].name + (angular ? " gap [rad]" : " gap [m]");
-      if (rows[i].moving)
-        sliding_columns.push_back(rows[i].name + " position [m]");
-      auto &columns = rows[i].moving ? sliding_columns : link_columns;
-      columns.push_back(force);
-      columns.push_back(gap);
-    }
+      if (!rows[i].is_cut())
+        add_link(rows[i]);
     for (const SupportPoint &point : support_points(scene))
-      support_columns.push_back(support_column(point));
+      supports.add_quantity(point.name + (point.is_moment ? " moment" : " force"),
+                            point.is_moment ? "N m" : "N");
     for (const Probe &probe : scene.probes)
-      probe_columns.push_back(probe.name + (probe.rotational ? " [rad]" : " [m]"));
-    if (!sliding_columns.empty())
-      open(sliding, "sliding.csv", sliding_columns);
-    if (!link_columns.empty())
-      open(links, "links.csv", link_columns);
-    if (!support_columns.empty())
-      open(supports, "supports.csv", support_columns);
-    if (!probe_columns.empty())
-      open(probes, "probes.csv", probe_columns);
-    open(certificate, "certificate.csv",
-         {"complementarity [1]", "balance [1]", "drift [m, rad]", "iterations [1]",
-          "contact energy [J]", "contact gap [m, rad]", "peak over mean [1]"});
+      probes.add_quantity(probe.name, probe.rotational ? "rad" : "m");
+    for (const auto &[table, name] :
+         {std::make_pair(&sliding, "/sliding.csv"), std::make_pair(&links, "/links.csv"),
+          std::make_pair(&supports, "/supports.csv"), std::make_pair(&probes, "/probes.csv")})
+      if (!table->is_empty())
+        table->open(folder + name);
+    const std::vector<std::string> columns = {"time [s]",
+                                              "complementarity [1]",
+                                              "balance [1]",
+                                              "drift [m or rad]",
+                                              "iterations [1]",
+                                              "contact energy [J]",
+                                              "contact gap [m or rad]",
+                                              "peak over mean [1]"};
+    certificate = std::make_unique<CsvFile>(folder + "/certificate.csv", columns);
   }
 
-  void Series::open(std::unique_ptr<CsvFile> &file, const std::string &name,
-                    std::vector<std::string> columns)
+  void Series::add_link(const Row &row)
   {
-    columns.insert(columns.begin(), "time [s]");
-    file = std::make_unique<CsvFile>(folder + "/" + name, columns);
+    IntervalTable &table = row.moving ? sliding : links;
+    if (row.moving)
+      table.add_value(row.name + " position", "m");
+    table.add_quantity(row.name + (row.rotational ? " moment" : " force"),
+                       row.rotational ? "N m" : "N");
+    const std::string gap = row.name + " gap", unit = row.rotational ? "rad" : "m";
+    if (row.unilateral)
+    {
+      table.add_quantity(gap, unit);
+      table.add_state(row.name);
+    }
+    else
+      table.add_value(gap, unit);
+  }
+
+  void Series::record_links(const StepView &step, const bool moving, IntervalTable &table)
+  {
+    const State &state = step.state;
+    values.clear();
+    for (std::size_t i = 0; i < step.rows.size(); ++i)
+    {
+      const Row &row = step.rows[i];
+      if (row.moving != moving || row.is_cut())
+        continue;
+      if (moving)
+        values.push_back(step.rows.position(i, state.time));
+      values.push_back(state.multiplier[i]);
+      values.push_back(state.geometric_gap[i]);
+      if (row.unilateral)
+        values.push_back(state.multiplier[i] != 0.);
+    }
+    if (!values.empty())
+      table.record(state.time, values);
   }
 
   void Series::record(const StepView &step)
   {
-    const State &state = step.state;
-    // A step counts as due if it is within rounding of its time.
-    const double tolerance = 1e-9 * interval;
-    const bool due = state.time >= next - tolerance;
-    const bool links_due = state.time >= next_link - 1e-9 * link_interval;
-    const auto write = [&](CsvFile &file, const bool moving)
-    {
-      file << state.time;
-      for (std::size_t i = 0; i < step.rows.size(); ++i)
-        if (step.rows[i].moving == moving && !step.rows[i].is_cut())
-        {
-          if (moving)
-            file << step.rows.position(i, state.time);
-          file << state.multiplier[i] << state.geometric_gap[i];
-        }
-      file.end_line();
-    };
-    if (links && links_due)
-      write(*links, false);
-    if (supports && links_due)
-      write_line(*supports, state.time, step.supports);
-    if (links_due)
-      next_link = state.time + link_interval;
-    if (!due)
+    const double time = step.state.time;
+    record_links(step, true, sliding);
+    record_links(step, false, links);
+    if (!step.supports.empty())
+      supports.record(time, step.supports);
+    if (!step.probes.empty())
+      probes.record(time, step.probes);
+    if (!(time >= next - 1e-9 * interval))
       return;
-    next = state.time + interval;
-    if (sliding)
-      write(*sliding, true);
-    if (probes)
-      write_line(*probes, state.time, step.probes);
-    *certificate << state.time << step.certificate.complementarity << step.certificate.balance
+    next = time + interval;
+    certificate->begin_line(time);
+    *certificate << step.certificate.complementarity << step.certificate.balance
                  << step.certificate.drift << step.certificate.iterations;
     const ContactMeasures::Summary contacts = step.measures.summary();
     *certificate << contacts.contact_energy << contacts.gap << contacts.resolution;
@@ -98,9 +92,8 @@ namespace taut
 
   void Series::close()
   {
-    for (CsvFile *file :
-         {sliding.get(), links.get(), supports.get(), probes.get(), certificate.get()})
-      if (file)
-        file->close();
+    for (IntervalTable *table : {&sliding, &links, &supports, &probes})
+      table->close();
+    certificate->close();
   }
 } // namespace taut

@@ -3,17 +3,29 @@
 #include <taut/output/reactions.h>
 #include <taut/output/statistics.h>
 
+#include <taut/base/exceptions.h>
+
 #include <deal.II/base/parameter_handler.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <sstream>
 
 namespace taut
 {
   namespace
   {
+    /// Samples that the filter needs in a period.
+    constexpr double least_samples = 4.;
+
+    /// What a position may miss the end of the window by [m].
+    double slack(const std::vector<double> &window)
+    {
+      return 1e-9 * (1. + std::fabs(window[1]));
+    }
+
     const char *const expected_figures[] = {"Mean",
                                             "Standard deviation",
                                             "Mean + 3 standard deviations",
@@ -66,7 +78,9 @@ namespace taut
                       List(Double(), 0, 2));
     prm.add_parameter("Filter frequency", filter_frequency,
                       "Low-pass filter of the contact force, third-order Butterworth forwards and "
-                      "backwards, -3 dB in total at this frequency [Hz]",
+                      "backwards, -3 dB in total at this frequency; 0: none. Expected ranges of "
+                      "the force are of the filtered one: a step that does not resolve the "
+                      "frequency is not compared with them [Hz]",
                       Double(0., Double::max_double_value));
     prm.enter_subsection("Expected ranges");
     for (const char *name : expected_figures)
@@ -78,6 +92,28 @@ namespace taut
                         List(Double(), 0, 2));
     prm.leave_subsection();
     prm.leave_subsection();
+  }
+
+  void StatisticsParameters::check_window(const Scene &scene, const double end_time) const
+  {
+    if (window.size() < 2 || !(end_time > 0.))
+      return;
+    std::ostringstream ways;
+    for (const Link &link : scene.links)
+    {
+      if (!link.moving())
+        continue;
+      const double start = link.to.position, end = start + link.speed * end_time;
+      if (std::max(start, end) >= window[0] - slack(window) &&
+          std::min(start, end) <= window[1] + slack(window))
+        return;
+      ways << (ways.tellp() > 0 ? ", '" : "'") << link.name << "' goes from " << start << " to "
+           << end << " m";
+    }
+    if (ways.tellp() > 0)
+      throw EntryError("Statistics/Window", "no contact comes there until Time/End: " + ways.str() +
+                                                ". Move the window, run longer, or leave it empty "
+                                                "to evaluate the whole run");
   }
 
   Moments Moments::of(const std::vector<double> &record)
@@ -106,6 +142,7 @@ namespace taut
       {
         link_names.push_back(rows[i].name);
         link_unilateral.push_back(rows[i].unilateral);
+        link_rotates.push_back(rows[i].rotational);
       }
     }
     link_figures.resize(link_names.size());
@@ -115,7 +152,10 @@ namespace taut
       probe_rotates.push_back(probe.rotational);
     }
     for (const SupportPoint &point : support_points(scene))
+    {
       support_names.push_back(point.name);
+      support_is_moment.push_back(point.is_moment);
+    }
     uplift.assign(probe_names.size(), 0.);
     lowering.assign(probe_names.size(), 0.);
     last.assign(probe_names.size(), 0.);
@@ -200,7 +240,7 @@ namespace taut
     {
       if (parameters.window.size() < 2)
         return record;
-      const double slack = 1e-9 * (1. + std::fabs(parameters.window[1]));
+      const double slack = taut::slack(parameters.window);
       std::vector<double> inside;
       for (std::size_t i = 0; i < record.size(); ++i)
         if (contact.position[i] >= parameters.window[0] - slack &&
@@ -208,8 +248,21 @@ namespace taut
           inside.push_back(record[i]);
       return inside;
     };
-    const std::vector<double> raw = in_window(contact.force);
+    const std::vector<double> raw = in_window(contact.force), places = in_window(contact.position);
     result.n_samples = raw.size();
+    if (!raw.empty())
+    {
+      result.begin = places.front();
+      result.end = places.back();
+    }
+    if (parameters.window.size() == 2 && !contact.position.empty())
+    {
+      const auto [least, most] =
+          std::minmax_element(contact.position.begin(), contact.position.end());
+      constexpr double rounding = 1e-6;
+      result.is_complete =
+          *least <= parameters.window[0] + rounding && *most >= parameters.window[1] - rounding;
+    }
     result.raw = result.filtered = Moments::of(raw);
     // Peaks of impulses over a step say how short it is: peaks are those of the means.
     result.raw.maximum = Moments::of(in_window(contact.mean_force)).maximum;
@@ -218,9 +271,9 @@ namespace taut
       result.loss = static_cast<double>(std::count(raw.begin(), raw.end(), 0.)) / raw.size();
     const double step =
         contact.force.size() > 1 ? (times.back() - times.front()) / (contact.force.size() - 1) : 0.;
-    // The filter needs some samples a period.
-    if (step > 0. && parameters.filter_frequency > 0. &&
-        4. * parameters.filter_frequency * step < 1.)
+    if (parameters.filter_frequency > 0.)
+      result.longest_step = 1. / (least_samples * parameters.filter_frequency);
+    if (step > 0. && step < result.longest_step)
     {
       result.filtered =
           Moments::of(in_window(low_pass(contact.force, step, parameters.filter_frequency)));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/output/csv_file.h>
 #include <taut/output/vtu_file.h>
 
-#include <charconv>
 #include <cstring>
 #include <sstream>
 
@@ -150,10 +150,7 @@ namespace taut
     else
       // The new entry is longer than the end that it replaces, in one write.
       stream.seekp(-static_cast<std::streamoff>(tail.size()), std::ios::end);
-    char digits[32];
-    const auto end = std::to_chars(digits, digits + sizeof digits, time);
-    text += "<DataSet timestep=\"" + std::string(digits, end.ptr) + "\" file=\"" + file + "\"/>\n" +
-            tail;
+    text += "<DataSet timestep=\"" + time_text(time) + "\" file=\"" + file + "\"/>\n" + tail;
     stream << text << std::flush;
     if (!stream)
       throw UserError("cannot write '" + path + "': the disk may be full");

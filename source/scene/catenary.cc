@@ -7,7 +7,9 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <sstream>
 
 namespace taut
@@ -31,13 +33,6 @@ namespace taut
       messenger_wire,
       contact_wire
     };
-
-    std::string number(const double x)
-    {
-      std::ostringstream out;
-      out << x;
-      return out.str();
-    }
   } // namespace
 
   void Catenary::declare_names(dealii::ParameterHandler &prm)
@@ -214,11 +209,17 @@ namespace taut
       }
     }
 
-    for (const double x : uplift_positions.empty() ? masts : uplift_positions)
+    const std::vector<double> &places = uplift_positions.empty() ? masts : uplift_positions;
+    const bool whole = std::all_of(places.begin(), places.end(),
+                                   [](const double x) { return x == std::floor(x); });
+    for (const double x : places)
     {
       Probe probe;
       probe.origin = "Catenary/Uplift positions";
-      probe.name = "contact wire at " + number(x) + " m";
+      // With as many decimals each, no two are the same but for the point.
+      std::ostringstream name;
+      name << std::fixed << std::setprecision(whole ? 0 : 3) << "contact wire at " << x << " m";
+      probe.name = name.str();
       probe.point = {Attachment::Kind::wire, contact_wire, x};
       scene.probes.push_back(probe);
     }
@@ -242,15 +243,14 @@ namespace taut
     for (unsigned int span = 0; span < n_spans; ++span)
       for (std::size_t i = 0; i < dropper_positions.size(); ++i)
       {
-        if (!(dropper_positions[i] > 0. && dropper_positions[i] < span_length))
-          throw EntryError("Catenary/Droppers/Positions", number(dropper_positions[i]) +
-                                                              " m is not inside its span of " +
-                                                              number(span_length) + " m");
         Link link;
         link.kind = LinkKind::dropper;
         link.origin = "Catenary/Droppers";
         const double x = span * span_length + dropper_positions[i];
-        link.name = "dropper " + std::to_string(span + 1) + "." + std::to_string(i + 1);
+        // As many digits each: 1.11 and 11.1 are one name to programs that drop the point.
+        std::string index = std::to_string(i + 1);
+        index.insert(0, std::to_string(dropper_positions.size()).size() - index.size(), '0');
+        link.name = "dropper " + std::to_string(span + 1) + "." + index;
         link.from = {Attachment::Kind::wire, messenger_wire, x};
         link.to = {Attachment::Kind::wire, contact_wire, x};
         link.direction = {0., -1.};
@@ -326,12 +326,15 @@ namespace taut
         parse_stiffness(item.contact_stiffness, section + "/Contact stiffness");
     contact_link.damping = item.contact_damping;
     contact_link.speed = item.speed / 3.6;
-    contact_link.profile = Expression(item.profile, section + "/Height profile");
+    contact_link.profile =
+        Expression(item.profile, section + "/Height profile", Expression::Variables::position);
     scene.links.push_back(contact_link);
   }
 
   Scene Catenary::generate() const
   {
+    check_line();
+    check_pantographs();
     Scene scene;
     add_wires(scene);
     add_droppers(scene);

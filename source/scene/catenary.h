@@ -40,6 +40,8 @@ namespace taut
       void declare(dealii::ParameterHandler &prm);
     };
 
+    void check_line() const;
+    void check_pantographs() const;
     void add_wires(Scene &scene) const;
     void add_droppers(Scene &scene) const;
     void add_pantograph(const std::string &name, const PantographItem &item, Scene &scene) const;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <sstream>
 #include <tuple>
@@ -218,6 +219,9 @@ namespace taut
         fail(link, "To", what, "a sliding contact slides on a wire, 'wire @ start'");
       const double end = link.to.position + link.speed * end_time;
       const Wire &wire = scene.wires[link.to.index];
+      if (wire.transverse == TransverseKind::none)
+        fail(link, "To", what, "it slides under wire '", wire.name,
+             "', which has no transverse motion; give the wire the component string or beam");
       const double length = wire.length();
       if (!(end >= -1e-9 * length && end <= (1. + 1e-9) * length))
       {
@@ -228,8 +232,24 @@ namespace taut
       }
     }
 
+    /// Two links of one section between the same points: a position that was written twice.
+    void check_repeated(const Scene &scene)
+    {
+      const auto key = [](const Link &link)
+      {
+        return std::make_tuple(link.origin, link.from.kind, link.from.index, link.from.position,
+                               link.to.kind, link.to.index, link.to.position);
+      };
+      std::set<decltype(key(scene.links[0]))> known;
+      for (const Link &link : scene.links)
+        if (!link.origin.empty() && !link.moving() && !known.insert(key(link)).second)
+          fail(link, "To", "link '", link.name,
+               "': the one before it is between the same two points; remove one of the positions");
+    }
+
     void check_links(const Scene &scene, const double end_time)
     {
+      check_repeated(scene);
       for (const Link &link : scene.links)
       {
         const std::string what = "link '" + link.name + "': ";
@@ -265,6 +285,52 @@ namespace taut
           fail(item, "", "two ", kind, " are called '", item.name,
                "'; names are unique and not empty");
     }
+
+    /// What numpy's genfromtxt(names=True) makes of a name in the head of a table.
+    std::string name_in_tables(const std::string &name)
+    {
+      const std::string dropped = "~!@#$%^&*()-=+\\|]}[{';:/?.>,<\"";
+      std::string result;
+      for (const char c : name)
+        if (dropped.find(c) == std::string::npos)
+          result += c == ' ' ? '_' : c;
+      return result;
+    }
+
+    /// Names that become one in the head of a table are one too many.
+    class TableNames
+    {
+    public:
+      explicit TableNames(std::string kind) : kind(std::move(kind)) {}
+
+      template <typename Item>
+      void add(const Item &item, const std::string &name)
+      {
+        const auto [known, is_new] = names.emplace(name_in_tables(name), name);
+        if (!is_new)
+          fail(item, "", "two ", kind, " are called '", known->second, "' and '", name,
+               "', which is one name for programs that read the tables and drop what is neither "
+               "letter nor digit; rename one");
+      }
+
+    private:
+      std::string kind;
+      std::map<std::string, std::string> names; ///< as written, by what is left of them
+    };
+
+    void check_names_in_tables(const Scene &scene)
+    {
+      TableNames links("links"), probes("probes"), supports("supports");
+      for (const Link &link : scene.links)
+        links.add(link, link.name);
+      for (const Probe &probe : scene.probes)
+        probes.add(probe, probe.name);
+      for (const Support &support : scene.supports)
+        for (std::size_t k = 0; k < support.positions.size(); ++k)
+          supports.add(support,
+                       support.name +
+                           (support.positions.size() > 1 ? " " + std::to_string(k + 1) : ""));
+    }
   } // namespace
 
   void check(const Scene &scene, const double end_time)
@@ -274,6 +340,7 @@ namespace taut
     check_names(scene.wires, "wires");
     check_names(scene.masses, "masses");
     check_names(scene.links, "links");
+    check_names_in_tables(scene);
     for (const Wire &wire : scene.wires)
       check_wire(wire);
     check_supports(scene);

@@ -42,6 +42,43 @@ namespace taut
       std::ostringstream text;
       std::streambuf *before;
     };
+
+    bool mentions(const std::string &formula, const std::string &word)
+    {
+      return std::regex_search(formula, std::regex("\\b" + word + "\\b"));
+    }
+
+    /// "Write a formula in s (...), e.g. '...'."
+    std::string advice(const Expression::Variables variables)
+    {
+      const std::string s = "s (position along the wire [m])", t = "t (time [s])";
+      switch (variables)
+      {
+      case Expression::Variables::position:
+        return "Write a formula in " + s + ", e.g. '0.001*sin(2*pi*s/1.2)'.";
+      case Expression::Variables::time:
+        return "Write a formula in " + t + ", e.g. '0.02*sin(2*pi*t)'.";
+      default:
+        return "Write a formula in " + s + " and " + t + ", e.g. '120*sin(2*pi*t)'.";
+      }
+    }
+
+    /// What no formula of this entry can be; empty if nothing.
+    std::string objection(const std::string &formula, const Expression::Variables variables)
+    {
+      if (std::regex_search(formula, std::regex("^[^()+*,]*\\.[A-Za-z]{2}[A-Za-z0-9]*$")))
+        return "it looks like the name of a file, and no file is read here";
+      for (const std::string random : {"rand", "rand_seed"})
+        if (mentions(formula, random))
+          return "'" + random +
+                 "' is random: a formula is evaluated more than once at a time, and has to give "
+                 "the same each time and in each run";
+      if (variables == Expression::Variables::position && mentions(formula, "t"))
+        return "it does not depend on t";
+      if (variables == Expression::Variables::time && mentions(formula, "s"))
+        return "it does not depend on s";
+      return "";
+    }
   } // namespace
 
   struct Expression::Parser
@@ -60,7 +97,8 @@ namespace taut
     text = out.str();
   }
 
-  Expression::Expression(const std::string &formula, const std::string &entry)
+  Expression::Expression(const std::string &formula, const std::string &entry,
+                         const Variables variables)
       : text(formula), entry(entry)
   {
     char *end = nullptr;
@@ -72,13 +110,14 @@ namespace taut
 
     const auto bad = [&](const std::string &reason)
     {
-      return EntryError(
-          entry, "cannot evaluate '" + text + "': " + reason +
-                     ". Write a formula in s (position along the wire [m]) and t (time [s]), e.g. "
-                     "'120*sin(2*pi*t)'.");
+      return EntryError(entry,
+                        "cannot evaluate '" + text + "': " + reason + ". " + advice(variables));
     };
     if (is_number)
       throw bad("the number is out of range");
+    const std::string wrong = objection(text, variables);
+    if (!wrong.empty())
+      throw bad(wrong);
     auto fresh = std::make_shared<Parser>();
     const CaughtErrorOutput said;
     try
@@ -97,7 +136,7 @@ namespace taut
       throw bad(e.what());
     }
     parser = fresh;
-    time_dependent = std::regex_search(text, std::regex("\\bt\\b"));
+    time_dependent = mentions(text, "t");
   }
 
   double Expression::operator()(const double s, const double t) const

@@ -82,12 +82,15 @@ namespace taut
       wire.element_size = item.element_size;
       wire.damping = {item.mass_damping, item.stiffness_damping};
       wire.weight = item.weight;
-      wire.axial_start = {
-          Expression(item.axial_displacement, title + "/Initial axial displacement"),
-          Expression(item.axial_velocity, title + "/Initial axial velocity")};
+      wire.axial_start = {Expression(item.axial_displacement, title + "/Initial axial displacement",
+                                     Expression::Variables::position),
+                          Expression(item.axial_velocity, title + "/Initial axial velocity",
+                                     Expression::Variables::position)};
       wire.transverse_start = {
-          Expression(item.transverse_displacement, title + "/Initial transverse displacement"),
-          Expression(item.transverse_velocity, title + "/Initial transverse velocity")};
+          Expression(item.transverse_displacement, title + "/Initial transverse displacement",
+                     Expression::Variables::position),
+          Expression(item.transverse_velocity, title + "/Initial transverse velocity",
+                     Expression::Variables::position)};
       scene.wires.push_back(wire);
     }
     for (std::size_t i = 0; i < supports.items.size(); ++i)
@@ -103,7 +106,8 @@ namespace taut
                        : item.motion == "slope" ? WireMotion::slope
                                                 : WireMotion::transverse;
       support.fixed = item.kind == "fixed";
-      support.prescribed = Expression(item.displacement, title + "/Displacement");
+      support.prescribed =
+          Expression(item.displacement, title + "/Displacement", Expression::Variables::time);
       support.stiffness = item.stiffness;
       support.damping = item.damping;
       scene.supports.push_back(support);
@@ -182,7 +186,8 @@ namespace taut
       link.damping = item.damping;
       link.gap = item.gap;
       link.speed = item.speed;
-      link.profile = Expression(item.profile, title + "/Height profile");
+      link.profile =
+          Expression(item.profile, title + "/Height profile", Expression::Variables::position);
       link.find_length = item.find_length;
       link.prescribed_displacement = item.prescribed_displacement;
       link.axial_stiffness = item.axial_stiffness;

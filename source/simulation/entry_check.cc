@@ -5,9 +5,11 @@
 #include <taut/base/nearest_name.h>
 
 #include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/utilities.h>
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cctype>
 #include <cstdlib>
 #include <sstream>
@@ -41,6 +43,50 @@ namespace taut
       for (std::string name; std::getline(list, name, '|');)
         names.push_back(name);
       return names;
+    }
+
+    /// "; sections here: A, B." where a section is more likely missing than an entry misspelt.
+    std::string sections_here(const std::string &name, const nlohmann::json &node)
+    {
+      std::string all;
+      if (nearest_name(name, names_in(node, false)).empty())
+        for (const std::string &section : names_in(node, true))
+          all += (all.empty() ? " Sections here: " : ", ") + section;
+      return all.empty() ? "" : all + ".";
+    }
+
+    /// The section "Wire <name>" that each name in a list stands for, from the help of the list;
+    /// empty for another entry.
+    std::string section_of_names(const nlohmann::json &entry)
+    {
+      const std::string help = entry["documentation"].get<std::string>(), mark = " <name>'";
+      const std::size_t end = help.find(mark),
+                        begin = end == std::string::npos ? end : help.rfind('\'', end - 1);
+      return begin == std::string::npos ? "" : help.substr(begin + 1, end - begin - 1);
+    }
+
+    /// Each name that the file lists has its section there.
+    void check_sections_of_names(const ParameterFile &file, const ParameterFile::Entry &entry,
+                                 const nlohmann::json &described)
+    {
+      const std::string section = section_of_names(described);
+      if (section.empty())
+        return;
+      for (const std::string &name : dealii::Utilities::split_string_list(entry.value, ','))
+      {
+        std::vector<std::string> path = entry.path;
+        path.back() = section + " " + name;
+        const auto begins = [&](const ParameterFile::Entry &other)
+        {
+          return other.path.size() >= path.size() &&
+                 std::equal(path.begin(), path.end(), other.path.begin());
+        };
+        if (std::none_of(file.sections().begin(), file.sections().end(), begins) &&
+            std::none_of(file.entries().begin(), file.entries().end(), begins))
+          throw UserError(entry.place + ": " + entry.name() + " = '" + entry.value +
+                          "': there is no section '" + path.back() +
+                          "', so that all would be defaults; add it, or remove '" + name + "'");
+      }
     }
 
     /// "Or add 'a' to 'Wires'." for the section 'Wire a' of an item that the list of names lacks.
@@ -165,7 +211,8 @@ namespace taut
         throw UserError(
             entry.place + ": there is no entry '" + name + "'" +
             (entry.path.size() > 1 ? " in '" + entry.path[entry.path.size() - 2] + "'" : "") +
-            suggestion(name, names_in(node, false)) + elsewhere(root, name, false));
+            suggestion(name, names_in(node, false)) + sections_here(name, node) +
+            elsewhere(root, name, false));
       const auto pattern = pattern_factory(node[name]["pattern_description"].get<std::string>());
       if (!pattern->match(entry.value))
       {
@@ -176,6 +223,7 @@ namespace taut
                         hint(entry.value, expectation(*pattern)) +
                         (near.empty() ? "" : "; did you mean '" + near + "'?"));
       }
+      check_sections_of_names(file, entry, node[name]);
     }
   }
 } // namespace taut

@@ -49,6 +49,9 @@ namespace taut
       if (!path.empty())
         throw UserError(locate(join(path)) + ": the section is opened and never closed; add 'end'");
     }
+    if (list.empty())
+      throw UserError(file +
+                      ": it sets no entry; 'taut' without a file writes one with all entries");
   }
 
   void ParameterFile::add(Entry entry)

@@ -12,6 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
 #include <functional>
 #include <sstream>
 
@@ -82,11 +83,14 @@ namespace taut
     prm.add_parameter(
         "Interval", interval,
         "Least time between two lines of sliding.csv, probes.csv, certificate.csv; 0: "
-        "every step [s]",
+        "every step. With an interval, the first two have the least and largest value since the "
+        "line before [s]",
         not_negative());
     prm.add_parameter(
         "Link interval", link_interval,
-        "Least time between two lines of links.csv and supports.csv; 0: every step [s]",
+        "Least time between two lines of links.csv and supports.csv; 0: every step. With an "
+        "interval, they have the least and largest value since the line before, and how often "
+        "each one-sided link opened or closed [s]",
         not_negative());
     prm.add_parameter(
         "Field interval", field_interval,
@@ -101,13 +105,6 @@ namespace taut
                       "Pieces that each element is drawn with in these files [1]", Integer(1, 20));
     probes.declare_parameters(prm);
     prm.leave_subsection();
-  }
-
-  void Parameters::create_integrators()
-  {
-    std::istringstream list(Registry<TimeIntegrator>::instance().names());
-    for (std::string name; std::getline(list, name, '|');)
-      integrators[name] = Registry<TimeIntegrator>::instance().create(name);
   }
 
   void Parameters::declare(dealii::ParameterHandler &prm)
@@ -312,30 +309,9 @@ namespace taut
     keep_listing(prm);
   }
 
-  std::unique_ptr<TimeIntegrator>
-  Parameters::integrator(const std::string &name,
-                         const std::map<std::string, std::string> &entries) const
+  std::string Parameters::file_name() const
   {
-    std::unique_ptr<TimeIntegrator> result = Registry<TimeIntegrator>::instance().create(name);
-    dealii::ParameterHandler prm;
-    result->declare_parameters(prm);
-    // The scheme's section may have another name than the scheme.
-    const std::string time = "Time/";
-    for (const auto &[path, value] : entry_values)
-    {
-      const std::size_t end = path.find('/', time.size());
-      if (path.compare(0, time.size(), time) != 0 || end == std::string::npos)
-        continue;
-      const std::string section = path.substr(time.size(), end - time.size()),
-                        entry = path.substr(end + 1);
-      if (!prm.subsection_path_exists({section}))
-        continue;
-      const auto own = entries.find(entry);
-      prm.enter_subsection(section);
-      prm.set(entry, own == entries.end() ? value : own->second);
-      prm.leave_subsection();
-    }
-    return result;
+    return std::filesystem::path(file.name()).filename().string();
   }
 
   void Parameters::print(std::ostream &out) const
@@ -374,6 +350,7 @@ namespace taut
       }
     }
     check(scene, end_time);
+    statistics.check_window(scene, end_time);
     return scene;
   }
 } // namespace taut

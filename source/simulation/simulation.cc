@@ -44,6 +44,30 @@ namespace taut
       return is_numbered("wires") || is_numbered("links");
     }
 
+    /// True if there are files in a folder that a run writes. One that cannot be read has none:
+    /// writing then says what is wrong.
+    bool holds_results(const std::filesystem::path &folder)
+    {
+      std::error_code error;
+      const std::filesystem::directory_iterator content(folder, error), none;
+      return std::any_of(content, none,
+                         [](const auto &entry)
+                         { return is_result(entry.path().filename().string()); });
+    }
+
+    void check_folder(const OutputParameters &output)
+    {
+      namespace fs = std::filesystem;
+      std::error_code error;
+      if (fs::exists(output.folder, error) && !fs::is_directory(output.folder, error))
+        throw EntryError("Output/Folder", "it is a file; name a folder");
+      if (!output.overwrite && holds_results(output.folder))
+        throw EntryError(
+            "Output/Folder",
+            "'" + output.folder +
+                "' holds the results of a run; name another folder, or run with --overwrite");
+    }
+
     Scene prepare_contacts(Scene scene, const Parameters &parameters)
     {
       if (parameters.chooses_contact_mass())
@@ -52,6 +76,16 @@ namespace taut
       return scene;
     }
   } // namespace
+
+  void check_results_folder(const Parameters &parameters, const Communicator &processes)
+  {
+    processes.agree(
+        [&]
+        {
+          if (processes.is_root())
+            check_folder(parameters.output);
+        });
+  }
 
   Simulation::Simulation(const Parameters &parameters, std::ostream &log,
                          const Communicator &processes)
@@ -71,6 +105,7 @@ namespace taut
 
   void Simulation::run()
   {
+    check_results_folder(parameters, processes);
     describe();
     find_start();
     find_rest_of_probes();
@@ -96,12 +131,18 @@ namespace taut
           prepare_folder();
           write_start();
         });
+    // At least a hundred times a run, and too seldom to be felt.
+    limits = std::make_unique<ModelLimits>(
+        model, bodies, integrator ? parameters.statistics.filter_frequency : 0., parameters.step,
+        integrator ? std::clamp(n_steps() / 100, 1L, 50L) : 1L);
     Fields fields(parameters.output.folder, model, bodies, parameters.output.field_interval,
                   parameters.output.subdivisions);
     if (!integrator)
     {
       update_probes(start);
       fields.record(view(start, start_certificate));
+      limits->record(view(start, start_certificate));
+      limits->print(log);
       log << "Results in " << parameters.output.folder << '\n';
       return;
     }
@@ -138,7 +179,7 @@ namespace taut
       series->close();
       if (energy)
         energy->close();
-      statistics.write(parameters.output.folder + "/statistics.json", is_partial);
+      statistics.write(parameters.output.folder + "/statistics.json", description(is_partial));
     };
     const auto begin = std::chrono::steady_clock::now();
     try
@@ -153,6 +194,7 @@ namespace taut
       {
         close(true);
         statistics.print(log);
+        limits->print(log);
       }
       catch (const std::exception &)
       {
@@ -164,6 +206,7 @@ namespace taut
     processes.agree([&] { close(stop_signal != 0); });
     statistics.print(log);
     log << measures->report();
+    limits->print(log);
     print_cost(stepper, statistics.until(), all);
     log << "Results in " << parameters.output.folder << '\n';
     if (stop_signal != 0)
@@ -222,23 +265,12 @@ namespace taut
     namespace fs = std::filesystem;
     const fs::path folder = parameters.output.folder;
     std::error_code error;
-    if (fs::exists(folder, error) && !fs::is_directory(folder, error))
-      throw EntryError("Output/Folder", "it is a file; name a folder");
-    // A loop over a folder that cannot be read has no turns; writing then says what is wrong.
-    const fs::directory_iterator content(folder, error), none;
-    if (std::any_of(content, none,
-                    [](const auto &entry) { return is_result(entry.path().filename().string()); }))
-    {
-      if (!parameters.output.overwrite)
-        throw EntryError(
-            "Output/Folder",
-            "'" + folder.string() +
-                "' holds the results of a run; name another folder, or run with --overwrite");
-      // Files of a longer run would mix with those of this one.
+    check_folder(parameters.output);
+    // Files of a longer run would mix with those of this one.
+    if (holds_results(folder))
       for (const fs::directory_entry &entry : fs::directory_iterator(folder, error))
         if (is_result(entry.path().filename().string()))
           fs::remove(entry.path(), error);
-    }
     fs::create_directories(folder, error);
     if (error)
       throw EntryError("Output/Folder",
@@ -246,6 +278,10 @@ namespace taut
     std::ofstream used(folder / "used.prm");
     used << "# Written by taut " << version()
          << "; the entries of the run whose results are beside this file.\n";
+    if (!scheme.empty())
+      used << "# The scheme was " << scheme << ".\n";
+    for (const std::string &entry : unused_entries)
+      used << "# Not used by it: " << entry << '\n';
     parameters.print(used);
     used.close();
     if (!used)
@@ -278,6 +314,7 @@ namespace taut
               observer->record(view(state, certificate));
           });
       fields.record(view(state, certificate));
+      limits->record(view(state, certificate));
     };
     show(start, start_certificate);
     StepControl control(parameters.step_parameters, parameters.step, n_steps());
@@ -285,8 +322,8 @@ namespace taut
     {
       const auto before = std::chrono::steady_clock::now();
       control.advance(stepper);
-      scheme = stepper.scheme();
-      measures->record(stepper.state(), scheme, stepper.certificate());
+      coefficients = stepper.scheme();
+      measures->record(stepper.state(), coefficients, stepper.certificate());
       seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
       show(stepper.state(), stepper.certificate());
       if (energy)
@@ -327,16 +364,40 @@ namespace taut
       chosen_integrator = parameters.integrator(choice.name, choice.entries);
       log << "Scheme (automatic): " << chosen_integrator->description() << ", because "
           << choice.reason << '\n';
+      keep_scheme(*chosen_integrator,
+                  parameters.unused_scheme_entries(choice.name, choice.entries));
       return *chosen_integrator;
     }
     const TimeIntegrator &integrator = parameters.integrator(name);
     log << "Scheme: " << integrator.description() << '\n';
-    if (restitution > 0. && integrator.coefficients(step).restitution == 0.)
-      log << "  it has no restitution: Time/Moreau-Jean/Restitution is not used\n";
     check_mass(integrator, bodies, step);
+    keep_scheme(integrator, parameters.unused_scheme_entries(name, {}));
     if (!parameters.allow_unsuitable_scheme)
       check_scheme(integrator, bodies, links, parameters.solver, step);
     return integrator;
+  }
+
+  void Simulation::keep_scheme(const TimeIntegrator &integrator, std::vector<std::string> unused)
+  {
+    scheme = integrator.description();
+    unused_entries = std::move(unused);
+    for (const std::string &entry : unused_entries)
+      log << "  not used by it: " << entry << '\n';
+  }
+
+  RunDescription Simulation::description(const bool is_partial) const
+  {
+    std::vector<ModelWarning> warnings = limits->warnings();
+    for (const ContactMeasures::Warning &warning : measures->warnings())
+      warnings.push_back(
+          {warning.kind, warning.message, warning.value, warning.limit, "1", warning.time});
+    return {parameters.file_name(),
+            parameters.generator_name,
+            scheme,
+            parameters.step,
+            n_steps() * parameters.step,
+            is_partial,
+            warnings};
   }
 
   void Simulation::write_start() const
@@ -349,7 +410,7 @@ namespace taut
       for (const SupportPoint &point : supports)
         columns.push_back(support_column(point));
       CsvFile file(parameters.output.folder + "/supports.csv", columns);
-      file << 0.;
+      file.begin_line(0.);
       for (const double force : reactions.forces())
         file << force;
       file.end_line();
@@ -358,7 +419,7 @@ namespace taut
     if (links.size() == 0)
       return;
     CsvFile file(parameters.output.folder + "/start.csv",
-                 {"link", "x [m]", "y [m]", "force [N, N m]", "gap [m, rad]", "length [m]"});
+                 {"link", "x [m]", "y [m]", "force [N or N m]", "gap [m or rad]", "length [m]"});
     for (std::size_t i = 0; i < links.size(); ++i)
     {
       if (links[i].is_cut())
@@ -375,8 +436,8 @@ namespace taut
 
   StepView Simulation::view(const State &state, const Certificate &certificate) const
   {
-    return {model,       bodies, links,     reference,    state,
-            certificate, scheme, *measures, probe_values, reactions.forces()};
+    return {model,       bodies,       links,     reference,    state,
+            certificate, coefficients, *measures, probe_values, reactions.forces()};
   }
 
   void Simulation::update_probes(const State &state)

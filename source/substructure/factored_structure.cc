@@ -142,11 +142,18 @@ namespace taut
     if (loss <= largest_loss)
       return;
     std::ostringstream out;
-    out << "body '" << body.name()
-        << "': what resists its motion, supports and inertia in one step, "
-        << "is lost in the rounding of its stiffness, which changes a motion by " << loss
-        << " of itself. Take a smaller step, fewer substructures, more equal elements or springs, "
-        << "or hold it by a support";
+    const std::string uneven = body.uneven_elements();
+    if (!uneven.empty())
+      out << "body '" << body.name() << "': " << uneven << " (the stiffness of so short an element "
+          << "rounds by more than what holds the body: a motion changes by " << loss
+          << " of itself)";
+    else
+      out << "body '" << body.name()
+          << "': what resists its motion, supports and inertia in one step, "
+          << "is lost in the rounding of its stiffness, which changes a motion by " << loss
+          << " of itself. Take a smaller step, fewer substructures, more equal elements or "
+             "springs, "
+          << "or hold it by a support";
     throw EntryError(body.origin(), out.str());
   }
 

@@ -246,25 +246,46 @@ namespace taut
     return out.str();
   }
 
+  std::vector<ContactMeasures::Warning> ContactMeasures::warnings() const
+  {
+    const Summary s = summary();
+    std::vector<Warning> result;
+    const auto add = [&](const std::string &kind, const double value, const double limit,
+                         const double time, const auto &...parts)
+    {
+      std::ostringstream message;
+      message.precision(3);
+      (message << ... << parts);
+      result.push_back({kind, message.str(), value, limit, time});
+    };
+    if (s.relative_energy > suspicious_energy)
+      add("contact_energy", s.relative_energy, suspicious_energy, s.energy_end,
+          "one-sided links gave ", s.contact_energy, " J, most at '", rows[s.energy_row].name,
+          "' between t = ", s.energy_begin, " and ", s.energy_end,
+          " s: take 'Scheme = automatic' or a smaller step");
+    if (s.gap_drifts)
+      add("contact_gap", s.gap, 0., 0., "'", rows[s.gap_row].name,
+          "' presses across a gap, or penetrates, by more than the motion of a step: take "
+          "conditions on gaps");
+    if (s.resolution > unresolved)
+      add("peak_over_mean", s.resolution, unresolved, 0., "the largest force of '",
+          rows[s.resolution_row].name, "', ", s.peak,
+          " N, is an impulse over a step; its largest mean over ", s.mean_time, " s is ",
+          s.mean_peak, " N: report that, or the impulse");
+    return result;
+  }
+
   std::string ContactMeasures::report() const
   {
     const Summary s = summary();
+    if (rows.size() == 0)
+      return "";
     std::ostringstream out;
     out.precision(2);
     out << "Contacts: energy " << s.relative_energy << " of the largest, gap " << s.gap
         << " m, peak over mean " << s.resolution << '\n';
-    if (s.relative_energy > suspicious_energy && !(s.relative_energy > wrong_energy))
-      out << "  Warning: one-sided links gave " << s.contact_energy << " J, most at '"
-          << rows[s.energy_row].name << "' between t = " << s.energy_begin << " and "
-          << s.energy_end << " s: take 'Scheme = automatic' or a smaller step\n";
-    if (s.gap_drifts)
-      out << "  Warning: '" << rows[s.gap_row].name
-          << "' presses across a gap, or penetrates, by more than the motion of a step: take "
-             "conditions on gaps\n";
-    if (s.resolution > unresolved)
-      out << "  Warning: the largest force of '" << rows[s.resolution_row].name << "', " << s.peak
-          << " N, is an impulse over a step; its largest mean over " << s.mean_time << " s is "
-          << s.mean_peak << " N: report that, or the impulse\n";
+    for (const Warning &warning : warnings())
+      out << "  Warning: " << warning.message << '\n';
     return out.str();
   }
 } // namespace taut

@@ -7,9 +7,32 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace taut
 {
+  std::string WireComponent::uneven_elements() const
+  {
+    std::size_t shortest = 0;
+    double longest = 0.;
+    const auto length = [&](const std::size_t e) { return nodes[e + 1] - nodes[e]; };
+    for (std::size_t e = 0; e + 1 < nodes.size(); ++e)
+    {
+      shortest = length(e) < length(shortest) ? e : shortest;
+      longest = std::max(longest, length(e));
+    }
+    constexpr double uneven = 20.;
+    if (!(longest > uneven * length(shortest)))
+      return "";
+    std::ostringstream out;
+    out.precision(10);
+    out << "its element from " << nodes[shortest] << " to " << nodes[shortest + 1] << " m is ";
+    out.precision(3);
+    out << length(shortest) << " m long beside others of " << longest
+        << " m. Move what stands at its two ends to one place, or farther apart";
+    return out.str();
+  }
+
   void WireComponent::evaluate(const double s, const bool slope, SparseVector &result) const
   {
     const auto after = std::upper_bound(nodes.begin(), nodes.end(), s);

@@ -340,7 +340,7 @@ if (results / "pictures" / "displacement_map.png").exists():
 # The start of the mast is a hand calculation: force, stretch, slack.
 results = run("guyed_mast", "Time/End=0")
 with open(results / "start.csv", newline="", encoding="utf-8") as start_file:
-    start = [[float(line[key]) for key in ("force [N, N m]", "gap [m, rad]")] for line in csv.DictReader(start_file)]
+    start = [[float(line[key]) for key in ("force [N or N m]", "gap [m or rad]")] for line in csv.DictReader(start_file)]
 pull = 50 * 10**2 / (2 * 0.6 * 8)
 compare("guyed mast", start, [[pull, -pull / 1e5], [0, pull * (1 / 1e5 + 2 * 0.8**2 * 8 / 1e7)]], 0.01)
 check_pictures(results, ["static_links"], plot_script)

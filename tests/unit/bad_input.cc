@@ -8,9 +8,11 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <set>
 #include <sstream>
 #include <string>
@@ -341,7 +343,53 @@ end
          {"Load push/Magnitude", "not finite", "t = 0.03", "if(condition"},
          true},
 
+        {"formula_that_is_random",
+         network,
+         {{"= 10*t", "= 10*rand() # here"}},
+         {"Load push/Magnitude", "'rand' is random"}},
+        {"formula_that_is_random_from_a_seed",
+         network,
+         {{"= 10*t", "= rand_seed(1) # here"}},
+         {"Load push/Magnitude", "'rand_seed' is random"}},
+        {"profile_that_is_a_file",
+         catenary,
+         {{"set Start       = 5", "set Start = 5\nset Height profile = measured.csv # here"}},
+         {"Pantograph one/Height profile = 'measured.csv'", "name of a file", "no file is read",
+          "formula in s (position along the wire [m]), e.g."}},
+        {"profile_of_time",
+         catenary,
+         {{"set Start       = 5", "set Start = 5\nset Height profile = 0.001*sin(t) # here"}},
+         {"Pantograph one/Height profile", "does not depend on t", "formula in s"}},
+        {"support_that_depends_on_the_position",
+         network,
+         {{"set Positions = 0, 10", "set Positions = 0, 10\nset Displacement = 0.01*s # here"}},
+         {"Support ends/Displacement", "does not depend on s", "formula in t"}},
+
         // Names
+        {"pantograph_without_its_section",
+         catenary,
+         {{"set Pantographs      = one", "set Pantographs = one, two # here"}},
+         {"Catenary/Pantographs = 'one, two'", "no section 'Pantograph two'", "remove 'two'"}},
+        {"wire_without_its_section",
+         network,
+         {{"set Wires        = line, arm", "set Wires = line, arm, rope # here"}},
+         {"Network/Wires", "no section 'Wire rope'"}},
+        {"links_that_are_one_name_in_tables",
+         network,
+         {{"set Links        = hanger, stop", "set Links = hanger, stop, sto-p"},
+          {"subsection Load push",
+           "subsection Link sto-p # here\nset From = block\nset To = line @ 7\nset Direction = 0, "
+           "1\nend\nsubsection Load push"}},
+         {"Network/Link sto-p", "'stop' and 'sto-p'", "one name", "rename one"}},
+        {"supports_that_are_one_name_in_tables",
+         network,
+         {{"set Supports     = ends, clamp, clamp slope",
+           "set Supports = ends, clamp, clamp_slope, "
+           "clamp slope"},
+          {"  subsection Support clamp slope",
+           "  subsection Support clamp_slope\nset Wire = arm\nset Positions = 4\nset Type = "
+           "elastic\nset Stiffness = 1\nend\n  subsection Support clamp slope # here"}},
+         {"Network/Support clamp slope", "'clamp_slope' and 'clamp slope'", "rename one"}},
         {"name_with_at_sign",
          network,
          {{"set Wires        = line, arm", "set Wires = li@ne, arm # here"}},
@@ -584,7 +632,57 @@ end
           {"set From      = block", "set From = ground"}},
          {"Link stop/To", "slides on a wire"}},
 
+        {"contact_under_a_bar",
+         network,
+         {{"= stop\n", "= sliding contact\n"},
+          {"= line @ 6", "= line @ 6 # here"},
+          {"= string", "= bar"},
+          {"set Tension         = 1000", "set Axial stiffness = 1000"},
+          {"set Positions = 0, 10", "set Positions = 0, 10\nset Motion = axial"}},
+         {"Link stop/To", "wire 'line', which has no transverse motion", "string or beam"}},
+        {"two_links_at_one_position",
+         network,
+         {{"= arm @ 3", "= arm @ 3, 3"}, {"= line @ 3", "= line @ 3, 3 # here"}},
+         {"Link hanger/To", "the same two points", "remove one of the positions"}},
+
         // Catenary
+        {"two_droppers_at_one_position",
+         catenary,
+         {{"= 5, 10, 15", "= 5, 10, 10 # here"}},
+         {"Catenary/Droppers/Positions", "two droppers hang at 10 m", "remove one"}},
+        {"dropper_beside_a_mast",
+         catenary,
+         {{"= 5, 10, 15", "= 0.0002, 10"},
+          {"subsection Contact wire", "subsection Contact wire # here"},
+          {"set Span length     = 20", "set Span length     = 200"}},
+         {"0.0002 m long beside others of 2 m", "Move what stands at its two ends"}},
+        {"catenary_without_tension",
+         catenary,
+         {{"  subsection Contact wire\n", "  subsection Contact wire\nset Tension = 0 # here\n"}},
+         {"Catenary/Contact wire/Tension = '0'", "positive", "hangs by its tension"}},
+        {"span_without_length",
+         catenary,
+         {{"set Span length     = 20", "set Span length = 0 # here"}},
+         {"Catenary/Span length = '0'", "positive"}},
+        {"pantograph_before_the_line",
+         catenary,
+         {{"set Start       = 5", "set Start = -10 # here"}},
+         {"Pantograph one/Start = '-10'", "outside the line", "0 to 40 m"}},
+        {"pantograph_that_pulls",
+         catenary,
+         {{"set Start       = 5", "set Start = 5\nset Static force = -120 # here"}},
+         {"Pantograph one/Static force = '-120'", "at least 0"}},
+        {"two_pantographs_at_one_place",
+         catenary,
+         {{"set Pantographs      = one", "set Pantographs = one, two"},
+          {"set Uplift",
+           "subsection Pantograph two\nset Start = 5 # here\nset Speed = 100\nend\nset Uplift"}},
+         {"Pantograph two/Start = '5'", "'one' stands at the same place"}},
+        {"rigid_contact_with_damping",
+         catenary,
+         {{"set Start       = 5", "set Start = 5\nset Contact stiffness = rigid\nset Contact "
+                                  "damping = 3 # here"}},
+         {"Pantograph one/Contact damping = '3'", "finite Contact stiffness"}},
         {"dropper_outside_of_its_span",
          catenary,
          {{"= 5, 10, 15", "= 5, 10, 25 # here"}},
@@ -841,6 +939,24 @@ end
          network,
          {{"set Window =", "set Window = 5, 2 # here"}},
          {"Statistics/Window = '5, 2'", "swap"}},
+        {"window_that_is_never_reached",
+         catenary,
+         {{"subsection Output",
+           "subsection Statistics\nset Window = 30, 40 # here\nend\nsubsection "
+           "Output"}},
+         {"Statistics/Window = '30, 40'", "'one' goes from 5 to 6.3", "run longer"}},
+        {"restitution_of_elastic_links",
+         network,
+         {{"set Stiffness = rigid", "set Stiffness = 1000"},
+          {"  subsection Newmark",
+           "  subsection Moreau-Jean\nset Restitution = 0.5 # here\nend\n  subsection Newmark"}},
+         {"Restitution = '0.5'", "rigid one-sided links, and the scene has none"}},
+        {"restitution_of_a_wire",
+         network,
+         {{"  subsection Newmark",
+           "  subsection Moreau-Jean\nset Restitution = 0.5 # here\nend\n  subsection Newmark"}},
+         {"Restitution = '0.5'", "at the rigid link 'stop'"}},
+        {"empty_file", whole, {{"", "# nothing but a comment\n"}}, {"scene.prm: it sets no entry"}},
         {"tolerance_zero",
          network,
          {{"subsection Statistics\n",
@@ -904,10 +1020,12 @@ end
       {
         parameters.read(file, overrides);
         parameters.output.overwrite = overwrite;
+        taut::check_results_folder(parameters);
         taut::Simulation(parameters, log).run();
       }
       catch (const taut::EntryError &e)
       {
+        EXPECT_TRUE(exists(e.entry(), parameters.values())) << "no entry or section " << e.entry();
         return parameters.explain(e);
       }
       catch (const taut::UserError &e)
@@ -915,6 +1033,15 @@ end
         return e.what();
       }
       return "";
+    }
+
+    /// Whether an entry or a section of this path is among the entries; the whole file has none.
+    static bool exists(const std::string &path, const std::map<std::string, std::string> &entries)
+    {
+      return path.empty() ||
+             std::any_of(entries.begin(), entries.end(),
+                         [&](const auto &entry)
+                         { return entry.first == path || entry.first.rfind(path + "/", 0) == 0; });
     }
 
     fs::path folder, before;
@@ -1052,6 +1179,7 @@ TEST_F(BadInput, ChangesOnTheCommandLine)
       {"Time.Step=0,001", {"--set: Time/Step = '0,001'", "decimals have a point"}},
       {"Time.Step=fast", {"--set: Time/Step = 'fast'", "not allowed"}},
       {"Time..Step=1", {"--set", "empty"}},
+      {"Foo=1", {"no entry 'Foo'", "Generator", "Sections here: ", "Network", "Time"}},
       {"Time.Step=1\\", {"--set: Time/Step", "continues a line"}},
       {"Time.Step=1 # 2", {"--set", "no '#'"}},
   };
@@ -1080,6 +1208,42 @@ TEST_F(BadInput, ResultsOfAnEarlierRunStayWithoutOverwrite)
   write("results/notes.txt", "mine");
   EXPECT_EQ(error_of("scene.prm", {}, false), "");
   EXPECT_EQ(content("results/notes.txt"), "mine");
+}
+
+TEST_F(BadInput, EarlierResultsAreFoundBeforeTheWork)
+{
+  // The lengths of these droppers cannot be found: whoever hears of that first has searched.
+  write("scene.prm", change(catenary, {{"set Pre-sag   =", "set Pre-sag = 0.1, 0.5, 0.1"}}));
+  expect_fragments(error_of("scene.prm", {}, false), {"Output/Folder = 'results'", "--overwrite"});
+  expect_fragments(error_of("scene.prm", {}, true), {"would have to push"});
+  EXPECT_TRUE(earlier_results_are_whole());
+}
+
+TEST_F(BadInput, EntriesOfAnotherSchemeAreSaidNotToBeUsed)
+{
+  write("scene.prm", network);
+  const auto log_and_used = [&](const Texts &overrides)
+  {
+    taut::Parameters parameters;
+    std::ostringstream log;
+    parameters.read("scene.prm", overrides);
+    parameters.output.overwrite = true;
+    taut::Simulation(parameters, log).run();
+    return log.str() + content("results/used.prm");
+  };
+  // The rigid stop of the scene makes 'automatic' choose another scheme.
+  const std::string said = log_and_used({"Time.Generalised-alpha.Spectral radius=0.5"});
+  for (const char *sentence :
+       {"  not used by it: Time/Generalised-alpha/Spectral radius = 0.5\n",
+        "# Not used by it: Time/Generalised-alpha/Spectral radius = 0.5\n", "# The scheme was "})
+    EXPECT_NE(said.find(sentence), std::string::npos) << said;
+  // A default is not worth a word, however it is written.
+  EXPECT_EQ(log_and_used({"Time.Generalised-alpha.Spectral radius=0.80"}).find("ot used by it"),
+            std::string::npos);
+  EXPECT_EQ(log_and_used({"Time.Scheme=generalised-alpha", "Time.Allow unsuitable scheme=true",
+                          "Time.Generalised-alpha.Spectral radius=0.5"})
+                .find("ot used by it"),
+            std::string::npos);
 }
 
 TEST_F(BadInput, ARunThatFailsKeepsWhatItHad)

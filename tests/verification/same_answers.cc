@@ -147,9 +147,9 @@ namespace
       {"beam_over_supports", {}},
       {"en50318_2002_string", {"Time.Step=1e-3", "Time.End=0.01"}},
       {"line_55m", {"Time.Step=1e-3", "Time.End=0.01"}},
-      {"en50318_2002_250", {"Time.End=0.3"}},
-      {"en50318_2002_300", {"Time.End=0.3"}},
-      {"en50318_2002_250_two", {"Time.End=0.3"}}};
+      {"en50318_2002_250", {"Time.End=0.3", "Statistics.Window="}},
+      {"en50318_2002_300", {"Time.End=0.3", "Statistics.Window="}},
+      {"en50318_2002_250_two", {"Time.End=0.3", "Statistics.Window="}}};
 } // namespace
 
 TEST(SameAnswers, of_both_local_solvers)

@@ -81,16 +81,24 @@ namespace
     return result;
   }
 
+  double value(const nlohmann::json &said, const char *name)
+  {
+    return said.at(name).at("value").get<double>();
+  }
+
   void expect_moments(const nlohmann::json &said, const Moments &m)
   {
     const auto near = [&](const char *name, const double value)
-    { EXPECT_NEAR(said.at(name).get<double>(), value, 1e-10 * m.largest) << name; };
-    near("mean [N]", m.mean);
-    near("standard deviation [N]", m.deviation);
-    near("mean + 3 standard deviations [N]", m.mean + 3. * m.deviation);
-    near("mean - 3 standard deviations [N]", m.mean - 3. * m.deviation);
-    near("maximum [N]", m.largest);
-    near("minimum [N]", m.least);
+    {
+      EXPECT_NEAR(said.at(name).at("value").get<double>(), value, 1e-10 * m.largest) << name;
+      EXPECT_EQ(said.at(name).at("unit"), "N") << name;
+    };
+    near("mean", m.mean);
+    near("standard_deviation", m.deviation);
+    near("mean_plus_3_standard_deviations", m.mean + 3. * m.deviation);
+    near("mean_minus_3_standard_deviations", m.mean - 3. * m.deviation);
+    near("maximum", m.largest);
+    near("minimum", m.least);
   }
 
   struct Run
@@ -122,7 +130,7 @@ namespace
 
 TEST(Statistics, moments_of_the_contact_force_are_those_of_the_samples_in_the_window)
 {
-  const auto &said = run().said["sliding contacts"]["contact"];
+  const auto &said = run().said["sliding_contacts"]["contact"];
   const std::vector<double> raw = inside(run().force[2]);
   EXPECT_EQ(raw.size(), 1251u);
   EXPECT_EQ(said["samples"], raw.size());
@@ -132,10 +140,10 @@ TEST(Statistics, moments_of_the_contact_force_are_those_of_the_samples_in_the_wi
   const double loss = double(std::count(raw.begin(), raw.end(), 0.)) / raw.size();
   EXPECT_GT(loss, .05);
   EXPECT_LT(loss, .45);
-  EXPECT_NEAR(said["contact loss [1]"].get<double>(), loss, 1e-12);
+  EXPECT_NEAR(value(said, "contact_loss"), 100. * loss, 1e-10);
   figure("statistics, contact loss of a jumping contact", loss);
   figure("statistics, standard deviation said over that of the samples - 1",
-         said["raw"]["standard deviation [N]"].get<double>() / moments(raw).deviation - 1.);
+         value(said["raw"], "standard_deviation") / moments(raw).deviation - 1.);
 }
 
 TEST(Statistics, links_have_their_impulse_largest_force_and_open_time)
@@ -152,9 +160,9 @@ TEST(Statistics, links_have_their_impulse_largest_force_and_open_time)
       open += k > 0 && N == 0. ? step : 0.;
     }
     const auto &said = run().said["links"][names[i]];
-    EXPECT_NEAR(said["impulse [N s, N m s]"].get<double>(), impulse, 1e-9 * std::fabs(impulse));
-    EXPECT_EQ(said["largest force [N, N m]"].get<double>(), largest);
-    EXPECT_NEAR(said["open time [s]"].get<double>(), open, 1e-9);
+    EXPECT_NEAR(value(said, "impulse"), impulse, 1e-9 * std::fabs(impulse));
+    EXPECT_EQ(value(said, "largest_force"), largest);
+    EXPECT_NEAR(value(said, "open_time"), open, 1e-9);
     if (i == 0)
       EXPECT_LT(largest, 0.)
           << "the rod has to pull more than it pushes, or the sign is not tested";
@@ -169,6 +177,96 @@ TEST(Statistics, probes_have_their_largest_and_smallest_displacement)
   const auto [least, largest] = std::minmax_element(run().probe.begin(), run().probe.end());
   EXPECT_LT(*least, 0.);
   EXPECT_GT(*largest, 0.);
-  EXPECT_EQ(said["largest [m, rad]"].get<double>(), *largest);
-  EXPECT_EQ(said["smallest [m, rad]"].get<double>(), *least);
+  EXPECT_EQ(value(said, "largest"), 1e3 * *largest);
+  EXPECT_EQ(said["largest"]["unit"], "mm");
+  EXPECT_EQ(value(said, "smallest"), 1e3 * *least);
+}
+
+namespace
+{
+  struct Said
+  {
+    nlohmann::json json;
+    std::string log;
+  };
+
+  Said say(const std::string &file_or_text, const Overrides &overrides)
+  {
+    Session session(file_or_text, overrides);
+    session.run([](const taut::StepView &) {});
+    Said result;
+    std::ifstream(session.folder() + "/statistics.json") >> result.json;
+    result.log = session.log();
+    return result;
+  }
+
+  const std::string mean = "Statistics.Expected ranges.Mean=";
+} // namespace
+
+// Claim: a window that the run does not reach to its end is named with what was used of it, and
+// does not count as passed. Expected: from 3 m to 1 m + 4 m/s 1.25 s = 6 m of 3 to 8 m.
+TEST(Statistics, a_window_that_is_not_passed_says_what_was_used)
+{
+  const Said part = say(scene, {"Time.End=1.25", mean + "0, 100"});
+  EXPECT_NE(part.log.find("3.00 to 6.00 m of the window 3.00 to 8.00 m (751 samples"),
+            std::string::npos)
+      << part.log;
+  const auto &window = part.json["sliding_contacts"]["contact"]["window"];
+  EXPECT_EQ(window["value"], nlohmann::json({3., 8.}));
+  EXPECT_FALSE(window["complete"].get<bool>());
+  EXPECT_NEAR(window["evaluated"][0].get<double>(), 3., 1e-9);
+  EXPECT_NEAR(window["evaluated"][1].get<double>(), 6., 1e-9);
+  EXPECT_EQ(part.json["verdict"], "incomplete");
+
+  const Said whole = say(scene, {mean + "0, 100"});
+  EXPECT_NE(whole.log.find("'contact', 3.00 to 8.00 m (1251 samples"), std::string::npos);
+  EXPECT_TRUE(whole.json["sliding_contacts"]["contact"]["window"]["complete"].get<bool>());
+  EXPECT_EQ(whole.json["verdict"], "inside");
+  EXPECT_EQ(say(scene, {mean + "100, 200"}).json["verdict"], "outside");
+  EXPECT_EQ(say(scene, {}).json["verdict"], "none");
+}
+
+// Claim: what the step cannot filter is not compared with ranges of filtered forces. Expected: at
+// 1 ms, 4 steps a period are 250 Hz; without a filter the forces themselves are compared.
+TEST(Statistics, forces_that_cannot_be_filtered_are_not_judged)
+{
+  const std::string frequency = "Statistics.Filter frequency=";
+  const Said beyond = say(scene, {frequency + "260", mean + "0, 100"});
+  EXPECT_NE(beyond.log.find("not judged: a filter at 260 Hz needs steps shorter than 0.000961538"),
+            std::string::npos)
+      << beyond.log;
+  const auto &contact = beyond.json["sliding_contacts"]["contact"];
+  EXPECT_EQ(contact.count("filtered"), 0u);
+  EXPECT_EQ(contact["raw"]["mean"].count("inside"), 0u);
+  EXPECT_FALSE(contact["filter_frequency"]["resolved"].get<bool>());
+  EXPECT_EQ(beyond.json["verdict"], "incomplete");
+
+  const Said below = say(scene, {frequency + "240", mean + "0, 100"});
+  EXPECT_TRUE(below.json["sliding_contacts"]["contact"]["filtered"]["mean"]["inside"].get<bool>());
+  const Said none = say(scene, {frequency + "0", mean + "0, 100"});
+  EXPECT_TRUE(none.json["sliding_contacts"]["contact"]["raw"]["mean"]["inside"].get<bool>());
+  EXPECT_EQ(none.json["verdict"], "inside");
+}
+
+// Claim: statistics.json says what it is of, and value and range are in one unit. Expected: the
+// entries of the file.
+TEST(Statistics, the_run_is_named_and_ranges_have_the_unit_of_the_value)
+{
+  const Said said = say(scene, {"Statistics.Expected ranges.Uplift=0, 50",
+                                "Statistics.Expected ranges.Contact loss=5, 45"});
+  const nlohmann::json &j = said.json;
+  EXPECT_EQ(j["scene"], "scene.prm");
+  EXPECT_EQ(j["generator"], "network");
+  EXPECT_EQ(j["scheme"], "generalised-alpha (spectral radius 0.8)");
+  EXPECT_EQ(j["step"], nlohmann::json({{"value", 1e-3}, {"unit", "s"}}));
+  EXPECT_EQ(j["end"]["value"], 2.2);
+  EXPECT_FALSE(j["version"].get<std::string>().empty());
+  const auto &uplift = j["probes"]["head"]["largest"],
+             &loss = j["sliding_contacts"]["contact"]["contact_loss"];
+  EXPECT_EQ(uplift["unit"], "mm");
+  EXPECT_EQ(uplift["expected"], nlohmann::json({0., 50.}));
+  EXPECT_EQ(uplift["inside"].get<bool>(), uplift["value"] <= 50.);
+  EXPECT_EQ(loss["unit"], "%");
+  EXPECT_TRUE(loss["inside"].get<bool>());
+  EXPECT_EQ(j["links"]["rod"]["impulse"]["unit"], "N s");
 }

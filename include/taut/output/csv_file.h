@@ -8,6 +8,9 @@
 
 namespace taut
 {
+  /// A time [s] as short as it was meant: to 14 digits, 0.009 for 9 steps of 0.001.
+  std::string time_text(double time);
+
   /// A table with a header line. Numbers are written as short as possible without loss.
   class CsvFile
   {
@@ -18,6 +21,9 @@ namespace taut
     /// Adds a cell to the current line.
     CsvFile &operator<<(double value);
     CsvFile &operator<<(const std::string &text);
+
+    /// Begins a line with a time [s].
+    CsvFile &begin_line(double time);
 
     /// Ends the current line. Throws UserError when the disk is full.
     void end_line();

@@ -3,6 +3,7 @@
 #define taut_series_h
 
 #include <taut/output/csv_file.h>
+#include <taut/output/interval_table.h>
 #include <taut/output/observer.h>
 
 #include <memory>
@@ -14,7 +15,8 @@ namespace taut
   /**
    * Time series as CSV: sliding.csv (each sliding contact: position, force, gap), links.csv (force
    * and gap of every fixed link), supports.csv (force of every support on its wire), probes.csv,
-   * certificate.csv. A file without content is not made.
+   * certificate.csv. A file without content is not made. With an interval, tables but the last have
+   * the extremes since the line before, and of one-sided links how often they opened or closed.
    */
   class Series : public Observer
   {
@@ -29,13 +31,13 @@ namespace taut
     void close();
 
   private:
-    void open(std::unique_ptr<CsvFile> &file, const std::string &name,
-              std::vector<std::string> columns);
+    void add_link(const Row &row);
+    void record_links(const StepView &step, bool moving, IntervalTable &table);
 
-    std::string folder;
-    double interval, link_interval;
-    double next = 0., next_link = 0.;
-    std::unique_ptr<CsvFile> sliding, links, supports, probes, certificate;
+    double interval, next = 0.;
+    IntervalTable sliding, links, supports, probes;
+    std::unique_ptr<CsvFile> certificate;
+    std::vector<double> values; ///< of one table and step
   };
 } // namespace taut
 

@@ -2,6 +2,7 @@
 #ifndef taut_statistics_h
 #define taut_statistics_h
 
+#include <taut/output/model_limits.h>
 #include <taut/output/observer.h>
 
 #include <iosfwd>
@@ -27,6 +28,20 @@ namespace taut
 
     /// Declares the members in subsection "Statistics".
     void declare_parameters(dealii::ParameterHandler &prm);
+
+    /// Throws an EntryError if no sliding contact comes into the window until @p end_time [s].
+    void check_window(const Scene &scene, double end_time) const;
+  };
+
+  /// What the figures are of.
+  struct RunDescription
+  {
+    std::string scene;          ///< name of the parameter file
+    std::string generator;      ///< of the scene
+    std::string scheme;         ///< of the time integration, with its parameters
+    double step = 0., end = 0.; ///< [s]
+    bool is_partial = false;    ///< the run was ended before its end
+    std::vector<ModelWarning> warnings;
   };
 
   /// Mean, standard deviation and extremes of a record.
@@ -55,6 +70,12 @@ namespace taut
       double loss = 0.;
       std::size_t n_samples = 0;
       bool is_filtered = false;
+      bool is_complete = true;     ///< the contact passed the whole window
+      double begin = 0., end = 0.; ///< positions of the first and last sample [m]
+      double longest_step = 0.;    ///< that resolves the filter frequency; 0: no filter [s]
+
+      /// Whether they may be compared with expected ranges: those are of the filtered force.
+      bool are_judged() const { return n_samples > 0 && (is_filtered || longest_step == 0.); }
     };
     std::size_t n_contacts() const { return contacts.size(); }
 
@@ -80,9 +101,8 @@ namespace taut
     /// The table, with the expected ranges beside the figures.
     void print(std::ostream &out) const;
 
-    /// The same as JSON. @p is_partial marks a run that ended before its end. Throws UserError if
-    /// the file cannot be written.
-    void write(const std::string &path, bool is_partial = false) const;
+    /// The same as JSON. Throws UserError if the file cannot be written.
+    void write(const std::string &path, const RunDescription &run) const;
 
     /// Time of the last step recorded, 0 without one [s].
     double until() const { return times.empty() ? 0. : times.back(); }
@@ -111,25 +131,43 @@ namespace taut
 
     ContactFigures figures(const Contact &contact) const;
 
-    /// Expected range of the largest displacement of a probe [mm]; none for a rotation.
-    const std::vector<double> *uplift_range(std::size_t probe) const;
-
-    /// Rows of the table: figure, unit, value.
+    /// A row of a table.
     struct Figure
     {
       std::string name, unit;
       double value;
+      const std::vector<double> *expected = nullptr; ///< range in the same unit
     };
-    std::vector<Figure> table(const ContactFigures &figures) const;
+
+    /// Of a sliding contact: the filtered force unless @p raw, with the loss unless raw.
+    std::vector<Figure> table(const ContactFigures &figures, bool raw) const;
+
+    /// Largest and smallest displacement of a probe.
+    std::vector<Figure> table(std::size_t probe) const;
+
+    const std::vector<double> *expected_range(const std::string &figure) const;
+
+    /// How the figures compare with their expected ranges.
+    struct Verdict
+    {
+      std::size_t n_inside = 0, n_outside = 0;
+      bool is_complete = true; ///< nothing that is expected was left out
+      std::string text() const;
+    };
+    Verdict verdict() const;
+    std::string window_text(const ContactFigures &figures) const;
+    void print_contact(const Contact &contact, std::ostream &out) const;
+    void print_links(std::ostream &out) const;
 
     StatisticsParameters parameters;
     std::vector<Contact> contacts;
     std::vector<std::string> link_names, probe_names;
-    std::vector<char> link_unilateral;
+    std::vector<char> link_unilateral, link_rotates;
     std::vector<LinkFigures> link_figures;
     std::vector<char> probe_rotates;
     std::vector<double> uplift, lowering, last; ///< of the probes, from rest
     std::vector<std::string> support_names;
+    std::vector<char> support_is_moment;
     std::vector<SupportFigures> support_figures;
     std::vector<double> times;
     Certificate worst;

@@ -18,9 +18,18 @@ namespace taut
     /// The constant zero.
     Expression();
 
-    /// @p entry names the parameter in error messages. A formula that cannot be parsed is a
-    /// UserError.
-    Expression(const std::string &formula, const std::string &entry);
+    /// What a formula may depend on.
+    enum class Variables
+    {
+      position,
+      time,
+      both
+    };
+
+    /// @p entry names the parameter in error messages. A formula that cannot be parsed, depends on
+    /// something else, or is random is an EntryError.
+    Expression(const std::string &formula, const std::string &entry,
+               Variables variables = Variables::both);
 
     /// A constant.
     explicit Expression(double constant);

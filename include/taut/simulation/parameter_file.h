@@ -29,8 +29,8 @@ namespace taut
       std::string name() const; ///< the path joined with '/'
     };
 
-    /// Throws UserError with file and line if the text has no such structure or names an entry
-    /// twice.
+    /// Throws UserError with file and line if the text has no such structure, names an entry twice
+    /// or none at all.
     void read(const std::string &file);
 
     /// Adds "A.B.Entry=value" or "A/B/Entry=value" from the command line; replaces the entry if it
@@ -47,6 +47,9 @@ namespace taut
 
     /// All entries in .prm format.
     std::string text() const;
+
+    /// The file that was read, as named.
+    const std::string &name() const { return main_file; }
 
     /// "file:line: Section/Entry = 'value'", or as much of it as is known of a path joined with
     /// '/'.

@@ -113,6 +113,15 @@ namespace taut
     std::unique_ptr<TimeIntegrator>
     integrator(const std::string &name, const std::map<std::string, std::string> &entries) const;
 
+    /// "Time/Newmark/Beta = 0.3" of each entry of a scheme that is not at its default and has no
+    /// part in this one.
+    std::vector<std::string>
+    unused_scheme_entries(const std::string &name,
+                          const std::map<std::string, std::string> &entries) const;
+
+    /// The parameter file, without its folder.
+    std::string file_name() const;
+
     /// True if Time/Massless contact leaves to the choice of the scheme which nodes have mass.
     bool chooses_contact_mass() const
     {

@@ -3,6 +3,7 @@
 #define taut_simulation_h
 
 #include <taut/interface/contact_rows.h>
+#include <taut/output/model_limits.h>
 #include <taut/output/observer.h>
 #include <taut/output/reactions.h>
 #include <taut/simulation/parameters.h>
@@ -16,6 +17,14 @@ namespace taut
 {
   class Energy;
   class Fields;
+
+  /**
+   * Throws an EntryError on Output/Folder if a run could not write its results there, because it is
+   * a file or holds those of another run; touches nothing. Worth asking before a large scene is
+   * made. Called by all ranks together.
+   */
+  void check_results_folder(const Parameters &parameters,
+                            const Communicator &processes = Communicator());
 
   /// A scene on its way through time: reads like the algorithm on paper.
   class Simulation
@@ -59,10 +68,12 @@ namespace taut
   private:
     void describe() const;
     void prepare_folder() const;
+    RunDescription description(bool is_partial) const;
     void find_start();
     void report_free_bodies() const;
     void find_rest_of_probes();
     const TimeIntegrator &choose_integrator();
+    void keep_scheme(const TimeIntegrator &integrator, std::vector<std::string> unused);
     void write_start() const;
     StepView view(const State &state, const Certificate &certificate) const;
     void update_probes(const State &state);
@@ -85,10 +96,13 @@ namespace taut
     std::vector<std::vector<Term>> probe_terms;
     std::vector<double> probe_rest, probe_values;
     Reactions reactions;
+    std::unique_ptr<ModelLimits> limits; ///< of a run
     std::vector<Observer *> guests;
     std::unique_ptr<TimeIntegrator> chosen_integrator; ///< of Scheme = automatic
     std::unique_ptr<ContactMeasures> measures;
-    StepCoefficients scheme; ///< of the last step
+    StepCoefficients coefficients;           ///< of the last step
+    std::string scheme;                      ///< with its parameters
+    std::vector<std::string> unused_entries; ///< of other schemes, with their values
     double seconds = 0.;
     std::function<int()> stop_asked;
     int stop_signal = 0; ///< the same on all ranks; 0: go on

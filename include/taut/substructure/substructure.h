@@ -118,6 +118,10 @@ namespace taut
     };
     virtual Kernel kernel() const { return {}; }
 
+    /// Where its elements are so unequal that the stiffness of the smallest hides the others, and
+    /// what to do, as a part of a message; empty if nowhere.
+    virtual std::string uneven_elements() const { return ""; }
+
   protected:
     /// Sorts the constraints, notes whether one moves, and closes the matrices. Called at the end
     /// of a constructor. Throws EntryError if the numbers of the scene are so extreme that a matrix

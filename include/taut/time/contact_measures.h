@@ -69,7 +69,16 @@ namespace taut
     /// Resolution above which it is said.
     static constexpr double unresolved = 3.;
 
-    /// One line for the log, and a warning for each measure beyond its bound.
+    /// A measure beyond its bound.
+    struct Warning
+    {
+      std::string kind; ///< an identifier
+      std::string message;
+      double value = 0., limit = 0., time = 0.; ///< [1; 1; s]
+    };
+    std::vector<Warning> warnings() const;
+
+    /// One line for the log, and one for each warning.
     std::string report() const;
 
     /// The message of a run whose contact energy is beyond wrong_energy; empty if it is not.

@@ -66,6 +66,7 @@ namespace taut
 
     void initial_state(std::vector<double> &U, std::vector<double> &V) const override;
     Kernel kernel() const override;
+    std::string uneven_elements() const override;
 
   private:
     struct Discretisation; ///< deal.II's triangulation, element and DoFs

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_interval_table_h
+#define taut_interval_table_h
+
+#include <taut/output/csv_file.h>
+
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace taut
+{
+  /**
+   * A table of quantities in time: a line each step, or lines at least an interval apart. The
+   * latter have, beside the value at the time of the line, the least and the largest value of the
+   * steps since the line before, "a force least [N]", so that no peak is lost between lines.
+   */
+  class IntervalTable
+  {
+  public:
+    /// @p interval [s]; 0: every step.
+    explicit IntervalTable(double interval) : interval(interval) {}
+
+    /// A quantity that changes smoothly and needs no extremes.
+    void add_value(const std::string &name, const std::string &unit);
+
+    /// A quantity with extremes, if there is an interval.
+    void add_quantity(const std::string &name, const std::string &unit);
+
+    /// How often a state changed since the line before, if there is an interval.
+    void add_state(const std::string &name);
+
+    bool is_empty() const { return columns.empty(); }
+
+    /// Creates the file. Throws UserError if it cannot.
+    void open(const std::string &path);
+
+    /// One step at a time [s]: a value for each column in the order in which they were added, of a
+    /// state a number that changes with it. Throws UserError when the disk is full.
+    void record(double time, const std::vector<double> &values);
+
+    /// Writes the steps since the last line, too. Throws UserError when the disk is full.
+    void close();
+
+  private:
+    enum class Kind
+    {
+      value,
+      quantity,
+      state
+    };
+
+    struct Column
+    {
+      std::string name, unit;
+      Kind kind;
+      double last = 0., least = std::numeric_limits<double>::infinity(), largest = -least;
+      unsigned int n_changes = 0;
+    };
+
+    void write_line();
+
+    double interval, time = 0., next = 0.;
+    bool has_started = false, is_pending = false;
+    std::vector<Column> columns;
+    std::unique_ptr<CsvFile> file;
+  };
+} // namespace taut
+
+#endif

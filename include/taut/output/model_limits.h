@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_model_limits_h
+#define taut_model_limits_h
+
+#include <taut/output/observer.h>
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace taut
+{
+  /// Something that a run went beyond and the model does not hold for.
+  struct ModelWarning
+  {
+    std::string kind; ///< an identifier: "slope", "distance", "speed", "filter"
+    std::string message;
+    double value = 0., limit = 0.; ///< both in `unit`
+    std::string unit;
+    double time = 0.; ///< of the value [s]
+  };
+
+  /**
+   * Watches over what the equations take for granted: small slopes, wires that stay on their side
+   * of each other, contacts slower than the waves, steps that resolve the filter of the statistics.
+   * Of each kind the worst case of a run is kept.
+   *
+   * - A slope of 0.1 rad stretches a wire by slope^2 / 2 = 0.5 %, which the equations neglect: a
+   *   copper wire of 100 mm^2 would gain 60 kN of tension.
+   * - Two wires above each other at the start, with nothing between them that pushes, are as far
+   *   apart as their displacements may bring them together.
+   * - Waves of a wire run at sqrt(T / m); nothing runs ahead of a faster contact.
+   * - A peak that is sampled n times a period is found up to 1 - cos(pi / n) of its height: 5 % for
+   *   n = 10.
+   */
+  class ModelLimits
+  {
+  public:
+    /// Places are sampled and looked at every @p interval steps. @p step [s] is compared with
+    /// @p filter_frequency [Hz], 0: none. Called by all ranks together.
+    ModelLimits(const Scene &scene, const SceneBodies &structure, double filter_frequency,
+                double step, long interval);
+
+    /// Each step, the start first. Called by all ranks together.
+    void record(const StepView &step);
+
+    /// At most one of each kind.
+    std::vector<ModelWarning> warnings() const;
+
+    /// A line each.
+    void print(std::ostream &out) const;
+
+  private:
+    /// Linear forms on the displacements of this rank, one after the other.
+    struct Forms
+    {
+      struct Entry
+      {
+        double value;
+        unsigned int body, dof;
+      };
+      std::vector<Entry> entries;
+      std::vector<std::size_t> ends;
+      void add(const std::vector<Term> &terms);
+      void evaluate(const BlockVector &U, double *result) const;
+    };
+
+    /// Samples along a wire, or along the place where one is above another.
+    struct Line
+    {
+      std::string name, other;
+      std::size_t first = 0, n = 0;  ///< samples
+      std::vector<double> positions; ///< on the wire [m]
+      std::vector<double> distances; ///< to the wire above; empty: slopes are watched [m]
+    };
+
+    /// The worst of a kind so far.
+    struct Extreme
+    {
+      double excess = 0.; ///< value over limit
+      double value = 0., limit = 0., position = 0., time = 0.;
+      std::size_t line = 0;
+    };
+
+    void add_slopes(const Scene &scene, const SceneBodies &structure);
+    void add_distances(const Scene &scene, const SceneBodies &structure);
+    void compare_speeds(const Scene &scene);
+    void compare_filter(const Scene &scene, double frequency, double step);
+
+    long interval, n_calls = 0;
+    Forms forms;
+    std::vector<Line> lines;
+    std::vector<double> values;
+    Extreme slope, distance;
+    std::vector<ModelWarning> constant; ///< known before the first step
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/output/model_limits.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+#include <sstream>
+
+namespace taut
+{
+  namespace
+  {
+    constexpr double largest_slope = .1;       ///< [rad]
+    constexpr double least_samples = 10.;      ///< in a period of the filter frequency
+    constexpr std::size_t most_samples = 2000; ///< along a wire
+
+    template <typename... Parts>
+    std::string text(const Parts &...parts)
+    {
+      std::ostringstream out;
+      out.precision(4);
+      (out << ... << parts);
+      return out.str();
+    }
+
+    /// At most so many of the positions, with the last one.
+    std::vector<double> thinned(const std::vector<double> &positions)
+    {
+      const std::size_t stride = (positions.size() + most_samples - 1) / most_samples;
+      std::vector<double> result;
+      for (std::size_t i = 0; i + 1 < positions.size(); i += stride)
+        result.push_back(positions[i]);
+      result.push_back(positions.back());
+      return result;
+    }
+
+    /// True if a link pushes two wires apart, so that their distance is its own concern.
+    bool are_in_contact(const Scene &scene, const std::size_t a, const std::size_t b)
+    {
+      const auto is_on = [](const Attachment &end, const std::size_t wire)
+      { return end.kind == Attachment::Kind::wire && end.index == wire; };
+      return std::any_of(scene.links.begin(), scene.links.end(),
+                         [&](const Link &link)
+                         {
+                           return link.kind != LinkKind::dropper &&
+                                  ((is_on(link.from, a) && is_on(link.to, b)) ||
+                                   (is_on(link.from, b) && is_on(link.to, a)));
+                         });
+    }
+  } // namespace
+
+  void ModelLimits::Forms::add(const std::vector<Term> &terms)
+  {
+    for (const auto &[k, form] : terms)
+      for (std::size_t j = 0; j < form.index.size(); ++j)
+        if (form.value[j] != 0.)
+          entries.push_back({form.value[j], static_cast<unsigned int>(k), form.index[j]});
+    ends.push_back(entries.size());
+  }
+
+  void ModelLimits::Forms::evaluate(const BlockVector &U, double *const result) const
+  {
+    std::size_t e = 0;
+    for (std::size_t i = 0; i < ends.size(); ++i)
+      for (; e < ends[i]; ++e)
+        result[i] += entries[e].value * U[entries[e].body][entries[e].dof];
+  }
+
+  ModelLimits::ModelLimits(const Scene &scene, const SceneBodies &structure,
+                           const double filter_frequency, const double step, const long interval)
+      : interval(std::max(1L, interval))
+  {
+    add_slopes(scene, structure);
+    add_distances(scene, structure);
+    compare_speeds(scene);
+    compare_filter(scene, filter_frequency, step);
+  }
+
+  void ModelLimits::add_slopes(const Scene &scene, const SceneBodies &structure)
+  {
+    for (std::size_t w = 0; w < scene.wires.size(); ++w)
+    {
+      const Wire &wire = scene.wires[w];
+      if (wire.transverse == TransverseKind::none)
+        continue;
+      Line line{wire.name, "", forms.ends.size(), 0, thinned(grid(scene, w)), {}};
+      line.n = line.positions.size();
+      for (const double s : line.positions)
+      {
+        std::vector<Term> terms;
+        structure.motion({Attachment::Kind::wire, w, s}, false, wire.normal(), 1., terms);
+        forms.add(terms);
+      }
+      lines.push_back(std::move(line));
+    }
+  }
+
+  void ModelLimits::add_distances(const Scene &scene, const SceneBodies &structure)
+  {
+    constexpr double least_part_along_x = .5;
+    for (std::size_t a = 0; a < scene.wires.size(); ++a)
+      for (std::size_t b = 0; b < scene.wires.size(); ++b)
+      {
+        const Wire &lower = scene.wires[a], &upper = scene.wires[b];
+        const double slope_a = lower.tangent().x, slope_b = upper.tangent().x;
+        if (a == b || std::fabs(slope_a) < least_part_along_x ||
+            std::fabs(slope_b) < least_part_along_x || are_in_contact(scene, a, b))
+          continue;
+        Line line{lower.name, upper.name, forms.ends.size(), 0, {}, {}};
+        for (const double s : thinned(grid(scene, a)))
+        {
+          const double s_above = (lower.at(s).x - upper.a.x) / slope_b;
+          if (s_above < 0. || s_above > upper.length())
+            continue;
+          line.positions.push_back(s);
+          line.distances.push_back(upper.at(s_above).y - lower.at(s).y);
+        }
+        // Wires that meet or cross are joined there, or meant to.
+        if (line.positions.empty() ||
+            *std::min_element(line.distances.begin(), line.distances.end()) <= 0.)
+          continue;
+        for (const double s : line.positions)
+        {
+          const double s_above = (lower.at(s).x - upper.a.x) / slope_b;
+          std::vector<Term> terms;
+          structure.motion({Attachment::Kind::wire, a, s}, false, {0., 1.}, 1., terms);
+          structure.motion({Attachment::Kind::wire, b, s_above}, false, {0., 1.}, -1., terms);
+          forms.add(terms);
+        }
+        line.n = line.positions.size();
+        lines.push_back(std::move(line));
+      }
+  }
+
+  void ModelLimits::compare_speeds(const Scene &scene)
+  {
+    const auto compare = [&](const std::string &name, const Attachment &on, const double speed)
+    {
+      const Wire &wire = scene.wires[on.index];
+      const double waves = std::sqrt(wire.tension / wire.mass_per_length), v = std::fabs(speed);
+      if (!(wire.tension > 0.) || v <= waves)
+        return;
+      const std::string what =
+          text(name, " moves at ", v, " m/s, faster than the waves of wire '", wire.name,
+               "', sqrt(tension / mass per length) = ", waves,
+               " m/s: what is ahead of it does not know of it. Slow it down, or tighten the wire");
+      if (constant.empty() || v / waves > constant.back().value / constant.back().limit)
+        constant = {{"speed", what, v, waves, "m/s", 0.}};
+    };
+    for (const Link &link : scene.links)
+      if (link.moving())
+        compare("sliding contact '" + link.name + "'", link.to, link.speed);
+    for (const Load &load : scene.loads)
+      if (load.kind == Load::Kind::moving)
+        compare("load '" + load.name + "'", load.target, load.speed);
+  }
+
+  void ModelLimits::compare_filter(const Scene &scene, const double frequency, const double step)
+  {
+    const bool is_used = std::any_of(scene.links.begin(), scene.links.end(),
+                                     [](const Link &link) { return link.moving(); });
+    constexpr double rounding = 1e-9;
+    const double n = 1. / (frequency * step);
+    if (!is_used || !(frequency > 0.) || !(step > 0.) || n >= least_samples * (1. - rounding))
+      return;
+    const double pi = std::acos(-1.);
+    constant.push_back({"filter",
+                        text("a period of Statistics/Filter frequency = ", frequency, " Hz has ", n,
+                             " steps, fewer than ", least_samples, ": peaks may be missed by ",
+                             n > 2. ? 100. * (1. - std::cos(pi / n)) : 100.,
+                             " % of their height. Take a Time/Step of at most ",
+                             1. / (least_samples * frequency), " s, or a lower frequency"),
+                        n, least_samples, "1", 0.});
+  }
+
+  void ModelLimits::record(const StepView &step)
+  {
+    if (n_calls++ % interval != 0 || lines.empty())
+      return;
+    values.assign(forms.ends.size(), 0.);
+    forms.evaluate(step.reference.displacement, values.data());
+    forms.evaluate(step.state.U, values.data());
+    step.structure.communicator().sum(values);
+    const auto keep = [&](Extreme &extreme, const double value, const double limit,
+                          const double position, const std::size_t line)
+    {
+      if (value / limit > extreme.excess)
+        extreme = {value / limit, value, limit, position, step.state.time, line};
+    };
+    for (std::size_t l = 0; l < lines.size(); ++l)
+    {
+      const Line &line = lines[l];
+      const double *const u = values.data() + line.first;
+      for (std::size_t i = 0; i < line.n; ++i)
+        if (!line.distances.empty())
+          keep(distance, u[i], line.distances[i], line.positions[i], l);
+        else if (i + 1 < line.n)
+          keep(slope, std::fabs(u[i + 1] - u[i]) / (line.positions[i + 1] - line.positions[i]),
+               largest_slope, .5 * (line.positions[i] + line.positions[i + 1]), l);
+    }
+  }
+
+  std::vector<ModelWarning> ModelLimits::warnings() const
+  {
+    std::vector<ModelWarning> result = constant;
+    if (slope.excess > 1.)
+      result.push_back({"slope",
+                        text("wire '", lines[slope.line].name, "' has a slope of ", slope.value,
+                             " rad at ", slope.position, " m, t = ", slope.time,
+                             " s: the equations are those of small slopes, up to ", slope.limit,
+                             " rad. Check loads and tension"),
+                        slope.value, slope.limit, "rad", slope.time});
+    if (distance.excess > 1.)
+      result.push_back(
+          {"distance",
+           text("wire '", lines[distance.line].name, "' comes ", distance.value,
+                " m nearer to wire '", lines[distance.line].other, "', which is ", distance.limit,
+                " m above it, at ", distance.position, " m, t = ", distance.time,
+                " s: it passes through it, for no contact between them is part of "
+                "the model. Check loads and the distance"),
+           distance.value, distance.limit, "m", distance.time});
+    return result;
+  }
+
+  void ModelLimits::print(std::ostream &out) const
+  {
+    for (const ModelWarning &warning : warnings())
+      out << "Warning: " << warning.message << '\n';
+  }
+} // namespace taut

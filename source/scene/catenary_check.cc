@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What a line and its pantographs need beyond any scene, in words of their own entries.
+#include "catenary.h"
+
+#include <taut/base/exceptions.h>
+#include <taut/scene/entries.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+namespace taut
+{
+  namespace
+  {
+    std::string number(const double x)
+    {
+      std::ostringstream out;
+      out << x;
+      return out.str();
+    }
+  } // namespace
+
+  /// What a line needs beyond a scene of any wires.
+  void Catenary::check_line() const
+  {
+    if (!(span_length > 0.))
+      throw EntryError("Catenary/Span length", "it must be positive");
+    constexpr double longest = 1e9;
+    if (!(n_spans * span_length <= longest))
+      throw EntryError("Catenary/Span length", "the line would be " +
+                                                   number(n_spans * span_length) +
+                                                   " m long; at most 1e9 m are possible");
+    for (const auto &[wire, section] :
+         {std::make_pair(&contact, "Contact wire"), std::make_pair(&messenger, "Messenger wire")})
+      if (!(wire->tension > 0.))
+        throw EntryError(std::string("Catenary/") + section + "/Tension",
+                         "it must be positive: the wire of an overhead line hangs by its tension");
+
+    const double length = n_spans * span_length;
+    for (const double x : uplift_positions)
+      if (!(x >= 0. && x <= length))
+        throw EntryError("Catenary/Uplift positions",
+                         number(x) + " m is outside wire 'contact', 0 to " + number(length) + " m");
+
+    std::vector<double> sorted = dropper_positions;
+    std::sort(sorted.begin(), sorted.end());
+    const double same = 1e-12 * n_spans * span_length;
+    for (std::size_t i = 0; i < sorted.size(); ++i)
+    {
+      if (!(sorted[i] > 0. && sorted[i] < span_length))
+        throw EntryError("Catenary/Droppers/Positions", number(sorted[i]) +
+                                                            " m is not inside its span of " +
+                                                            number(span_length) + " m");
+      if (i > 0 && sorted[i] - sorted[i - 1] <= same)
+        throw EntryError("Catenary/Droppers/Positions",
+                         "two droppers hang at " + number(sorted[i]) +
+                             " m; remove one, or give one the stiffness of both");
+    }
+  }
+
+  void Catenary::check_pantographs() const
+  {
+    const double length = n_spans * span_length;
+    for (std::size_t i = 0; i < pantographs.size(); ++i)
+    {
+      const PantographItem &item = pantograph_items[i];
+      const std::string section = "Catenary/Pantograph " + pantographs[i];
+      if (!(item.start >= 0. && item.start <= length))
+        throw EntryError(section + "/Start", "the pantograph would stand outside the line, which "
+                                             "reaches from 0 to " +
+                                                 number(length) + " m");
+      if (item.static_force < 0.)
+        throw EntryError(section + "/Static force",
+                         "it pushes the pantograph up, against the contact wire; a negative one "
+                         "would keep it away from the wire. Give a force of at least 0");
+      if (item.contact_damping > 0. &&
+          std::isinf(parse_stiffness(item.contact_stiffness, section + "/Contact stiffness")))
+        throw EntryError(section + "/Contact damping",
+                         "a rigid contact has none; give it a finite Contact stiffness");
+      for (std::size_t k = 0; k < i; ++k)
+        if (item.start == pantograph_items[k].start && item.speed == pantograph_items[k].speed)
+          throw EntryError(section + "/Start", "pantograph '" + pantographs[k] +
+                                                   "' stands at the same place; give them "
+                                                   "different ones");
+    }
+  }
+} // namespace taut

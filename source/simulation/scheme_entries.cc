@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The time integration schemes of a parameter file, each with its own entries.
+#include <taut/simulation/parameters.h>
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/utilities.h>
+
+#include <nlohmann/json.hpp>
+
+#include <sstream>
+
+namespace taut
+{
+  namespace
+  {
+    /// Equal as numbers, if both are.
+    bool is_same(const std::string &a, const std::string &b)
+    {
+      const dealii::Patterns::Double number;
+      return a == b ||
+             (number.match(a) && number.match(b) &&
+              dealii::Utilities::string_to_double(a) == dealii::Utilities::string_to_double(b));
+    }
+  } // namespace
+
+  void Parameters::create_integrators()
+  {
+    std::istringstream list(Registry<TimeIntegrator>::instance().names());
+    for (std::string name; std::getline(list, name, '|');)
+      integrators[name] = Registry<TimeIntegrator>::instance().create(name);
+  }
+
+  std::unique_ptr<TimeIntegrator>
+  Parameters::integrator(const std::string &name,
+                         const std::map<std::string, std::string> &entries) const
+  {
+    std::unique_ptr<TimeIntegrator> result = Registry<TimeIntegrator>::instance().create(name);
+    dealii::ParameterHandler prm;
+    result->declare_parameters(prm);
+    // The scheme's section may have another name than the scheme.
+    const std::string time = "Time/";
+    for (const auto &[path, value] : entry_values)
+    {
+      const std::size_t end = path.find('/', time.size());
+      if (path.compare(0, time.size(), time) != 0 || end == std::string::npos)
+        continue;
+      const std::string section = path.substr(time.size(), end - time.size()),
+                        entry = path.substr(end + 1);
+      if (!prm.subsection_path_exists({section}))
+        continue;
+      const auto own = entries.find(entry);
+      prm.enter_subsection(section);
+      prm.set(entry, own == entries.end() ? value : own->second);
+      prm.leave_subsection();
+    }
+    return result;
+  }
+
+  std::vector<std::string>
+  Parameters::unused_scheme_entries(const std::string &name,
+                                    const std::map<std::string, std::string> &entries) const
+  {
+    std::vector<std::string> unused;
+    std::istringstream schemes(Registry<TimeIntegrator>::instance().names());
+    for (std::string scheme; std::getline(schemes, scheme, '|');)
+    {
+      dealii::ParameterHandler prm;
+      const auto integrator = Registry<TimeIntegrator>::instance().create(scheme);
+      integrator->declare_parameters(prm);
+      std::ostringstream json;
+      prm.print_parameters(json, dealii::ParameterHandler::JSON);
+      const nlohmann::json sections = nlohmann::json::parse(json.str());
+      for (const auto &[section, own] : sections.items())
+        for (const auto &[entry, described] : own.items())
+        {
+          if (!described.is_object())
+            continue; // no section
+          const std::string path = "Time/" + section + "/" + entry, &value = entry_values.at(path);
+          const auto other = entries.find(entry);
+          const bool has_part =
+              scheme == name && (other == entries.end() || is_same(other->second, value));
+          if (!has_part && !is_same(value, described.at("default_value").get<std::string>()))
+            unused.push_back(path + " = " + value);
+        }
+    }
+    return unused;
+  }
+} // namespace taut

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: a run that leaves what the model holds for says so once, with the number. Source: the
+// displacements, speeds and steps of the scenes, each compared by hand.
+#include "run.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <fstream>
+
+using namespace verification;
+
+namespace
+{
+  struct Said
+  {
+    nlohmann::json warnings;
+    std::string log;
+  };
+
+  Said run(const std::string &file, Overrides overrides, const Callback &callback)
+  {
+    overrides.push_back("Output.Field interval=0");
+    Session session(file, overrides);
+    session.run(callback);
+    nlohmann::json all;
+    std::ifstream(session.folder() + "/statistics.json") >> all;
+    return {all.at("warnings"), session.log()};
+  }
+
+  const std::string line = scene_file("en50318_2002_250"),
+                    pantograph = "Catenary.Pantograph pantograph.";
+  const Callback nothing = [](const taut::StepView &) {};
+
+  /// The warning of a kind, which is the only one of it; null if there is none.
+  nlohmann::json find(const Said &said, const std::string &kind)
+  {
+    nlohmann::json found;
+    for (const auto &warning : said.warnings)
+      if (warning.at("kind") == kind)
+      {
+        EXPECT_TRUE(found.is_null()) << "twice " << kind;
+        found = warning;
+      }
+    if (!found.is_null())
+    {
+      const std::string text = "Warning: " + found.at("message").get<std::string>() + "\n";
+      const std::size_t at = said.log.find(text);
+      EXPECT_NE(at, std::string::npos) << said.log;
+      EXPECT_EQ(said.log.find(text, at + 1), std::string::npos) << "twice in the log";
+    }
+    return found;
+  }
+} // namespace
+
+TEST(ModelLimits, nothing_is_said_of_the_reference_line)
+{
+  const Said said = run(line, {"Time.End=0.5", "Statistics.Window="}, nothing);
+  EXPECT_TRUE(said.warnings.empty()) << said.warnings;
+  EXPECT_EQ(said.log.find("Warning"), std::string::npos);
+}
+
+// Claim: a contact wire pushed through the messenger wire is seen. Expected: the largest approach
+// of both at the pantograph, and the encumbrance of 1.2 m.
+TEST(ModelLimits, a_wire_pushed_through_another)
+{
+  double approach = 0.;
+  const Said said = run(line,
+                        {"Time.End=0.02", "Statistics.Window=", pantograph + "Speed=0",
+                         pantograph + "Start=270", pantograph + "Static force=12000"},
+                        [&](const taut::StepView &view) {
+                          approach = std::max(approach, displacement(view, 1, 270.) -
+                                                            displacement(view, 0, 270.));
+                        });
+  const nlohmann::json distance = find(said, "distance"), slope = find(said, "slope");
+  ASSERT_FALSE(distance.is_null());
+  EXPECT_EQ(distance["limit"], 1.2);
+  EXPECT_NEAR(distance["value"].get<double>(), approach, 1e-3 * approach);
+  EXPECT_GT(approach, 10.);
+  ASSERT_FALSE(slope.is_null());
+  EXPECT_GT(slope["value"].get<double>(), .1);
+  EXPECT_EQ(slope["unit"], "rad");
+  figure("approach of the wires under 12 kN, limit 1.2 m", distance["value"].get<double>(), "m");
+  figure("slope of the contact wire under 12 kN, limit 0.1 rad", slope["value"].get<double>(),
+         "rad");
+}
+
+// Claim: so in a static scene. Expected: the sentence in the log.
+TEST(ModelLimits, a_static_scene_is_watched_too)
+{
+  Session session(line, {"Time.End=0", pantograph + "Static force=12000"});
+  session.run(nothing);
+  EXPECT_NE(session.log().find("Warning: wire 'contact' comes "), std::string::npos)
+      << session.log();
+}
+
+// Claim: a contact faster than the waves is named. Expected: 500 km/h against sqrt(20000 N /
+// 1.35 kg/m) = 121.716 m/s.
+TEST(ModelLimits, a_contact_faster_than_the_waves)
+{
+  const Said said =
+      run(line, {"Time.End=0.1", "Statistics.Window=", pantograph + "Speed=500"}, nothing);
+  const nlohmann::json speed = find(said, "speed");
+  ASSERT_FALSE(speed.is_null());
+  EXPECT_NEAR(speed["value"].get<double>(), 500. / 3.6, 1e-9);
+  EXPECT_NEAR(speed["limit"].get<double>(), std::sqrt(20000. / 1.35), 1e-9);
+  for (const std::string slower : {"430", "438"})
+    EXPECT_TRUE(
+        find(run(line, {"Time.End=0.01", "Statistics.Window=", pantograph + "Speed=" + slower},
+                 nothing),
+             "speed")
+            .is_null());
+}
+
+// Claim: fewer than ten steps in a period of the filter are named. Expected: 1 / (60 Hz 2 ms) =
+// 8.33 steps; ten at 50 Hz are enough.
+TEST(ModelLimits, a_step_that_does_not_resolve_the_filter)
+{
+  const std::string frequency = "Statistics.Filter frequency=";
+  const auto filter = [&](const std::string &hertz)
+  {
+    return find(run(line,
+                    {"Time.End=0.1", "Time.Step=2e-3", "Statistics.Window=", frequency + hertz},
+                    nothing),
+                "filter");
+  };
+  const nlohmann::json coarse = filter("60");
+  ASSERT_FALSE(coarse.is_null());
+  EXPECT_NEAR(coarse["value"].get<double>(), 1. / .12, 1e-9);
+  EXPECT_EQ(coarse["limit"], 10.);
+  EXPECT_TRUE(filter("50").is_null());
+}
