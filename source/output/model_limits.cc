@@ -10,9 +10,9 @@ namespace taut
 {
   namespace
   {
-    constexpr double largest_slope = .1;       ///< [rad]
-    constexpr double least_samples = 10.;      ///< in a period of the filter frequency
-    constexpr std::size_t most_samples = 2000; ///< along a wire
+    constexpr double largest_slope = .1;  ///< [rad]
+    constexpr double least_samples = 10.; ///< in a period of the filter frequency
+    constexpr std::size_t most_slopes = 2000, most_distances = 300; ///< along a wire
 
     template <typename... Parts>
     std::string text(const Parts &...parts)
@@ -24,9 +24,9 @@ namespace taut
     }
 
     /// At most so many of the positions, with the last one.
-    std::vector<double> thinned(const std::vector<double> &positions)
+    std::vector<double> thinned(const std::vector<double> &positions, const std::size_t most)
     {
-      const std::size_t stride = (positions.size() + most_samples - 1) / most_samples;
+      const std::size_t stride = (positions.size() + most - 1) / most;
       std::vector<double> result;
       for (std::size_t i = 0; i + 1 < positions.size(); i += stride)
         result.push_back(positions[i]);
@@ -83,7 +83,7 @@ namespace taut
       const Wire &wire = scene.wires[w];
       if (wire.transverse == TransverseKind::none)
         continue;
-      Line line{wire.name, "", forms.ends.size(), 0, thinned(grid(scene, w)), {}};
+      Line line{wire.name, "", forms.ends.size(), 0, thinned(grid(scene, w), most_slopes), {}};
       line.n = line.positions.size();
       for (const double s : line.positions)
       {
@@ -107,7 +107,7 @@ namespace taut
             std::fabs(slope_b) < least_part_along_x || are_in_contact(scene, a, b))
           continue;
         Line line{lower.name, upper.name, forms.ends.size(), 0, {}, {}};
-        for (const double s : thinned(grid(scene, a)))
+        for (const double s : thinned(grid(scene, a), most_distances))
         {
           const double s_above = (lower.at(s).x - upper.a.x) / slope_b;
           if (s_above < 0. || s_above > upper.length())
