@@ -2,7 +2,11 @@
 #include "wire_discretisation.h"
 
 #include <taut/base/exceptions.h>
+<<<<<<< HEAD:source/wire/wire_component.cc
 #include <taut/wire/fe_cubic_hermite.h>
+=======
+#include <taut/wire/fe_cubic_hermite.h>
+>>>>>>> element:source/substructure/wire_component.cc
 
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
@@ -46,7 +50,7 @@ namespace taut
     triangulation.create_triangulation(vertices, cells, dealii::SubCellData());
 
     if (beam)
-      element = std::make_unique<FE_Hermite<1, 3>>();
+      element = std::make_unique<FE_CubicHermite<1, 3>>();
     else
       element = std::make_unique<dealii::FE_Q<1, 3>>(degree);
     dof_handler.distribute_dofs(*element);

@@ -2,7 +2,7 @@
 # there the unit tests, the extreme scenes, the program on a scene with a moving contact, and 5000 parameter files
 # changed at random. Whatever the sanitizers report ends a program with an error. No library below Taut leaks in these
 # runs, so nothing is suppressed.
-set(programs complementarity_tests fe_hermite_tests bad_input_tests extreme_scenes)
+set(programs complementarity_tests fe_cubic_hermite_tests bad_input_tests extreme_scenes)
 set(ENV{ASAN_OPTIONS} detect_leaks=1:detect_stack_use_after_return=1:strict_string_checks=1)
 set(ENV{UBSAN_OPTIONS} print_stacktrace=1)
 

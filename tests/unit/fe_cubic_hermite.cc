@@ -37,7 +37,7 @@ extern "C" void dsygv_(const int *type, const char *job, const char *half, const
 namespace
 {
   using namespace dealii;
-  using taut::FE_Hermite;
+  using taut::FE_CubicHermite;
 
   const std::vector<double> unequal_nodes = {0., 0.3, 0.8, 2.1, 2.4, 4.};
 
@@ -138,11 +138,12 @@ namespace
   template <int spacedim>
   void expect_cubic_reproduced(const Triangulation<1, spacedim> &triangulation)
   {
-    const FE_Hermite<1, spacedim> fe;
+    const FE_CubicHermite<1, spacedim> fe;
     DoFHandler<1, spacedim> dof_handler(triangulation);
     dof_handler.distribute_dofs(fe);
     Vector<double> w(dof_handler.n_dofs());
-    FE_Hermite<1, spacedim>::interpolate(dof_handler, AlongWire<spacedim>(cubic, cubic_slope), w);
+    FE_CubicHermite<1, spacedim>::interpolate(dof_handler, AlongWire<spacedim>(cubic, cubic_slope),
+                                              w);
 
     FEValues<1, spacedim> fe_values(fe, QGauss<1>(5),
                                     update_values | update_gradients | update_hessians |
@@ -189,7 +190,7 @@ namespace
   template <int spacedim>
   Matrices assemble(const Triangulation<1, spacedim> &triangulation)
   {
-    const FE_Hermite<1, spacedim> fe;
+    const FE_CubicHermite<1, spacedim> fe;
     DoFHandler<1, spacedim> dof_handler(triangulation);
     dof_handler.distribute_dofs(fe);
     FEValues<1, spacedim> fe_values(
@@ -233,16 +234,16 @@ namespace
   }
 
   template <typename Dimension>
-  class FEHermiteIn : public testing::Test
+  class FECubicHermiteIn : public testing::Test
   {
   };
   using SpaceDimensions =
       testing::Types<std::integral_constant<int, 1>, std::integral_constant<int, 2>,
                      std::integral_constant<int, 3>>;
-  TYPED_TEST_SUITE(FEHermiteIn, SpaceDimensions, );
+  TYPED_TEST_SUITE(FECubicHermiteIn, SpaceDimensions, );
 
   // The DoFs are value and slope at the vertices, value first: by definition, for any length.
-  TEST(FEHermite, each_shape_function_has_one_unit_dof)
+  TEST(FECubicHermite, each_shape_function_has_one_unit_dof)
   {
     for (const double h : {0.02, 0.7, 65.})
       for (unsigned int v = 0; v < 2; ++v)
@@ -257,7 +258,7 @@ namespace
   }
 
   // Rigid motions are in the space: a translation is 1 everywhere, a rotation is s with slope 1.
-  TEST(FEHermite, rigid_motions_bend_nothing)
+  TEST(FECubicHermite, rigid_motions_bend_nothing)
   {
     const double h = 0.7;
     for (const double xi : {0., 0.1, 0.5, 0.77, 1.})
@@ -273,22 +274,22 @@ namespace
   }
 
   // The name and the count of DoFs are those of the element of the same name in newer deal.II.
-  TEST(FEHermite, looks_like_a_deal_ii_element)
+  TEST(FECubicHermite, looks_like_a_deal_ii_element)
   {
-    const FE_Hermite<1, 3> fe(3);
-    EXPECT_EQ(fe.get_name(), "FE_Hermite<1,3>(3)");
-    EXPECT_EQ((FE_Hermite<1>(3).get_name()), "FE_Hermite<1>(3)");
+    const FE_CubicHermite<1, 3> fe(3);
+    EXPECT_EQ(fe.get_name(), "FE_CubicHermite<1,3>(3)");
+    EXPECT_EQ((FE_CubicHermite<1>(3).get_name()), "FE_CubicHermite<1>(3)");
     EXPECT_EQ(fe.clone()->get_name(), fe.get_name());
     EXPECT_EQ(fe.n_dofs_per_vertex(), 2u);
     EXPECT_EQ(fe.n_dofs_per_cell(), 4u);
     EXPECT_EQ(fe.degree, 3u);
     EXPECT_FALSE(fe.has_support_points());
-    EXPECT_ANY_THROW((FE_Hermite<1, 3>(5)));
+    EXPECT_ANY_THROW((FE_CubicHermite<1, 3>(5)));
   }
 
   // A cubic is in the space whatever the lengths of the cells, with three derivatives; spacedim > 1
   // is an inclined line, where they are t w', t x t w'', t x t x t w'''.
-  TYPED_TEST(FEHermiteIn, cubics_are_reproduced_on_unequal_cells)
+  TYPED_TEST(FECubicHermiteIn, cubics_are_reproduced_on_unequal_cells)
   {
     Triangulation<1, TypeParam::value> triangulation;
     make_wire(unequal_nodes, triangulation);
@@ -296,7 +297,7 @@ namespace
   }
 
   // As above: refining some cells only changes nothing about it.
-  TYPED_TEST(FEHermiteIn, cubics_are_reproduced_on_locally_refined_cells)
+  TYPED_TEST(FECubicHermiteIn, cubics_are_reproduced_on_locally_refined_cells)
   {
     Triangulation<1, TypeParam::value> triangulation;
     make_wire(unequal_nodes, triangulation);
@@ -309,13 +310,13 @@ namespace
 
   // Value and slope are the same from both sides of a node for arbitrary DoFs: the definition of
   // C1.
-  TYPED_TEST(FEHermiteIn, slopes_are_continuous_across_unequal_cells)
+  TYPED_TEST(FECubicHermiteIn, slopes_are_continuous_across_unequal_cells)
   {
     constexpr int spacedim = TypeParam::value;
     Triangulation<1, spacedim> triangulation;
     make_wire(unequal_nodes, triangulation,
               spacedim > 1 ? std::set<unsigned int>{2, 3} : std::set<unsigned int>{});
-    const FE_Hermite<1, spacedim> fe;
+    const FE_CubicHermite<1, spacedim> fe;
     DoFHandler<1, spacedim> dof_handler(triangulation);
     dof_handler.distribute_dofs(fe);
     Vector<double> w(dof_handler.n_dofs());
@@ -350,7 +351,7 @@ namespace
 
   // The matrices of one beam cell: Przemieniecki, Theory of Matrix Structural Analysis, ch. 5, 11,
   // 15 (consistent mass, bending stiffness, geometric stiffness of a tensioned beam).
-  TYPED_TEST(FEHermiteIn, element_matrices_are_the_textbook_ones)
+  TYPED_TEST(FECubicHermiteIn, element_matrices_are_the_textbook_ones)
   {
     for (const double h : {0.7, 2.3})
     {
@@ -376,7 +377,7 @@ namespace
   }
 
   // The order of the vertices of a cell is no physics: same matrices as on the ordered mesh.
-  TEST(FEHermite, backward_cells_change_no_matrix)
+  TEST(FECubicHermite, backward_cells_change_no_matrix)
   {
     Triangulation<1, 3> forward, mixed;
     make_wire(unequal_nodes, forward);
@@ -395,19 +396,19 @@ namespace
   }
 
   // A wire runs as its first cell does: if that one is backward, the signs of all slopes change.
-  TEST(FEHermite, first_cell_gives_the_wire_its_direction)
+  TEST(FECubicHermite, first_cell_gives_the_wire_its_direction)
   {
     Triangulation<1, 3> triangulation;
     make_wire(unequal_nodes, triangulation, {0});
     auto cell = triangulation.begin_active();
-    EXPECT_NEAR((FE_Hermite<1, 3>::signed_length(cell)), 0.3, 1e-15);
-    EXPECT_NEAR((FE_Hermite<1, 3>::signed_length(++cell)), -0.5, 1e-15);
+    EXPECT_NEAR((FE_CubicHermite<1, 3>::signed_length(cell)), 0.3, 1e-15);
+    EXPECT_NEAR((FE_CubicHermite<1, 3>::signed_length(++cell)), -0.5, 1e-15);
 
-    const FE_Hermite<1, 3> fe;
+    const FE_CubicHermite<1, 3> fe;
     DoFHandler<1, 3> dof_handler(triangulation);
     dof_handler.distribute_dofs(fe);
     Vector<double> w(dof_handler.n_dofs());
-    FE_Hermite<1, 3>::interpolate(dof_handler, AlongWire<3>(cubic, cubic_slope), w);
+    FE_CubicHermite<1, 3>::interpolate(dof_handler, AlongWire<3>(cubic, cubic_slope), w);
     for (const auto &cell : dof_handler.active_cell_iterators())
       for (unsigned int v = 0; v < 2; ++v)
         EXPECT_NEAR(w(cell->vertex_dof_index(v, 1)),
@@ -417,7 +418,7 @@ namespace
 
   // Refinement does not turn the wire around, even where it makes another cell the first active
   // one.
-  TEST(FEHermite, refinement_keeps_the_direction_of_the_wire)
+  TEST(FECubicHermite, refinement_keeps_the_direction_of_the_wire)
   {
     Triangulation<1, 3> triangulation;
     make_wire(unequal_nodes, triangulation, {0});
@@ -425,13 +426,13 @@ namespace
     triangulation.execute_coarsening_and_refinement();
     const auto first_active = triangulation.begin_active();
     ASSERT_EQ(first_active->level(), 0);
-    EXPECT_NEAR((FE_Hermite<1, 3>::signed_length(first_active)), -0.5, 1e-15);
-    EXPECT_NEAR((FE_Hermite<1, 3>::signed_length(triangulation.last_active())), 0.15, 1e-15);
+    EXPECT_NEAR((FE_CubicHermite<1, 3>::signed_length(first_active)), -0.5, 1e-15);
+    EXPECT_NEAR((FE_CubicHermite<1, 3>::signed_length(triangulation.last_active())), 0.15, 1e-15);
     expect_cubic_reproduced(triangulation);
   }
 
   // No sign can be given to the slopes of a cell that stands across its wire.
-  TEST(FEHermite, sharp_bends_are_refused)
+  TEST(FECubicHermite, sharp_bends_are_refused)
   {
     Triangulation<1, 3> triangulation;
     std::vector<CellData<1>> cells(2);
@@ -439,20 +440,21 @@ namespace
     cells[1].vertices = {1, 2};
     triangulation.create_triangulation({Point<3>(0, 0, 0), Point<3>(1, 0, 0), Point<3>(1, 0, 1)},
                                        cells, SubCellData());
-    EXPECT_NO_THROW((FE_Hermite<1, 3>::signed_length(triangulation.begin_active())));
-    EXPECT_THROW((FE_Hermite<1, 3>::signed_length(triangulation.last_active())), taut::UserError);
+    EXPECT_NO_THROW((FE_CubicHermite<1, 3>::signed_length(triangulation.begin_active())));
+    EXPECT_THROW((FE_CubicHermite<1, 3>::signed_length(triangulation.last_active())),
+                 taut::UserError);
   }
 
 #ifdef DEBUG
   // On an arc, s is not proportional to xi: the slopes would not be derivatives by arc length.
-  TEST(FEHermite, curved_cells_are_refused_in_debug_mode)
+  TEST(FECubicHermite, curved_cells_are_refused_in_debug_mode)
   {
     deal_II_exceptions::disable_abort_on_exception();
     Triangulation<1, 2> triangulation;
     std::vector<CellData<1>> cells(1);
     cells[0].vertices = {0, 1};
     triangulation.create_triangulation({Point<2>(1, 0), Point<2>(0, 1)}, cells, SubCellData());
-    const FE_Hermite<1, 2> fe;
+    const FE_CubicHermite<1, 2> fe;
     FEValues<1, 2> straight(fe, QGauss<1>(2), update_values);
     EXPECT_NO_THROW(straight.reinit(triangulation.begin_active()));
 
@@ -465,23 +467,23 @@ namespace
 #endif
 
   // deal.II integrates backwards over a cell against x in one dimension: JxW < 0.
-  TEST(FEHermite, cells_against_x_are_refused_in_one_dimension)
+  TEST(FECubicHermite, cells_against_x_are_refused_in_one_dimension)
   {
     Triangulation<1> triangulation;
     make_wire({0., 1., 2.}, triangulation, {1});
-    EXPECT_THROW((FE_Hermite<1>::signed_length(triangulation.last_active())), taut::UserError);
+    EXPECT_THROW((FE_CubicHermite<1>::signed_length(triangulation.last_active())), taut::UserError);
   }
 
   // One FEValues for all cells gives what a fresh one for each cell gives. Equal neighbours are
   // similar for deal.II (only with one thread), and the base class then keeps what it has.
-  TYPED_TEST(FEHermiteIn, fe_values_can_be_reused_across_cells)
+  TYPED_TEST(FECubicHermiteIn, fe_values_can_be_reused_across_cells)
   {
     constexpr int spacedim = TypeParam::value;
     MultithreadInfo::set_thread_limit(1);
     Triangulation<1, spacedim> triangulation;
     make_wire({0., 1., 2., 3., 5., 7., 7.5, 8., 9.}, triangulation,
               spacedim > 1 ? std::set<unsigned int>{2} : std::set<unsigned int>{});
-    const FE_Hermite<1, spacedim> fe;
+    const FE_CubicHermite<1, spacedim> fe;
     const QGauss<1> quadrature(3);
     const UpdateFlags flags = update_values | update_gradients | update_hessians |
                               update_3rd_derivatives | update_JxW_values;
@@ -507,13 +509,13 @@ namespace
   }
 
   // The two ways to evaluate agree to rounding; scale of the derivatives: per length of the cell.
-  TYPED_TEST(FEHermiteIn, fast_shape_functions_agree_with_fe_values)
+  TYPED_TEST(FECubicHermiteIn, fast_shape_functions_agree_with_fe_values)
   {
     constexpr int spacedim = TypeParam::value;
     Triangulation<1, spacedim> triangulation;
     make_wire({0., 0.02, 0.7, 65.}, triangulation,
               spacedim > 1 ? std::set<unsigned int>{1, 2} : std::set<unsigned int>{});
-    const FE_Hermite<1, spacedim> fe;
+    const FE_CubicHermite<1, spacedim> fe;
     const QIterated<1> quadrature(QTrapezoid<1>(), 10);
     FEValues<1, spacedim> fe_values(fe, quadrature,
                                     update_values | update_gradients | update_hessians);
@@ -521,7 +523,7 @@ namespace
     for (const auto &cell : triangulation.active_cell_iterators())
     {
       fe_values.reinit(cell);
-      const double signed_h = FE_Hermite<1, spacedim>::signed_length(cell);
+      const double signed_h = FE_CubicHermite<1, spacedim>::signed_length(cell);
       const double h = std::abs(signed_h);
       for (unsigned int q = 0; q < quadrature.size(); ++q)
       {
@@ -539,13 +541,13 @@ namespace
   }
 
   // On faces, too, the slope function has slope 1 and value 0 at its own vertex.
-  TYPED_TEST(FEHermiteIn, face_values_are_nodal)
+  TYPED_TEST(FECubicHermiteIn, face_values_are_nodal)
   {
     constexpr int spacedim = TypeParam::value;
     Triangulation<1, spacedim> triangulation;
     make_wire(unequal_nodes, triangulation,
               spacedim > 1 ? std::set<unsigned int>{2} : std::set<unsigned int>{});
-    const FE_Hermite<1, spacedim> fe;
+    const FE_CubicHermite<1, spacedim> fe;
     FEFaceValues<1, spacedim> fe_values(fe, QGauss<0>(1), update_values | update_gradients);
     for (const auto &cell : triangulation.active_cell_iterators())
       for (const unsigned int face : cell->face_indices())
@@ -561,11 +563,11 @@ namespace
   }
 
   // Two planes of motion as one system of two elements: each component reproduces its own cubic.
-  TEST(FEHermite, works_inside_a_system)
+  TEST(FECubicHermite, works_inside_a_system)
   {
     Triangulation<1, 3> triangulation;
     make_wire(unequal_nodes, triangulation);
-    const FE_Hermite<1, 3> fe;
+    const FE_CubicHermite<1, 3> fe;
     const FESystem<1, 3> system(fe, 2);
     FEValues<1, 3> scalar_values(fe, QGauss<1>(3), update_values | update_hessians);
     FEValues<1, 3> system_values(system, QGauss<1>(3), update_values | update_hessians);
@@ -589,11 +591,11 @@ namespace
 
   // A node couples with itself and its neighbours, 2 DoFs each: half-bandwidth 3, 12 entries a
   // node.
-  TEST(FEHermite, matrices_are_block_tridiagonal)
+  TEST(FECubicHermite, matrices_are_block_tridiagonal)
   {
     Triangulation<1, 3> triangulation;
     make_wire(unequal_nodes, triangulation);
-    const FE_Hermite<1, 3> fe;
+    const FE_CubicHermite<1, 3> fe;
     DoFHandler<1, 3> dof_handler(triangulation);
     dof_handler.distribute_dofs(fe);
     ASSERT_EQ(dof_handler.n_dofs(), 12u);
@@ -610,15 +612,15 @@ namespace
   };
 
   // Output in space: with subdivisions a patch shows the cubic inside a cell, not only its ends.
-  TEST(FEHermite, data_out_shows_the_cubic_inside_cells)
+  TEST(FECubicHermite, data_out_shows_the_cubic_inside_cells)
   {
     Triangulation<1, 3> triangulation;
     make_wire(unequal_nodes, triangulation);
-    const FE_Hermite<1, 3> fe;
+    const FE_CubicHermite<1, 3> fe;
     DoFHandler<1, 3> dof_handler(triangulation);
     dof_handler.distribute_dofs(fe);
     Vector<double> w(dof_handler.n_dofs());
-    FE_Hermite<1, 3>::interpolate(dof_handler, AlongWire<3>(cubic, cubic_slope), w);
+    FE_CubicHermite<1, 3>::interpolate(dof_handler, AlongWire<3>(cubic, cubic_slope), w);
 
     PatchesOf data_out;
     data_out.attach_dof_handler(dof_handler);
@@ -636,7 +638,7 @@ namespace
   }
 
   // Interpolation theory: h^4 in w, h^2 in w'' (Ciarlet, The Finite Element Method, thm. 3.1.4).
-  TYPED_TEST(FEHermiteIn, interpolation_converges_with_order_4_and_its_curvature_with_2)
+  TYPED_TEST(FECubicHermiteIn, interpolation_converges_with_order_4_and_its_curvature_with_2)
   {
     constexpr int spacedim = TypeParam::value;
     const AlongWire<spacedim> sine([](const double s) { return std::sin(2 * s); },
@@ -648,11 +650,11 @@ namespace
     {
       Triangulation<1, spacedim> triangulation;
       make_wire(nodes, triangulation);
-      const FE_Hermite<1, spacedim> fe;
+      const FE_CubicHermite<1, spacedim> fe;
       DoFHandler<1, spacedim> dof_handler(triangulation);
       dof_handler.distribute_dofs(fe);
       Vector<double> w(dof_handler.n_dofs());
-      FE_Hermite<1, spacedim>::interpolate(dof_handler, sine, w);
+      FE_CubicHermite<1, spacedim>::interpolate(dof_handler, sine, w);
 
       Vector<double> cell_errors(triangulation.n_active_cells());
       VectorTools::integrate_difference(dof_handler, w, sine, cell_errors, QGauss<1>(6),
@@ -724,7 +726,7 @@ namespace
 
   // omega_n^2 = (T q^2 + EI q^4) / m, q = n pi / L: the modes are sines. Order 2 (k + 1 - m) = 4
   // for degree k = 3 and a form of order 2m = 4 (Strang and Fix, An Analysis of the FEM, ch. 6).
-  TEST(FEHermite, frequencies_of_a_tensioned_beam_converge_with_order_4)
+  TEST(FECubicHermite, frequencies_of_a_tensioned_beam_converge_with_order_4)
   {
     const double length = 2., tension = 500., bending_stiffness = 130., mass = 1.35;
     for (unsigned int mode = 1; mode <= 3; ++mode)

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef taut_fe_hermite_h
-#define taut_fe_hermite_h
+#ifndef taut_fe_cubic_hermite_h
+#define taut_fe_cubic_hermite_h
+
+#include <taut/wire/fe_cubic_hermite_boundary.h>
 
 #include <deal.II/fe/fe_poly.h>
 
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace dealii
 {
@@ -13,6 +17,8 @@ namespace dealii
   class DoFHandler;
   template <int dim, typename RangeNumberType>
   class Function;
+  template <typename Number>
+  class FullMatrix;
   template <typename Number>
   class Vector;
 } // namespace dealii
@@ -33,17 +39,26 @@ namespace taut
    * the unit tangent. The mapping must be affine on each cell and keep the vertices of the
    * triangulation, e.g. MappingQ1 (checked in debug mode).
    *
-   * What follows from the slopes: shape functions depend on the length of their cell, so
-   * shape_value() and the like are those of a cell of length 1; there are no support points (use
-   * interpolate()) and no prolongation matrices.
+   * What follows from the slopes: shape functions depend on the length of their cell, and a slope
+   * is no value at a point. Everything in deal.II that takes the shape functions of the reference
+   * cell for those of all cells, or values for DoFs, throws an exception in every build type:
+   * shape_value() and the like (and with them matrix-free evaluation, VectorTools::project() for
+   * spacedim = 1 and FETools::interpolate() to other elements), interpolation from other elements,
+   * prolongation and restriction (SolutionTransfer), VectorTools::interpolate() and
+   * VectorTools::interpolate_boundary_values(). In an FESystem, VectorTools::interpolate() sets
+   * DoFs of this element to not-a-number unless its component mask leaves them out. Use
+   * interpolate() for functions of which the gradient is known.
    *
-   * DoFs on a cell: (w, dw/ds) at vertex 0, (w, dw/ds) at vertex 1, the order of the element of the
-   * same name in newer deal.II. The slopes there are scaled by 1/4.
+   * In hp mode it stands beside itself and elements without DoFs at vertices; beside FE_Q and the
+   * like, which would share no value with it, evaluation throws.
+   *
+   * DoFs on a cell: (w, dw/ds) at vertex 0, (w, dw/ds) at vertex 1. This is the order of deal.II's
+   * FE_Hermite, another element, whose slopes are scaled by the cell.
    */
   template <int dim, int spacedim = dim>
-  class FE_Hermite : public dealii::FE_Poly<dim, spacedim>
+  class FE_CubicHermite : public dealii::FE_Poly<dim, spacedim>
   {
-    static_assert(dim == 1, "FE_Hermite is an element of wires: dim must be 1");
+    static_assert(dim == 1, "FE_CubicHermite is an element of wires: dim must be 1");
 
     using CellIterator = typename dealii::Triangulation<dim, spacedim>::cell_iterator;
     using MappingInternal = typename dealii::Mapping<dim, spacedim>::InternalDataBase;
@@ -55,10 +70,10 @@ namespace taut
 
   public:
     /// @p degree must be 3; it is an argument only to match deal.II.
-    explicit FE_Hermite(const unsigned int degree = 3);
+    explicit FE_CubicHermite(const unsigned int degree = 3);
 
-    /// "FE_Hermite<1>(3)" or, as deal.II writes it where the dimensions differ,
-    /// "FE_Hermite<1,3>(3)".
+    /// "FE_CubicHermite<1>(3)" or, as deal.II writes it where the dimensions differ,
+    /// "FE_CubicHermite<1,3>(3)".
     std::string get_name() const override;
 
     std::unique_ptr<dealii::FiniteElement<dim, spacedim>> clone() const override;
@@ -73,6 +88,51 @@ namespace taut
     static void interpolate(const dealii::DoFHandler<dim, spacedim> &dof_handler,
                             const dealii::Function<spacedim, double> &function,
                             dealii::Vector<double> &dof_values);
+
+    /// The identity from an element of this class. From others: throws.
+    void get_interpolation_matrix(const dealii::FiniteElement<dim, spacedim> &source,
+                                  dealii::FullMatrix<double> &matrix) const override;
+
+    /**
+     * @name Refused: throws
+     * @{
+     */
+    double shape_value(unsigned int i, const dealii::Point<dim> &p) const override;
+    double shape_value_component(unsigned int i, const dealii::Point<dim> &p,
+                                 unsigned int component) const override;
+    dealii::Tensor<1, dim> shape_grad(unsigned int i, const dealii::Point<dim> &p) const override;
+    dealii::Tensor<1, dim> shape_grad_component(unsigned int i, const dealii::Point<dim> &p,
+                                                unsigned int component) const override;
+    dealii::Tensor<2, dim> shape_grad_grad(unsigned int i,
+                                           const dealii::Point<dim> &p) const override;
+    dealii::Tensor<2, dim> shape_grad_grad_component(unsigned int i, const dealii::Point<dim> &p,
+                                                     unsigned int component) const override;
+    const dealii::FullMatrix<double> &
+    get_prolongation_matrix(unsigned int child,
+                            const dealii::RefinementCase<dim> &refinement_case =
+                                dealii::RefinementCase<dim>::isotropic_refinement) const override;
+    const dealii::FullMatrix<double> &
+    get_restriction_matrix(unsigned int child,
+                           const dealii::RefinementCase<dim> &refinement_case =
+                               dealii::RefinementCase<dim>::isotropic_refinement) const override;
+    void convert_generalized_support_point_values_to_dof_values(
+        const std::vector<dealii::Vector<double>> &support_point_values,
+        std::vector<double> &dof_values) const override;
+    /// @}
+
+    /**
+     * Value and slope with those of this class, nothing with an element without DoFs at vertices.
+     * Which of two elements deal.II asks depends on their order, and others know nothing of this
+     * one: beside them this element is refused as soon as FEValues evaluate it. An exception from
+     * here would be lost in a task of deal.II.
+     */
+    std::vector<std::pair<unsigned int, unsigned int>>
+    hp_vertex_dof_identities(const dealii::FiniteElement<dim, spacedim> &other) const override;
+
+    /// deal.II asks this first, whatever the order.
+    dealii::FiniteElementDomination::Domination
+    compare_for_domination(const dealii::FiniteElement<dim, spacedim> &other,
+                           unsigned int codim = 0) const override;
 
   protected:
     void fill_fe_values(const CellIterator &cell,
@@ -91,6 +151,11 @@ namespace taut
                              const MappingInternal &mapping_internal,
                              const MappingOutput &mapping_data, const ElementInternal &fe_internal,
                              ElementOutput &output_data) const override;
+
+  private:
+    void check_neighbours() const;
+
+    mutable std::string unknown_neighbour; ///< in hp mode, name of an element; empty: none
   };
 } // namespace taut
 
