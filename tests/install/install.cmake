@@ -1,6 +1,31 @@
-# Installs BUILD into a folder below FOLDER, moves it, and from there uses it twice: the program runs a scene, and the
-# project beside this file finds the package, is built and run.
+# Installs BUILD into a folder below FOLDER, moves it, and from there uses it: the program runs a scene, and the projects
+# beside this file find the package and are built and run, with each build type that a user may choose.
 include(${CMAKE_CURRENT_LIST_DIR}/../run.cmake)
+
+# use_package(<project> <build type>): configures, builds and runs a project. Its program loads one deal.II library, and
+# assert() is there unless the project is built as Release.
+function(use_package project type)
+  set(build ${FOLDER}/build_${project}_${type})
+  set(flags "-Wall -Wextra -Werror")
+  if(type STREQUAL "Debug")
+    set(flags "${flags} -DWITH_ASSERTIONS")
+  endif()
+  set(build_type "")
+  if(NOT type STREQUAL "default")
+    set(build_type -D CMAKE_BUILD_TYPE=${type})
+  endif()
+  run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/${project} -B ${build} -G ${GENERATOR} ${build_type}
+    -D CMAKE_PREFIX_PATH=${FOLDER}/moved "-D CMAKE_CXX_FLAGS=${flags}" -D DEAL_II_DIR=${DEAL_II_DIR}
+    -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})
+  run(${CMAKE_COMMAND} --build ${build})
+  execute_process(COMMAND ldd ${build}/weight_on_floor OUTPUT_VARIABLE libraries)
+  string(REGEX MATCHALL "libdeal[^ ]* =>" deal_ii "${libraries}")
+  list(LENGTH deal_ii n)
+  if(NOT n EQUAL 1)
+    message(FATAL_ERROR "${build}/weight_on_floor loads '${deal_ii}', not one deal.II library")
+  endif()
+  run(${CMAKE_COMMAND} -E chdir ${build} ./weight_on_floor ${CMAKE_CURRENT_LIST_DIR}/weight_on_floor.prm)
+endfunction()
 
 file(REMOVE_RECURSE ${FOLDER})
 file(MAKE_DIRECTORY ${FOLDER})
@@ -8,16 +33,23 @@ run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${FOLDER}/staged)
 file(RENAME ${FOLDER}/staged ${FOLDER}/moved)
 
 run(${FOLDER}/moved/bin/taut ${FOLDER}/moved/share/taut/prm/oscillator_with_stop.prm)
+foreach(file LICENSE README.md doc/tutorial.md doc/figures/en50318_2002_250.png tests/install/CMakeLists.txt)
+  if(NOT EXISTS ${FOLDER}/moved/share/doc/taut/${file})
+    message(FATAL_ERROR "share/doc/taut/${file} is not installed")
+  endif()
+endforeach()
 
-run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${FOLDER}/build -G ${GENERATOR}
-  -D CMAKE_PREFIX_PATH=${FOLDER}/moved -D "CMAKE_CXX_FLAGS=-Wall -Wextra -Werror"
-  -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})
-run(${CMAKE_COMMAND} --build ${FOLDER}/build)
-run(${FOLDER}/build/weight_on_floor ${CMAKE_CURRENT_LIST_DIR}/weight_on_floor.prm)
+foreach(type default Debug Release)
+  use_package(. ${type})
+endforeach()
+foreach(type default Release)
+  use_package(with_deal_ii ${type})
+endforeach()
 
 # The same generator in a library that the installed program loads; without it the name is not known.
+set(library build_._default/libweight.so)
 run(${FOLDER}/moved/bin/taut ${CMAKE_CURRENT_LIST_DIR}/weight_on_floor.prm --overwrite
-  --set "Additional shared libraries=build/libweight.so" --set "Weight on floor/Mass=2")
+  --set "Additional shared libraries=${library}" --set "Weight on floor/Mass=2")
 file(STRINGS ${FOLDER}/results/links.csv lines)
 list(GET lines -1 last)
 if(NOT last MATCHES "^0.1,31.7[23]")
