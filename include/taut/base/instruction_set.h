@@ -32,9 +32,10 @@ namespace taut
 
 #ifdef TAUT_SEVERAL_INSTRUCTION_SETS
   /// What the loops call is compiled into this function, and hence for its instructions, as far as
-  /// the compiler sees it; no other function changes.
+  /// the compiler sees it; no other function changes. By value, so that what they write cannot be
+  /// what they hold.
   template <typename Loops>
-  [[gnu::target("avx2,fma"), gnu::flatten]] void run_with_avx2(const Loops &loops)
+  [[gnu::target("avx2,fma"), gnu::flatten]] void run_with_avx2(const Loops loops)
   {
     loops();
   }
