@@ -1,31 +1,6 @@
 # Installs BUILD into a folder below FOLDER, moves it, and from there uses it: the program runs a scene, and the projects
 # beside this file find the package and are built and run, with each build type that a user may choose.
-include(${CMAKE_CURRENT_LIST_DIR}/../run.cmake)
-
-# use_package(<project> <build type>): configures, builds and runs a project. Its program loads one deal.II library, and
-# assert() is there unless the project is built as Release.
-function(use_package project type)
-  set(build ${FOLDER}/build_${project}_${type})
-  set(flags "-Wall -Wextra -Werror")
-  if(type STREQUAL "Debug")
-    set(flags "${flags} -DWITH_ASSERTIONS")
-  endif()
-  set(build_type "")
-  if(NOT type STREQUAL "default")
-    set(build_type -D CMAKE_BUILD_TYPE=${type})
-  endif()
-  run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/${project} -B ${build} -G ${GENERATOR} ${build_type}
-    -D CMAKE_PREFIX_PATH=${FOLDER}/moved "-D CMAKE_CXX_FLAGS=${flags}" -D DEAL_II_DIR=${DEAL_II_DIR}
-    -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})
-  run(${CMAKE_COMMAND} --build ${build})
-  execute_process(COMMAND ldd ${build}/weight_on_floor OUTPUT_VARIABLE libraries)
-  string(REGEX MATCHALL "libdeal[^ ]* =>" deal_ii "${libraries}")
-  list(LENGTH deal_ii n)
-  if(NOT n EQUAL 1)
-    message(FATAL_ERROR "${build}/weight_on_floor loads '${deal_ii}', not one deal.II library")
-  endif()
-  run(${CMAKE_COMMAND} -E chdir ${build} ./weight_on_floor ${CMAKE_CURRENT_LIST_DIR}/weight_on_floor.prm)
-endfunction()
+include(${CMAKE_CURRENT_LIST_DIR}/use_package.cmake)
 
 file(REMOVE_RECURSE ${FOLDER})
 file(MAKE_DIRECTORY ${FOLDER})
@@ -40,10 +15,10 @@ foreach(file LICENSE README.md doc/tutorial.md doc/figures/en50318_2002_250.png 
 endforeach()
 
 foreach(type default Debug Release)
-  use_package(. ${type})
+  use_package(. ${type} libdeal.ii.so)
 endforeach()
 foreach(type default Release)
-  use_package(with_deal_ii ${type})
+  use_package(with_deal_ii ${type} libdeal.ii.so)
 endforeach()
 
 # The same generator in a library that the installed program loads; without it the name is not known.
