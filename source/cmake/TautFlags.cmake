@@ -1,8 +1,9 @@
 # Compiler flags of every Taut target.
 #
 # The deal.II macro appends the flags that Debian built deal.II with, "-g -O2" among them, after those of the
-# target, and the last optimisation flag wins. They are emptied here, before the macro runs, so that what
-# compile_commands.json shows is exactly what is written below.
+# target, and the last optimisation flag wins. Which warnings it asks for changes with its version. They are emptied
+# here, before the macro runs, so that what compile_commands.json shows is exactly what is written below.
+set(DEAL_II_WARNING_FLAGS "")
 set(DEAL_II_CXX_FLAGS "")
 set(DEAL_II_CXX_FLAGS_DEBUG "")
 set(DEAL_II_CXX_FLAGS_RELEASE "")
@@ -29,6 +30,4 @@ function(taut_setup_target target)
     # PUBLIC: a program outside that uses the library must load the sanitizer's runtime before anything else.
     target_link_options(${target} PUBLIC -fsanitize=${TAUT_SANITIZE})
   endif()
-  # deal.II's imported target does not pass its include folders on: without them a user of the library misses mpi.h.
-  target_include_directories(${target} SYSTEM PUBLIC ${DEAL_II_INCLUDE_DIRS})
 endfunction()

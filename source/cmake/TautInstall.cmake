@@ -1,4 +1,5 @@
-# cmake --install: program, library, headers, parameter files and the CMake package `taut` with the target taut::taut.
+# cmake --install: program, library, headers, parameter files, documents, an example, and the CMake package `taut` with
+# the target taut::taut.
 include(CMakePackageConfigHelpers)
 
 # The installed program finds the installed library wherever the two are moved to together; the folders of the
@@ -13,7 +14,8 @@ configure_package_config_file(${CMAKE_CURRENT_SOURCE_DIR}/source/cmake/tautConfi
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/package/tautConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
 
-install(TARGETS taut-program)
+# A Debug build adds its library, libtaut.g, to what a Release build installed.
+install(TARGETS taut-program CONFIGURATIONS Release)
 install(TARGETS taut EXPORT taut)
 install(EXPORT taut NAMESPACE taut:: FILE tautTargets.cmake DESTINATION ${package_folder})
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/package/tautConfig.cmake
@@ -24,3 +26,8 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/include/taut/base/version.h
 install(PROGRAMS source/plot/taut-plot source/plot/show_in_paraview.py DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(FILES source/plot/taut_plot_files.py DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY prm DESTINATION ${CMAKE_INSTALL_DATADIR}/taut FILES_MATCHING PATTERN "*.prm")
+install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY doc/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/doc
+  FILES_MATCHING PATTERN "*.md" PATTERN "*.png")
+# Where the links of README.md find it.
+install(DIRECTORY tests/install DESTINATION ${CMAKE_INSTALL_DOCDIR}/tests PATTERN "*.cmake" EXCLUDE)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/instruction_set.h>
 #include <taut/complementarity/bordered_cholesky.h>
 
 #include <algorithm>
@@ -66,10 +67,14 @@ namespace taut
       positions[set[p]] = p;
     }
 
-    for (n_valid = n_kept; n_valid < rows.size(); ++n_valid)
-      if (!factor_row(matrix, n_valid, shift))
-        return false;
-    return true;
+    bool is_definite = true;
+    vectorised(
+        [&]
+        {
+          for (n_valid = n_kept; is_definite && n_valid < rows.size(); n_valid += is_definite)
+            is_definite = factor_row(matrix, n_valid, shift);
+        });
+    return is_definite;
   }
 
   bool BorderedCholesky::factor_row(const std::vector<double> &matrix, std::size_t position,
@@ -104,23 +109,27 @@ namespace taut
 
   void BorderedCholesky::solve(const std::vector<double> &rhs, std::vector<double> &x)
   {
-    const std::size_t m = rows.size();
-    for (std::size_t p = 0; p < m; ++p)
-    {
-      const std::size_t begin = first[p];
-      work[p] =
-          (rhs[rows[p]] - dot(&lower[p * n + begin], &work[begin], p - begin)) * inverse_pivots[p];
-    }
-    x.assign(n, 0.);
-    for (std::size_t p = m; p-- > 0;)
-    {
-      const double value = work[p] * inverse_pivots[p];
-      const double *const entries = &lower[p * n];
-      double *const rest = work.data();
+    vectorised(
+        [&]
+        {
+          const std::size_t m = rows.size();
+          for (std::size_t p = 0; p < m; ++p)
+          {
+            const std::size_t begin = first[p];
+            work[p] = (rhs[rows[p]] - dot(&lower[p * n + begin], &work[begin], p - begin)) *
+                      inverse_pivots[p];
+          }
+          x.assign(n, 0.);
+          for (std::size_t p = m; p-- > 0;)
+          {
+            const double value = work[p] * inverse_pivots[p];
+            const double *const entries = &lower[p * n];
+            double *const rest = work.data();
 #pragma omp simd
-      for (std::size_t q = first[p]; q < p; ++q)
-        rest[q] -= entries[q] * value;
-      x[rows[p]] = value;
-    }
+            for (std::size_t q = first[p]; q < p; ++q)
+              rest[q] -= entries[q] * value;
+            x[rows[p]] = value;
+          }
+        });
   }
 } // namespace taut

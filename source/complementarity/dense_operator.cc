@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/instruction_set.h>
 #include <taut/complementarity/dense_operator.h>
 
 #include <cmath>
@@ -38,42 +39,46 @@ namespace taut
   void DenseOperator::apply(const std::vector<double> &x, std::vector<double> &y) const
   {
     y.assign(n, 0.);
-    const double *const in = x.data();
-    double *const out = y.data();
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      const double *const row = &entries[i * n];
-      const double x_i = in[i];
-      double sum = row[i] * x_i;
+    vectorised(
+        [this, in = x.data(), out = y.data()]
+        {
+          for (std::size_t i = 0; i < n; ++i)
+          {
+            const double *const row = &entries[i * n];
+            const double x_i = in[i];
+            double sum = row[i] * x_i;
 #pragma omp simd reduction(+ : sum)
-      for (std::size_t j = first[i]; j < i; ++j)
-      {
-        sum += row[j] * in[j];
-        out[j] += row[j] * x_i;
-      }
-      out[i] += sum;
-    }
+            for (std::size_t j = first[i]; j < i; ++j)
+            {
+              sum += row[j] * in[j];
+              out[j] += row[j] * x_i;
+            }
+            out[i] += sum;
+          }
+        });
   }
 
   void DenseOperator::apply_absolute(const std::vector<double> &x, std::vector<double> &y) const
   {
     y.assign(n, 0.);
-    const double *const in = x.data();
-    double *const out = y.data();
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      const double *const row = &entries[i * n];
-      const double x_i = std::abs(in[i]);
-      double sum = std::abs(row[i]) * x_i;
+    vectorised(
+        [this, in = x.data(), out = y.data()]
+        {
+          for (std::size_t i = 0; i < n; ++i)
+          {
+            const double *const row = &entries[i * n];
+            const double x_i = std::abs(in[i]);
+            double sum = std::abs(row[i]) * x_i;
 #pragma omp simd reduction(+ : sum)
-      for (std::size_t j = first[i]; j < i; ++j)
-      {
-        const double entry = std::abs(row[j]);
-        sum += entry * std::abs(in[j]);
-        out[j] += entry * x_i;
-      }
-      out[i] += sum;
-    }
+            for (std::size_t j = first[i]; j < i; ++j)
+            {
+              const double entry = std::abs(row[j]);
+              sum += entry * std::abs(in[j]);
+              out[j] += entry * x_i;
+            }
+            out[i] += sum;
+          }
+        });
   }
 
   bool DenseOperator::solve(const std::vector<std::size_t> &set, const std::vector<double> &rhs,

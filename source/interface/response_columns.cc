@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "response_columns.h"
 
+#include <taut/base/instruction_set.h>
+
 #include <algorithm>
 
 namespace taut
@@ -108,14 +110,18 @@ namespace taut
       rows.share_of_motions(work, d, terms_size);
       return;
     }
-    for (std::size_t i = 0; i < rows.size(); ++i)
-    {
-      const Column &column = columns[i];
-      ScalarProduct product;
-      for (std::size_t p = 0; p < column.substructure.size(); ++p)
-        product.add(column.part[p], P[column.substructure[p]]);
-      d[i] = product.value();
-      terms_size[i] = product.size();
-    }
+    vectorised(
+        [&]
+        {
+          for (std::size_t i = 0; i < rows.size(); ++i)
+          {
+            const Column &column = columns[i];
+            ScalarProduct product;
+            for (std::size_t p = 0; p < column.substructure.size(); ++p)
+              product.add(column.part[p], P[column.substructure[p]]);
+            d[i] = product.value();
+            terms_size[i] = product.size();
+          }
+        });
   }
 } // namespace taut

@@ -35,7 +35,7 @@ namespace taut
                                const double frequency)
   {
     if (record.size() < 2)
-      return record;
+      return {record.begin(), record.end()};
     const double pi = std::acos(-1.);
     // Forwards and backwards: |H|^2 = 1 / (1 + (f/f_c)^6), -3 dB at f.
     const double cutoff = frequency / std::pow(std::sqrt(2.) - 1., 1. / 6.);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/instruction_set.h>
 #include <taut/model/form_finding.h>
 #include <taut/model/scene_rows.h>
 #include <taut/simulation/free_bodies.h>
@@ -66,6 +67,7 @@ namespace taut
       log << "  only bilateral links: one linear solve a step, no active set\n";
     if (links.size() > 0 && links.n_fixed() == links.size())
       log << "  no moving link: the interface operator is constant\n";
+    log << "  instruction set of the loops: " << instruction_set_in_use() << '\n';
     if (parameters.end_time > 0. &&
         std::fabs(n_steps() * parameters.step - parameters.end_time) > 1e-6 * parameters.step)
       log << "  Time/End = " << parameters.end_time

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/instruction_set.h>
 #include <taut/substructure/symmetric_matrix.h>
 
 #include <algorithm>
@@ -117,15 +118,21 @@ namespace taut
     template <int b>
     void BlockTridiagonalMatrix<b>::vmult_add(const double factor, const double *x, double *y) const
     {
-      product(0, n, x, y,
-              [factor](const double before, const double sum) { return before + factor * sum; });
+      vectorised(
+          [=]
+          {
+            product(0, n, x, y,
+                    [factor](const double before, const double sum)
+                    { return before + factor * sum; });
+          });
     }
 
     template <int b>
     void BlockTridiagonalMatrix<b>::vmult_rows(const std::size_t begin, const std::size_t end,
                                                const double *x, double *y) const
     {
-      product(begin, end, x, y - begin, [](double, const double sum) { return sum; });
+      vectorised(
+          [=] { product(begin, end, x, y - begin, [](double, const double sum) { return sum; }); });
     }
 
     /// The same for one of the first or last rows.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "block_elimination.h"
 
+#include <taut/base/instruction_set.h>
 #include <taut/substructure/local_solver.h>
 
 #include <algorithm>
@@ -221,9 +222,13 @@ namespace taut
     {
       for (const unsigned int dof : constrained)
         x[dof] = 0.;
-      Inwards(*this, x.data()).finish(1);
-      solve_middle(x.data());
-      Outwards(*this, x.data()).finish(1);
+      vectorised(
+          [this, all = x.data()]
+          {
+            Inwards(*this, all).finish(1);
+            solve_middle(all);
+            Outwards(*this, all).finish(1);
+          });
     }
 
     template <int b>
@@ -248,10 +253,14 @@ namespace taut
         first.finish(std::max<std::ptrdiff_t>(n, 0) + 1);
         second.finish(std::max<std::ptrdiff_t>(n, 0) + 1);
       };
-      together(Inwards(*this, x.data()), Inwards(*alike, y.data()));
-      solve_middle(x.data());
-      alike->solve_middle(y.data());
-      together(Outwards(*this, x.data()), Outwards(*alike, y.data()));
+      vectorised(
+          [&together, this, alike, all_x = x.data(), all_y = y.data()]
+          {
+            together(Inwards(*this, all_x), Inwards(*alike, all_y));
+            solve_middle(all_x);
+            alike->solve_middle(all_y);
+            together(Outwards(*this, all_x), Outwards(*alike, all_y));
+          });
     }
 
     /// Solves on nodes @p node and the next one with everything outside them eliminated.

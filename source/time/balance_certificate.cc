@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/instruction_set.h>
 #include <taut/time/balance_certificate.h>
 
 #include <algorithm>
@@ -94,23 +95,32 @@ namespace taut
       {
         double *a = mean_A.data();
         const std::size_t last = std::min(n, end + reach);
+        const std::size_t first = begin - std::min(begin, reach);
+        vectorised(
+            [=]
+            {
 #pragma omp simd
-        for (std::size_t i = begin - std::min(begin, reach); i < last; ++i)
-          a[i] = now * A[i] + old * A0[i];
+              for (std::size_t i = first; i < last; ++i)
+                a[i] = now * A[i] + old * A0[i];
+            });
         body.mass().vmult_rows(begin, end, a, inertia.data());
       }
-#pragma omp simd
-      for (std::size_t i = 0; i < size; ++i)
-        r[begin + i] -= KU[begin + i] + CV[i];
       const double factor = old == 0. ? now : 1.;
-      if (kappa == 0.)
+      vectorised(
+          [=]
+          {
 #pragma omp simd
-        for (std::size_t i = 0; i < size; ++i)
-          residual[i] = factor * residual[i] - r[begin + i];
-      else
+            for (std::size_t i = 0; i < size; ++i)
+              r[begin + i] -= KU[begin + i] + CV[i];
+            if (kappa == 0.)
 #pragma omp simd
-        for (std::size_t i = 0; i < size; ++i)
-          residual[i] = factor * residual[i] - (r[begin + i] + kappa * r0[begin + i]);
+              for (std::size_t i = 0; i < size; ++i)
+                residual[i] = factor * residual[i] - r[begin + i];
+            else
+#pragma omp simd
+              for (std::size_t i = 0; i < size; ++i)
+                residual[i] = factor * residual[i] - (r[begin + i] + kappa * r0[begin + i]);
+          });
       if (has_impulses)
       {
         const double *dU = state.dU[k].data() + begin;

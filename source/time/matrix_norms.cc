@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/instruction_set.h>
 #include <taut/time/matrix_norms.h>
 
 #include <algorithm>
@@ -26,19 +27,23 @@ namespace taut
   template <std::size_t n_vectors>
   void Largest<n_vectors>::add(const std::array<const double *, n_vectors> &x, const std::size_t n)
   {
-    Lanes m = largest, s = sums;
     const std::size_t n_full = is_regular ? n - n % lanes : 0;
-    for (std::size_t i = 0; i < n_full; i += lanes)
-      for (std::size_t v = 0; v < n_vectors; ++v)
-#pragma omp simd
-        for (std::size_t k = 0; k < lanes; ++k)
+    vectorised(
+        [this, x, n_full]
         {
-          const double a = std::fabs(x[v][i + k]);
-          m[v][k] = a > m[v][k] ? a : m[v][k];
-          s[v][k] += a;
-        }
-    largest = m;
-    sums = s;
+          Lanes m = largest, s = sums;
+          for (std::size_t i = 0; i < n_full; i += lanes)
+            for (std::size_t v = 0; v < n_vectors; ++v)
+#pragma omp simd
+              for (std::size_t k = 0; k < lanes; ++k)
+              {
+                const double a = std::fabs(x[v][i + k]);
+                m[v][k] = a > m[v][k] ? a : m[v][k];
+                s[v][k] += a;
+              }
+          largest = m;
+          sums = s;
+        });
     for (std::size_t v = 0; v < n_vectors; ++v)
       for (std::size_t i = n_full; i < n; ++i)
         raise(others[v][body.kind(i)], std::fabs(x[v][i]));

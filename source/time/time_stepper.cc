@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/instruction_set.h>
 #include <taut/time/time_stepper.h>
 
 #include <algorithm>
@@ -255,14 +256,14 @@ namespace taut
     const bool velocity_is_known = c.v_V != 0. || c.v_A != 0. || c.v_dU != 0.;
     const auto set = [&](const auto with_old_forces, const auto with_velocity)
     {
-      known.visit(body.n_dofs(),
-                  [=](const std::size_t i, const double known_v, const double known_a)
-                  {
-                    if (with_velocity)
-                      v[i] = known_v;
-                    m[i] = with_old_forces ? now * known_a + old * A[i] : known_a;
-                    R[i] = p[i] - KU[i] + (with_old_forces ? kappa * r[i] : 0.);
-                  });
+      const auto visitor = [=](const std::size_t i, const double known_v, const double known_a)
+      {
+        if (with_velocity)
+          v[i] = known_v;
+        m[i] = with_old_forces ? now * known_a + old * A[i] : known_a;
+        R[i] = p[i] - KU[i] + (with_old_forces ? kappa * r[i] : 0.);
+      };
+      vectorised([=, n = body.n_dofs()] { known.visit(n, visitor); });
     };
     if (c.alpha_m != 0. || c.alpha_f != 0.)
       set(std::true_type(), std::true_type());
@@ -420,14 +421,14 @@ namespace taut
 
     const double *dU = increment.data();
     double *U = current.U[k].data(), *V = current.V_old[k].data(), *A = forces.old_A[k].data();
-    KnownMotion(coefficients, current, k)
-        .visit(increment.size(),
-               [=](const std::size_t i, const double known_v, const double known_a)
-               {
-                 U[i] += dU[i];
-                 V[i] = velocity * dU[i] + known_v;
-                 A[i] = acceleration * dU[i] + known_a;
-               });
+    const auto visitor = [=](const std::size_t i, const double known_v, const double known_a)
+    {
+      U[i] += dU[i];
+      V[i] = velocity * dU[i] + known_v;
+      A[i] = acceleration * dU[i] + known_a;
+    };
+    vectorised([known = KnownMotion(coefficients, current, k), visitor, n = increment.size()]
+               { known.visit(n, visitor); });
     current.dU[k].swap(increment);
     current.V_old[k].swap(current.V[k]);
     forces.old_A[k].swap(current.A[k]);

@@ -1,6 +1,6 @@
-# Installs BUILD into a folder below FOLDER, moves it, and from there uses it twice: the program runs a scene, and the
-# project beside this file finds the package, is built and run.
-include(${CMAKE_CURRENT_LIST_DIR}/../run.cmake)
+# Installs BUILD into a folder below FOLDER, moves it, and from there uses it: the program runs a scene, and the projects
+# beside this file find the package and are built and run, with each build type that a user may choose.
+include(${CMAKE_CURRENT_LIST_DIR}/use_package.cmake)
 
 file(REMOVE_RECURSE ${FOLDER})
 file(MAKE_DIRECTORY ${FOLDER})
@@ -8,16 +8,23 @@ run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${FOLDER}/staged)
 file(RENAME ${FOLDER}/staged ${FOLDER}/moved)
 
 run(${FOLDER}/moved/bin/taut ${FOLDER}/moved/share/taut/prm/oscillator_with_stop.prm)
+foreach(file LICENSE README.md doc/tutorial.md doc/figures/en50318_2002_250.png tests/install/CMakeLists.txt)
+  if(NOT EXISTS ${FOLDER}/moved/share/doc/taut/${file})
+    message(FATAL_ERROR "share/doc/taut/${file} is not installed")
+  endif()
+endforeach()
 
-run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${FOLDER}/build -G ${GENERATOR}
-  -D CMAKE_PREFIX_PATH=${FOLDER}/moved -D "CMAKE_CXX_FLAGS=-Wall -Wextra -Werror"
-  -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})
-run(${CMAKE_COMMAND} --build ${FOLDER}/build)
-run(${FOLDER}/build/weight_on_floor ${CMAKE_CURRENT_LIST_DIR}/weight_on_floor.prm)
+foreach(type default Debug Release)
+  use_package(. ${type} libdeal.ii.so)
+endforeach()
+foreach(type default Release)
+  use_package(with_deal_ii ${type} libdeal.ii.so)
+endforeach()
 
 # The same generator in a library that the installed program loads; without it the name is not known.
+set(library build_._default/libweight.so)
 run(${FOLDER}/moved/bin/taut ${CMAKE_CURRENT_LIST_DIR}/weight_on_floor.prm --overwrite
-  --set "Additional shared libraries=build/libweight.so" --set "Weight on floor/Mass=2")
+  --set "Additional shared libraries=${library}" --set "Weight on floor/Mass=2")
 file(STRINGS ${FOLDER}/results/links.csv lines)
 list(GET lines -1 last)
 if(NOT last MATCHES "^0.1,31.7[23]")

@@ -2,13 +2,15 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Every scene of prm/ gives on several ranks the output, the files and the numbers of one process; so do mistakes."""
 import argparse
-import csv
 import math
 import pathlib
 import re
 import subprocess
 import sys
 import tempfile
+
+sys.path.append(str(pathlib.Path(__file__).parents[1]))
+from tables import largest_difference
 
 parser = argparse.ArgumentParser(description=__doc__)
 parser.add_argument("--program", required=True)
@@ -50,35 +52,6 @@ def same_text(a, b):
     first, second = words(a), words(b)
     return len(first) == len(second) and all(
         len(p) == len(q) and all(map(same_word, p, q)) for p, q in zip(first, second))
-
-
-def largest_difference(one, many):
-    """Of the numbers of a table, each over the largest one of its column's unit."""
-    with open(one) as f, open(many) as g:
-        a, b = list(csv.reader(f)), list(csv.reader(g))
-    if a[0] != b[0] or len(a) != len(b):
-        return math.inf
-    worst = 0.
-    units = {}
-    for c, title in enumerate(a[0]):
-        unit = title[title.rfind("["):]
-        for row in a[1:]:
-            try:
-                units[unit] = max(units.get(unit, 0.), abs(float(row[c])))
-            except ValueError:
-                pass
-    for p, q in zip(a[1:], b[1:]):
-        for c, title in enumerate(a[0]):
-            size = units.get(title[title.rfind("["):], 0.)
-            if p[c] == q[c] or size == 0.:
-                continue
-            try:
-                error = abs(float(p[c]) - float(q[c]))
-                if error > 1e-15 or math.isnan(error):  # what stands still does so up to rounding
-                    worst = math.inf if math.isnan(error) else max(worst, error / size)
-            except ValueError:
-                return math.inf
-    return worst
 
 
 def check_scene(scene, folder):
