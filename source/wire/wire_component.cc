@@ -2,11 +2,7 @@
 #include "wire_discretisation.h"
 
 #include <taut/base/exceptions.h>
-<<<<<<< HEAD:source/wire/wire_component.cc
 #include <taut/wire/fe_cubic_hermite.h>
-=======
-#include <taut/wire/fe_cubic_hermite.h>
->>>>>>> element:source/substructure/wire_component.cc
 
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>

@@ -4,6 +4,7 @@
 // Beside the printed table stand (a) dense blocks by factor-and-solve, (b) dense blocks by explicit
 // inverse (n >= 2) against one factorisation (n = 1), (c) Taut's own local solvers. Medians of the
 // runs. Usage: decomposition_table [runs] [largest N0 of the dense blocks].
+#include <taut/model/scene_rows.h>
 #include <taut/complementarity/solver.h>
 #include <taut/interface/schur_complement.h>
 #include <taut/partition/make_partition.h>
@@ -141,9 +142,9 @@ namespace
 
   /// The same work with Taut: a string of N0 linear elements cut by METIS, factors, columns,
   /// multipliers, displacements.
-  void solve_taut(const taut::Scene &scene, const taut::Structure &structure)
+  void solve_taut(const taut::Scene &scene, const taut::SceneBodies &structure)
   {
-    const taut::ContactRows rows(scene, structure);
+    const taut::ContactRows rows = taut::scene_rows(scene, structure);
     taut::FactoredStructure solvers(structure, "block tridiagonal");
     solvers.factor(1e4, 0.);
     taut::BlockVector U = structure.zero();
@@ -204,7 +205,7 @@ namespace
     const taut::Scene scene = string_scene(N0);
     taut::PartitionParameters parameters;
     parameters.n_substructures = n;
-    const taut::Structure structure(scene, make_partition(scene, parameters));
+    const taut::SceneBodies structure(scene, make_partition(scene, parameters));
     return median_seconds(runs, [&] { solve_taut(scene, structure); });
   }
 } // namespace

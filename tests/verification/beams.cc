@@ -100,7 +100,7 @@ TEST(Frequencies, tensioned_beam_converges_with_order_4)
         scene.wires[0].bending_stiffness = EI;
         scene.supports.resize(1);
         scene.supports[0].positions = {0., 6.};
-        return roots(eigenvalues(taut::Structure(scene)[0]));
+        return roots(eigenvalues(taut::SceneBodies(scene)[0]));
       },
       [&](const int n)
       {
@@ -132,7 +132,7 @@ TEST(Frequencies, string_and_bar_converge_with_twice_their_degree)
             scene.supports.resize(1);
             scene.supports[0].positions = {0., 6.};
             scene.supports[0].motion = bar ? taut::WireMotion::axial : taut::WireMotion::transverse;
-            return roots(eigenvalues(taut::Structure(scene)[0]));
+            return roots(eigenvalues(taut::SceneBodies(scene)[0]));
           },
           [&](const int n) { return n * pi / L * std::sqrt(stiffness / m); }, 2. * degree, .1);
     }
@@ -151,7 +151,7 @@ TEST(Frequencies, point_mass_on_a_string)
   scene.point_masses.resize(1);
   scene.point_masses[0].positions = {.5 * L};
   scene.point_masses[0].mass = mass;
-  const std::vector<double> w = roots(eigenvalues(taut::Structure(scene)[0]));
+  const std::vector<double> w = roots(eigenvalues(taut::SceneBodies(scene)[0]));
   double low = 0., high = .5 * std::acos(-1.);
   for (int i = 0; i < 100; ++i)
   {
@@ -179,7 +179,7 @@ TEST(Frequencies, point_mass_at_the_free_end_of_a_string)
   scene.point_masses.resize(1);
   scene.point_masses[0].positions = {L};
   scene.point_masses[0].mass = mass;
-  const std::vector<double> w = roots(eigenvalues(taut::Structure(scene)[0]));
+  const std::vector<double> w = roots(eigenvalues(taut::SceneBodies(scene)[0]));
   for (int n = 0; n < 2; ++n)
   {
     double low = n * pi, high = (n + .5) * pi;

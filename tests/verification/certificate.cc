@@ -4,6 +4,7 @@
 // refused with the name of what is wrong.
 #include "run.h"
 
+#include <taut/model/scene_rows.h>
 #include <taut/base/exceptions.h>
 #include <taut/time/static_equilibrium.h>
 #include <taut/time/time_stepper.h>
@@ -52,13 +53,14 @@ namespace
           });
       start.V[0][start.V[0].size() / 2] = velocity;
       start.geometric_gap[0] += gap_error;
-      rows = std::make_unique<taut::ContactRows>(session.simulation().scene(), structure());
+      rows = std::make_unique<taut::ContactRows>(
+          taut::scene_rows(session.simulation().scene(), structure()));
       stepper = std::make_unique<taut::TimeStepper>(structure(), *rows, session.parameters().solver,
                                                     session.parameters().integrator("BDF2"), 1e-3,
                                                     reference, start, false);
     }
 
-    const taut::Structure &structure() { return session.simulation().structure(); }
+    const taut::SceneBodies &structure() { return session.simulation().structure(); }
 
     /// What is said about the first step that is refused; empty if ten are accepted.
     std::string refusal()
@@ -157,8 +159,8 @@ TEST(Certificate, statics_measure_their_balance)
   taut::Scene alone = session.simulation().scene();
   alone.links.clear();
   alone.masses.clear();
-  const taut::Structure structure(alone);
-  const taut::ContactRows rows(alone, structure);
+  const taut::SceneBodies structure(alone);
+  const taut::ContactRows rows = taut::scene_rows(alone, structure);
   taut::SolverParameters parameters;
   const taut::Certificate certificate =
       taut::static_equilibrium(structure, rows, parameters, 0.).certificate;

@@ -2,6 +2,7 @@
 #ifndef taut_verification_interface_problem_h
 #define taut_verification_interface_problem_h
 
+#include <taut/model/scene_rows.h>
 #include <taut/complementarity/active_set_system.h>
 #include <taut/interface/schur_complement.h>
 #include <taut/partition/make_partition.h>
@@ -25,7 +26,7 @@ namespace verification
     /// The same with the cuts that the parameters say.
     InterfaceProblem(taut::Scene model, const taut::PartitionParameters &cuts)
         : scene(std::move(model)), structure(scene, make_partition(scene, cuts)),
-          rows(scene, structure)
+          rows(scene_rows(scene, structure))
     {
       rows.update(0.);
     }
@@ -71,7 +72,7 @@ namespace verification
     }
 
     const taut::Scene scene;
-    const taut::Structure structure;
+    const taut::SceneBodies structure;
 
   private:
     void set_kernel(const std::vector<taut::Substructure::Kernel> &kernels,

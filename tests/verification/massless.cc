@@ -5,6 +5,8 @@
 // elsewhere; the first force of an impact then no longer grows like m v / step, for any scheme.
 #include "run.h"
 
+#include <taut/wire/wire_component.h>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>

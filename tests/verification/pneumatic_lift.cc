@@ -6,7 +6,7 @@
 #include "run.h"
 
 #include <taut/output/statistics.h>
-#include <taut/time/form_finding.h>
+#include <taut/model/form_finding.h>
 
 #include <gtest/gtest.h>
 

@@ -3,6 +3,7 @@
 // included. Source: a loop over all entries.
 #include "run.h"
 
+#include <taut/model/scene_rows.h>
 #include <taut/interface/contact_rows.h>
 #include <taut/time/matrix_norms.h>
 
@@ -94,8 +95,8 @@ TEST(Sizes, largest_forces_of_rows_are_those_of_a_loop)
 {
   Session session(scene_file("en50318_2002_250_two"), {"Time.End=0.01", "Statistics.Window="});
   session.run([](const taut::StepView &) {});
-  const taut::Structure &structure = session.simulation().structure();
-  taut::ContactRows rows(session.simulation().scene(), structure);
+  const taut::SceneBodies &structure = session.simulation().structure();
+  taut::ContactRows rows = taut::scene_rows(session.simulation().scene(), structure);
   std::mt19937 random(2);
   std::uniform_real_distribution<double> value(-1., 1.);
   for (int i = 0; i < 20; ++i)

@@ -114,7 +114,7 @@ TEST(Beam, heavy_beam_lifts_off_a_floor)
                            "  set From = ground\n  set To = wire @ 0:" +
                                text(spacing) + ":12\n  set Direction = 0, 1\n end\n"));
   const taut::Scene &scene = session.simulation().scene();
-  const taut::Structure &structure = session.simulation().structure();
+  const taut::SceneBodies &structure = session.simulation().structure();
   const taut::ContactRows &rows = session.simulation().rows();
   const taut::StaticState state =
       static_equilibrium(structure, rows, session.parameters().solver, 0.);

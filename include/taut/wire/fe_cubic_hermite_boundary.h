@@ -2,6 +2,9 @@
 #ifndef taut_fe_cubic_hermite_boundary_h
 #define taut_fe_cubic_hermite_boundary_h
 
+// The headers that the second one includes use it without including it.
+#include <deal.II/base/polynomial.h>
+
 #include <deal.II/numerics/vector_tools_boundary.h>
 
 #include <map>
