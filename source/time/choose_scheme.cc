@@ -118,19 +118,21 @@ namespace taut
       check_restitution(structure, rows, rigid);
     if (rigid.empty())
       return {"generalised-alpha",
-              {{"Spectral radius", "0.8"}},
+              {{"Generalised-alpha/Spectral radius", "0.8"}},
               "no one-sided link is stiffer than the bodies in one step"};
     const std::string reason = "one-sided link '" + rows[rigid.front()].name +
                                "' acts as rigid: it is stiffer than the bodies in one step";
     const std::string body = body_without_definite_mass(structure);
     if (body.empty())
-      return {"Moreau-Jean", {{"Theta", "0.5"}, {"Conditions", "gaps then velocities"}}, reason};
+      return {"Moreau-Jean",
+              {{"Moreau-Jean/Theta", "0.5"}, {"Moreau-Jean/Conditions", "gaps then velocities"}},
+              reason};
     if (restitution > 0.)
       throw EntryError("Time/Moreau-Jean/Restitution",
                        "restitution needs a mass matrix that can be inverted, and that of body '" +
                            body + "' is 'reduced'. Set it to 0, or take another Mass matrix");
     return {"Moreau-Jean",
-            {{"Theta", "0.5"}, {"Conditions", "gaps"}},
+            {{"Moreau-Jean/Theta", "0.5"}, {"Moreau-Jean/Conditions", "gaps"}},
             reason + ", and the mass matrix of '" + body + "', 'reduced', has no inverse"};
   }
 
