@@ -67,7 +67,7 @@ namespace taut
     const unsigned int n = handler.n_dofs();
     check_size(mass.m(), "mass matrix");
     check_size(stiffness.m(), "stiffness matrix");
-    if (damping.m() != 0)
+    if (!damping.empty())
       check_size(damping.m(), "damping matrix");
     if (load.size() != 0)
       check_size(load.size(), "load");
@@ -103,7 +103,7 @@ namespace taut
     K = std::make_unique<CompressedMatrix>(n);
     set_matrix(mass, *M);
     set_matrix(stiffness, *K);
-    if (damping.m() != 0)
+    if (!damping.empty())
       set_matrix(damping, *C);
     constant_force.assign(n, 0.);
     if (load.size() != 0)
