@@ -8,6 +8,13 @@
 
 namespace taut
 {
+  namespace
+  {
+    /// Part of the largest terms of a gap so far below which smaller ones count as rest: motion
+    /// that contacts have stopped leaves rounding, and that of several rows contradicts itself.
+    constexpr double rest = 1e-3;
+  } // namespace
+
   RowMotions::RowMotions(const Structure &structure, const ContactRows &rows,
                          const Reference &origin, const State &start)
       : structure(structure), rows(rows), origin(origin)
@@ -15,7 +22,7 @@ namespace taut
     const std::size_t n = rows.size();
     for (auto *v : {&S, &applied_multiplier, &balanced, &impulses, &link_history, &gap_terms,
                     &gap_correction, &motion, &position, &terms_size, &velocity, &velocity_size,
-                    &rate_of_place, &motion_size, &convection, &rates_before})
+                    &rate_of_place, &motion_size, &convection, &rates_before, &largest_scale})
       v->assign(n, 0.);
     conditions.unilateral.resize(n);
     conditions.free_gap.resize(n);
@@ -75,7 +82,9 @@ namespace taut
       }
       scale += motion_size[i];
       conditions.free_gap[i] = gap + motion[i] + link_history[i];
-      conditions.gap_scale[i] = scale + std::fabs(motion[i]) + std::fabs(link_history[i]);
+      scale += std::fabs(motion[i]) + std::fabs(link_history[i]);
+      largest_scale[i] = std::max(largest_scale[i], scale);
+      conditions.gap_scale[i] = std::max(scale, rest * largest_scale[i]);
       convection[i] = gap - before.geometric_gap[i];
       if (velocity_level(i))
         set_velocity_condition(i, before);

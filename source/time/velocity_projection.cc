@@ -15,6 +15,9 @@ namespace taut
     /// 1e-16.
     constexpr double rounding_of_rates = 1e-12;
 
+    /// Part of the largest terms of a rate so far below which smaller ones count as rest.
+    constexpr double rest = 1e-3;
+
     /// Systems with M are well-conditioned: nothing has to be taken from the bodies' other solvers.
     InterfaceParameters for_mass(InterfaceParameters parameters)
     {
@@ -40,7 +43,7 @@ namespace taut
   {
     const std::size_t n = rows.size();
     for (std::vector<double> *v :
-         {&relative_softening, &softening, &p, &q, &change, &rate, &work_of_rows})
+         {&relative_softening, &softening, &p, &q, &change, &rate, &work_of_rows, &largest_scale})
       v->assign(n, 0.);
     takes_part.assign(n, 0);
     problem.free_gap.resize(n);
@@ -145,6 +148,8 @@ namespace taut
       rate[i] = state.gap_rate[i];
       problem.free_gap[i] = rate[i] - change[i];
       problem.gap_scale[i] += work_vector[i];
+      largest_scale[i] = std::max(largest_scale[i], problem.gap_scale[i]);
+      problem.gap_scale[i] = std::max(problem.gap_scale[i], rest * largest_scale[i]);
     }
   }
 

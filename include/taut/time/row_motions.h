@@ -169,7 +169,9 @@ namespace taut
     std::vector<double>
         link_history; ///< part of a link spring's compression that does not depend on N
     std::vector<double> reference_gap; ///< gap of the fixed rows at the reference
-    std::vector<double> gap_terms;     ///< largest terms of the gaps of the fixed rows so far
+    std::vector<double>
+        largest_scale;             ///< of each row's gap so far: what came to rest rounds with it
+    std::vector<double> gap_terms; ///< largest terms of the gaps of the fixed rows so far
     /// Of the moving rows: gap of the start minus the one of its displacements, rounding that would
     /// be a force over a small compliance.
     std::vector<double> gap_correction;

@@ -83,6 +83,7 @@ namespace taut
     MixedComplementarityProblem problem;
     std::vector<double> p, q, change; ///< impulses, P - p, f (P - p)
     std::vector<double> rate, work_of_rows, work_vector;
+    std::vector<double> largest_scale; ///< of each row's rate so far
     BlockVector dV;
     double found = 0.;
     std::size_t worst = 0;
