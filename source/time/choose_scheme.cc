@@ -111,14 +111,13 @@ namespace taut
       return are_close ? std::vector<std::size_t>() : stops;
     }
 
-    void check_restitution(const ContactRows &rows, const std::vector<std::size_t> &rigid,
-                           const Scene &scene)
+    void check_restitution(const ContactRows &rows, const Scene &scene)
     {
       const std::string entry = "Time/Moreau-Jean/Restitution";
       bool has_one = false;
-      for (const std::size_t i : rigid)
+      for (std::size_t i = 0; i < rows.size(); ++i)
       {
-        if (!std::isinf(rows[i].stiffness))
+        if (!rows[i].unilateral || !std::isinf(rows[i].stiffness))
           continue;
         has_one = true;
         if (is_on_wire(scene.links[rows[i].link]))
@@ -176,7 +175,7 @@ namespace taut
   {
     const std::vector<std::size_t> rigid = rigid_rows(structure, rows, parameters, step);
     if (restitution > 0.)
-      check_restitution(rows, rigid, scene);
+      check_restitution(rows, scene);
     if (rigid.empty())
       return {"generalised-alpha",
               {{"Spectral radius", "0.8"}},

@@ -135,7 +135,8 @@ TEST(MoreauJean, a_rigid_contact_moves_a_string_as_a_moving_force_does)
                 "\n end\n subsection Load force\n  set Type = point\n  set On = mass\n"
                 "  set Magnitude = 120\n end\nend\n" +
                 time_section(2.5e-4, .4,
-                             " set Allow unsuitable scheme = true\n subsection Moreau-Jean\n"
+                             " set Allow unsuitable scheme = true\n"
+                             " set Allow energy gain = true\n subsection Moreau-Jean\n"
                              "  set Theta = 0.6\n  set Conditions = velocities\n end\n"),
             {},
             [&](const taut::StepView &view)
