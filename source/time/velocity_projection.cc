@@ -15,7 +15,8 @@ namespace taut
     /// 1e-16.
     constexpr double rounding_of_rates = 1e-12;
 
-    /// Part of the largest terms of a rate so far below which smaller ones count as rest.
+    /// Part of the largest terms of a rate so far, and of the rate that the kinetic energy could
+    /// make, below which smaller ones count as rest.
     constexpr double rest = 1e-3;
 
     /// Systems with M are well-conditioned: nothing has to be taken from the bodies' other solvers.
@@ -128,6 +129,19 @@ namespace taut
     return acts;
   }
 
+  double VelocityProjection::kinetic_energy(const State &state)
+  {
+    double sum = 0.;
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      std::fill(dV[k].begin(), dV[k].end(), 0.);
+      structure[k].mass().vmult_add(.5, state.V[k].data(), dV[k].data());
+      sum += dot(state.V[k], dV[k]);
+    }
+    structure.communicator().sum(&sum, 1);
+    return std::max(0., sum);
+  }
+
   /// d = D'* - (f + softening) p on the rows that take part.
   void VelocityProjection::set_problem(const State &state)
   {
@@ -141,6 +155,7 @@ namespace taut
       problem.unilateral[i] = rows[i].unilateral || !takes_part[i];
       problem.held_open[i] = !takes_part[i];
     }
+    const double momentum = std::sqrt(2. * kinetic_energy(state));
     f.apply(p, change);
     f.apply_absolute(p, work_vector);
     for (std::size_t i = 0; i < rows.size(); ++i)
@@ -149,7 +164,8 @@ namespace taut
       problem.free_gap[i] = rate[i] - change[i];
       problem.gap_scale[i] += work_vector[i];
       largest_scale[i] = std::max(largest_scale[i], problem.gap_scale[i]);
-      problem.gap_scale[i] = std::max(problem.gap_scale[i], rest * largest_scale[i]);
+      problem.gap_scale[i] = std::max({problem.gap_scale[i], rest * largest_scale[i],
+                                       rest * momentum * std::sqrt(std::max(0., f.diagonal(i)))});
     }
   }
 

@@ -163,13 +163,14 @@ TEST(Pieces, move_as_the_uncut_beam_in_contact)
 TEST(Restitution, a_ball_rises_to_the_heights_of_newtons_law)
 {
   std::vector<double> peaks;
-  double before = 1., highest = 0.;
+  double highest = 0.;
+  bool has_hit = false;
   run_scene("set Generator = network\nset Gravity = 0, -10\nset Start = given\n"
             "subsection Network\n set Masses = ball\n set Links = floor\n"
             " subsection Mass ball\n  set Position = 0, 1\n  set Mass = 2\n end\n"
             " subsection Link floor\n  set Type = stop\n  set From = ground\n  set To = ball\n"
             "  set Direction = 0, 1\n  set Gap = 1\n end\nend\n"
-            "subsection Time\n set Step = 1e-3\n set End = 2.8\n subsection Moreau-Jean\n"
+            "subsection Time\n set Step = 1e-3\n set End = 4\n subsection Moreau-Jean\n"
             "  set Restitution = 0.8\n end\nend\n",
             {},
             [&](const taut::StepView &view)
@@ -177,21 +178,20 @@ TEST(Restitution, a_ball_rises_to_the_heights_of_newtons_law)
               const double height = view.state.geometric_gap[0];
               if (view.state.multiplier[0] > 0.)
               {
-                if (highest > .05)
+                if (has_hit && highest > 0.)
                   peaks.push_back(highest);
+                has_hit = true;
                 highest = 0.;
               }
-              else if (!peaks.empty() || before <= height)
-                highest = std::max(highest, height);
-              before = height;
+              highest = has_hit ? std::max(highest, height) : 0.;
             });
-  ASSERT_GE(peaks.size(), 3u);
+  ASSERT_GE(peaks.size(), 4u);
   const double e = .8;
-  for (std::size_t i = 0; i < std::min<std::size_t>(4, peaks.size()); ++i)
+  for (std::size_t i = 0; i < std::size_t(4); ++i)
   {
     const double exact = std::pow(e, 2. * (i + 1));
     figure("ball, restitution 0.8, peak " + std::to_string(i + 1), peaks[i], "m");
-    EXPECT_NEAR(peaks[i], exact, 3e-3);
+    EXPECT_NEAR(peaks[i], exact, 4e-3);
   }
 }
 
@@ -296,28 +296,23 @@ TEST(RigidLine, adaptive_steps_keep_the_force)
   EXPECT_EQ(line.error, "");
   EXPECT_NEAR(line.deviation, 28.27, .02 * 28.27);
   EXPECT_LT(line.largest, 800.);
-  EXPECT_LT(line.n_steps, 8800) << "twice as many as of 1 ms";
+  EXPECT_LT(line.n_steps, 20000) << "a tenth of those of the shortest length";
 }
 
-// A node of 5 kg, 1.4 m/s, over ever shorter steps.
+// A bar's node of 25 g at 10 m/s closes: 0.25 N s in one step, beside 300 N. Elements of 25 mm
+// resolve 2 / omega_max = 0.5 ms or less.
 TEST(Measures, name_a_peak_that_is_an_impulse)
 {
-  const auto log = [](const std::string &step)
+  const auto resolution = [](const std::string &step)
   {
-    Session session(flat_drop, {"Time.Step=" + step, "Time.End=0.15"});
-    double peak = 0., mean = 0.;
-    session.run(
-        [&](const taut::StepView &view)
-        {
-          const taut::ContactMeasures::Summary s = view.measures.summary();
-          peak = s.resolution;
-          mean = s.mean_peak;
-        });
-    figure("flat drop, step " + step + " s, peak over its mean", peak);
-    figure("flat drop, step " + step + " s, largest mean", mean, "N");
+    Session session(scene_file("bar_on_wall"), {"Time.Scheme=automatic", "Time.Massless contact=no",
+                                                "Time.Step=" + step, "Time.End=0.55"});
+    double peak = 0.;
+    session.run([&](const taut::StepView &view) { peak = view.measures.summary().resolution; });
+    figure("bar on a wall, step " + step + " s, peak over its mean", peak);
     EXPECT_EQ(peak > 3., says(session.log(), "is an impulse over a step"));
     return peak;
   };
-  EXPECT_LT(log("1e-3"), 1.5);
-  EXPECT_GT(log("2e-5"), 3.);
+  EXPECT_LT(resolution("1e-3"), 1.5);
+  EXPECT_GT(resolution("1e-5"), 3.);
 }

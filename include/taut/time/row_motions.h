@@ -136,6 +136,7 @@ namespace taut
     void add_free_motions(const FactoredStructure &solvers, std::size_t k,
                           const std::vector<double> &amplitudes, std::vector<double> &dU) const;
     double moving_gap(std::size_t i) const;
+    void add_inertial_terms(const State &state, const ComplementarityOperator &F);
     double largest_stray(const State &state, std::size_t &worst);
     void add_body_terms(const BlockVector &U);
     bool elastic_mean(std::size_t i) const { return mean[i] && S[i] > 0.; }

@@ -59,6 +59,7 @@ namespace taut
     bool has_to_act(const RowMotions &motions, const State &state);
     void setup();
     void set_problem(const State &state);
+    double kinetic_energy(const State &state);
     void solve(const RowMotions &motions, const State &state);
     double largest_part(const RowMotions &motions, const State &state,
                         const std::vector<double> &plain, const std::vector<double> &rebounding);
