@@ -128,6 +128,8 @@ TEST(FlatWall, takes_all_energy_of_a_string)
   EXPECT_LT(last, 1e-3 * first);
 }
 
+// Through the first 20 ms after the hit: then the falling beam chatters, and what rounding changes
+// grows a hundredfold in 20 ms, as a gap does that is off by 1e-14 m.
 TEST(Pieces, move_as_the_uncut_beam_in_contact)
 {
   for (const std::string &scene : {flat_drop, scene_file("beam_over_supports")})
@@ -137,7 +139,9 @@ TEST(Pieces, move_as_the_uncut_beam_in_contact)
     {
       double difference = 0., size = 0.;
       std::size_t next = 0;
-      run_scene(scene, {"Partition.Number of substructures=" + n, "Time.End=0.3", "Time.Step=1e-3"},
+      run_scene(scene,
+                {"Partition.Number of substructures=" + n, "Time.Step=1e-3",
+                 scene == flat_drop ? "Time.End=0.165" : "Time.End=0.5"},
                 [&](const taut::StepView &view)
                 {
                   for (int i = 0; i <= 20; ++i, ++next)
