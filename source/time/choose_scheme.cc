@@ -51,15 +51,14 @@ namespace taut
       return result;
     }
 
-    void check_restitution(const Structure &structure, const ContactRows &rows,
-                           const std::vector<std::size_t> &rigid)
+    void check_restitution(const Structure &structure, const ContactRows &rows)
     {
       const std::vector<double> on_elements = rows_on_elements(structure, rows);
       const std::string entry = "Time/Moreau-Jean/Restitution";
       bool has_one = false;
-      for (const std::size_t i : rigid)
+      for (std::size_t i = 0; i < rows.size(); ++i)
       {
-        if (!std::isinf(rows[i].stiffness))
+        if (!rows[i].unilateral || !std::isinf(rows[i].stiffness))
           continue;
         has_one = true;
         if (on_elements[i] > 0.)
@@ -115,7 +114,7 @@ namespace taut
   {
     const std::vector<std::size_t> rigid = rigid_rows(structure, rows, parameters, step);
     if (restitution > 0.)
-      check_restitution(structure, rows, rigid);
+      check_restitution(structure, rows);
     if (rigid.empty())
       return {"generalised-alpha",
               {{"Generalised-alpha/Spectral radius", "0.8"}},

@@ -315,6 +315,20 @@ TEST(Ranks, adaptive_steps_are_the_same)
   expect_same("5 spans, adaptive", 2e-3, overrides, {7});
 }
 
+// Claim: so with a rigid moving contact, whose velocities are projected in every step, with both
+// forms of the interface operator. Expected: as above.
+TEST(Ranks, gaps_then_velocities_are_the_same)
+{
+  for (const std::string form : {"assembled dense", "matrix-free"})
+  {
+    Overrides overrides = line(5, 2e-3, 50, .75);
+    overrides.push_back("Catenary/Pantograph pantograph/Contact stiffness=rigid");
+    overrides.push_back("Time/Scheme=Moreau-Jean");
+    expect_same("5 spans, rigid contact, " + form, 2e-3, overrides, {7},
+                {"Solver/Interface operator=" + form});
+  }
+}
+
 // Claim: so for steps from 10 us to 10 s, on the reference line and on one of 100 spans. Expected:
 // as above.
 TEST(Ranks, every_step_size_on_the_reference_line_is_the_same)
