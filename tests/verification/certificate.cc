@@ -4,8 +4,8 @@
 // refused with the name of what is wrong.
 #include "run.h"
 
-#include <taut/model/scene_rows.h>
 #include <taut/base/exceptions.h>
+#include <taut/model/scene_rows.h>
 #include <taut/time/static_equilibrium.h>
 #include <taut/time/time_stepper.h>
 

@@ -2,9 +2,9 @@
 #ifndef taut_verification_interface_problem_h
 #define taut_verification_interface_problem_h
 
-#include <taut/model/scene_rows.h>
 #include <taut/complementarity/active_set_system.h>
 #include <taut/interface/schur_complement.h>
+#include <taut/model/scene_rows.h>
 #include <taut/partition/make_partition.h>
 
 #include <numeric>

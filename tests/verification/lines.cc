@@ -292,7 +292,8 @@ TEST(Rest, nothing_moves_in_2000_steps_and_a_shorter_step_creates_no_force)
     EXPECT_LT(pantograph, 1e-8) << scheme;
     EXPECT_NEAR(frame, .05, .01);
 
-    taut::ContactRows rows = taut::scene_rows(session.simulation().scene(), session.simulation().structure());
+    taut::ContactRows rows =
+        taut::scene_rows(session.simulation().scene(), session.simulation().structure());
     taut::TimeStepper stepper(session.simulation().structure(), rows, session.parameters().solver,
                               session.parameters().integrator(scheme), 1e-5, *reference, last,
                               true);

@@ -5,8 +5,8 @@
 // 120 N, by balance.
 #include "run.h"
 
-#include <taut/output/statistics.h>
 #include <taut/model/form_finding.h>
+#include <taut/output/statistics.h>
 
 #include <gtest/gtest.h>
 

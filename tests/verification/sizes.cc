@@ -3,8 +3,8 @@
 // included. Source: a loop over all entries.
 #include "run.h"
 
-#include <taut/model/scene_rows.h>
 #include <taut/interface/contact_rows.h>
+#include <taut/model/scene_rows.h>
 #include <taut/time/matrix_norms.h>
 
 #include <gtest/gtest.h>
