@@ -9,6 +9,7 @@
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <vector>
 
 using namespace verification;
 
@@ -151,9 +152,10 @@ namespace
     taut::BlockVector root = bodies.zero(), start = bodies.zero();
     for (std::size_t k = 0; k < bodies.size(); ++k)
     {
-      for (const auto &[factor, matrix] :
-           {std::make_pair(mass, &bodies[k].mass()), std::make_pair(velocity, &bodies[k].damping()),
-            std::make_pair(1., &bodies[k].stiffness())})
+      const std::vector<taut::ScaledMatrix> summands = {{mass, &bodies[k].mass()},
+                                                        {velocity, &bodies[k].damping()},
+                                                        {1., &bodies[k].stiffness()}};
+      for (const auto &[factor, matrix] : summands)
         matrix->visit(
             [&, factor = factor](const unsigned int i, const unsigned int j, const double value)
             {
