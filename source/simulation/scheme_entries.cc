@@ -34,26 +34,14 @@ namespace taut
   Parameters::integrator(const std::string &name,
                          const std::map<std::string, std::string> &entries) const
   {
-    std::unique_ptr<TimeIntegrator> result = Registry<TimeIntegrator>::instance().create(name);
-    dealii::ParameterHandler prm;
-    result->declare_parameters(prm);
-    // The scheme's section may have another name than the scheme.
     const std::string time = "Time/";
+    std::map<std::string, std::string> values;
     for (const auto &[path, value] : entry_values)
-    {
-      const std::size_t end = path.find('/', time.size());
-      if (path.compare(0, time.size(), time) != 0 || end == std::string::npos)
-        continue;
-      const std::string section = path.substr(time.size(), end - time.size()),
-                        entry = path.substr(end + 1);
-      if (!prm.subsection_path_exists({section}))
-        continue;
-      const auto own = entries.find(entry);
-      prm.enter_subsection(section);
-      prm.set(entry, own == entries.end() ? value : own->second);
-      prm.leave_subsection();
-    }
-    return result;
+      if (path.compare(0, time.size(), time) == 0)
+        values[path.substr(time.size())] = value;
+    for (const auto &[path, value] : entries)
+      values[path] = value;
+    return make_integrator(name, values);
   }
 
   std::vector<std::string>
@@ -76,7 +64,7 @@ namespace taut
           if (!described.is_object())
             continue; // no section
           const std::string path = "Time/" + section + "/" + entry, &value = entry_values.at(path);
-          const auto other = entries.find(entry);
+          const auto other = entries.find(section + "/" + entry);
           const bool has_part =
               scheme == name && (other == entries.end() || is_same(other->second, value));
           if (!has_part && !is_same(value, described.at("default_value").get<std::string>()))

@@ -5,6 +5,7 @@
 #include <taut/model/scene_rows.h>
 #include <taut/simulation/free_bodies.h>
 #include <taut/simulation/simulation.h>
+#include <taut/time/initial_state.h>
 #include <taut/time/static_equilibrium.h>
 
 #include <algorithm>
@@ -77,75 +78,16 @@ namespace taut
 
   void Simulation::find_start()
   {
-    links.update(0.);
-    start.U = start.V = start.A = start.dU = start.V_old = start.KU = start.balance = bodies.zero();
-    start.multiplier.assign(links.size(), 0.);
-    start.link_springs.resize(links.size());
-    reference.displacement = reference.force = bodies.zero();
-
-    if (model.start == Start::equilibrium)
-    {
-      StaticState state = static_equilibrium(bodies, links, parameters.solver, 0.);
-      reference.displacement = state.displacement;
-      for (std::size_t k = 0; k < bodies.size(); ++k)
-        bodies[k].stiffness().vmult_add(1., state.displacement[k].data(),
-                                        reference.force[k].data());
-      start.multiplier = state.multiplier;
-      start_certificate = state.certificate;
-      log << "Static equilibrium: residual " << start_certificate.complementarity << " (links), "
-          << start_certificate.balance << " (balance), "
-          << counted(start_certificate.iterations, "active-set iteration") << '\n';
-      report_free_bodies();
-    }
-    else if (model.start == Start::given)
-      processes.agree(
-          [&]
-          {
-            for (std::size_t k = 0; k < bodies.size(); ++k)
-            {
-              bodies[k].initial_state(start.U[k], start.V[k]);
-              for (const ConstrainedDof &constraint : bodies[k].constraints())
-                start.U[k][constraint.dof] = constraint.at(0.);
-              bodies[k].stiffness().vmult_add(1., start.U[k].data(), start.KU[k].data());
-            }
-          });
-
-    const std::vector<double> reference_motion = links.motions(reference.displacement),
-                              motion = links.motions(start.U), velocity = links.motions(start.V);
-    start.geometric_gap.resize(links.size());
-    start.gap.resize(links.size());
-    for (std::size_t i = 0; i < links.size(); ++i)
-    {
-      const Row &row = links[i];
-      start.geometric_gap[i] = row.gap + reference_motion[i] + motion[i];
-      // The spring of a link starts as compressed as its ends stand, and a compressed one as fast
-      // as they move; a rigid one is not compressed.
-      double u = start.multiplier[i] / row.stiffness;
-      if (model.start != Start::equilibrium && !std::isinf(row.stiffness))
-      {
-        u = row.unilateral ? std::max(0., -start.geometric_gap[i]) : -start.geometric_gap[i];
-        const double v = !row.unilateral || u > 0. ? -velocity[i] : 0.;
-        start.link_springs[i].v = v;
-        start.multiplier[i] = u * row.stiffness + v * row.damping;
-        if (row.unilateral)
-          start.multiplier[i] = std::max(0., start.multiplier[i]);
-      }
-      start.link_springs[i].u = u;
-      // Rounding of the gap over a small compliance, or over what a short step moves, would be a
-      // force.
-      if (model.start == Start::equilibrium && (!row.unilateral || start.multiplier[i] > 0.))
-        start.geometric_gap[i] = -u;
-      else if (model.start == Start::equilibrium)
-        start.geometric_gap[i] = std::max(0., start.geometric_gap[i]);
-      start.gap[i] = start.geometric_gap[i] + u;
-      if (model.start != Start::equilibrium && start.gap[i] < 0. && row.unilateral)
-        throw EntryError(links.origin(i), "link '" + row.name + "' starts with a gap of " +
-                                              std::to_string(start.gap[i]) +
-                                              ": a rigid one-sided link starts open or just "
-                                              "touching. Change its Gap or the start.");
-    }
-    if (model.start == Start::equilibrium)
-      reference.gap = start.geometric_gap;
+    InitialState found = find_initial_state(bodies, links, parameters.solver, model.start);
+    reference = std::move(found.reference);
+    start = std::move(found.state);
+    start_certificate = found.certificate;
+    if (model.start != Start::equilibrium)
+      return;
+    log << "Static equilibrium: residual " << start_certificate.complementarity << " (links), "
+        << start_certificate.balance << " (balance), "
+        << counted(start_certificate.iterations, "active-set iteration") << '\n';
+    report_free_bodies();
   }
 
   /// Says which bodies are at rest only because nothing pushes them.

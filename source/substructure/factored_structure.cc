@@ -85,7 +85,13 @@ namespace taut
       : bodies(structure), solver_name(solver_name), motions(structure.size())
   {
     for (std::size_t k = 0; k < structure.size(); ++k)
-      solvers.push_back(make_local_solver(solver_name, structure[k].stiffness()));
+      solvers.push_back(solver_of(structure[k]));
+  }
+
+  std::unique_ptr<LocalSolver> FactoredStructure::solver_of(const Substructure &body) const
+  {
+    std::unique_ptr<LocalSolver> own = body.make_solver();
+    return own ? std::move(own) : make_local_solver(solver_name, body.stiffness());
   }
 
   std::vector<ScaledMatrix> FactoredStructure::summands(const std::size_t k) const
@@ -212,7 +218,7 @@ namespace taut
     const auto held = with_springs(body.stiffness(), kernel.fixing_dofs);
     std::vector<ScaledMatrix> A = summands(k);
     A.back().second = held.get();
-    auto solver = make_local_solver(solver_name, body.stiffness());
+    auto solver = solver_of(body);
     factor(k, *solver, A, body.constrained_dofs());
 
     FreeMotions own;
@@ -341,7 +347,7 @@ namespace taut
     all.insert(all.end(), held.begin(), held.end());
     std::sort(all.begin(), all.end());
     all.erase(std::unique(all.begin(), all.end()), all.end());
-    auto solver = make_local_solver(solver_name, bodies[k].stiffness());
+    auto solver = solver_of(bodies[k]);
     if (kind == Kind::stiffness || !motions[k].vectors.empty())
     {
       const Substructure::Kernel kernel = bodies[k].kernel();

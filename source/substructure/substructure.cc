@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/substructure/local_solver.h>
 #include <taut/substructure/substructure.h>
 
 #include <algorithm>
@@ -35,6 +36,13 @@ namespace taut
   {
     throw UserError("body '" + name() + "' has no places that a constraint could act on");
   }
+
+  std::unique_ptr<LocalSolver> Substructure::make_solver() const
+  {
+    return nullptr;
+  }
+
+  void Substructure::write_vtu(const std::string &, const std::vector<double> &) const {}
 
   void Substructure::initial_state(std::vector<double> &U, std::vector<double> &V) const
   {

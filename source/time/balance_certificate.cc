@@ -177,7 +177,11 @@ namespace taut
       // With mean forces nothing is refined.
       if (c.mean_force)
         size += way[kind];
-      const double relative = sizes.residual[kind] == 0. ? 0. : sizes.residual[kind] / size;
+      // Numbers that are about to underflow have few digits.
+      const double relative =
+          sizes.residual[kind] <= 1. / largest_number / largest_number / largest_number
+              ? 0.
+              : sizes.residual[kind] / size;
       if (!(relative <= result) && !std::isnan(result))
         result = relative;
     }

@@ -51,15 +51,14 @@ namespace taut
       return result;
     }
 
-    void check_restitution(const Structure &structure, const ContactRows &rows,
-                           const std::vector<std::size_t> &rigid)
+    void check_restitution(const Structure &structure, const ContactRows &rows)
     {
       const std::vector<double> on_elements = rows_on_elements(structure, rows);
       const std::string entry = "Time/Moreau-Jean/Restitution";
       bool has_one = false;
-      for (const std::size_t i : rigid)
+      for (std::size_t i = 0; i < rows.size(); ++i)
       {
-        if (!std::isinf(rows[i].stiffness))
+        if (!rows[i].unilateral || !std::isinf(rows[i].stiffness))
           continue;
         has_one = true;
         if (on_elements[i] > 0.)
@@ -115,22 +114,24 @@ namespace taut
   {
     const std::vector<std::size_t> rigid = rigid_rows(structure, rows, parameters, step);
     if (restitution > 0.)
-      check_restitution(structure, rows, rigid);
+      check_restitution(structure, rows);
     if (rigid.empty())
       return {"generalised-alpha",
-              {{"Spectral radius", "0.8"}},
+              {{"Generalised-alpha/Spectral radius", "0.8"}},
               "no one-sided link is stiffer than the bodies in one step"};
     const std::string reason = "one-sided link '" + rows[rigid.front()].name +
                                "' acts as rigid: it is stiffer than the bodies in one step";
     const std::string body = body_without_definite_mass(structure);
     if (body.empty())
-      return {"Moreau-Jean", {{"Theta", "0.5"}, {"Conditions", "gaps then velocities"}}, reason};
+      return {"Moreau-Jean",
+              {{"Moreau-Jean/Theta", "0.5"}, {"Moreau-Jean/Conditions", "gaps then velocities"}},
+              reason};
     if (restitution > 0.)
       throw EntryError("Time/Moreau-Jean/Restitution",
                        "restitution needs a mass matrix that can be inverted, and that of body '" +
                            body + "' is 'reduced'. Set it to 0, or take another Mass matrix");
     return {"Moreau-Jean",
-            {{"Theta", "0.5"}, {"Conditions", "gaps"}},
+            {{"Moreau-Jean/Theta", "0.5"}, {"Moreau-Jean/Conditions", "gaps"}},
             reason + ", and the mass matrix of '" + body + "', 'reduced', has no inverse"};
   }
 

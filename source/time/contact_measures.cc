@@ -17,6 +17,9 @@ namespace taut
     /// one's.
     constexpr double most_steps_of_motion = 2.;
 
+    /// Part of the energy of the reference that rounding gives or takes in a long run at rest.
+    constexpr double rounding_of_energy = 1e-8;
+
     /// Part of the terms of a gap that its carried value may be off by.
     constexpr double rounding_of_gaps = 1e-12;
 
@@ -66,7 +69,19 @@ namespace taut
       forces[i].mean = start.multiplier[i];
       forces[i].impulses.push_back({start.time, 0.});
     }
+    measure_rest(start);
     measure_scale(start, Certificate());
+  }
+
+  /// What rounding may give at rest: of the strain energy, and of forces in gaps.
+  void ContactMeasures::measure_rest(const State &start)
+  {
+    for (std::size_t k = 0; k < structure.size(); ++k)
+      rest += .5 * std::fabs(dot(reference.displacement[k], reference.force[k]));
+    structure.communicator().sum(&rest, 1);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      rest += std::fabs(start.multiplier[i]) * noise[i] / rounding_of_gaps;
+    rest *= rounding_of_energy;
   }
 
   /// 2 / omega_max of the elements under each one-sided row; 0: lumped bodies only.
@@ -214,7 +229,7 @@ namespace taut
   ContactMeasures::Summary ContactMeasures::summary() const
   {
     Summary result = found;
-    result.scale = kinetic + strain + loads;
+    result.scale = kinetic + strain + loads + rest;
     if (result.contact_energy > 0.)
       result.relative_energy = result.contact_energy / result.scale;
     for (std::size_t i = 0; i < rows.size(); ++i)

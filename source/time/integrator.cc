@@ -31,6 +31,25 @@ namespace taut
     return std::max(radius, std::fabs(old_balance()));
   }
 
+  std::unique_ptr<TimeIntegrator> make_integrator(const std::string &name,
+                                                  const std::map<std::string, std::string> &entries)
+  {
+    std::unique_ptr<TimeIntegrator> result = Registry<TimeIntegrator>::instance().create(name);
+    dealii::ParameterHandler prm;
+    result->declare_parameters(prm);
+    for (const auto &[path, value] : entries)
+    {
+      const std::size_t end = path.find('/');
+      const std::string section = path.substr(0, end);
+      if (end == std::string::npos || !prm.subsection_path_exists({section}))
+        continue;
+      prm.enter_subsection(section);
+      prm.set(path.substr(end + 1), value);
+      prm.leave_subsection();
+    }
+    return result;
+  }
+
   StepCoefficients backward_euler(const double step)
   {
     StepCoefficients c;

@@ -8,6 +8,13 @@
 
 namespace taut
 {
+  namespace
+  {
+    /// Part of the largest terms of a gap so far below which smaller ones count as rest: motion
+    /// that contacts have stopped leaves rounding, and that of several rows contradicts itself.
+    constexpr double rest = 1e-3;
+  } // namespace
+
   RowMotions::RowMotions(const Structure &structure, const ContactRows &rows,
                          const Reference &origin, const State &start)
       : structure(structure), rows(rows), origin(origin)
@@ -15,7 +22,7 @@ namespace taut
     const std::size_t n = rows.size();
     for (auto *v : {&S, &applied_multiplier, &balanced, &impulses, &link_history, &gap_terms,
                     &gap_correction, &motion, &position, &terms_size, &velocity, &velocity_size,
-                    &rate_of_place, &motion_size, &convection, &rates_before})
+                    &rate_of_place, &motion_size, &convection, &rates_before, &largest_scale})
       v->assign(n, 0.);
     conditions.unilateral.resize(n);
     conditions.free_gap.resize(n);
@@ -75,7 +82,9 @@ namespace taut
       }
       scale += motion_size[i];
       conditions.free_gap[i] = gap + motion[i] + link_history[i];
-      conditions.gap_scale[i] = scale + std::fabs(motion[i]) + std::fabs(link_history[i]);
+      scale += std::fabs(motion[i]) + std::fabs(link_history[i]);
+      largest_scale[i] = std::max(largest_scale[i], scale);
+      conditions.gap_scale[i] = std::max(scale, rest * largest_scale[i]);
       convection[i] = gap - before.geometric_gap[i];
       if (velocity_level(i))
         set_velocity_condition(i, before);
@@ -322,9 +331,19 @@ namespace taut
                    std::fabs(motion[i]) + F.diagonal(i) * std::fabs(applied_multiplier[i]));
     for (std::size_t i = 0; i < rows.size(); ++i)
       conditions.gap_scale[i] += decayed * most[rows[i].rotational];
-    taut::gap_terms(conditions, F, applied_multiplier, recomputed.kernel_amplitude, work);
-    multiplier_weights(conditions, F, applied_multiplier, work, weights);
-    taut::residual(conditions, recomputed, work, weights, found);
+    const auto measure = [&]
+    {
+      taut::gap_terms(conditions, F, applied_multiplier, recomputed.kernel_amplitude, work);
+      multiplier_weights(conditions, F, applied_multiplier, work, weights);
+      taut::residual(conditions, recomputed, work, weights, found);
+    };
+    measure();
+    constexpr double conspicuous = 1e-10;
+    if (!(found.max <= conspicuous))
+    {
+      add_inertial_terms(state, F);
+      measure();
+    }
     double max = found.max;
     worst = std::max_element(found.rows.begin(), found.rows.end()) - found.rows.begin();
     // A row at a support moves by nothing but the rounding of its body.
@@ -342,6 +361,24 @@ namespace taut
       worst = strayed;
     }
     return max;
+  }
+
+  /// A row rounds with the motion of the bodies as a whole, too: the slopes of a beam that falls
+  /// without bending are nothing but rounding. |b . dU|^2 <= (b . A^-1 b) (dU . A dU).
+  void RowMotions::add_inertial_terms(const State &state, const ComplementarityOperator &F)
+  {
+    double sum = 0.;
+    std::vector<double> product;
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      product.assign(state.dU[k].size(), 0.);
+      structure[k].mass().vmult_add(c.mass_factor(), state.dU[k].data(), product.data());
+      for (std::size_t i = 0; i < product.size(); ++i)
+        sum += state.dU[k][i] * product[i];
+    }
+    structure.communicator().sum(&sum, 1);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      conditions.gap_scale[i] += rest * std::sqrt(std::max(0., sum * (F.diagonal(i) - S[i])));
   }
 
   /// Largest distance of a carried gap from that of the displacements, over the terms of the gap.

@@ -15,6 +15,10 @@ namespace taut
     /// 1e-16.
     constexpr double rounding_of_rates = 1e-12;
 
+    /// Part of the largest terms of a rate so far, and of the rate that the kinetic energy could
+    /// make, below which smaller ones count as rest.
+    constexpr double rest = 1e-3;
+
     /// Systems with M are well-conditioned: nothing has to be taken from the bodies' other solvers.
     InterfaceParameters for_mass(InterfaceParameters parameters)
     {
@@ -40,7 +44,7 @@ namespace taut
   {
     const std::size_t n = rows.size();
     for (std::vector<double> *v :
-         {&relative_softening, &softening, &p, &q, &change, &rate, &work_of_rows})
+         {&relative_softening, &softening, &p, &q, &change, &rate, &work_of_rows, &largest_scale})
       v->assign(n, 0.);
     takes_part.assign(n, 0);
     problem.free_gap.resize(n);
@@ -125,6 +129,19 @@ namespace taut
     return acts;
   }
 
+  double VelocityProjection::kinetic_energy(const State &state)
+  {
+    double sum = 0.;
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      std::fill(dV[k].begin(), dV[k].end(), 0.);
+      structure[k].mass().vmult_add(.5, state.V[k].data(), dV[k].data());
+      sum += dot(state.V[k], dV[k]);
+    }
+    structure.communicator().sum(&sum, 1);
+    return std::max(0., sum);
+  }
+
   /// d = D'* - (f + softening) p on the rows that take part.
   void VelocityProjection::set_problem(const State &state)
   {
@@ -138,6 +155,7 @@ namespace taut
       problem.unilateral[i] = rows[i].unilateral || !takes_part[i];
       problem.held_open[i] = !takes_part[i];
     }
+    const double momentum = std::sqrt(2. * kinetic_energy(state));
     f.apply(p, change);
     f.apply_absolute(p, work_vector);
     for (std::size_t i = 0; i < rows.size(); ++i)
@@ -145,6 +163,9 @@ namespace taut
       rate[i] = state.gap_rate[i];
       problem.free_gap[i] = rate[i] - change[i];
       problem.gap_scale[i] += work_vector[i];
+      largest_scale[i] = std::max(largest_scale[i], problem.gap_scale[i]);
+      problem.gap_scale[i] = std::max({problem.gap_scale[i], rest * largest_scale[i],
+                                       rest * momentum * std::sqrt(std::max(0., f.diagonal(i)))});
     }
   }
 

@@ -117,6 +117,28 @@ namespace taut
 
   WireComponent::~WireComponent() = default;
 
+  std::unique_ptr<Substructure> make_wire(const Wire &wire, const WireMotion motion,
+                                          std::vector<Support> supports,
+                                          std::vector<PointMass> point_masses,
+                                          std::vector<Load> loads, const Point &gravity)
+  {
+    if (motion == WireMotion::axial ? !wire.has_axial : wire.transverse == TransverseKind::none)
+      throw EntryError(wire.origin, "wire '" + wire.name + "' lacks the motion that is asked for");
+    Scene scene;
+    scene.gravity = gravity;
+    scene.wires = {wire};
+    scene.supports = std::move(supports);
+    scene.point_masses = std::move(point_masses);
+    scene.loads = std::move(loads);
+    for (Support &support : scene.supports)
+      support.wire = 0;
+    for (PointMass &mass : scene.point_masses)
+      mass.wire = 0;
+    for (Load &load : scene.loads)
+      load.target = {Attachment::Kind::wire, 0, load.target.position};
+    return std::make_unique<WireComponent>(scene, 0, motion);
+  }
+
   std::string WireComponent::name_of(const Scene &scene, const std::size_t wire,
                                      const WireMotion motion)
   {

@@ -9,6 +9,7 @@
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <vector>
 
 using namespace verification;
 
@@ -151,9 +152,10 @@ namespace
     taut::BlockVector root = bodies.zero(), start = bodies.zero();
     for (std::size_t k = 0; k < bodies.size(); ++k)
     {
-      for (const auto &[factor, matrix] :
-           {std::make_pair(mass, &bodies[k].mass()), std::make_pair(velocity, &bodies[k].damping()),
-            std::make_pair(1., &bodies[k].stiffness())})
+      const std::vector<taut::ScaledMatrix> summands = {{mass, &bodies[k].mass()},
+                                                        {velocity, &bodies[k].damping()},
+                                                        {1., &bodies[k].stiffness()}};
+      for (const auto &[factor, matrix] : summands)
         matrix->visit(
             [&, factor = factor](const unsigned int i, const unsigned int j, const double value)
             {
@@ -313,6 +315,20 @@ TEST(Ranks, adaptive_steps_are_the_same)
   overrides.insert(overrides.end(), {"Time/Step control=adaptive", "Time/Scheme=BDF2",
                                      "Time/Adaptive step/Tolerance=1e-5"});
   expect_same("5 spans, adaptive", 2e-3, overrides, {7});
+}
+
+// Claim: so with a rigid moving contact, whose velocities are projected in every step, with both
+// forms of the interface operator. Expected: as above.
+TEST(Ranks, gaps_then_velocities_are_the_same)
+{
+  for (const std::string form : {"assembled dense", "matrix-free"})
+  {
+    Overrides overrides = line(5, 2e-3, 50, .75);
+    overrides.push_back("Catenary/Pantograph pantograph/Contact stiffness=rigid");
+    overrides.push_back("Time/Scheme=Moreau-Jean");
+    expect_same("5 spans, rigid contact, " + form, 2e-3, overrides, {7},
+                {"Solver/Interface operator=" + form});
+  }
 }
 
 // Claim: so for steps from 10 us to 10 s, on the reference line and on one of 100 spans. Expected:

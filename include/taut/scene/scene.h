@@ -2,6 +2,7 @@
 #ifndef taut_scene_h
 #define taut_scene_h
 
+#include <taut/base/start.h>
 #include <taut/scene/expression.h>
 
 #include <cstddef>
@@ -238,14 +239,6 @@ namespace taut
     Attachment point;
     bool rotational = false;
     Point direction = {0., 1.};
-  };
-
-  /// How a run starts.
-  enum class Start
-  {
-    equilibrium, ///< static equilibrium under the loads at t = 0, at rest
-    undeformed,  ///< straight wires, at rest
-    given        ///< the initial displacements and velocities of the bodies
   };
 
   /// What is modelled, as plain values.

@@ -91,6 +91,7 @@ namespace taut
     const Structure &structure() const { return bodies; }
 
   private:
+    std::unique_ptr<LocalSolver> solver_of(const Substructure &body) const;
     std::vector<ScaledMatrix> summands(std::size_t k) const;
     void factor(std::size_t k, LocalSolver &solver, const std::vector<ScaledMatrix> &summands,
                 const std::vector<unsigned int> &held) const;

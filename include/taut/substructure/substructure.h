@@ -13,6 +13,8 @@
 
 namespace taut
 {
+  class LocalSolver;
+
   /// A force on a substructure that changes in time.
   class TimeLoad
   {
@@ -101,6 +103,17 @@ namespace taut
      * on the body, or if the body has no such places.
      */
     virtual SparseVector displacement(const Coordinates &place, const Coordinates &direction) const;
+
+    /// A local solver of its own for A = mass M + damping C + K; none: by the matrices, see
+    /// make_local_solver().
+    virtual std::unique_ptr<LocalSolver> make_solver() const;
+
+    /// True if write_vtu() shows the body; wires and masses are shown together, elsewhere.
+    virtual bool has_fields() const { return false; }
+
+    /// Writes the displacement @p U from the undeformed body as a .vtu file. Throws UserError if
+    /// the file cannot be written.
+    virtual void write_vtu(const std::string &path, const std::vector<double> &U) const;
 
     /// Displacement and velocity at t = 0; zero unless a body says otherwise. The vectors are
     /// resized.

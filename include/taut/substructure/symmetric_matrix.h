@@ -2,6 +2,8 @@
 #ifndef taut_symmetric_matrix_h
 #define taut_symmetric_matrix_h
 
+#include <taut/base/sparse_cholesky.h>
+
 #include <cstddef>
 #include <functional>
 #include <map>
@@ -77,6 +79,33 @@ namespace taut
   private:
     unsigned int n;
     std::map<std::pair<unsigned int, unsigned int>, double> entries;
+  };
+
+  /// Any pattern, as compressed rows: the matrices of finite-element models. Entries may be added
+  /// in any order until the first use of another function, and again after it.
+  class CompressedMatrix : public SymmetricMatrix
+  {
+  public:
+    explicit CompressedMatrix(unsigned int n) : n(n) {}
+
+    using SymmetricMatrix::add;
+    unsigned int size() const override { return n; }
+    unsigned int block_size() const override { return 0; }
+    void add(unsigned int i, unsigned int j, double value) override;
+    void find_repetitions() override { compress(); }
+    void vmult_add(double factor, const double *x, double *y) const override;
+    void vmult_rows(std::size_t begin, std::size_t end, const double *x, double *y) const override;
+    void visit(const Visitor &visitor) const override;
+    std::unique_ptr<SymmetricMatrix> clone() const override;
+
+  private:
+    void compress() const;
+
+    unsigned int n;
+    mutable SymmetricEntries added;             ///< not yet in the rows
+    mutable std::vector<std::size_t> begin_row; ///< both triangles; empty: no entries yet
+    mutable std::vector<unsigned int> column;
+    mutable std::vector<double> value;
   };
 
   /// A zero block-tridiagonal matrix with @p n rows in blocks of @p block_size, 1 to 4: the

@@ -12,7 +12,7 @@
 
 namespace taut
 {
-  /// A time integration scheme by name, values of its own entries, and why.
+  /// A time integration scheme by name, values of its own entries by path, and why.
   struct SchemeChoice
   {
     std::string name;

@@ -50,7 +50,7 @@ namespace taut
     struct Summary
     {
       double contact_energy = 0.;                ///< [J]
-      double scale = 0.;                         ///< kinetic + strain + loads [J]
+      double scale = 0.;                         ///< kinetic + strain + loads, and rounding [J]
       double relative_energy = 0.;               ///< contact energy over the scale [1]
       std::size_t energy_row = 0;                ///< of the contact that gave most
       double energy_begin = 0., energy_end = 0.; ///< when it closed and opened [s]
@@ -103,6 +103,7 @@ namespace taut
     void add_force(Force &force, double t, double dt, double value);
     void add_energy(std::size_t i, const State &state, const StepCoefficients &c);
     void add_gap(std::size_t i, const State &state, const StepCoefficients &c);
+    void measure_rest(const State &start);
     void measure_scale(const State &state, const Certificate &certificate);
     std::vector<double> resolved_times() const;
 
@@ -114,6 +115,7 @@ namespace taut
     Summary found;
     double worst_event = 0.;
     double kinetic = 0., strain = 0., loads = 0.; ///< largest so far [J]
+    double rest = 0.;                             ///< rounding at rest [J]
     long n_steps = 0;
     std::vector<double> work;
   };

@@ -4,6 +4,7 @@
 
 #include <taut/base/registry.h>
 
+#include <map>
 #include <memory>
 #include <string>
 
@@ -94,7 +95,15 @@ namespace taut
     virtual std::string description() const = 0;
   };
 
-  /// The source's scheme: backward Euler for the velocity and for the acceleration; first order.
+  /**
+   * The registered scheme of this name with values of its entries by path, for example
+   * "Moreau-Jean/Theta"; entries that it does not have are passed over. Throws UserError for an
+   * unknown name, and what deal.II's ParameterHandler throws for a value that does not fit.
+   */
+  std::unique_ptr<TimeIntegrator>
+  make_integrator(const std::string &name, const std::map<std::string, std::string> &entries = {});
+
+  /// Backward Euler for the velocity and for the acceleration; first order.
   StepCoefficients backward_euler(double step);
 
   /// The second-order backward difference formula for the velocity and for the acceleration.

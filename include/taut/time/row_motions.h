@@ -136,6 +136,7 @@ namespace taut
     void add_free_motions(const FactoredStructure &solvers, std::size_t k,
                           const std::vector<double> &amplitudes, std::vector<double> &dU) const;
     double moving_gap(std::size_t i) const;
+    void add_inertial_terms(const State &state, const ComplementarityOperator &F);
     double largest_stray(const State &state, std::size_t &worst);
     void add_body_terms(const BlockVector &U);
     bool elastic_mean(std::size_t i) const { return mean[i] && S[i] > 0.; }
@@ -169,7 +170,9 @@ namespace taut
     std::vector<double>
         link_history; ///< part of a link spring's compression that does not depend on N
     std::vector<double> reference_gap; ///< gap of the fixed rows at the reference
-    std::vector<double> gap_terms;     ///< largest terms of the gaps of the fixed rows so far
+    std::vector<double>
+        largest_scale;             ///< of each row's gap so far: what came to rest rounds with it
+    std::vector<double> gap_terms; ///< largest terms of the gaps of the fixed rows so far
     /// Of the moving rows: gap of the start minus the one of its displacements, rounding that would
     /// be a force over a small compliance.
     std::vector<double> gap_correction;

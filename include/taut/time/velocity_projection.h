@@ -59,6 +59,7 @@ namespace taut
     bool has_to_act(const RowMotions &motions, const State &state);
     void setup();
     void set_problem(const State &state);
+    double kinetic_energy(const State &state);
     void solve(const RowMotions &motions, const State &state);
     double largest_part(const RowMotions &motions, const State &state,
                         const std::vector<double> &plain, const std::vector<double> &rebounding);
@@ -83,6 +84,7 @@ namespace taut
     MixedComplementarityProblem problem;
     std::vector<double> p, q, change; ///< impulses, P - p, f (P - p)
     std::vector<double> rate, work_of_rows, work_vector;
+    std::vector<double> largest_scale; ///< of each row's rate so far
     BlockVector dV;
     double found = 0.;
     std::size_t worst = 0;

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_system_h
+#define taut_system_h
+
+#include <taut/interface/contact_rows.h>
+#include <taut/substructure/structure.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace taut
+{
+  /// The displacement of a place of a body along a direction, as linear forms on the bodies of this
+  /// rank [m].
+  using Displacement = std::vector<Term>;
+
+  /**
+   * One scalar condition between two displacements a and b along one direction, with the multiplier
+   * N: its gap is D = a - b + gap + N / stiffness, and N > 0 pushes a forwards and b backwards.
+   * Unilateral: N >= 0, D >= 0, N D = 0. Bilateral: D = 0. The ground is an empty displacement.
+   */
+  class Constraint
+  {
+  public:
+    static Constraint unilateral(const std::string &name, const Displacement &a,
+                                 const Displacement &b = {});
+    static Constraint bilateral(const std::string &name, const Displacement &a,
+                                const Displacement &b = {});
+
+    /// One whose displacement and gap @p place gives anew at each time.
+    static Constraint unilateral(const std::string &name, std::shared_ptr<const MovingPlace> place);
+
+    /// D at U = 0, N = 0 [m].
+    Constraint &gap(double value);
+
+    /// Of a spring in series, rigid without it, and of a damper beside the spring [N/m; N s/m].
+    Constraint &stiffness(double value);
+    Constraint &damping(double value);
+
+    const Row &row() const { return data; }
+
+  private:
+    Constraint(const std::string &name, bool unilateral, const Displacement &a,
+               const Displacement &b);
+    Row data;
+  };
+
+  /**
+   * Bodies and the constraints between them. Bodies may be Taut's own or any other Substructure;
+   * each lives on one rank, and all ranks add the same bodies and constraints in the same order.
+   */
+  class System
+  {
+  public:
+    /// One rank alone, or those of the communicator.
+    explicit System(const Communicator &processes = Communicator());
+
+    /// Adds the body that @p make returns on its owner, the rank with the fewest DoFs so far unless
+    /// one is named; other ranks do not call it. Returns the number of the body, the same on all
+    /// ranks. Called by all ranks together; throws on all of them what @p make throws.
+    std::size_t add(const std::string &name, const Structure::Factory &make);
+    std::size_t add(const std::string &name, unsigned int owner, const Structure::Factory &make);
+
+    /// The displacement of a place of a body along a direction, see Substructure::displacement().
+    /// Called by all ranks together; throws on all of them if the place is not on the body.
+    Displacement displacement(std::size_t body, const Coordinates &place,
+                              const Coordinates &direction) const;
+
+    /// Adds a constraint and returns its number among them. A Stepper knows those that were there
+    /// when it was made.
+    std::size_t add(const Constraint &constraint);
+
+    std::size_t n_bodies() const { return index.size(); }
+    std::size_t n_constraints() const { return constraints.size(); }
+
+    /// A body if it is on this rank, otherwise nullptr; and its index among those of this rank.
+    const Substructure *body(std::size_t number) const;
+    std::size_t index_here(std::size_t body) const { return index[body]; }
+
+    const Communicator &communicator() const { return bodies.communicator(); }
+    const Structure &structure() const { return bodies; }
+
+    /// The rows of the constraints; that of constraint i is row_of_link(i). They keep a reference
+    /// to the system.
+    ContactRows rows() const;
+
+  private:
+    Structure bodies;
+    std::vector<std::size_t> index; ///< of each body on this rank, or Structure::elsewhere
+    std::vector<std::size_t> load;  ///< DoFs of each rank
+    std::vector<Row> constraints;
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_fe_body_h
+#define taut_fe_body_h
+
+#include <taut/substructure/substructure.h>
+
+#include <deal.II/dofs/dof_handler.h>
+
+#include <deal.II/fe/mapping.h>
+
+#include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/sparse_matrix.h>
+#include <deal.II/lac/vector.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace taut
+{
+  /**
+   * Any linear model of deal.II as a substructure: M U" + C U' + K U = P + B N on the DoFs of a
+   * DoFHandler, as they are numbered there.
+   *
+   * The matrices are symmetric and assembled without the constraints (not by
+   * distribute_local_to_global); the constraints are applied here. A DoF that depends on others, at
+   * a hanging node, is condensed onto them; one that is prescribed keeps its equations, so that it
+   * may move in time. An element with dim components is a displacement in the plane or in space;
+   * one with a single component is a displacement along a direction of its own.
+   */
+  template <int dim>
+  class FEBody : public Substructure
+  {
+  public:
+    struct Options
+    {
+      /// Path of the body's section in a parameter file, for messages.
+      std::string origin = {};
+
+      /// Direction of the displacement of a scalar element.
+      Coordinates direction = {0., 0., 1.};
+
+      /// Motions that cost no energy without constraints: rigid body modes from the points of the
+      /// mesh (a constant for a scalar element), or the vectors given, one entry a DoF.
+      bool rigid_body_modes = true;
+      std::vector<dealii::Vector<double>> null_space = {};
+
+      /// Kind of each DoF, 0 a displacement [m], 1 a slope or rotation [rad]; empty: displacements.
+      std::vector<unsigned char> kinds = {};
+
+      /// Places are found with it; none: straight cells.
+      const dealii::Mapping<dim> *mapping = nullptr;
+    };
+
+    /**
+     * @p dof_handler and a mapping are kept by reference; matrices, constraints and load [N] are
+     * copied in the form that is needed. An empty damping matrix is none. Throws UserError for
+     * matrices or a load of another size, and for a constraint that both depends on DoFs and is
+     * inhomogeneous.
+     */
+    FEBody(const std::string &name, const dealii::DoFHandler<dim> &dof_handler,
+           const dealii::SparseMatrix<double> &mass, const dealii::SparseMatrix<double> &damping,
+           const dealii::SparseMatrix<double> &stiffness,
+           const dealii::AffineConstraints<double> &constraints,
+           const dealii::Vector<double> &load = {}, const Options &options = Options());
+
+    /// Adds a load that changes in time: @p add adds it at t [s] to P [N], one entry a DoF.
+    void add_load(std::function<void(double t, dealii::Vector<double> &P)> add);
+
+    /// Gives a DoF that a constraint prescribes a motion u(t) [m]. Throws UserError for another
+    /// DoF.
+    void prescribe(dealii::types::global_dof_index dof, std::function<double(double)> motion);
+
+    /// Displacement and velocity at t = 0 for Start::given, one entry a DoF [m, m/s].
+    void set_initial_state(const dealii::Vector<double> &displacement,
+                           const dealii::Vector<double> &velocity);
+
+    /// At a point of the mesh; a scalar element counts the part of @p direction along its own.
+    SparseVector displacement(const Coordinates &place,
+                              const Coordinates &direction) const override;
+
+    /// A place of the boundary or inside: of DoF @p dof alone, condensed where it depends on
+    /// others.
+    SparseVector displacement_of_dof(dealii::types::global_dof_index dof) const;
+
+    /// All DoFs, those that depend on others too, from the displacement that a State has.
+    dealii::Vector<double> all_dofs(const std::vector<double> &U) const;
+
+    void initial_state(std::vector<double> &U, std::vector<double> &V) const override;
+    Kernel kernel() const override { return null_space; }
+
+    bool has_fields() const override { return true; }
+    void write_vtu(const std::string &path, const std::vector<double> &U) const override;
+
+    const dealii::DoFHandler<dim> &dof_handler() const { return handler; }
+
+  private:
+    class Load;
+
+    void set_matrix(const dealii::SparseMatrix<double> &source, SymmetricMatrix &target) const;
+    void condense(const dealii::Vector<double> &P, std::vector<double> &result) const;
+    std::vector<std::vector<double>> candidates(const Options &options) const;
+    void find_null_space(const Options &options);
+    void check_size(std::size_t size, const std::string &what) const;
+
+    const dealii::DoFHandler<dim> &handler;
+    const dealii::Mapping<dim> &mapping;
+    const Coordinates scalar_direction;
+    std::vector<SparseVector> forms; ///< of each DoF on those that are kept
+    dealii::Vector<double> U0, V0;
+    Kernel null_space;
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_stepper_h
+#define taut_stepper_h
+
+#include <taut/base/start.h>
+#include <taut/interface/system.h>
+#include <taut/time/contact_measures.h>
+#include <taut/time/initial_state.h>
+#include <taut/time/time_stepper.h>
+
+#include <map>
+#include <memory>
+#include <string>
+
+namespace taut
+{
+  /// How a system moves through time; the defaults suit most.
+  struct StepperOptions
+  {
+    double step = 1e-3; ///< [s]
+    Start start = Start::equilibrium;
+
+    /// "automatic" chooses by the constraints that act as rigid; otherwise the name of a registered
+    /// scheme, with values of its entries by path ("Moreau-Jean/Theta").
+    std::string scheme = "automatic";
+    std::map<std::string, std::string> scheme_entries = {};
+    double restitution = 0.; ///< Newton's, with "automatic" [1]
+    bool allow_unsuitable_scheme = false;
+
+    SolverParameters solver = {};
+  };
+
+  /**
+   * Moves a system step by step, without a parameter file and without files of results:
+   *
+   *     Stepper stepper(system, options);
+   *     while (stepper.time() < 1.)
+   *       stepper.advance();
+   *
+   * All ranks of the system make it and call each function together.
+   */
+  class Stepper
+  {
+  public:
+    /// @p system is kept by reference. Finds the start and chooses the scheme. Throws UserError if
+    /// there is no equilibrium, or if a scheme is known to fail on a constraint.
+    explicit Stepper(const System &system, const StepperOptions &options = StepperOptions());
+
+    /// One step. Throws UserError, naming time and constraint, if its certificate misses the
+    /// contact tolerance.
+    void advance();
+
+    double time() const { return stepper->state().time; }
+    const State &state() const { return stepper->state(); }
+    const Reference &reference() const { return stepper->reference(); }
+
+    /// Of the last step; of the equilibrium before the first one.
+    const Certificate &certificate() const;
+
+    /// What the contacts did so far.
+    const ContactMeasures &measures() const { return contact_measures; }
+
+    /// Multiplier of a constraint [N], and its gap between the bodies, negative where the spring of
+    /// the constraint is compressed [m].
+    double multiplier(std::size_t constraint) const;
+    double gap(std::size_t constraint) const;
+
+    /// From the undeformed system [m], and its rate [m/s].
+    double displacement(const Displacement &form) const;
+    double velocity(const Displacement &form) const;
+
+    /// Displacement of a body of this rank from the undeformed system, one entry a DoF [m, rad].
+    std::vector<double> displacement(std::size_t body) const;
+
+    /// Name of the scheme with its parameters, and why it was chosen.
+    const std::string &scheme() const { return scheme_description; }
+
+  private:
+    const TimeIntegrator &choose(const StepperOptions &options);
+
+    const System &system;
+    ContactRows rows;
+    std::unique_ptr<TimeIntegrator> integrator;
+    std::string scheme_description;
+    Certificate start_certificate;
+    InitialState start;
+    ContactMeasures contact_measures;
+    std::unique_ptr<TimeStepper> stepper;
+  };
+} // namespace taut
+
+#endif

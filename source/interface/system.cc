@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/interface/system.h>
+
+#include <algorithm>
+
+namespace taut
+{
+  Constraint::Constraint(const std::string &name, const bool unilateral, const Displacement &a,
+                         const Displacement &b)
+  {
+    data.name = name;
+    data.unilateral = unilateral;
+    data.terms = a;
+    for (Term term : b)
+    {
+      for (double &value : term.form.value)
+        value = -value;
+      data.terms.push_back(std::move(term));
+    }
+  }
+
+  Constraint Constraint::unilateral(const std::string &name, const Displacement &a,
+                                    const Displacement &b)
+  {
+    return Constraint(name, true, a, b);
+  }
+
+  Constraint Constraint::bilateral(const std::string &name, const Displacement &a,
+                                   const Displacement &b)
+  {
+    return Constraint(name, false, a, b);
+  }
+
+  Constraint Constraint::unilateral(const std::string &name,
+                                    std::shared_ptr<const MovingPlace> place)
+  {
+    Constraint result(name, true, {}, {});
+    result.data.place = std::move(place);
+    return result;
+  }
+
+  Constraint &Constraint::gap(const double value)
+  {
+    data.gap = value;
+    return *this;
+  }
+
+  Constraint &Constraint::stiffness(const double value)
+  {
+    data.stiffness = value;
+    return *this;
+  }
+
+  Constraint &Constraint::damping(const double value)
+  {
+    data.damping = value;
+    return *this;
+  }
+
+  System::System(const Communicator &processes) : bodies(processes), load(processes.size(), 0) {}
+
+  std::size_t System::add(const std::string &name, const Structure::Factory &make)
+  {
+    return add(name, std::min_element(load.begin(), load.end()) - load.begin(), make);
+  }
+
+  std::size_t System::add(const std::string &name, const unsigned int owner,
+                          const Structure::Factory &make)
+  {
+    index.push_back(bodies.add(name, owner, make));
+    load[owner] += bodies.all_bodies().back().n_dofs;
+    return index.size() - 1;
+  }
+
+  Displacement System::displacement(const std::size_t body, const Coordinates &place,
+                                    const Coordinates &direction) const
+  {
+    Displacement result;
+    communicator().agree(
+        [&]
+        {
+          if (index[body] != Structure::elsewhere)
+            result.push_back({index[body], bodies[index[body]].displacement(place, direction)});
+        });
+    return result;
+  }
+
+  std::size_t System::add(const Constraint &constraint)
+  {
+    constraints.push_back(constraint.row());
+    constraints.back().link = constraints.size() - 1;
+    return constraints.size() - 1;
+  }
+
+  const Substructure *System::body(const std::size_t number) const
+  {
+    return index[number] == Structure::elsewhere ? nullptr : &bodies[index[number]];
+  }
+
+  ContactRows System::rows() const
+  {
+    return ContactRows(bodies, constraints);
+  }
+} // namespace taut

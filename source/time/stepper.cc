@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/time/choose_scheme.h>
+#include <taut/time/stepper.h>
+
+namespace taut
+{
+  Stepper::Stepper(const System &system, const StepperOptions &options)
+      : system(system), rows(system.rows()),
+        start(find_initial_state(system.structure(), rows, options.solver, options.start)),
+        contact_measures(system.structure(), rows, start.reference, start.state)
+  {
+    start_certificate = start.certificate;
+    stepper = std::make_unique<TimeStepper>(system.structure(), rows, options.solver,
+                                            choose(options), options.step, start.reference,
+                                            start.state, options.start == Start::equilibrium);
+  }
+
+  const TimeIntegrator &Stepper::choose(const StepperOptions &options)
+  {
+    const Structure &structure = system.structure();
+    if (options.scheme == "automatic")
+    {
+      const SchemeChoice choice =
+          choose_scheme(structure, rows, options.solver, options.step, options.restitution);
+      std::map<std::string, std::string> entries = choice.entries;
+      entries["Moreau-Jean/Restitution"] = std::to_string(options.restitution);
+      integrator = make_integrator(choice.name, entries);
+      scheme_description = integrator->description() + ", because " + choice.reason;
+      return *integrator;
+    }
+    integrator = make_integrator(options.scheme, options.scheme_entries);
+    scheme_description = integrator->description();
+    check_mass(*integrator, structure, options.step);
+    if (!options.allow_unsuitable_scheme)
+      check_scheme(*integrator, structure, rows, options.solver, options.step);
+    return *integrator;
+  }
+
+  void Stepper::advance()
+  {
+    stepper->advance();
+    contact_measures.record(stepper->state(), stepper->scheme(), stepper->certificate());
+  }
+
+  const Certificate &Stepper::certificate() const
+  {
+    return stepper->n_steps_done() == 0 ? start_certificate : stepper->certificate();
+  }
+
+  double Stepper::multiplier(const std::size_t constraint) const
+  {
+    return state().multiplier[rows.row_of_link(constraint)];
+  }
+
+  double Stepper::gap(const std::size_t constraint) const
+  {
+    return state().geometric_gap[rows.row_of_link(constraint)];
+  }
+
+  double Stepper::displacement(const Displacement &form) const
+  {
+    double value = evaluate(form, reference().displacement) + evaluate(form, state().U);
+    system.communicator().sum(&value, 1);
+    return value;
+  }
+
+  double Stepper::velocity(const Displacement &form) const
+  {
+    double value = evaluate(form, state().V);
+    system.communicator().sum(&value, 1);
+    return value;
+  }
+
+  std::vector<double> Stepper::displacement(const std::size_t body) const
+  {
+    const std::size_t k = system.index_here(body);
+    std::vector<double> result = state().U[k];
+    for (std::size_t i = 0; i < result.size(); ++i)
+      result[i] += reference().displacement[k][i];
+    return result;
+  }
+} // namespace taut

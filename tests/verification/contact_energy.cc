@@ -1,0 +1,344 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: with conditions on gaps, then velocities, fixed rigid one-sided links never give energy,
+// whatever bodies, links and steps, and BDF2 does. Source: kinetic and strain energy, measured here
+// by M and K, of random problems without loads: contacts, joints and dampers can only take it.
+#include "run.h"
+
+#include <taut/time/time_stepper.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+
+using namespace verification;
+
+namespace
+{
+  /// A scheme by its coefficients.
+  class Scheme : public taut::TimeIntegrator
+  {
+  public:
+    using Coefficients = std::function<taut::StepCoefficients(double, double)>;
+    explicit Scheme(Coefficients c) : c(std::move(c)) {}
+    taut::StepCoefficients coefficients(const double step) const override { return c(step, step); }
+    taut::StepCoefficients after_change(const double step, const double last) const override
+    {
+      return c(step, last);
+    }
+    std::string description() const override { return "of the test"; }
+
+  private:
+    Coefficients c;
+  };
+
+  Scheme gaps_then_velocities(const double restitution = 0.)
+  {
+    return Scheme([restitution](const double step, double)
+                  { return taut::gaps_then_velocities(step, restitution); });
+  }
+
+  const Scheme bdf2([](const double step, const double last) { return taut::bdf2(step, last); });
+
+  /// Masses on springs of random size and direction in one or two bodies, 2 to 40 DoFs, and 1 to 20
+  /// links, some of them twice, that are closed or nearly so.
+  class RandomProblem
+  {
+  public:
+    explicit RandomProblem(const unsigned int seed, const bool has_elastic_links = false)
+        : random(seed)
+    {
+      add_bodies();
+      add_links(has_elastic_links);
+    }
+
+    taut::Scene scene;
+    std::mt19937 random;
+
+    double uniform(const double a, const double b)
+    {
+      return std::uniform_real_distribution<double>(a, b)(random);
+    }
+    double logarithmic(const double a, const double b)
+    {
+      return std::exp(uniform(std::log(a), std::log(b)));
+    }
+    std::size_t index(const std::size_t n)
+    {
+      return std::uniform_int_distribution<std::size_t>(0, n - 1)(random);
+    }
+
+  private:
+    taut::Point direction()
+    {
+      const double angle = uniform(0., 6.3);
+      return {std::cos(angle), std::sin(angle)};
+    }
+
+    void add_spring(const std::size_t from, const std::size_t to)
+    {
+      taut::Spring spring;
+      spring.name = "spring " + std::to_string(scene.springs.size());
+      spring.from = from;
+      spring.to = to;
+      spring.direction = direction();
+      spring.stiffness = logarithmic(1., 1e4);
+      if (index(4) == 0)
+        spring.damping = logarithmic(1e-3, 1.);
+      scene.springs.push_back(spring);
+    }
+
+    void add_bodies()
+    {
+      scene.gravity = {0., 0.};
+      scene.start = taut::Start::given;
+      const std::size_t n = 1 + index(20), first_of_second = index(2) == 0 ? n : 1 + index(n);
+      for (std::size_t i = 0; i < n; ++i)
+      {
+        taut::Mass mass;
+        mass.name = "mass " + std::to_string(i);
+        mass.position = {double(i), 0.};
+        mass.mass = logarithmic(.1, 10.);
+        mass.moves[0] = true;
+        for (int c = 0; c < 2; ++c)
+          mass.velocity[c] = std::normal_distribution<double>()(random);
+        scene.masses.push_back(mass);
+        for (int c = 0; c < 2 && i > 0 && i != first_of_second; ++c)
+        {
+          const std::size_t first = i > first_of_second ? first_of_second : 0;
+          add_spring(first + index(i - first), i);
+        }
+        if (index(3) == 0)
+          add_spring(taut::ground, i);
+      }
+    }
+
+    taut::Attachment attachment(const std::size_t i)
+    {
+      taut::Attachment result;
+      if (i < scene.masses.size())
+        result = {taut::Attachment::Kind::mass, i, 0.};
+      return result;
+    }
+
+    void add_links(const bool has_elastic_links)
+    {
+      const std::size_t n = 1 + index(20);
+      while (scene.links.size() < n)
+      {
+        taut::Link link;
+        if (!scene.links.empty() && index(5) == 0)
+          link = scene.links[index(scene.links.size())];
+        else
+        {
+          const std::size_t to = index(scene.masses.size()), other = index(2 * scene.masses.size());
+          link.from = attachment(other == to ? scene.masses.size() : other);
+          link.to = attachment(to);
+          link.direction = direction();
+          const std::size_t kind = index(5);
+          link.kind = kind == 0   ? taut::LinkKind::joint
+                      : kind == 1 ? taut::LinkKind::dropper
+                                  : taut::LinkKind::stop;
+          if (link.unilateral() && index(3) > 0)
+            link.gap = logarithmic(1e-4, 1.);
+          if (has_elastic_links && link.unilateral() && index(2) == 0)
+            link.stiffness = logarithmic(1., 1e8);
+        }
+        link.name = "link " + std::to_string(scene.links.size());
+        scene.links.push_back(link);
+      }
+    }
+  };
+
+  /// The state of a scene at its start.
+  taut::State start_of(const taut::Structure &structure, const taut::ContactRows &rows)
+  {
+    taut::State state;
+    state.U = state.V = state.A = state.dU = state.V_old = state.KU = state.balance =
+        structure.zero();
+    state.multiplier.assign(rows.size(), 0.);
+    state.link_springs.resize(rows.size());
+    for (std::size_t k = 0; k < structure.size(); ++k)
+      structure[k].initial_state(state.U[k], state.V[k]);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      state.geometric_gap.push_back(rows[i].gap);
+    state.gap = state.geometric_gap;
+    return state;
+  }
+
+  /// Kinetic and strain energy of the bodies, and what springs of links hold [J].
+  double energy(const taut::Structure &structure, const taut::ContactRows &rows,
+                const taut::State &state)
+  {
+    double sum = 0.;
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      const std::vector<double> &U = state.U[k], &V = state.V[k];
+      std::vector<double> MV(U.size(), 0.), KU(U.size(), 0.);
+      structure[k].mass().vmult_add(1., V.data(), MV.data());
+      structure[k].stiffness().vmult_add(1., U.data(), KU.data());
+      for (std::size_t i = 0; i < U.size(); ++i)
+        sum += .5 * (MV[i] * V[i] + KU[i] * U[i]);
+    }
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (!std::isinf(rows[i].stiffness))
+        sum += .5 * rows[i].stiffness * std::pow(std::min(0., state.geometric_gap[i]), 2);
+    return sum;
+  }
+
+  /// 2 pi over the largest frequency of M^-1 K, by power iteration; 1 without springs [s].
+  double shortest_period(const taut::Structure &structure)
+  {
+    double largest = 0.;
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      const std::size_t n = structure[k].n_dofs();
+      std::vector<double> diagonal(n), x(n), y;
+      structure[k].mass().visit(
+          [&](unsigned int i, unsigned int j, double value)
+          {
+            if (i == j)
+              diagonal[i] = value;
+          });
+      for (std::size_t i = 0; i < n; ++i)
+        x[i] = 1. + .1 * i;
+      for (int iteration = 0; iteration < 50; ++iteration)
+      {
+        y.assign(n, 0.);
+        structure[k].stiffness().vmult_add(1., x.data(), y.data());
+        double size = 0.;
+        for (std::size_t i = 0; i < n; ++i)
+          size = std::max(size, std::fabs(y[i] /= diagonal[i]));
+        if (size == 0.)
+          break;
+        for (double &value : y)
+          value /= size;
+        x = y;
+        if (iteration == 49)
+          largest = std::max(largest, size);
+      }
+    }
+    return largest > 0. ? 2. * std::acos(-1.) / std::sqrt(largest) : 1.;
+  }
+
+  struct Gain
+  {
+    double largest = 0.;   ///< rise of the energy in a step over the energy at the start
+    double projected = 0.; ///< largest D' of a rigid joint after a step [m/s]
+  };
+
+  /// Forty steps, one in eight of another length: 0.01 to 10 of the shortest period.
+  Gain run(RandomProblem &problem, const Scheme &scheme)
+  {
+    const taut::Structure structure(problem.scene);
+    taut::ContactRows rows(problem.scene, structure);
+    const double period = shortest_period(structure);
+    const auto new_step = [&] { return period * problem.logarithmic(.01, 10.); };
+    taut::Reference reference;
+    reference.displacement = reference.force = structure.zero();
+    taut::TimeStepper stepper(structure, rows, taut::SolverParameters(), scheme, new_step(),
+                              reference, start_of(structure, rows), false);
+    const double first = energy(structure, rows, stepper.state());
+    Gain gain;
+    double before = first;
+    for (int i = 0; i < 40; ++i)
+    {
+      if (i > 0 && problem.index(8) == 0)
+        stepper.set_step(new_step());
+      stepper.advance();
+      const double now = energy(structure, rows, stepper.state());
+      gain.largest = std::max(gain.largest, (now - before) / first);
+      before = now;
+      const std::vector<double> rates = rows.motions(stepper.state().V);
+      for (std::size_t r = 0; r < rows.size(); ++r)
+        if (!rows[r].unilateral)
+          gain.projected = std::max(gain.projected, std::fabs(rates[r]));
+    }
+    return gain;
+  }
+
+  /// Runs @p n problems, and counts those that gain more than @p rounding of their energy.
+  struct Result
+  {
+    int n_gained = 0, n_failed = 0;
+    double largest = 0., joints = 0.;
+  };
+  Result run_many(const int n, const double rounding, const std::function<Scheme(unsigned int)> &of,
+                  const bool has_elastic_links = false)
+  {
+    Result result;
+    for (int seed = 1; seed <= n; ++seed)
+    {
+      RandomProblem problem(seed, has_elastic_links);
+      try
+      {
+        const Gain gain = run(problem, of(seed));
+        result.largest = std::max(result.largest, gain.largest);
+        result.joints = std::max(result.joints, gain.projected);
+        if (gain.largest > rounding)
+        {
+          ++result.n_gained;
+          if (rounding < 1e-9)
+            std::printf("problem %d gains %g\n", seed, gain.largest);
+        }
+      }
+      catch (const std::exception &e)
+      {
+        ++result.n_failed;
+        std::printf("problem %d: %s\n", seed, e.what());
+      }
+    }
+    return result;
+  }
+} // namespace
+
+TEST(ContactEnergy, no_rigid_problem_gains_with_gaps_then_velocities)
+{
+  const Result result = run_many(1000, 1e-10, [](unsigned int) { return gaps_then_velocities(); });
+  figure("1000 rigid problems, gaps, then velocities: largest gain in a step over the first energy",
+         result.largest);
+  figure("1000 rigid problems, gaps, then velocities: largest velocity of a joint", result.joints,
+         "m/s");
+  EXPECT_EQ(result.n_gained, 0);
+  EXPECT_EQ(result.n_failed, 0);
+  EXPECT_LT(result.joints, 1e-9);
+}
+
+// The same problems: the test can fail.
+TEST(ContactEnergy, many_rigid_problems_gain_with_bdf2)
+{
+  const Result result = run_many(1000, 1e-6, [](unsigned int) { return bdf2; });
+  figure("1000 rigid problems, BDF2: problems that gain energy", result.n_gained);
+  figure("1000 rigid problems, BDF2: largest gain in a step over the first energy", result.largest);
+  EXPECT_GT(result.n_gained, 300);
+  EXPECT_GT(result.largest, .05);
+}
+
+// A spring's compression holds energy, too.
+TEST(ContactEnergy, no_problem_with_elastic_links_gains)
+{
+  const Result result = run_many(
+      300, 1e-10, [](unsigned int) { return gaps_then_velocities(); }, true);
+  figure("300 problems with rigid and elastic links: largest gain in a step", result.largest);
+  EXPECT_EQ(result.n_gained, 0);
+  EXPECT_EQ(result.n_failed, 0);
+}
+
+// Newton's law alone gives energy where several links are hit: the part of it that does not.
+TEST(ContactEnergy, no_rigid_problem_gains_with_restitution)
+{
+  for (const bool elastic : {true, false})
+  {
+    const Result result =
+        run_many(100, 1e-10,
+                 [&](const unsigned int seed)
+                 { return gaps_then_velocities(elastic ? 1. : ((seed * 37) % 100 + 1) / 100.); });
+    figure(std::string("100 rigid problems, restitution ") + (elastic ? "1" : "0.01 to 1") +
+               ": largest gain in a step",
+           result.largest);
+    EXPECT_EQ(result.n_gained, 0);
+    EXPECT_EQ(result.n_failed, 0);
+  }
+}
