@@ -362,7 +362,7 @@ TEST_F(StudyTest, accuracy_refuses_a_study_of_another_scene)
   expect_fragments(read({"Network/Spring spring/Stiffness=201"}),
                    {"another scene", "Network/Spring spring/Stiffness is '201' here and '200'"});
   expect_fragments(read({"Gravity=0, 0, 0"}), {"Gravity"});
-  expect_fragments(read({"Network/Masses=block, two"}),
+  expect_fragments(read({"Network/Masses=block, two", "Network/Mass two/Mass=1"}),
                    {"Network/Mass two/Inertia is '0' here and missing in the study", "more"});
   expect_fragments(read({"Output/Probe place/Direction=1, 1"}), {"Output/Probe place/Direction"});
   expect_fragments(
