@@ -69,6 +69,7 @@ namespace extremes
         std::string("Start=") + starts[static_cast<int>(c.scene.start)],
         "Time.Scheme=" + c.scheme,
         "Time.Allow unsuitable scheme=true",
+        "Time.Allow energy gain=true",
         "Time.Step=" + text(c.step),
         "Time.End=" + text(c.n_steps * c.step),
         "Output.Interval=1e30",
