@@ -4,6 +4,7 @@
 // by M and K, of random problems without loads: contacts, joints and dampers can only take it.
 #include "run.h"
 
+#include <taut/model/scene_rows.h>
 #include <taut/time/time_stepper.h>
 
 #include <gtest/gtest.h>
@@ -232,8 +233,8 @@ namespace
   /// Forty steps, one in eight of another length: 0.01 to 10 of the shortest period.
   Gain run(RandomProblem &problem, const Scheme &scheme)
   {
-    const taut::Structure structure(problem.scene);
-    taut::ContactRows rows(problem.scene, structure);
+    const taut::SceneBodies structure(problem.scene);
+    taut::ContactRows rows = taut::scene_rows(problem.scene, structure);
     const double period = shortest_period(structure);
     const auto new_step = [&] { return period * problem.logarithmic(.01, 10.); };
     taut::Reference reference;
