@@ -23,7 +23,8 @@ arguments = parser.parse_args()
 
 LINE = [str(arguments.prm / "en50318_2002_250.prm"), "--set", "Statistics/Window="]
 STEP = ["--set", "Time/Step=2e-5", "--set", "Time/End=0.5"]  # 25000 steps: none is done before the signal comes
-LARGE = [*LINE, "--set", "Catenary/Contact wire/Element size=5e-3"]  # seconds before the first step
+# Seconds before the first step.
+LARGE = [*LINE, "--set", "Catenary/Number of spans=100", "--set", "Catenary/Contact wire/Element size=0.1"]
 FAILING = """set Generator = network
 set Start     = given
 subsection Network
@@ -161,7 +162,7 @@ def check_signal(folder, number):
 
 def check_ranks(folder, number, rank):
     """Two processes; the signal goes to one of them, or to mpirun (None), which has its own exit code."""
-    options = [*LINE, "--set", "Time/Step=5e-4"]
+    options = [*LINE, "--set", "Time/Step=1e-4"]  # the run must not end while mpirun passes the signal on
     results = folder / "results"
     program = Program(folder, [*options, "--set", f"Output/Folder={results}"], 2)
     program.says(r" [1-9]\d %  t = ")

@@ -105,8 +105,8 @@ TEST(Energy, every_scheme_accounts_for_every_scene)
     for (const std::string scene : {"en50318_2002_250", "bar_on_wall", "oscillator_with_stop"})
     {
       // Also where contacts give energy, as Newmark's do on the wall.
-      Overrides overrides = {"Time.Scheme=" + scheme, "Time.End=0.7", "Statistics.Window=",
-                             "Time.Allow energy gain=true"};
+      Overrides overrides = {"Time.Scheme=" + scheme, "Time.End=0.7",
+                             "Statistics.Window=", "Time.Allow energy gain=true"};
       if (scheme == "gaps" || scheme == "velocities")
         overrides = {"Time.Scheme=Moreau-Jean", "Time.Moreau-Jean.Conditions=" + scheme,
                      "Time.End=0.7", "Time.Allow energy gain=true", "Statistics.Window="};

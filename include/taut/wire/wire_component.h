@@ -100,14 +100,13 @@ namespace taut
     bool keeps_inertia = false; ///< where their mass goes
     std::unique_ptr<Discretisation> discretisation;
   };
-  /// A wire as a body of its own, by one of its motions, with what acts on it: supports, point masses
-  /// and loads count for it whatever wire they name. Throws EntryError for a wire without that motion.
-  std::unique_ptr<Substructure> make_wire(const Wire &wire,
-                                          WireMotion motion = WireMotion::transverse,
-                                          std::vector<Support> supports = {},
-                                          std::vector<PointMass> point_masses = {},
-                                          std::vector<Load> loads = {},
-                                          const Point &gravity = {0., -9.81});
+  /// A wire as a body of its own, by one of its motions, with what acts on it: supports, point
+  /// masses and loads count for it whatever wire they name. Throws EntryError for a wire without
+  /// that motion.
+  std::unique_ptr<Substructure>
+  make_wire(const Wire &wire, WireMotion motion = WireMotion::transverse,
+            std::vector<Support> supports = {}, std::vector<PointMass> point_masses = {},
+            std::vector<Load> loads = {}, const Point &gravity = {0., -9.81});
 } // namespace taut
 
 #endif

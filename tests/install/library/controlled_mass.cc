@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// A mass above a rigid stop, stepped by hand and held by a controller of another program: it lets the mass come to rest
-// 0.1 m above the stop after it has touched it.
+// A mass above a rigid stop, stepped by hand and held by a controller of another program: it lets
+// the mass come to rest 0.1 m above the stop after it has touched it.
 #include <taut/time/stepper.h>
 
 #include <cmath>
@@ -22,7 +22,8 @@ namespace
       time_loads.push_back(std::make_unique<taut::PointLoad>(one, [&](double) { return force; }));
       finish();
     }
-    taut::SparseVector displacement(const taut::Coordinates &, const taut::Coordinates &n) const override
+    taut::SparseVector displacement(const taut::Coordinates &,
+                                    const taut::Coordinates &n) const override
     {
       taut::SparseVector form;
       form.add(0, n[1]);
@@ -49,9 +50,11 @@ int main()
     stepper.advance();
     largest = std::fmax(largest, stepper.multiplier(stop));
     if (stepper.time() > .5)
-      force = 2. * 9.81 - 400. * (stepper.displacement(height) + .1) - 40. * stepper.velocity(height);
+      force =
+          2. * 9.81 - 400. * (stepper.displacement(height) + .1) - 40. * stepper.velocity(height);
   }
   const double rest = stepper.displacement(height);
-  std::printf("%s: %.9f m, certificate %.1e\n", stepper.scheme().c_str(), rest, stepper.certificate().max());
+  std::printf("%s: %.9f m, certificate %.1e\n", stepper.scheme().c_str(), rest,
+              stepper.certificate().max());
   return std::fabs(rest + .1) < 1e-6 && largest > 0. && stepper.certificate().max() < 1e-10 ? 0 : 1;
 }

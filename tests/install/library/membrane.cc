@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The obstacle problem of deal.II's tutorial step-41: a membrane over a staircase, each node one unilateral constraint.
-// Compared with the projected Gauss-Seidel method on the same matrix: the same contact set, the same displacements.
+// The obstacle problem of deal.II's tutorial step-41: a membrane over a staircase, each node one
+// unilateral constraint. Compared with the projected Gauss-Seidel method on the same matrix: the
+// same contact set, the same displacements.
+#include <taut/interface/system.h>
 #include <taut/substructure/fe_body.h>
 #include <taut/time/static_equilibrium.h>
-#include <taut/interface/system.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -40,20 +41,28 @@ int main(int argc, char **argv)
   MatrixCreator::create_mass_matrix(dofs, QGauss<2>(2), M);
   MatrixCreator::create_laplace_matrix(dofs, QGauss<2>(2), K);
   Vector<double> load(dofs.n_dofs());
-  VectorTools::create_right_hand_side(dofs, QGauss<2>(2), Functions::ConstantFunction<2>(-10.), load);
+  VectorTools::create_right_hand_side(dofs, QGauss<2>(2), Functions::ConstantFunction<2>(-10.),
+                                      load);
   std::vector<Point<2>> points(dofs.n_dofs());
   DoFTools::map_dofs_to_support_points(StaticMappingQ1<2>::mapping, dofs, points);
-  const auto obstacle = [](const Point<2> &p) { return p[0] < -.5 ? -.2 : p[0] < 0. ? -.4 : p[0] < .5 ? -.6 : -.8; };
+  const auto obstacle = [](const Point<2> &p) {
+    return p[0] < -.5 ? -.2 : p[0] < 0. ? -.4 : p[0] < .5 ? -.6 : -.8;
+  };
 
   taut::System system;
-  const auto membrane = system.add("membrane", [&] {
-    return std::make_unique<taut::FEBody<2>>("membrane", dofs, M, none, K, constraints, load); });
+  const auto membrane = system.add("membrane",
+                                   [&] {
+                                     return std::make_unique<taut::FEBody<2>>(
+                                         "membrane", dofs, M, none, K, constraints, load);
+                                   });
   const auto &body = static_cast<const taut::FEBody<2> &>(*system.body(membrane));
   std::vector<std::size_t> constraint(dofs.n_dofs(), 0);
   for (unsigned int i = 0; i < dofs.n_dofs(); ++i)
     if (!constraints.is_constrained(i))
-      constraint[i] = system.add(taut::Constraint::unilateral("node " + std::to_string(i), {{system.index_here(membrane), body.displacement_of_dof(i)}})
-                                   .gap(-obstacle(points[i])));
+      constraint[i] = system.add(
+          taut::Constraint::unilateral("node " + std::to_string(i),
+                                       {{system.index_here(membrane), body.displacement_of_dof(i)}})
+              .gap(-obstacle(points[i])));
   const taut::ContactRows rows = system.rows();
   const taut::StaticState state = taut::static_equilibrium(system.structure(), rows, {}, 0.);
 
@@ -87,7 +96,9 @@ int main(int argc, char **argv)
       r += e->value() * u[e->column()];
     n_different += closed != (r > 1e-9);
   }
-  std::printf("%u DoFs, %u in contact, %u different; displacements differ by %.1e; certificate %.1e, %u active-set iterations\n",
-              dofs.n_dofs(), n_closed, n_different, error, state.certificate.max(), state.certificate.iterations);
+  std::printf("%u DoFs, %u in contact, %u different; displacements differ by %.1e; certificate "
+              "%.1e, %u active-set iterations\n",
+              dofs.n_dofs(), n_closed, n_different, error, state.certificate.max(),
+              state.certificate.iterations);
   return n_different == 0 && error < 1e-9 && n_closed > 0 ? 0 : 1;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// An elastic plate in plane strain with a clamped edge and a hanging node, as any program of deal.II assembles it, and a
-// beam of Taut whose tip presses on it: agrees with a Newmark loop of the whole, with the contact as a spring.
+// An elastic plate in plane strain with a clamped edge and a hanging node, as any program of
+// deal.II assembles it, and a beam of Taut whose tip presses on it: agrees with a Newmark loop of
+// the whole, with the contact as a spring.
 #include <taut/substructure/fe_body.h>
 #include <taut/time/stepper.h>
 #include <taut/wire/wire_component.h>
@@ -55,13 +56,16 @@ struct Plate
       for (unsigned int i = 0; i < index.size(); ++i)
         for (unsigned int j = 0; j < index.size(); ++j)
         {
-          const unsigned int a = element.system_to_component_index(i).first, b = element.system_to_component_index(j).first;
+          const unsigned int a = element.system_to_component_index(i).first,
+                             b = element.system_to_component_index(j).first;
           double m = 0., k = 0.;
           for (const unsigned int q : values.quadrature_point_indices())
           {
             const auto gi = values.shape_grad(i, q), gj = values.shape_grad(j, q);
-            m += (a == b) * rho * values.shape_value(i, q) * values.shape_value(j, q) * values.JxW(q);
-            k += (lambda * gi[a] * gj[b] + mu * gi[b] * gj[a] + (a == b) * mu * (gi * gj)) * values.JxW(q);
+            m += (a == b) * rho * values.shape_value(i, q) * values.shape_value(j, q) *
+                 values.JxW(q);
+            k += (lambda * gi[a] * gj[b] + mu * gi[b] * gj[a] + (a == b) * mu * (gi * gj)) *
+                 values.JxW(q);
           }
           M.add(index[i], index[j], m);
           K.add(index[i], index[j], k);
@@ -97,11 +101,22 @@ int main()
   load.magnitude = taut::Expression("-200*(1-cos(20*t))-500*t", "load");
 
   taut::System system;
-  const auto beam = system.add("beam", [&] { return taut::make_wire(wire, taut::WireMotion::transverse, {clamp, slope}, {}, {load}); });
-  const auto body = system.add("plate", [&] {
-    return std::make_unique<taut::FEBody<2>>("plate", plate.dofs, plate.M, plate.C, plate.K, plate.constraints); });
-  const taut::Displacement tip = system.displacement(beam, {2.}, {0., 1.}), corner = system.displacement(body, {2., 1.}, {0., 1.});
-  const auto contact = system.add(taut::Constraint::unilateral("contact", tip, corner).stiffness(stiffness));
+  const auto beam = system.add(
+      "beam",
+      [&] {
+        return taut::make_wire(wire, taut::WireMotion::transverse, {clamp, slope}, {}, {load});
+      });
+  const auto body =
+      system.add("plate",
+                 [&]
+                 {
+                   return std::make_unique<taut::FEBody<2>>("plate", plate.dofs, plate.M, plate.C,
+                                                            plate.K, plate.constraints);
+                 });
+  const taut::Displacement tip = system.displacement(beam, {2.}, {0., 1.}),
+                           corner = system.displacement(body, {2., 1.}, {0., 1.});
+  const auto contact =
+      system.add(taut::Constraint::unilateral("contact", tip, corner).stiffness(stiffness));
   taut::StepperOptions options;
   options.scheme = "Newmark";
   options.step = step;
@@ -116,8 +131,11 @@ int main()
   {
     const taut::Substructure &s = *system.body(k);
     const unsigned int first = k == 0 ? 0 : nb;
-    const auto copy = [&](FullMatrix<double> &target) {
-      return [&target, first](unsigned int i, unsigned int j, double v) { target(first + i, first + j) = target(first + j, first + i) = v; }; };
+    const auto copy = [&](FullMatrix<double> &target)
+    {
+      return [&target, first](unsigned int i, unsigned int j, double v)
+      { target(first + i, first + j) = target(first + j, first + i) = v; };
+    };
     s.mass().visit(copy(M));
     s.damping().visit(copy(C));
     s.stiffness().visit(copy(K));
@@ -173,7 +191,7 @@ int main()
     least_force = std::fmin(least_force, stepper.multiplier(contact));
   }
   system.body(body)->write_vtu("plate.vtu", stepper.displacement(body));
-  std::printf("corner %.6e m, differs by %.1e of it; force at least %.3f N; certificate %.1e\n", largest, error / largest,
-              least_force, stepper.certificate().max());
+  std::printf("corner %.6e m, differs by %.1e of it; force at least %.3f N; certificate %.1e\n",
+              largest, error / largest, least_force, stepper.certificate().max());
   return error < 1e-9 * largest && least_force > 0. && stepper.certificate().max() < 1e-9 ? 0 : 1;
 }
