@@ -187,7 +187,7 @@ namespace taut
     certify();
     if (c.velocity_projection)
       project_velocities();
-    if (c.mean_force && !c.velocity_level)
+    if (c.mean_force && !c.velocity_level && rows.size() > 0)
       measure_energy();
   }
 
