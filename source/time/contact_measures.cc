@@ -123,7 +123,7 @@ namespace taut
       multiplier0[i] = state.multiplier[i];
       gap0[i] = state.gap[i];
     }
-    // Without a one-sided row it is the error of the mean force of loads, which no contact gave.
+    // Without a one-sided row there is no contact that could have given it.
     if (is_one_sided && c.mean_force && !c.velocity_level)
       found.contact_energy += std::max(0., certificate.energy_gain);
     if (n_steps < steps_between_scales || n_steps % steps_between_scales == 0)
