@@ -19,6 +19,9 @@ namespace taut
     /// make, below which smaller ones count as rest.
     constexpr double rest = 1e-3;
 
+    /// Part of the diagonal that makes a system with dependent rows definite.
+    constexpr double shift_of_dependent_rows = 1e-9;
+
     /// Systems with M are well-conditioned: nothing has to be taken from the bodies' other solvers.
     InterfaceParameters for_mass(InterfaceParameters parameters)
     {
@@ -66,24 +69,58 @@ namespace taut
   }
 
   void VelocityProjection::prepare(const StepCoefficients &coefficients, const double tau,
-                                   const std::vector<double> &S, const ComplementarityOperator &F)
+                                   const std::vector<double> &S, ComplementarityOperator &F)
   {
     c = coefficients;
     step = tau;
     const double theta = 1. - c.alpha_f;
     has_softening = false;
+    std::vector<std::size_t> elastic;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (rows[i].unilateral && S[i] > 0.)
+        elastic.push_back(i);
+    const std::vector<double> diagonal = flexibilities(elastic, F);
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
       relative_softening[i] = 0.;
       if (!rows[i].unilateral || S[i] == 0.)
         continue;
-      const double flexibility = (F.diagonal(i) - S[i]) / theta,
+      const double flexibility = (diagonal[i] - S[i]) / theta,
                    ratio = S[i] / (fading * flexibility);
       relative_softening[i] = ratio * ratio;
       has_softening = true;
     }
     if (is_set_up)
       setup();
+  }
+
+  /**
+   * The diagonal of a matrix of the rows as the bodies have it with their rigid bilateral rows
+   * closed, F_ii - F_ib F_bb^-1 F_bi, of the rows listed: bodies that are cut in pieces answer as
+   * if they were whole.
+   */
+  std::vector<double> VelocityProjection::flexibilities(const std::vector<std::size_t> &wanted,
+                                                        ComplementarityOperator &F) const
+  {
+    std::vector<std::size_t> bilateral;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (!rows[i].unilateral && std::isinf(rows[i].stiffness) && F.diagonal(i) > 0.)
+        bilateral.push_back(i);
+    std::vector<double> result(rows.size(), 0.), unit(rows.size(), 0.), column, x;
+    for (const std::size_t i : wanted)
+    {
+      result[i] = F.diagonal(i);
+      if (bilateral.empty())
+        continue;
+      unit[i] = 1.;
+      F.apply(unit, column);
+      unit[i] = 0.;
+      if (!F.solve(bilateral, column, 0., x))
+        F.solve(bilateral, column, shift_of_dependent_rows, x);
+      for (const std::size_t b : bilateral)
+        result[i] -= column[b] * x[b];
+    }
+    return result;
   }
 
   /// f and its diagonal; the mass matrices are factored at the first call.
@@ -96,9 +133,14 @@ namespace taut
     schur->setup(softening);
     if (!has_softening)
       return;
+    std::vector<std::size_t> softened;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (relative_softening[i] > 0.)
+        softened.push_back(i);
+    const std::vector<double> diagonal = flexibilities(softened, schur->matrix());
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
-      const double f = schur->matrix().diagonal(i);
+      const double f = diagonal[i];
       // Infinite: a row without flexibility of its own takes no part.
       softening[i] =
           f > 0. && std::isfinite(relative_softening[i]) ? f * relative_softening[i] : 0.;

@@ -36,7 +36,7 @@ namespace taut
     /// For steps with these coefficients from now on. @p F is the matrix of their first part, with
     /// S on its diagonal.
     void prepare(const StepCoefficients &c, double step, const std::vector<double> &S,
-                 const ComplementarityOperator &F);
+                 ComplementarityOperator &F);
 
     /**
      * Changes V, D' and multipliers of a state after the first part of a step, and takes the change
@@ -57,6 +57,8 @@ namespace taut
 
   private:
     bool has_to_act(const RowMotions &motions, const State &state);
+    std::vector<double> flexibilities(const std::vector<std::size_t> &wanted,
+                                      ComplementarityOperator &F) const;
     void setup();
     void set_problem(const State &state);
     double kinetic_energy(const State &state);
