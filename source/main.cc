@@ -91,6 +91,7 @@ namespace
   /// Says once what all ranks have to say. Returns the exit code.
   int report(const taut::Communicator &processes, const std::string &message, const int code = 1)
   {
+    taut::ignore_interruptions();
     std::cout.flush();
     if (processes.is_root())
       std::cerr << "taut: " << message << '\n';
@@ -158,6 +159,7 @@ int main(int argc, char **argv)
   }
   catch (const std::exception &e)
   {
+    taut::ignore_interruptions();
     const bool too_large = dynamic_cast<const std::bad_alloc *>(&e) != nullptr ||
                            dynamic_cast<const std::length_error *>(&e) != nullptr;
     std::cerr << "taut: "

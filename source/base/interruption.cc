@@ -36,6 +36,12 @@ namespace taut
     sigaction(SIGTERM, &action, nullptr);
   }
 
+  void ignore_interruptions()
+  {
+    std::signal(SIGINT, SIG_IGN);
+    std::signal(SIGTERM, SIG_IGN);
+  }
+
   int interruption()
   {
     return requested;

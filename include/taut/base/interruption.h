@@ -29,6 +29,10 @@ namespace taut
    */
   void catch_interruptions(bool says_so);
 
+  /// From here on they change nothing: the program is about to say why it ends, and mpirun sends
+  /// one to all ranks when the first of them has.
+  void ignore_interruptions();
+
   /// The signal that asked the process to end; 0: none.
   int interruption();
 
