@@ -17,7 +17,7 @@ namespace taut
                             point.is_moment ? "N m" : "N");
     for (const Probe &probe : scene.probes)
       probes.add_quantity(probe.name, probe.rotational ? "rad" : "m");
-    for (const auto &[table, name] :
+    for (const auto [table, name] :
          {std::make_pair(&sliding, "/sliding.csv"), std::make_pair(&links, "/links.csv"),
           std::make_pair(&supports, "/supports.csv"), std::make_pair(&probes, "/probes.csv")})
       if (!table->is_empty())

@@ -32,7 +32,7 @@ namespace taut
       throw EntryError("Catenary/Span length", "the line would be " +
                                                    number(n_spans * span_length) +
                                                    " m long; at most 1e9 m are possible");
-    for (const auto &[wire, section] :
+    for (const auto [wire, section] :
          {std::make_pair(&contact, "Contact wire"), std::make_pair(&messenger, "Messenger wire")})
       if (!(wire->tension > 0.))
         throw EntryError(std::string("Catenary/") + section + "/Tension",
