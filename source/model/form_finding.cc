@@ -59,7 +59,7 @@ namespace taut
         is_done = false;
       };
       for (const Link &link : scene.links)
-        for (const auto [end, other] :
+        for (const auto &[end, other] :
              {std::pair(link.from, link.to), std::pair(link.to, link.from)})
           if (!link.moving() && end.kind == Attachment::Kind::mass &&
               other.kind == Attachment::Kind::wire)

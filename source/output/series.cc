@@ -17,9 +17,11 @@ namespace taut
                             point.is_moment ? "N m" : "N");
     for (const Probe &probe : scene.probes)
       probes.add_quantity(probe.name, probe.rotational ? "rad" : "m");
-    for (const auto [table, name] :
-         {std::make_pair(&sliding, "/sliding.csv"), std::make_pair(&links, "/links.csv"),
-          std::make_pair(&supports, "/supports.csv"), std::make_pair(&probes, "/probes.csv")})
+    const std::pair<IntervalTable *, const char *> tables[] = {{&sliding, "/sliding.csv"},
+                                                               {&links, "/links.csv"},
+                                                               {&supports, "/supports.csv"},
+                                                               {&probes, "/probes.csv"}};
+    for (const auto &[table, name] : tables)
       if (!table->is_empty())
         table->open(folder + name);
     const std::vector<std::string> columns = {"time [s]",

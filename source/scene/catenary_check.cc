@@ -32,8 +32,9 @@ namespace taut
       throw EntryError("Catenary/Span length", "the line would be " +
                                                    number(n_spans * span_length) +
                                                    " m long; at most 1e9 m are possible");
-    for (const auto [wire, section] :
-         {std::make_pair(&contact, "Contact wire"), std::make_pair(&messenger, "Messenger wire")})
+    const std::pair<const WireItem *, const char *> wires[] = {{&contact, "Contact wire"},
+                                                               {&messenger, "Messenger wire"}};
+    for (const auto &[wire, section] : wires)
       if (!(wire->tension > 0.))
         throw EntryError(std::string("Catenary/") + section + "/Tension",
                          "it must be positive: the wire of an overhead line hangs by its tension");
