@@ -89,12 +89,13 @@ namespace taut
            (12. * delta);
   }
 
-  std::vector<char> ContactRows::without_mass() const
+  std::vector<char> ContactRows::acts_on(std::vector<unsigned int> (Substructure::*wanted)()
+                                             const) const
   {
     std::vector<double> count(rows.size(), 0.);
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
-      const std::vector<unsigned int> dofs = structure[k].dofs_without_mass();
+      const std::vector<unsigned int> dofs = (structure[k].*wanted)();
       for (std::size_t e = 0, i = 0; e < begin[fixed]; ++e)
       {
         while (e >= begin[i + 1])

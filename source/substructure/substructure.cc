@@ -8,20 +8,35 @@
 
 namespace taut
 {
+  namespace
+  {
+    /// Rows that are zero in all of the matrices.
+    std::vector<unsigned int> zero_rows(const std::vector<const SymmetricMatrix *> &matrices)
+    {
+      std::vector<char> is_zero(matrices.front()->size(), 1);
+      for (const SymmetricMatrix *matrix : matrices)
+        matrix->visit(
+            [&](const unsigned int i, const unsigned int j, const double value)
+            {
+              if (value != 0.)
+                is_zero[i] = is_zero[j] = 0;
+            });
+      std::vector<unsigned int> result;
+      for (unsigned int i = 0; i < is_zero.size(); ++i)
+        if (is_zero[i])
+          result.push_back(i);
+      return result;
+    }
+  } // namespace
+
   std::vector<unsigned int> Substructure::dofs_without_mass() const
   {
-    std::vector<char> has_mass(n_dofs(), 0);
-    M->visit(
-        [&](const unsigned int i, const unsigned int j, const double value)
-        {
-          if (value != 0.)
-            has_mass[i] = has_mass[j] = 1;
-        });
-    std::vector<unsigned int> result;
-    for (unsigned int i = 0; i < has_mass.size(); ++i)
-      if (!has_mass[i])
-        result.push_back(i);
-    return result;
+    return zero_rows({M.get()});
+  }
+
+  std::vector<unsigned int> Substructure::quasi_static_dofs() const
+  {
+    return zero_rows({M.get(), C.get()});
   }
 
   std::vector<unsigned int> Substructure::constrained_dofs() const

@@ -39,7 +39,7 @@ namespace taut
         reference_gap[i] = origin.gap[i];
     }
     mean.assign(n, 0);
-    without_mass = rows.without_mass();
+    quasi_static = rows.quasi_static();
     add_body_terms(origin.displacement);
     for (std::size_t k = 0; k < structure.size(); ++k)
       supports_move = supports_move || structure[k].has_moving_constraints();
@@ -58,7 +58,7 @@ namespace taut
     {
       S[i] = 1. / (rows[i].stiffness + c.velocity * rows[i].damping);
       mean[i] = c.mean_force && (S[i] == 0. || (c.velocity_projection && rows[i].unilateral)) &&
-                !(c.velocity_projection && without_mass[i]);
+                !(c.velocity_projection && quasi_static[i]);
     }
   }
 

@@ -120,15 +120,15 @@ namespace taut
       if (row_motions.mean_force(i) && !(projection && rows[i].moving))
         N[i] = 0.;
     rows.add_forces(N, current.balance);
-    hold_dofs_without_mass();
+    hold_quasi_static_dofs();
   }
 
   /// With a velocity projection they are in equilibrium at the ends of steps.
-  void TimeStepper::hold_dofs_without_mass()
+  void TimeStepper::hold_quasi_static_dofs()
   {
     if (projection)
       for (std::size_t k = 0; k < structure.size(); ++k)
-        for (const unsigned int dof : projection->dofs_without_mass()[k])
+        for (const unsigned int dof : projection->quasi_static_dofs()[k])
           current.balance[k][dof] = 0.;
   }
 
@@ -385,7 +385,7 @@ namespace taut
       if (!rows[i].moving || !row_motions.mean_force(i))
         moving[i] = 0.;
     rows.add_forces(moving, current.balance);
-    hold_dofs_without_mass();
+    hold_quasi_static_dofs();
   }
 
   template <typename Solve>

@@ -50,22 +50,23 @@ namespace taut
          {&relative_softening, &softening, &p, &q, &change, &rate, &work_of_rows, &largest_scale})
       v->assign(n, 0.);
     takes_part.assign(n, 0);
+    has_no_mass = rows.without_mass();
     problem.free_gap.resize(n);
     problem.gap_scale.resize(n);
     problem.unilateral.resize(n);
     problem.held_open.resize(n);
-    double n_without_mass = 0.;
+    double n_quasi_static = 0.;
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       const Substructure &body = structure[k];
-      without_mass.emplace_back();
+      quasi_static.emplace_back();
       const std::vector<unsigned int> constrained = body.constrained_dofs(),
-                                      all = body.dofs_without_mass();
+                                      all = body.quasi_static_dofs();
       std::set_difference(all.begin(), all.end(), constrained.begin(), constrained.end(),
-                          std::back_inserter(without_mass.back()));
-      n_without_mass += without_mass.back().size();
+                          std::back_inserter(quasi_static.back()));
+      n_quasi_static += quasi_static.back().size();
     }
-    some_without_mass = structure.communicator().max(n_without_mass) > 0.;
+    some_quasi_static = structure.communicator().max(n_quasi_static) > 0.;
   }
 
   void VelocityProjection::prepare(const StepCoefficients &coefficients, const double tau,
@@ -157,7 +158,7 @@ namespace taut
     {
       takes_part[i] = 0;
       p[i] = motions.mean_force(i) ? step * state.multiplier[i] : 0.;
-      if (!motions.mean_force(i) || (rows[i].unilateral && !(p[i] > 0.)) ||
+      if (!motions.mean_force(i) || has_no_mass[i] || (rows[i].unilateral && !(p[i] > 0.)) ||
           !std::isfinite(relative_softening[i]))
         continue;
       takes_part[i] = 1;
@@ -215,9 +216,9 @@ namespace taut
   {
     found = 0.;
     std::fill(work_of_rows.begin(), work_of_rows.end(), 0.);
-    if (some_without_mass)
+    if (some_quasi_static)
     {
-      move_without_mass(state);
+      move_quasi_static(state);
       motions.update_rates(state);
     }
     if (!has_to_act(motions, state))
@@ -292,12 +293,12 @@ namespace taut
   }
 
   /// The mean velocity over the step instead of the one that the scheme found: this alternates.
-  void VelocityProjection::move_without_mass(State &state)
+  void VelocityProjection::move_quasi_static(State &state)
   {
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       std::fill(dV[k].begin(), dV[k].end(), 0.);
-      for (const unsigned int dof : without_mass[k])
+      for (const unsigned int dof : quasi_static[k])
         dV[k][dof] = state.dU[k][dof] / step - state.V[k][dof];
     }
     change_velocities(state);

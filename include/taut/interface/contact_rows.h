@@ -93,7 +93,10 @@ namespace taut
     double profile_rate(std::size_t i, double t, double step) const;
 
     /// Of each row: not 0 where it is fixed and acts on a DoF without mass.
-    std::vector<char> without_mass() const;
+    std::vector<char> without_mass() const { return acts_on(&Substructure::dofs_without_mass); }
+
+    /// The same of DoFs without mass and without damping.
+    std::vector<char> quasi_static() const { return acts_on(&Substructure::quasi_static_dofs); }
 
     /// P += B N.
     void add_forces(const std::vector<double> &N, BlockVector &P) const;
@@ -120,6 +123,7 @@ namespace taut
       unsigned int body, dof;
     };
 
+    std::vector<char> acts_on(std::vector<unsigned int> (Substructure::*dofs)() const) const;
     void append(std::size_t i);
 
     const Structure &structure;

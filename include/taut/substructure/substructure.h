@@ -70,6 +70,9 @@ namespace taut
     /// DoFs whose row of M is zero, sorted.
     std::vector<unsigned int> dofs_without_mass() const;
 
+    /// Those of them whose row of C is zero, too: only elastic forces act on them.
+    std::vector<unsigned int> quasi_static_dofs() const;
+
     /// True if a support moves: an increment then has a given part.
     bool has_moving_constraints() const { return moving_constraints; }
 

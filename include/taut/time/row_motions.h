@@ -35,8 +35,8 @@ namespace taut
    *     0 <= N  _|_  D + S N + h >= 0,    h = -((1 - theta) k - c / step) / (theta k + c / step)
    * u_0,
    *
-   * S = 1 / (k + c / (theta step)) and u = max(0, S N + h). Rows on DoFs without mass keep forces
-   * at the ends of steps, where they hold these DoFs in equilibrium.
+   * S = 1 / (k + c / (theta step)) and u = max(0, S N + h). Rows on DoFs without mass and damping
+   * keep forces at the ends of steps, where they hold these DoFs in equilibrium.
    */
   class RowMotions
   {
@@ -162,7 +162,7 @@ namespace taut
     MixedComplementarityProblem conditions;
     std::vector<double> S;
     std::vector<char> mean;                 ///< see mean_force()
-    std::vector<char> without_mass;         ///< fixed rows on DoFs without mass
+    std::vector<char> quasi_static;         ///< fixed rows on DoFs without mass and damping
     std::vector<double> amplitude;          ///< of the free motions, of all ranks
     std::vector<std::size_t> first_of_body; ///< free motion of each body here
     std::vector<double> applied_multiplier, balanced, impulses;

@@ -84,7 +84,7 @@ namespace taut
     void measure_energy();
     void accept(std::size_t k);
     void start_balance();
-    void hold_dofs_without_mass();
+    void hold_quasi_static_dofs();
     void certify();
     bool refine();
     void certify_rows();

@@ -23,8 +23,8 @@ namespace taut
    * U stays. An elastic row with p > 0 is softened, so that its compliance S fades from rigid to
    * none: 0 <= P _|_ D' + f_ii (S / (alpha F_ii))^2 (P - p) >= 0 with f = B^T M^-1 B. With Newton's
    * restitution e the condition is D' + e min(0, D'_0), and P goes only so far from the solution
-   * without it that the contacts do not give energy. DoFs without mass have no velocity of their
-   * own: theirs is the mean over the step.
+   * without it that the contacts do not give energy. DoFs without mass and damping have no velocity
+   * of their own: theirs is the mean over the step.
    */
   class VelocityProjection
   {
@@ -49,8 +49,8 @@ namespace taut
     double residual() const { return found; }
     std::size_t worst_row() const { return worst; }
 
-    /// Of each body: DoFs without mass, where the step ends in equilibrium.
-    const std::vector<std::vector<unsigned int>> &dofs_without_mass() const { return without_mass; }
+    /// Of each body: DoFs without mass and damping, where the step ends in equilibrium.
+    const std::vector<std::vector<unsigned int>> &quasi_static_dofs() const { return quasi_static; }
 
     /// Work of the impulses P - p on the bodies in the last step, of each row [J].
     const std::vector<double> &work() const { return work_of_rows; }
@@ -66,7 +66,7 @@ namespace taut
     double largest_part(const RowMotions &motions, const State &state,
                         const std::vector<double> &plain, const std::vector<double> &rebounding);
     void set_velocities(RowMotions &motions, State &state);
-    void move_without_mass(State &state);
+    void move_quasi_static(State &state);
     void change_velocities(State &state);
 
     const Structure &structure;
@@ -78,11 +78,12 @@ namespace taut
     StepCoefficients c;
     double step = 0.;
 
-    std::vector<std::vector<unsigned int>> without_mass; ///< DoFs of each body
-    bool some_without_mass = false;
-    std::vector<double> relative_softening; ///< (S / (alpha F_ii))^2 of each row
-    std::vector<double> softening;          ///< f_ii times that
-    std::vector<char> takes_part;
+    std::vector<std::vector<unsigned int>>
+        quasi_static; ///< DoFs of each body without mass and damping
+    bool some_quasi_static = false;
+    std::vector<double> relative_softening;    ///< (S / (alpha F_ii))^2 of each row
+    std::vector<double> softening;             ///< f_ii times that
+    std::vector<char> takes_part, has_no_mass; ///< rows; the latter act on DoFs without mass
     MixedComplementarityProblem problem;
     std::vector<double> p, q, change; ///< impulses, P - p, f (P - p)
     std::vector<double> rate, work_of_rows, work_vector;
