@@ -79,7 +79,8 @@ namespace
         return;
       }
       taut::Progress progress(std::cout, isatty(STDOUT_FILENO), parameters.end_time);
-      simulation.observe(progress);
+      if (parameters.end_time > 0.)
+        simulation.observe(progress);
       simulation.run();
     }
     catch (const taut::EntryError &e)

@@ -85,8 +85,8 @@ namespace taut
     }
   }
 
-  void Mechanism::motion(const std::size_t mass, const bool rotational, const Point &direction,
-                         SparseVector &result) const
+  void Mechanism::motion(const std::size_t mass, const bool rotational,
+                         const Coordinates &direction, SparseVector &result) const
   {
     result = {};
     const double factor[3] = {rotational ? 0. : direction.x, rotational ? 0. : direction.y,
@@ -107,7 +107,7 @@ namespace taut
                       " masses, counted from 0, and a constraint is to act on number " +
                       std::to_string(place[0]));
     SparseVector form;
-    motion(masses[static_cast<std::size_t>(place[0])], false, {direction[0], direction[1]}, form);
+    motion(masses[static_cast<std::size_t>(place[0])], false, direction, form);
     return form;
   }
 

@@ -9,9 +9,9 @@ namespace taut
 {
   namespace
   {
-    bool has_part(const Point &direction, const Point &along)
+    bool has_part(const Coordinates &direction, const Coordinates &along)
     {
-      return std::fabs(direction.x * along.x + direction.y * along.y) > 1e-12;
+      return std::fabs(dot(direction, along)) > 1e-12;
     }
 
     /// Speed of the shortest waves that elements of a length carry across a wire, squared.
@@ -23,7 +23,7 @@ namespace taut
     }
   } // namespace
 
-  bool bends(const Wire &wire, const Point &direction)
+  bool bends(const Wire &wire, const Coordinates &direction)
   {
     return wire.transverse == TransverseKind::beam && has_part(direction, wire.normal());
   }

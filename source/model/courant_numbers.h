@@ -33,7 +33,7 @@ namespace taut
   };
 
   /// True if a motion of the wire along the direction is across it, and bends it.
-  bool bends(const Wire &wire, const Point &direction);
+  bool bends(const Wire &wire, const Coordinates &direction);
 } // namespace taut
 
 #endif

@@ -18,8 +18,7 @@ namespace taut
     /// Distance of the ends of an undeformed link along its direction [m].
     double distance(const Scene &scene, const Link &link)
     {
-      const Point a = place(scene, link.from), b = place(scene, link.to);
-      return (b.x - a.x) * link.direction.x + (b.y - a.y) * link.direction.y;
+      return dot(place(scene, link.to) - place(scene, link.from), link.direction);
     }
 
     /// Half of a dropper's mass on each of its ends.
@@ -62,7 +61,7 @@ namespace taut
         for (const auto &[end, other] :
              {std::pair(link.from, link.to), std::pair(link.to, link.from)})
           if (!link.moving() && end.kind == Attachment::Kind::mass &&
-              other.kind == Attachment::Kind::wire)
+              (other.kind == Attachment::Kind::wire || other.kind == Attachment::Kind::body))
             result[end.index] = 1;
       while (!is_done)
       {

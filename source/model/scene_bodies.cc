@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
 #include <taut/mechanism/mechanism.h>
 #include <taut/model/scene_bodies.h>
 #include <taut/wire/wire_component.h>
@@ -20,8 +21,8 @@ namespace taut
                                                        : 0);
     }
 
-    /// The rank of each part and then of each mechanism: the largest first, each to the rank with
-    /// the fewest DoFs so far.
+    /// The rank of each part, each mechanism and each custom body: the largest first, each to the
+    /// rank with the fewest DoFs so far.
     std::vector<unsigned int> share_out(const Scene &scene, const Partition &partition,
                                         const std::vector<std::vector<std::size_t>> &mechanisms,
                                         const unsigned int n_ranks)
@@ -38,6 +39,8 @@ namespace taut
       }
       for (const std::vector<std::size_t> &members : mechanisms)
         n_dofs.push_back(members.size());
+      for (const CustomBody &body : scene.bodies)
+        n_dofs.push_back(body.type->n_dofs());
 
       std::vector<std::size_t> order(n_dofs.size());
       std::iota(order.begin(), order.end(), 0);
@@ -51,6 +54,31 @@ namespace taut
         load[rank[part]] += n_dofs[part];
       }
       return rank;
+    }
+    /// Of a point of a custom body; EntryError about @p entry if it is not on the body or does not
+    /// move along the direction.
+    SparseVector displacement(const Substructure &body, const Attachment &at,
+                              const Coordinates &direction, const std::string &origin,
+                              const std::string &entry)
+    {
+      SparseVector form;
+      try
+      {
+        form = body.displacement(at.place, direction);
+      }
+      catch (const EntryError &)
+      {
+        throw;
+      }
+      catch (const UserError &e)
+      {
+        throw EntryError(origin.empty() ? "" : origin + "/" + entry, e.what());
+      }
+      if (form.index.empty())
+        throw EntryError(origin.empty() ? "" : origin + "/" + entry,
+                         "body '" + body.name() +
+                             "' has no motion there along the direction; change the direction");
+      return form;
     }
   } // namespace
 
@@ -87,6 +115,62 @@ namespace taut
       for (const std::size_t mass : mechanisms[m])
         mechanism_of_mass[mass] = k;
     }
+    add_custom_bodies(scene, owner.data() + partition.n_parts + mechanisms.size());
+    check_places(scene);
+  }
+
+  void SceneBodies::add_custom_bodies(const Scene &scene, const unsigned int *const owner)
+  {
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    {
+      const CustomBody &body = scene.bodies[i];
+      const auto make = [&]
+      {
+        std::unique_ptr<Substructure> made =
+            body.type->make({body.name, body.origin, scene.gravity});
+        if (!made)
+          throw EntryError(body.origin, "its type '" + body.type_name + "' made no body");
+        add_loads(scene, i, *made);
+        return made;
+      };
+      custom_bodies.push_back(add(body.name, owner[i], make));
+    }
+  }
+
+  void SceneBodies::add_loads(const Scene &scene, const std::size_t body, Substructure &made) const
+  {
+    for (const Load &load : scene.loads)
+    {
+      if (load.target.kind != Attachment::Kind::body || load.target.index != body)
+        continue;
+      const SparseVector form = displacement(made, load.target, load.direction, load.origin, "On");
+      if (load.magnitude.depends_on_time())
+        made.add_force(form, [f = load.magnitude](const double t) { return f(0., t); });
+      else
+        made.add_force(form, load.magnitude(0., 0.));
+    }
+  }
+
+  /// That all points at custom bodies are on them and move, on all ranks alike.
+  void SceneBodies::check_places(const Scene &scene) const
+  {
+    const auto check = [&](const Attachment &end, const Coordinates &direction,
+                           const std::string &origin, const std::string &entry)
+    {
+      if (end.kind == Attachment::Kind::body && custom_bodies[end.index] != elsewhere)
+        displacement((*this)[custom_bodies[end.index]], end, direction, origin, entry);
+    };
+    communicator().agree(
+        [&]
+        {
+          for (const Link &link : scene.links)
+          {
+            check(link.from, link.direction, link.origin, "From");
+            check(link.to, link.direction, link.origin, "To");
+          }
+          for (const Probe &probe : scene.probes)
+            check(probe.point, probe.direction, probe.origin, "Point");
+        });
   }
 
   void SceneBodies::add_pieces(const Scene &scene, const std::size_t wire, const WireMotion motion,
@@ -144,7 +228,7 @@ namespace taut
   }
 
   void SceneBodies::append_motion(const Attachment &point, const bool rotational,
-                                  const Point &direction, const double factor,
+                                  const Coordinates &direction, const double factor,
                                   const bool derivative, std::vector<Term> &terms) const
   {
     const auto append = [&](const std::size_t k, const double f, SparseVector form)
@@ -163,12 +247,17 @@ namespace taut
       static_cast<const Mechanism &>((*this)[k]).motion(point.index, rotational, direction, form);
       append(k, factor, form);
     }
+    else if (point.kind == Attachment::Kind::body)
+    {
+      const std::size_t k = custom_bodies[point.index];
+      if (k != elsewhere && !rotational && !derivative)
+        append(k, factor, (*this)[k].displacement(point.place, direction));
+    }
     else if (point.kind == Attachment::Kind::wire)
     {
       const WireParts &parts = wires[point.index];
-      const Point &t = tangents[point.index], &n = normals[point.index];
-      const double along = direction.x * t.x + direction.y * t.y,
-                   across = direction.x * n.x + direction.y * n.y;
+      const double along = dot(direction, tangents[point.index]),
+                   across = dot(direction, normals[point.index]);
       const auto wire = [&](const std::size_t k) -> const WireComponent &
       { return static_cast<const WireComponent &>((*this)[k]); };
       const std::size_t p = piece(parts, point.position);

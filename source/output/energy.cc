@@ -28,15 +28,19 @@ namespace taut
     }
   } // namespace
 
-  Energy::Energy(const std::string &folder, const StepView &start, const double interval)
-      : interval(interval)
+  void Energy::begin(const RunView &run)
   {
-    if (start.structure.communicator().is_root())
+    interval = run.interval;
+    if (run.communicator.is_root())
       file = std::make_unique<CsvFile>(
-          folder + "/energy.csv",
+          run.folder + "/energy.csv",
           std::vector<std::string>{"time [s]", "kinetic [J]", "strain [J]", "links [J]",
                                    "loads [J]", "supports [J]", "contacts [J]", "damping [J]",
                                    "link dampers [J]", "algorithmic [J]", "error [J]"});
+  }
+
+  void Energy::begin_balance(const StepView &start)
+  {
     P = CV = balance = impulses = start.structure.zero();
     set_forces(start);
     Balance share;
@@ -49,6 +53,7 @@ namespace taut
       total.links += stored(start.rows[i], start.state.link_springs[i]);
     start_energy = total.kinetic + total.strain + total.links;
     keep(start);
+    has_begun = true;
     write(start.state.time);
   }
 
@@ -186,6 +191,11 @@ namespace taut
 
   void Energy::record(const StepView &step)
   {
+    if (!has_begun)
+    {
+      begin_balance(step);
+      return;
+    }
     set_forces(step);
     Balance share;
     add_bodies(step, share);
@@ -220,9 +230,17 @@ namespace taut
     file->end_line();
   }
 
-  void Energy::close()
+  void Energy::finish()
   {
     if (file)
       file->close();
+  }
+
+  namespace
+  {
+    const Register<Observer, Energy>
+        registration("energy", "energy.csv: kinetic and elastic energy, work of loads, supports "
+                               "and contacts, dissipation of dampers and of the time integration, "
+                               "and the error of their balance, as often as Interval says");
   }
 } // namespace taut

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
 #include <taut/output/fields.h>
 #include <taut/scene/entries.h>
 
+#include <cctype>
 #include <cstdio>
 
 namespace taut
@@ -15,10 +17,19 @@ namespace taut
       return name + text;
     }
 
-    /// Coordinates in space.
-    void append(const Point &p, std::vector<float> &values)
+    /// Letters, digits, '-' and what is no ASCII; '_' for the rest.
+    std::string name_in_files(std::string name)
     {
-      for (const double value : {p.x, 0., p.y})
+      for (char &c : name)
+        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' &&
+            !(static_cast<unsigned char>(c) & 0x80))
+          c = '_';
+      return name;
+    }
+
+    void append(const Coordinates &p, std::vector<float> &values)
+    {
+      for (const double value : {p.x, p.y, p.z})
         values.push_back(static_cast<float>(value));
     }
 
@@ -44,6 +55,47 @@ namespace taut
       add_wires(scene, structure, subdivisions);
     if (!scene.links.empty())
       add_links(scene, structure);
+    add_bodies(scene, structure);
+  }
+
+  void Fields::add_bodies(const Scene &scene, const SceneBodies &structure)
+  {
+    std::vector<double> shown(scene.bodies.size(), 0.);
+    for (std::size_t i = 0; i < shown.size(); ++i)
+    {
+      const std::size_t k = structure.index_of_body(i);
+      shown[i] = k != Structure::elsewhere && structure[k].has_fields() ? 1. : 0.;
+    }
+    structure.communicator().sum(shown);
+    for (std::size_t i = 0; i < shown.size(); ++i)
+      if (shown[i] > 0.)
+      {
+        const std::string stem = "body_" + name_in_files(scene.bodies[i].name);
+        for (const BodyFiles &other : bodies)
+          if (other.stem == stem)
+            throw EntryError(scene.bodies[i].origin, "its files would be '" + stem +
+                                                         "_*.vtu', which are those of another "
+                                                         "body; rename one");
+        bodies.push_back(
+            {stem, structure.index_of_body(i), PvdFile(folder + "/" + stem + ".pvd"), 0});
+      }
+  }
+
+  void Fields::write_bodies(const StepView &step)
+  {
+    for (BodyFiles &body : bodies)
+    {
+      const std::string frame = numbered(body.stem, body.n_frames++);
+      if (body.index != Structure::elsewhere)
+      {
+        std::vector<double> U = step.reference.displacement[body.index];
+        for (std::size_t i = 0; i < U.size(); ++i)
+          U[i] += step.state.U[body.index][i];
+        step.structure[body.index].write_vtu(folder + "/" + frame, U);
+      }
+      if (step.structure.communicator().is_root())
+        body.collection.add(step.state.time, frame);
+    }
   }
 
   void Fields::add_wires(const Scene &scene, const SceneBodies &structure,
@@ -120,8 +172,9 @@ namespace taut
   {
     Sample result;
     result.place = place(scene, at);
-    structure.motion(at, false, {1., 0.}, 1., result.x);
-    structure.motion(at, false, {0., 1.}, 1., result.y);
+    for (unsigned int i = 0; i < 3; ++i)
+      structure.motion(at, false, {i == 0 ? 1. : 0., i == 1 ? 1. : 0., i == 2 ? 1. : 0.}, 1.,
+                       result.motion[i]);
     return result;
   }
 
@@ -130,15 +183,15 @@ namespace taut
   {
     const BlockVector &reference = step.reference.displacement, &U = step.state.U;
     std::vector<double> shares;
-    shares.reserve(2 * samples.size());
+    shares.reserve(3 * samples.size());
     for (const Sample &sample : samples)
-      for (const std::vector<Term> *terms : {&sample.x, &sample.y})
-        shares.push_back(evaluate(*terms, reference) + evaluate(*terms, U));
+      for (const std::vector<Term> &terms : sample.motion)
+        shares.push_back(evaluate(terms, reference) + evaluate(terms, U));
     step.structure.communicator().sum(shares);
     std::vector<float> values;
     values.reserve(3 * samples.size());
     for (std::size_t i = 0; i < samples.size(); ++i)
-      append({shares[2 * i], shares[2 * i + 1]}, values);
+      append({shares[3 * i], shares[3 * i + 1], shares[3 * i + 2]}, values);
     return values;
   }
 
@@ -158,6 +211,7 @@ namespace taut
     }
     const auto write_files = [&]
     {
+      write_bodies(step);
       if (!step.structure.communicator().is_root())
         return;
       if (wire_file)

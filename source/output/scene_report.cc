@@ -56,10 +56,12 @@ namespace taut
       std::vector<std::vector<std::string>> lines;
     };
 
-    std::string text(const Point &p)
+    std::string text(const Coordinates &p)
     {
       std::ostringstream out;
       out << p.x << ", " << p.y;
+      if (p.z != 0.)
+        out << ", " << p.z;
       return out.str();
     }
 
@@ -69,6 +71,8 @@ namespace taut
         return "ground";
       if (end.kind == Attachment::Kind::mass)
         return scene.masses[end.index].name;
+      if (end.kind == Attachment::Kind::body)
+        return scene.bodies[end.index].name + " @ " + text(end.place);
       std::ostringstream out;
       out << scene.wires[end.index].name << " @ " << end.position;
       return out.str();
@@ -93,7 +97,7 @@ namespace taut
       return list;
     }
 
-    std::string direction(const bool rotational, const Point &n)
+    std::string direction(const bool rotational, const Coordinates &n)
     {
       return rotational ? "rotation" : text(n);
     }
@@ -138,6 +142,11 @@ namespace taut
                        (m.moves[2] ? "rotation" : ""),
                    m.mass, m.inertia, m.weight ? "yes" : "no");
       masses.print("Masses", out);
+
+      Table bodies({"name", "type"});
+      for (const CustomBody &b : scene.bodies)
+        bodies.add(b.name, b.type_name);
+      bodies.print("Bodies", out);
 
       Table springs({"name", "from", "to", "direction", "N/m", "N s/m"});
       const auto end = [&](const std::size_t i)
@@ -185,7 +194,7 @@ namespace taut
   void write_sketch(const Scene &scene, const std::string &path)
   {
     double left = 1e300, right = -1e300, bottom = 1e300, top = -1e300;
-    const auto include = [&](const Point &p)
+    const auto include = [&](const Coordinates &p)
     {
       left = std::min(left, p.x);
       right = std::max(right, p.x);
@@ -204,8 +213,8 @@ namespace taut
     const double sx = width / std::max(right - left, .1 * span);
     const double sy = top > bottom ? std::max(sx, least_height / (top - bottom)) : sx;
     const double height = std::max((top - bottom) * std::min(sy, 1e3 * sx), least_height);
-    const auto X = [&](const Point &p) { return margin + (p.x - left) * sx; };
-    const auto Y = [&](const Point &p)
+    const auto X = [&](const Coordinates &p) { return margin + (p.x - left) * sx; };
+    const auto Y = [&](const Coordinates &p)
     { return margin + .5 * height - (p.y - .5 * (bottom + top)) * sy; };
 
     std::ofstream out(path);
@@ -213,17 +222,17 @@ namespace taut
         << "\" height=\"" << height + 2. * margin
         << "\" font-family=\"sans-serif\" font-size=\"11\">\n"
         << "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
-    const auto line = [&](const Point &p, const Point &q, const std::string &style)
+    const auto line = [&](const Coordinates &p, const Coordinates &q, const std::string &style)
     {
       out << "<line x1=\"" << X(p) << "\" y1=\"" << Y(p) << "\" x2=\"" << X(q) << "\" y2=\"" << Y(q)
           << "\" " << style << "/>\n";
     };
-    const auto dot = [&](const Point &p, const double radius, const std::string &style)
+    const auto dot = [&](const Coordinates &p, const double radius, const std::string &style)
     {
       out << "<circle cx=\"" << X(p) << "\" cy=\"" << Y(p) << "\" r=\"" << radius << "\" " << style
           << "/>\n";
     };
-    const auto label = [&](const Point &p, const std::string &name)
+    const auto label = [&](const Coordinates &p, const std::string &name)
     {
       std::string safe;
       for (const char c : name)

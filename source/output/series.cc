@@ -92,7 +92,7 @@ namespace taut
     certificate->end_line();
   }
 
-  void Series::close()
+  void Series::finish()
   {
     for (IntervalTable *table : {&sliding, &links, &supports, &probes})
       table->close();

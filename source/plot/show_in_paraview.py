@@ -38,7 +38,7 @@ def warped(name):
 def higher(source, factor):
     scaled = pv.Transform(Input=source)
     scaled.TransformAllInputVectors = 0
-    scaled.Transform.Scale = [1, 1, factor]
+    scaled.Transform.Scale = [1, factor, 1]
     pv.Hide3DWidgets(proxy=scaled.Transform)
     return scaled
 
@@ -62,7 +62,7 @@ else:
 
 (wires or links).UpdatePipeline(scene.AnimationTime)
 bounds = (wires or links).GetDataInformation().GetBounds()
-width, height = bounds[1] - bounds[0], bounds[5] - bounds[4]
+width, height = bounds[1] - bounds[0], bounds[3] - bounds[2]
 factor = arguments.height or (max(1., 0.2 * width / height) if height > 0. else 1.)
 wires, links = (source and higher(source, factor) for source in (wires, links))
 
@@ -87,9 +87,9 @@ if links:
     bar.WindowLocation = "Upper Right Corner"
     shown.SetScalarBarVisibility(view, True)
 
-# x to the right, z up, seen from the front.
+# x to the right, y up, seen from the front.
 view.CameraParallelProjection = 1
-view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [0, -1, 0], [0, 0, 0], [0, 0, 1]
+view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [0, 0, 1], [0, 0, 0], [0, 1, 0]
 pv.ResetCamera(view)
 view.CameraParallelScale = max(0.55 * factor * height, 0.55 * width * 600 / 1600)
 

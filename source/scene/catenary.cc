@@ -331,16 +331,14 @@ namespace taut
     scene.links.push_back(contact_link);
   }
 
-  Scene Catenary::generate() const
+  void Catenary::fill(Scene &scene) const
   {
     check_line();
     check_pantographs();
-    Scene scene;
     add_wires(scene);
     add_droppers(scene);
     for (std::size_t i = 0; i < pantographs.size(); ++i)
       add_pantograph(pantographs[i], pantograph_items[i], scene);
-    return scene;
   }
 
   namespace

@@ -19,7 +19,7 @@ namespace taut
   public:
     void declare_names(dealii::ParameterHandler &prm) override;
     void declare_parameters(dealii::ParameterHandler &prm) override;
-    Scene generate() const override;
+    void fill(Scene &scene) const override;
 
   private:
     struct WireItem

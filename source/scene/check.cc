@@ -32,6 +32,9 @@ namespace taut
       const double length = wire.length();
       if (!(length > 0.))
         fail(wire, "To", what, "its two ends are at one place; give it a length");
+      if (wire.a.z != wire.b.z)
+        fail(wire, "To", what, "its ends are at z = ", wire.a.z, " and ", wire.b.z,
+             " m; a wire moves in a plane of one z, give both ends the same");
       constexpr double longest = 1e12;
       if (!(length <= longest))
         fail(wire, "To", what, "it is ", length, " m long; at most ", longest, " m are possible");
@@ -45,10 +48,12 @@ namespace taut
       if (!(length / wire.element_size <= most_elements))
         fail(wire, "Element size", what, length / wire.element_size,
              " elements are too many; make them larger");
-      // The nodes are places in the plane: they have to be distinct there.
+      // The nodes are places in space: they have to be distinct there.
       constexpr double least_ratio = 1e-10;
-      const double farthest = std::max(
-          {std::fabs(wire.a.x), std::fabs(wire.a.y), std::fabs(wire.b.x), std::fabs(wire.b.y)});
+      double farthest = 0.;
+      for (const Coordinates &end : {wire.a, wire.b})
+        for (unsigned int i = 0; i < 3; ++i)
+          farthest = std::max(farthest, std::fabs(end[i]));
       if (!(std::min(length, wire.element_size) >= least_ratio * farthest))
         fail(wire, "From", what, "it is ", farthest,
              " m from the origin, so far that its elements of ",
@@ -84,6 +89,13 @@ namespace taut
         if (rotational && !scene.masses[end.index].moves[2])
           fail(item, entry, what, "mass '", scene.masses[end.index].name,
                "' does not rotate; add 'rotation' to its Motions");
+        return;
+      }
+      if (end.kind == Attachment::Kind::body)
+      {
+        if (rotational)
+          fail(item, entry, what, "body '", scene.bodies[end.index].name,
+               "' has no rotation at a point; act on displacements instead");
         return;
       }
       check_position(scene, end.index, end.position, item, entry, what);
@@ -184,13 +196,14 @@ namespace taut
 
     /// Whether a point has a motion along a direction, or a slope or rotation.
     bool can_move(const Scene &scene, const Attachment &end, const bool rotational,
-                  const Point &direction)
+                  const Coordinates &direction)
     {
       constexpr double tiny = 1e-12;
-      const auto along = [&](const Point &p)
-      { return std::fabs(direction.x * p.x + direction.y * p.y) > tiny; };
+      const auto along = [&](const Coordinates &p) { return std::fabs(dot(direction, p)) > tiny; };
       if (end.kind == Attachment::Kind::ground)
         return false;
+      if (end.kind == Attachment::Kind::body)
+        return !rotational; // which of its points move is known to the body alone
       if (end.kind == Attachment::Kind::mass)
       {
         const Mass &mass = scene.masses[end.index];
@@ -207,9 +220,9 @@ namespace taut
     /// Fixed links that act on the same two points would have no effect at all.
     bool same_point(const Attachment &a, const Attachment &b)
     {
-      return a.kind == b.kind && (a.kind == Attachment::Kind::ground ||
-                                  (a.index == b.index &&
-                                   (a.kind == Attachment::Kind::mass || a.position == b.position)));
+      return a.kind == b.kind &&
+             (a.kind == Attachment::Kind::ground ||
+              (a.index == b.index && a.position == b.position && a.place == b.place));
     }
 
     void check_sliding(const Scene &scene, const Link &link, const std::string &what,
@@ -237,8 +250,9 @@ namespace taut
     {
       const auto key = [](const Link &link)
       {
-        return std::make_tuple(link.origin, link.from.kind, link.from.index, link.from.position,
-                               link.to.kind, link.to.index, link.to.position);
+        const auto end = [](const Attachment &a)
+        { return std::make_tuple(a.kind, a.index, a.position, a.place.x, a.place.y, a.place.z); };
+        return std::make_tuple(link.origin, end(link.from), end(link.to));
       };
       std::set<decltype(key(scene.links[0]))> known;
       for (const Link &link : scene.links)
@@ -269,6 +283,10 @@ namespace taut
             (link.kind != LinkKind::dropper || link.from.kind == Attachment::Kind::ground ||
              link.to.kind == Attachment::Kind::ground))
           fail(link, "Find length", what, "it is for a dropper between two bodies");
+        if (link.find_length && link.mass_per_length > 0. &&
+            (link.from.kind == Attachment::Kind::body || link.to.kind == Attachment::Kind::body))
+          fail(link, "Mass per length", what,
+               "half of its mass would go to a body, which brings its own; set it to 0");
         if (link.moving())
           check_sliding(scene, link, what, end_time);
         else if (link.speed != 0. || !link.profile.is_zero())
@@ -284,6 +302,19 @@ namespace taut
         if (item.name.empty() || !names.insert(item.name).second)
           fail(item, "", "two ", kind, " are called '", item.name,
                "'; names are unique and not empty");
+    }
+
+    /// A link says where it acts by a name alone.
+    void check_body_names(const Scene &scene)
+    {
+      for (const CustomBody &body : scene.bodies)
+      {
+        const auto is_same = [&](const auto &item) { return item.name == body.name; };
+        if (body.name == "ground" || std::any_of(scene.wires.begin(), scene.wires.end(), is_same) ||
+            std::any_of(scene.masses.begin(), scene.masses.end(), is_same))
+          fail(body, "", "the name '", body.name,
+               "' is taken by a wire, a mass or the ground; take another");
+      }
     }
 
     /// What numpy's genfromtxt(names=True) makes of a name in the head of a table.
@@ -335,9 +366,11 @@ namespace taut
 
   void check(const Scene &scene, const double end_time)
   {
-    if (scene.wires.empty() && scene.masses.empty())
+    if (scene.wires.empty() && scene.masses.empty() && scene.bodies.empty())
       throw EntryError("", "the scene is empty: name at least one wire or mass");
     check_names(scene.wires, "wires");
+    check_names(scene.bodies, "bodies");
+    check_body_names(scene);
     check_names(scene.masses, "masses");
     check_names(scene.links, "links");
     check_names_in_tables(scene);

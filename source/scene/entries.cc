@@ -44,6 +44,27 @@ namespace taut
     }
   } // namespace
 
+  namespace
+  {
+    /// Attachments at points of a body, "0.1, 0.2; 0.3, 0.2".
+    std::vector<Attachment> on_body(Attachment attachment, const std::string &points,
+                                    const std::string &entry)
+    {
+      std::vector<Attachment> attachments;
+      for (const std::string &point : split(points, ';'))
+      {
+        std::vector<double> components;
+        for (const std::string &component : split(point, ','))
+          components.push_back(parse_number(component, entry));
+        attachment.place = parse_coordinates(components, entry);
+        attachments.push_back(attachment);
+      }
+      if (attachments.empty())
+        throw EntryError(entry, "no point after '@'; write 'x, y' or 'x, y, z'");
+      return attachments;
+    }
+  } // namespace
+
   std::vector<double> parse_positions(const std::string &text, const std::string &entry)
   {
     constexpr double most = 1e6;
@@ -90,14 +111,24 @@ namespace taut
     return value;
   }
 
-  Point parse_direction(const std::vector<double> &components, const std::string &entry)
+  Coordinates parse_coordinates(const std::vector<double> &components, const std::string &entry)
   {
-    if (components.size() != 2)
-      throw EntryError(entry, "a direction has two components, 'x, y'");
-    const double length = std::hypot(components[0], components[1]);
+    if (components.size() != 2 && components.size() != 3)
+      throw EntryError(entry, "give two numbers 'x, y', or three 'x, y, z'");
+    return {components[0], components[1], components.size() == 3 ? components[2] : 0.};
+  }
+
+  Coordinates unit(const Coordinates &direction, const std::string &entry)
+  {
+    const double length = norm(direction);
     if (!(length > 0.) || !std::isfinite(length))
       throw EntryError(entry, "a direction is not zero");
-    return {components[0] / length, components[1] / length};
+    return {direction.x / length, direction.y / length, direction.z / length};
+  }
+
+  Coordinates parse_direction(const std::vector<double> &components, const std::string &entry)
+  {
+    return unit(parse_coordinates(components, entry), entry);
   }
 
   std::vector<Attachment> parse_attachments(const std::string &text, const Scene &scene,
@@ -116,6 +147,9 @@ namespace taut
         return {attachment};
       if (find_name(scene.wires, name) != ground)
         throw EntryError(entry, "say where on the wire: '" + name + " @ position'");
+      if (find_name(scene.bodies, name) != ground)
+        throw EntryError(entry, "say where on the body: '" + name + " @ x, y' or '" + name +
+                                    " @ x, y, z'");
     }
     else
     {
@@ -133,9 +167,18 @@ namespace taut
           throw EntryError(entry, "no position after '@'");
         return attachments;
       }
+      attachment.kind = Attachment::Kind::body;
+      attachment.index = find_name(scene.bodies, name);
+      if (attachment.index != ground)
+        return on_body(attachment, text.substr(at + 1), entry);
     }
     std::vector<std::string> names = {"ground"};
     std::string known = "ground";
+    for (const CustomBody &body : scene.bodies)
+    {
+      known += ", " + body.name + " @ x, y";
+      names.push_back(body.name);
+    }
     for (const Mass &mass : scene.masses)
     {
       known += ", " + mass.name;
@@ -153,9 +196,16 @@ namespace taut
                                 (near.empty() ? "" : "; did you mean '" + near + "'?"));
   }
 
-  Point place(const Scene &scene, const Attachment &point)
+  Coordinates place(const Scene &scene, const Attachment &point)
   {
-    return point.kind == Attachment::Kind::wire ? scene.wires[point.index].at(point.position)
-                                                : scene.masses[point.index].position;
+    switch (point.kind)
+    {
+    case Attachment::Kind::wire:
+      return scene.wires[point.index].at(point.position);
+    case Attachment::Kind::body:
+      return point.place;
+    default:
+      return scene.masses[point.index].position;
+    }
   }
 } // namespace taut

@@ -8,22 +8,23 @@ namespace taut
 {
   double Wire::length() const
   {
-    return std::hypot(b.x - a.x, b.y - a.y);
+    return norm(b - a);
   }
 
-  Point Wire::tangent() const
+  Coordinates Wire::tangent() const
   {
-    return {(b.x - a.x) / length(), (b.y - a.y) / length()};
+    const Coordinates whole = b - a;
+    return {whole.x / length(), whole.y / length(), whole.z / length()};
   }
 
-  Point Wire::normal() const
+  Coordinates Wire::normal() const
   {
-    return {-tangent().y, tangent().x};
+    return {-tangent().y, tangent().x, 0.};
   }
 
-  Point Wire::at(const double s) const
+  Coordinates Wire::at(const double s) const
   {
-    return {a.x + s * tangent().x, a.y + s * tangent().y};
+    return add_scaled(a, s, tangent());
   }
 
   std::vector<double> grid(const Scene &scene, const std::size_t wire)

@@ -40,14 +40,12 @@ namespace taut
     }
   } // namespace
 
-  Scene Network::generate() const
+  void Network::fill(Scene &scene) const
   {
-    Scene scene;
     add_wires(scene);
     add_masses(scene);
     add_links(scene);
     add_loads(scene);
-    return scene;
   }
 
   void Network::add_wires(Scene &scene) const
@@ -59,8 +57,8 @@ namespace taut
       Wire wire;
       wire.name = wires.names[i];
       wire.origin = title;
-      wire.a = {item.from[0], item.from[1]};
-      wire.b = {item.to[0], item.to[1]};
+      wire.a = parse_coordinates(item.from, title + "/From");
+      wire.b = parse_coordinates(item.to, title + "/To");
       // Links ask for its direction before the whole scene is checked.
       if (!(wire.length() > 0.))
         throw EntryError(title + "/To", "its two ends are at one place; give it a length");
@@ -137,7 +135,7 @@ namespace taut
       mass.origin = masses.title(i);
       if (find_name(scene.wires, mass.name) != ground || mass.name == "ground")
         throw EntryError(masses.title(i), "the name is taken by a wire or by the ground");
-      mass.position = {item.position[0], item.position[1]};
+      mass.position = parse_coordinates(item.position, masses.title(i) + "/Position");
       mass.mass = item.mass;
       mass.inertia = item.inertia;
       mass.weight = item.weight;
@@ -212,8 +210,8 @@ namespace taut
               link.to.kind == Attachment::Kind::ground)
             throw EntryError(title + "/Direction",
                              "give 'x, y', the ground has no place of its own");
-          const Point a = place(scene, link.from), b = place(scene, link.to);
-          link.direction = parse_direction({b.x - a.x, b.y - a.y}, title + "/Direction");
+          link.direction =
+              unit(place(scene, link.to) - place(scene, link.from), title + "/Direction");
         }
         scene.links.push_back(link);
       }

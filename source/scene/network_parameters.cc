@@ -17,9 +17,9 @@ namespace taut
     {
       return Double();
     }
-    const List pair_of_numbers()
+    const List coordinates()
     {
-      return List(Double(), 2, 2);
+      return List(Double(), 2, 3);
     }
   } // namespace
 
@@ -52,9 +52,9 @@ namespace taut
 
   void Network::WireItem::declare(dealii::ParameterHandler &prm)
   {
-    prm.add_parameter("From", from, "First end 'x, y' [m]", pair_of_numbers());
-    prm.add_parameter("To", to, "Last end 'x, y'; positions on the wire count from the first [m]",
-                      pair_of_numbers());
+    prm.add_parameter("From", from, "First end 'x, y' or 'x, y, z' [m]", coordinates());
+    prm.add_parameter("To", to, "Last end; positions on the wire count from the first [m]",
+                      coordinates());
     prm.add_parameter("Components", components,
                       "What the wire resists: 'bar' (along it), and 'string' (tension) or 'beam' "
                       "(bending, with or without tension) across it",
@@ -116,7 +116,7 @@ namespace taut
 
   void Network::MassItem::declare(dealii::ParameterHandler &prm)
   {
-    prm.add_parameter("Position", position, "'x, y' [m]", pair_of_numbers());
+    prm.add_parameter("Position", position, "'x, y' or 'x, y, z' [m]", coordinates());
     prm.add_parameter("Motions", motions, "Free motions: x, y, rotation",
                       List(Selection("x|y|rotation"), 1, 3));
     prm.add_parameter("Mass", mass, "[kg]", not_negative());
@@ -133,8 +133,8 @@ namespace taut
   {
     prm.add_parameter("From", from, "A mass or 'ground'");
     prm.add_parameter("To", to, "A mass or 'ground'");
-    prm.add_parameter("Direction", direction, "'x, y'; the length does not matter",
-                      pair_of_numbers());
+    prm.add_parameter("Direction", direction, "'x, y' or 'x, y, z'; the length does not matter",
+                      coordinates());
     prm.add_parameter("Rotational", rotational, "Acts between rotations instead");
     prm.add_parameter("Stiffness", stiffness, "[N/m, N m/rad]", not_negative());
     prm.add_parameter("Damping", damping, "[N s/m, N m s/rad]", not_negative());
@@ -192,8 +192,8 @@ namespace taut
                       Selection("point|distributed|moving"));
     prm.add_parameter(
         "On", on, "A mass or 'wire @ position'; of a distributed load the position is not used");
-    prm.add_parameter("Direction", direction, "'x, y'; the length does not matter",
-                      pair_of_numbers());
+    prm.add_parameter("Direction", direction, "'x, y' or 'x, y, z'; the length does not matter",
+                      coordinates());
     prm.add_parameter("Rotational", rotational, "A moment instead of a force");
     prm.add_parameter("Magnitude", magnitude, "A formula in s and t [N, N/m, N m]");
     prm.add_parameter("Speed", speed, "Of a moving load [m/s]", any_number());

@@ -62,8 +62,8 @@ namespace taut
   void OutputParameters::ProbeItem::declare(dealii::ParameterHandler &prm)
   {
     prm.add_parameter("Point", point, "A mass or 'wire @ position'", Anything());
-    prm.add_parameter("Direction", direction, "'x, y'; the length does not matter",
-                      List(Double(), 2, 2));
+    prm.add_parameter("Direction", direction, "'x, y' or 'x, y, z'; the length does not matter",
+                      List(Double(), 2, 3));
     prm.add_parameter("Rotational", rotational, "Slope or rotation instead of displacement");
   }
 
@@ -97,10 +97,10 @@ namespace taut
         "Least time between two files of the motion of all wires for ParaView; 0: none "
         "[s]",
         not_negative());
-    prm.add_parameter("Energy", energy,
-                      "Write energy.csv: kinetic and elastic energy, work of loads, supports and "
-                      "contacts, dissipation of dampers and of the time integration, and the error "
-                      "of their balance, as often as Interval says");
+    const auto &known = Registry<Observer>::instance();
+    prm.add_parameter("Observers", observers,
+                      "What else records the steps. " + known.descriptions(),
+                      List(Selection(known.names())));
     prm.add_parameter("Subdivisions", subdivisions,
                       "Pieces that each element is drawn with in these files [1]", Integer(1, 20));
     probes.declare_parameters(prm);
@@ -118,7 +118,8 @@ namespace taut
                       "What fills the scene. " +
                           Registry<SceneGenerator>::instance().descriptions(),
                       Selection(Registry<SceneGenerator>::instance().names()));
-    prm.add_parameter("Gravity", gravity, "'x, y' [m/s^2]", List(Double(), 2, 2));
+    prm.add_parameter("Gravity", gravity, "'x, y' or 'x, y, z', y upwards [m/s^2]",
+                      List(Double(), 2, 3));
     prm.add_parameter(
         "Start", start,
         "'equilibrium': at rest under the loads at t = 0. 'undeformed': straight wires, "
@@ -158,8 +159,10 @@ namespace taut
     solver.declare_parameters(prm);
     partition.declare_parameters(prm);
     output.declare_parameters(prm);
+    declare_observers(prm);
     statistics.declare_parameters(prm);
     study.declare_parameters(prm);
+    bodies.declare_parameters(prm);
     generator->declare_parameters(prm);
   }
 
@@ -229,14 +232,11 @@ namespace taut
       }
       load_shared_libraries(shared_libraries, "Additional shared libraries");
       create_integrators();
+      create_observers();
       const auto &generators = Registry<SceneGenerator>::instance();
       if (!generators.knows(generator_name))
       {
-        std::vector<std::string> known;
-        std::istringstream list(generators.names());
-        for (std::string generator_known; std::getline(list, generator_known, '|');)
-          known.push_back(generator_known);
-        const std::string near = nearest_name(generator_name, known);
+        const std::string near = nearest_name(generator_name, generators.list());
         throw EntryError("Generator",
                          "there is no such generator; known are: " + generators.names(", ") +
                              (near.empty() ? "" : "; did you mean '" + near + "'?"));
@@ -244,11 +244,18 @@ namespace taut
       generator = generators.create(generator_name);
       {
         dealii::ParameterHandler prm;
+        bodies.declare_names(prm);
         generator->declare_names(prm);
         output.declare_names(prm);
         study.declare_names(prm);
         prm.parse_input_from_string(text, "", true);
       }
+      {
+        dealii::ParameterHandler prm;
+        bodies.declare_types(prm);
+        prm.parse_input_from_string(text, "", true);
+      }
+      bodies.create_types();
       dealii::ParameterHandler prm;
       declare(prm);
       check_entries(file, prm);
@@ -303,6 +310,7 @@ namespace taut
   void Parameters::set_defaults()
   {
     create_integrators();
+    create_observers();
     generator = Registry<SceneGenerator>::instance().create(generator_name);
     dealii::ParameterHandler prm;
     declare(prm);
@@ -321,11 +329,13 @@ namespace taut
 
   Scene Parameters::scene() const
   {
-    Scene scene = generator->generate();
-    scene.gravity = {gravity[0], gravity[1]};
+    Scene scene;
+    scene.bodies = bodies.bodies();
+    scene.gravity = parse_coordinates(gravity, "Gravity");
     scene.start = start == "equilibrium"  ? Start::equilibrium
                   : start == "undeformed" ? Start::undeformed
                                           : Start::given;
+    generator->fill(scene);
     const ContactMass contact_mass = massless_contact == "mass"      ? ContactMass::keeps_total
                                      : massless_contact == "inertia" ? ContactMass::keeps_inertia
                                                                      : ContactMass::stays;

@@ -25,8 +25,7 @@ namespace taut
 
   void Parameters::create_integrators()
   {
-    std::istringstream list(Registry<TimeIntegrator>::instance().names());
-    for (std::string name; std::getline(list, name, '|');)
+    for (const std::string &name : Registry<TimeIntegrator>::instance().list())
       integrators[name] = Registry<TimeIntegrator>::instance().create(name);
   }
 
@@ -49,8 +48,7 @@ namespace taut
                                     const std::map<std::string, std::string> &entries) const
   {
     std::vector<std::string> unused;
-    std::istringstream schemes(Registry<TimeIntegrator>::instance().names());
-    for (std::string scheme; std::getline(schemes, scheme, '|');)
+    for (const std::string &scheme : Registry<TimeIntegrator>::instance().list())
     {
       dealii::ParameterHandler prm;
       const auto integrator = Registry<TimeIntegrator>::instance().create(scheme);

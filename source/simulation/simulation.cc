@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "observer_list.h"
+#include "results_folder.h"
+
 #include <taut/base/exceptions.h>
 #include <taut/base/interruption.h>
-#include <taut/base/version.h>
 #include <taut/model/contact_mass.h>
 #include <taut/model/form_finding.h>
 #include <taut/model/scene_rows.h>
-#include <taut/output/energy.h>
 #include <taut/output/fields.h>
 #include <taut/output/scene_report.h>
 #include <taut/output/series.h>
@@ -28,46 +29,6 @@ namespace taut
 {
   namespace
   {
-    /// True for the name of a file that a run writes.
-    bool is_result(const std::string &name)
-    {
-      for (const char *fixed :
-           {"used.prm", "start.csv", "sliding.csv", "links.csv", "probes.csv", "supports.csv",
-            "certificate.csv", "energy.csv", "statistics.json", "wires.pvd", "links.pvd"})
-        if (name == fixed)
-          return true;
-      const auto is_numbered = [&](const std::string &stem)
-      {
-        return name.size() >= stem.size() + 10 && name.compare(0, stem.size(), stem) == 0 &&
-               name.compare(name.size() - 4, 4, ".vtu") == 0;
-      };
-      return is_numbered("wires") || is_numbered("links");
-    }
-
-    /// True if there are files in a folder that a run writes. One that cannot be read has none:
-    /// writing then says what is wrong.
-    bool holds_results(const std::filesystem::path &folder)
-    {
-      std::error_code error;
-      const std::filesystem::directory_iterator content(folder, error), none;
-      return std::any_of(content, none,
-                         [](const auto &entry)
-                         { return is_result(entry.path().filename().string()); });
-    }
-
-    void check_folder(const OutputParameters &output)
-    {
-      namespace fs = std::filesystem;
-      std::error_code error;
-      if (fs::exists(output.folder, error) && !fs::is_directory(output.folder, error))
-        throw EntryError("Output/Folder", "it is a file; name a folder");
-      if (!output.overwrite && holds_results(output.folder))
-        throw EntryError(
-            "Output/Folder",
-            "'" + output.folder +
-                "' holds the results of a run; name another folder, or run with --overwrite");
-    }
-
     Scene prepare_contacts(Scene scene, const Parameters &parameters)
     {
       if (parameters.chooses_contact_mass())
@@ -76,16 +37,6 @@ namespace taut
       return scene;
     }
   } // namespace
-
-  void check_results_folder(const Parameters &parameters, const Communicator &processes)
-  {
-    processes.agree(
-        [&]
-        {
-          if (processes.is_root())
-            check_folder(parameters.output);
-        });
-  }
 
   Simulation::Simulation(const Parameters &parameters, std::ostream &log,
                          const Communicator &processes)
@@ -128,7 +79,12 @@ namespace taut
     on_root(
         [&]
         {
-          prepare_folder();
+          std::vector<std::string> comments;
+          if (!scheme.empty())
+            comments.push_back("The scheme was " + scheme + ".");
+          for (const std::string &entry : unused_entries)
+            comments.push_back("Not used by it: " + entry);
+          prepare_folder(parameters, comments);
           write_start();
         });
     // At least a hundred times a run, and too seldom to be felt.
@@ -137,11 +93,15 @@ namespace taut
         integrator ? std::clamp(n_steps() / 100, 1L, 50L) : 1L);
     Fields fields(parameters.output.folder, model, bodies, parameters.output.field_interval,
                   parameters.output.subdivisions);
+    ObserverList observers(processes);
+    const RunView run_view = {parameters.output.folder, parameters.output.interval, processes};
     if (!integrator)
     {
+      add_guests(observers);
+      observers.begin(run_view);
       update_probes(start);
-      fields.record(view(start, start_certificate));
-      limits->record(view(start, start_certificate));
+      show(observers, fields, start, start_certificate);
+      processes.agree([&] { observers.finish(); });
       limits->print(log);
       log << "Results in " << parameters.output.folder << '\n';
       return;
@@ -157,34 +117,25 @@ namespace taut
                                        parameters.output.interval, parameters.output.link_interval);
         });
     Statistics statistics(parameters.statistics, model, links);
-    std::vector<Observer *> observers = {&statistics};
-    if (series)
-      observers.push_back(series.get());
-    observers.insert(observers.end(), guests.begin(), guests.end());
-
-    std::unique_ptr<Energy> energy;
-    if (parameters.output.energy)
-      energy = std::make_unique<Energy>(parameters.output.folder, view(start, start_certificate),
-                                        parameters.output.interval);
+    observers.add(&statistics);
+    observers.add(series.get());
+    add_guests(observers);
+    observers.begin(run_view);
 
     const auto close = [&](const bool is_partial)
     {
-      for (Observer *observer : observers)
-        observer->finish();
+      observers.finish();
       if (is_partial)
         log << "Partial results: until t = " << statistics.until() << " s of "
             << parameters.end_time << " s\n";
       if (!processes.is_root())
         return;
-      series->close();
-      if (energy)
-        energy->close();
       statistics.write(parameters.output.folder + "/statistics.json", description(is_partial));
     };
     const auto begin = std::chrono::steady_clock::now();
     try
     {
-      advance(stepper, observers, fields, energy.get());
+      advance(stepper, observers, fields);
     }
     catch (...)
     {
@@ -260,35 +211,6 @@ namespace taut
     log << "The scene is consistent\n";
   }
 
-  void Simulation::prepare_folder() const
-  {
-    namespace fs = std::filesystem;
-    const fs::path folder = parameters.output.folder;
-    std::error_code error;
-    check_folder(parameters.output);
-    // Files of a longer run would mix with those of this one.
-    if (holds_results(folder))
-      for (const fs::directory_entry &entry : fs::directory_iterator(folder, error))
-        if (is_result(entry.path().filename().string()))
-          fs::remove(entry.path(), error);
-    fs::create_directories(folder, error);
-    if (error)
-      throw EntryError("Output/Folder",
-                       "cannot make '" + folder.string() + "': " + error.message());
-    std::ofstream used(folder / "used.prm");
-    used << "# Written by taut " << version()
-         << "; the entries of the run whose results are beside this file.\n";
-    if (!scheme.empty())
-      used << "# The scheme was " << scheme << ".\n";
-    for (const std::string &entry : unused_entries)
-      used << "# Not used by it: " << entry << '\n';
-    parameters.print(used);
-    used.close();
-    if (!used)
-      throw EntryError("Output/Folder", "cannot write into '" + folder.string() +
-                                            "': no permission, or the disk is full");
-  }
-
   void Simulation::on_root(const std::function<void()> &work) const
   {
     processes.agree(
@@ -299,24 +221,28 @@ namespace taut
         });
   }
 
-  void Simulation::advance(TimeStepper &stepper, const std::vector<Observer *> &observers,
-                           Fields &fields, Energy *const energy)
+  void Simulation::add_guests(ObserverList &observers) const
   {
-    const auto show = [&](const State &state, const Certificate &certificate)
-    {
-      update_probes(state);
-      if (&state != &start)
-        reactions.update(reference, state);
-      processes.agree(
-          [&]
-          {
-            for (Observer *observer : observers)
-              observer->record(view(state, certificate));
-          });
-      fields.record(view(state, certificate));
-      limits->record(view(state, certificate));
-    };
-    show(start, start_certificate);
+    for (Observer *guest : guests)
+      observers.add(guest);
+    for (const std::string &name : parameters.output.observers)
+      observers.add(parameters.make_observer(name));
+  }
+
+  void Simulation::show(const ObserverList &observers, Fields &fields, const State &state,
+                        const Certificate &certificate)
+  {
+    update_probes(state);
+    if (&state != &start)
+      reactions.update(reference, state);
+    observers.record(view(state, certificate));
+    fields.record(view(state, certificate));
+    limits->record(view(state, certificate));
+  }
+
+  void Simulation::advance(TimeStepper &stepper, const ObserverList &observers, Fields &fields)
+  {
+    show(observers, fields, start, start_certificate);
     StepControl control(parameters.step_parameters, parameters.step, n_steps());
     while (!control.is_finished() && stop_signal == 0)
     {
@@ -325,9 +251,7 @@ namespace taut
       coefficients = stepper.scheme();
       measures->record(stepper.state(), coefficients, stepper.certificate());
       seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
-      show(stepper.state(), stepper.certificate());
-      if (energy)
-        energy->record(view(stepper.state(), stepper.certificate()));
+      show(observers, fields, stepper.state(), stepper.certificate());
     }
     if (control.is_finished())
       stop_signal = 0; // it came too late to matter
@@ -426,7 +350,7 @@ namespace taut
         continue;
       const Link &link = model.links[links[i].link];
       const Attachment &end = link.to.kind == Attachment::Kind::ground ? link.from : link.to;
-      const Point at = place(model, end);
+      const Coordinates at = place(model, end);
       file << links[i].name << at.x << at.y << start.multiplier[i] << start.geometric_gap[i]
            << (link.length > 0. ? link.length : 0.);
       file.end_line();

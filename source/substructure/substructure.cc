@@ -72,6 +72,16 @@ namespace taut
       load->add(t, P);
   }
 
+  void Substructure::add_force(const SparseVector &form, const double magnitude)
+  {
+    form.add_to(magnitude, constant_force);
+  }
+
+  void Substructure::add_force(SparseVector form, std::function<double(double)> magnitude)
+  {
+    time_loads.push_back(std::make_unique<PointLoad>(std::move(form), std::move(magnitude)));
+  }
+
   void Substructure::finish()
   {
     std::sort(constrained.begin(), constrained.end(),

@@ -102,7 +102,7 @@ namespace taut
     C = make_block_tridiagonal(dofs_per_node, n);
     K = make_block_tridiagonal(dofs_per_node, n);
     constant_force.assign(n, 0.);
-    const double gravity = scene.gravity.x * axis.x + scene.gravity.y * axis.y;
+    const double gravity = dot(scene.gravity, axis);
     find_massless_dofs(scene, wire_index);
     assemble(wire);
     add_supports(scene, wire_index);
@@ -120,7 +120,7 @@ namespace taut
   std::unique_ptr<Substructure> make_wire(const Wire &wire, const WireMotion motion,
                                           std::vector<Support> supports,
                                           std::vector<PointMass> point_masses,
-                                          std::vector<Load> loads, const Point &gravity)
+                                          std::vector<Load> loads, const Coordinates &gravity)
   {
     if (motion == WireMotion::axial ? !wire.has_axial : wire.transverse == TransverseKind::none)
       throw EntryError(wire.origin, "wire '" + wire.name + "' lacks the motion that is asked for");

@@ -64,9 +64,9 @@ namespace taut
         }
   }
 
-  double WireComponent::component(const Point &direction) const
+  double WireComponent::component(const Coordinates &direction) const
   {
-    return direction.x * axis.x + direction.y * axis.y;
+    return dot(direction, axis);
   }
 
   /// A force per length f(s, t), integrated with the rule of the element at each call.

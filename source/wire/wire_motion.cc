@@ -77,7 +77,7 @@ namespace taut
     SparseVector form;
     value_at(place[0], form);
     for (double &value : form.value)
-      value *= component({direction[0], direction[1]});
+      value *= component(direction);
     return form;
   }
 

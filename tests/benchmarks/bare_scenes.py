@@ -57,7 +57,7 @@ LINE = (root / "prm/en50318_2002_250.prm").read_text()
 BAR = (root / "prm/bar_on_wall.prm").read_text()
 FEATURES = {
     "EN 50318 line": (LINE, []),
-    "the same, energy balance": (LINE, ["Output/Energy=true"]),
+    "the same, energy balance": (LINE, ["Output/Observers=energy"]),
     "the same, adaptive steps": (LINE, ["Time/Step control=adaptive", "Time/Adaptive step/Tolerance=3e-6",
                                         "Time/Adaptive step/Halvings=1"]),
     "bar on a wall": (BAR, []),

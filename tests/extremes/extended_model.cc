@@ -182,7 +182,7 @@ namespace extremes
   void ExtendedModel::add_component(const std::size_t w, Component &component)
   {
     const taut::Wire &wire = scene.wires[w];
-    const taut::Point axis = component.axial ? wire.tangent() : wire.normal();
+    const taut::Coordinates axis = component.axial ? wire.tangent() : wire.normal();
     const Number gravity =
         Number(scene.gravity.x) * Number(axis.x) + Number(scene.gravity.y) * Number(axis.y);
     const Number stretch = component.axial ? wire.axial_stiffness : wire.tension;
@@ -299,7 +299,7 @@ namespace extremes
   }
 
   Form ExtendedModel::motion(const taut::Attachment &point, const bool rotational,
-                             const taut::Point &direction) const
+                             const taut::Coordinates &direction) const
   {
     Form form;
     if (point.kind == taut::Attachment::Kind::mass)
@@ -317,7 +317,7 @@ namespace extremes
         if (!c->exists || (rotational && c->axial))
           continue;
         const taut::Wire &wire = scene.wires[point.index];
-        const taut::Point axis = c->axial ? wire.tangent() : wire.normal();
+        const taut::Coordinates axis = c->axial ? wire.tangent() : wire.normal();
         const Number factor = rotational ? Number(1)
                                          : Number(direction.x) * Number(axis.x) +
                                                Number(direction.y) * Number(axis.y);
@@ -334,7 +334,7 @@ namespace extremes
     if (link.moving())
     {
       const Component &c = transverse[link.to.index];
-      const taut::Point axis = scene.wires[link.to.index].normal();
+      const taut::Coordinates axis = scene.wires[link.to.index].normal();
       const Number factor =
           Number(link.direction.x) * Number(axis.x) + Number(link.direction.y) * Number(axis.y);
       for (const auto &[i, v] :

@@ -61,7 +61,8 @@ namespace extremes
 
     std::size_t n_dofs() const { return M.size(); }
     /// A motion along a direction, or a slope or rotation, as Structure::motion.
-    Form motion(const taut::Attachment &point, bool rotational, const taut::Point &direction) const;
+    Form motion(const taut::Attachment &point, bool rotational,
+                const taut::Coordinates &direction) const;
     /// B of a link at time t, without the gap.
     Form row(const taut::Link &link, const Number &t) const;
     /// External forces at time t.

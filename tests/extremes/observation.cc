@@ -46,7 +46,7 @@ namespace extremes
         if (scene.masses[m].moves[motion])
           points.push_back({{Kind::mass, m, 0.},
                             motion == 2,
-                            motion == 0 ? taut::Point{1., 0.} : taut::Point{0., 1.}});
+                            motion == 0 ? taut::Coordinates{1., 0.} : taut::Coordinates{0., 1.}});
     return points;
   }
 
@@ -62,8 +62,8 @@ namespace extremes
         const bool same_sign =
             (a.kind == taut::LinkKind::dropper) == (b.kind == taut::LinkKind::dropper);
         if (alike(a.from, b.from) && alike(a.to, b.to) && a.rotational == b.rotational &&
-            same_sign && a.direction.x == b.direction.x && a.direction.y == b.direction.y &&
-            a.moving() == b.moving() && a.speed == b.speed)
+            same_sign && a.direction == b.direction && a.moving() == b.moving() &&
+            a.speed == b.speed)
           group[i] = j;
       }
     }

@@ -61,7 +61,7 @@ namespace extremes
   {
     taut::Attachment at;
     bool rotational = false;
-    taut::Point direction;
+    taut::Coordinates direction;
   };
   std::vector<ObservedPoint> observed_points(const taut::Scene &scene);
 

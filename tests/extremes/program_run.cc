@@ -19,7 +19,7 @@ namespace extremes
     {
     public:
       void declare_parameters(dealii::ParameterHandler &) override {}
-      taut::Scene generate() const override { return *scene_of_next_run; }
+      void fill(taut::Scene &scene) const override { scene = *scene_of_next_run; }
     };
 
     const taut::Register<taut::SceneGenerator, ValueGenerator> entry("extremes",

@@ -246,7 +246,8 @@ namespace extremes
           w.transverse = kind == 0   ? taut::TransverseKind::none
                          : kind >= 3 ? taut::TransverseKind::beam
                                      : taut::TransverseKind::string;
-          const taut::Point along = kind == 0 ? taut::Point{1., 0.} : taut::Point{0., 1.};
+          const taut::Coordinates along =
+              kind == 0 ? taut::Coordinates{1., 0.} : taut::Coordinates{0., 1.};
 
           taut::Support support;
           support.name = "ends";

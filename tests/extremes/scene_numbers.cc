@@ -97,10 +97,11 @@ namespace extremes
       }
       void number(double &x, int l, int m, int t) { visit(x, l, m, t, false); }
       void place(double &x) { visit(x, 1, 0, 0, true); }
-      void point(taut::Point &p, int l, int m, int t, bool is_place)
+      void point(taut::Coordinates &p, int l, int m, int t, bool is_place)
       {
         visit(p.x, l, m, t, is_place);
         visit(p.y, l, m, t, is_place);
+        visit(p.z, l, m, t, is_place);
       }
       void constant(taut::Expression &f, int l, int m, int t)
       {

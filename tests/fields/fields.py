@@ -118,13 +118,13 @@ def check_links(folder):
 
 
 def check_probes(folder, probes):
-    """Motion of points of wires since the start: {name: (wire, x, z, direction)}."""
+    """Motion of points of wires since the start: {name: (wire, x, y, direction)}."""
     series, start = table(folder / "probes.csv"), {}
     for time, path in collection(folder / "wires.pvd"):
         grid = Grid(path)
-        for name, (wire, x, z, direction) in probes.items():
+        for name, (wire, x, y, direction) in probes.items():
             mine = grid.wire(wire)
-            there = mine[np.abs(grid.points[mine] - [x, 0, z]).max(axis=1) < 1e-4]
+            there = mine[np.abs(grid.points[mine] - [x, y, 0]).max(axis=1) < 1e-4]
             if len(there) == 0:
                 errors.append(f"{path}: no point at {name}")
                 continue
@@ -146,10 +146,10 @@ def check_droppers(folder):
             mine, ends = wires.wire(wire), links.ends(end)[:count]
             node = mine[np.abs(wires.points[mine, 0][:, None] - links.points[ends, 0]).argmin(axis=0)]
             compare(f"{link_path}: places on '{wire}'", links.points[ends], wires.points[node], 600)
-            u = wires.fields["displacement"][node, 2]
+            u = wires.fields["displacement"][node, 1]
             size += np.abs(u).max()
             stretch += sign * u
-            compare(f"{link_path}: displacement", links.fields["displacement"][ends, 2], u, np.abs(u).max())
+            compare(f"{link_path}: displacement", links.fields["displacement"][ends, 1], u, np.abs(u).max())
         value = links.fields["gap"][links.ends(0)[:count]] - stretch
         first = value if first is None else first
         compare(f"{link_path}: gap against the motion of the wires", value, first, 2 * size)
@@ -304,7 +304,7 @@ plot_script = arguments.root / "source" / "plot" / "taut-plot"
 
 results = run("en50318_2002_250", "Time/End=0.2", "Output/Field interval=0.05", "Statistics/Window=61,72")
 compare("times of the fields", check_links(results), [0, 0.05, 0.1, 0.15, 0.2], 1)
-check_probes(results, {f"contact wire at {x} m": ("contact", x, 0, (0, 0, 1)) for x in (240, 300, 360)})
+check_probes(results, {f"contact wire at {x} m": ("contact", x, 0, (0, 1, 0)) for x in (240, 300, 360)})
 check_droppers(results)
 check_contact(results, 250 / 3.6, 60)
 check_order(results)
@@ -320,13 +320,13 @@ check_plot_reads(results, plot_script)
 
 results = run("inclined_cable", "Time/End=2", "Output/Field interval=0.1")
 check_links(results)
-check_probes(results, {"tip": ("beam", 3, 0, (0, 0, 1))})
+check_probes(results, {"tip": ("beam", 3, 0, (0, 1, 0))})
 check_pictures(results, ["probes", "link_forces", "displacement_map"], plot_script)
 forces = []
 for (_, wire_path), (_, link_path) in zip(collection(results / "wires.pvd"), collection(results / "links.pvd")):
     tip = Grid(wire_path).fields["displacement"][-1]
     link = Grid(link_path).fields
-    compare(f"{link_path}: slack of the cable", link["gap"][0], -(tip @ (0.6, 0, -0.8)), np.abs(tip).max())
+    compare(f"{link_path}: slack of the cable", link["gap"][0], -(tip @ (0.6, -0.8, 0)), np.abs(tip).max())
     forces.append(link["force"][0])
 if not (max(forces) > 45 and min(forces) == 0):
     errors.append("the cable neither pulls nor goes slack")

@@ -32,6 +32,8 @@ foreach(type Debug Release)
     run(${CMAKE_COMMAND} -E chdir ${build} ./${program})
   endforeach()
 endforeach()
+run(${PYTHON} ${CMAKE_CURRENT_LIST_DIR}/plugin.py --program ${FOLDER}/moved/bin/taut --mpiexec ${MPIEXEC}
+  --prm ${CMAKE_CURRENT_LIST_DIR}/library/plate.prm --build ${FOLDER}/build_library_Release)
 
 # The same generator in a library that the installed program loads; without it the name is not known.
 set(library build_._default/libweight.so)

@@ -18,9 +18,8 @@ namespace
       prm.leave_subsection();
     }
 
-    taut::Scene generate() const override
+    void fill(taut::Scene &scene) const override
     {
-      taut::Scene scene;
       scene.masses.resize(1);
       scene.masses[0].name = "weight";
       scene.masses[0].mass = mass;
@@ -30,7 +29,6 @@ namespace
       floor.to = {taut::Attachment::Kind::mass, 0, 0.};
       floor.stiffness = 1000.;
       scene.links.push_back(floor);
-      return scene;
     }
 
   private:

@@ -144,7 +144,7 @@ def check_same(what, results, options, folder, tolerance):
 
 def check_signal(folder, number):
     """One process."""
-    options = [*LINE, *STEP, "--set", "Output/Energy=true"]
+    options = [*LINE, *STEP, "--set", "Output/Observers=energy"]
     results = folder / "results"
     program = Program(folder, [*options, "--set", f"Output/Folder={results}"])
     program.says(r" [1-9]\d %  t = ")

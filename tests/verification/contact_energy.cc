@@ -72,7 +72,7 @@ namespace
     }
 
   private:
-    taut::Point direction()
+    taut::Coordinates direction()
     {
       const double angle = uniform(0., 6.3);
       return {std::cos(angle), std::sin(angle)};

@@ -33,7 +33,7 @@ namespace
 
   std::vector<std::vector<double>> energies(const std::string &scene, Overrides overrides)
   {
-    overrides.push_back("Output.Energy=true");
+    overrides.push_back("Output.Observers=energy");
     overrides.push_back("Output.Interval=0");
     Session session(scene, overrides);
     session.run([](const taut::StepView &) {});

@@ -76,7 +76,7 @@ namespace verification
   }
 
   std::vector<taut::Term> point_on_wire(const taut::StepView &view, const std::size_t wire,
-                                        const double s, const taut::Point &direction,
+                                        const double s, const taut::Coordinates &direction,
                                         const bool rotational)
   {
     std::vector<taut::Term> terms;
@@ -91,7 +91,7 @@ namespace verification
   }
 
   double displacement(const taut::StepView &view, const std::size_t wire, const double s,
-                      const taut::Point &direction, const bool rotational)
+                      const taut::Coordinates &direction, const bool rotational)
   {
     return displacement(view, point_on_wire(view, wire, s, direction, rotational));
   }

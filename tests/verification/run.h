@@ -53,7 +53,7 @@ namespace verification
 
   /// Linear forms of the displacement, or slope, of a point of a wire or of a mass.
   std::vector<taut::Term> point_on_wire(const taut::StepView &view, std::size_t wire, double s,
-                                        const taut::Point &direction = {0., 1.},
+                                        const taut::Coordinates &direction = {0., 1.},
                                         bool rotational = false);
 
   /// Displacement from the undeformed structure.
@@ -61,7 +61,7 @@ namespace verification
 
   /// The same of a point of a wire.
   double displacement(const taut::StepView &view, std::size_t wire, double s,
-                      const taut::Point &direction = {0., 1.}, bool rotational = false);
+                      const taut::Coordinates &direction = {0., 1.}, bool rotational = false);
 
   /// Slope of the line that fits log(error) over log(step) best.
   double fitted_order(const std::vector<double> &steps, const std::vector<double> &errors);

@@ -143,7 +143,7 @@ TEST(Series, a_line_each_step_has_no_more_columns)
 TEST(Series, times_are_written_as_multiples_of_the_step)
 {
   Session session(scene, {"Time.Step=1e-3", "Time.End=0.03", "Output.Interval=0",
-                          "Output.Link interval=0", "Output.Energy=true"});
+                          "Output.Link interval=0", "Output.Observers=energy"});
   run(session);
   for (const char *name : {"links", "probes", "certificate", "energy"})
   {

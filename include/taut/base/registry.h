@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace taut
 {
@@ -49,6 +50,15 @@ namespace taut
       if (entry == entries.end())
         throw UserError("unknown name '" + name + "'; known are: " + names(", "));
       return entry->second.second();
+    }
+
+    /// The names in alphabetical order.
+    std::vector<std::string> list() const
+    {
+      std::vector<std::string> result;
+      for (const auto &entry : entries)
+        result.push_back(entry.first);
+      return result;
     }
 
     /// The names in alphabetical order, e.g. as the list of a deal.II Patterns::Selection ("|").

@@ -28,7 +28,7 @@ namespace taut
 
     /// Displacement along a direction, or the rotation, of a mass: result . U. Motions that the
     /// mass lacks are zero.
-    void motion(std::size_t mass, bool rotational, const Point &direction,
+    void motion(std::size_t mass, bool rotational, const Coordinates &direction,
                 SparseVector &result) const;
 
   private:

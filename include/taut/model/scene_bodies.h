@@ -36,15 +36,15 @@ namespace taut
      * forms: appends factor * form, nothing for the ground or for a body of another rank. A wire
      * counts only the components it has.
      */
-    void motion(const Attachment &point, bool rotational, const Point &direction, double factor,
-                std::vector<Term> &terms) const
+    void motion(const Attachment &point, bool rotational, const Coordinates &direction,
+                double factor, std::vector<Term> &terms) const
     {
       append_motion(point, rotational, direction, factor, false, terms);
     }
 
     /// The same of the derivative of the displacement by the position along the wire [1/m]: what a
     /// contact that slides is displaced by.
-    void slope(const Attachment &point, const Point &direction, double factor,
+    void slope(const Attachment &point, const Coordinates &direction, double factor,
                std::vector<Term> &terms) const
     {
       append_motion(point, false, direction, factor, true, terms);
@@ -53,11 +53,14 @@ namespace taut
     /// One row a cut for each motion that is continuous there: displacement, and slope of a beam.
     const std::vector<CutRow> &cut_rows() const { return cuts; }
 
+    /// The index of a custom body of the scene on this rank, or Structure::elsewhere.
+    std::size_t index_of_body(std::size_t body) const { return custom_bodies[body]; }
+
     /// Part of the partition that a point of a wire belongs to.
     unsigned int part(std::size_t wire, double s) const;
 
   private:
-    void append_motion(const Attachment &point, bool rotational, const Point &direction,
+    void append_motion(const Attachment &point, bool rotational, const Coordinates &direction,
                        double factor, bool derivative, std::vector<Term> &terms) const;
 
     /// Substructures of a wire's pieces, in order; none where it lacks the component.
@@ -68,15 +71,18 @@ namespace taut
       std::vector<std::size_t> axial, transverse;
     };
 
+    void add_custom_bodies(const Scene &scene, const unsigned int *owner);
+    void add_loads(const Scene &scene, std::size_t body, Substructure &made) const;
+    void check_places(const Scene &scene) const;
     void add_pieces(const Scene &scene, std::size_t wire, WireMotion motion,
                     const std::vector<Partition::Piece> &pieces,
                     const std::vector<unsigned int> &owner, std::vector<std::size_t> &indices);
     std::size_t piece(const WireParts &parts, double s) const;
 
     std::vector<WireParts> wires;
-    std::vector<Point> tangents, normals;
+    std::vector<Coordinates> tangents, normals;
     std::vector<double> lengths;
-    std::vector<std::size_t> mechanism_of_mass;
+    std::vector<std::size_t> mechanism_of_mass, custom_bodies;
     std::vector<CutRow> cuts;
   };
 } // namespace taut

@@ -25,17 +25,19 @@ namespace taut
    * sum shows what a step does not account for. Contacts do work where a rigid one ends an impact,
    * where a force opens or closes within a step, and where a contact slides on a slope.
    */
-  class Energy
+  class Energy : public Observer
   {
   public:
-    /// Each rank gives its own bodies; the root writes, at least @p interval apart [s].
-    Energy(const std::string &folder, const StepView &start, double interval);
+    std::vector<std::string> files() const override { return {"energy.csv"}; }
 
-    /// A step after the last one. Called by all ranks together.
-    void record(const StepView &step);
+    /// Each rank gives its own bodies; the root writes, at least run.interval apart [s].
+    void begin(const RunView &run) override;
+
+    /// The start, and each step after the last one.
+    void record(const StepView &step) override;
 
     /// Throws UserError when the disk is full.
-    void close();
+    void finish() override;
 
   private:
     /// Of a state or, added up, of a run [J].
@@ -46,6 +48,7 @@ namespace taut
       double damping = 0., link_dampers = 0., algorithmic = 0.;
     };
 
+    void begin_balance(const StepView &start);
     void add_bodies(const StepView &step, Balance &share);
     void add_moving_rows(const StepView &step, Balance &share) const;
     void add_rows(const StepView &step);
@@ -54,7 +57,8 @@ namespace taut
     void write(double time);
 
     std::unique_ptr<CsvFile> file;
-    double interval, next = 0., start_energy = 0.;
+    bool has_begun = false;
+    double interval = 0., next = 0., start_energy = 0.;
     Balance total;
 
     BlockVector P, CV, balance, impulses; ///< of the last call

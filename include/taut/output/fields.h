@@ -5,6 +5,7 @@
 #include <taut/output/observer.h>
 #include <taut/output/vtu_file.h>
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,7 +18,8 @@ namespace taut
    * name, number and part of each line. links_NNNNN.vtu: each link as a line between its ends, or
    * as a point if one end is the ground, with displacement, force, gap and whether it is open at
    * the ends, and with its name. A sliding contact stands where its contact is. wires.pvd and
-   * links.pvd join the files in time. Positions are x, 0, y: the plane stands upright.
+   * links.pvd join the files in time. A body of a plugin that shows itself has files
+   * `body_<name>_NNNNN.vtu` and `body_<name>.pvd`, written by the rank that owns it.
    */
   class Fields : public Observer
   {
@@ -32,21 +34,23 @@ namespace taut
     void record(const StepView &step) override;
 
   private:
-    /// A place with the linear forms of its motion along x and y.
+    /// A place with the linear forms of its motion along x, y and z.
     struct Sample
     {
-      Point place;
-      std::vector<Term> x, y;
+      Coordinates place;
+      std::array<std::vector<Term>, 3> motion;
     };
     Sample sample(const Scene &scene, const SceneBodies &structure, const Attachment &at) const;
 
-    /// Displacements of samples along x, 0, y from the undeformed line, summed over all ranks [m].
+    /// Displacements of samples along x, y, z from the undeformed line, summed over all ranks [m].
     std::vector<float> displacements(const std::vector<Sample> &samples,
                                      const StepView &step) const;
     void add_wires(const Scene &scene, const SceneBodies &structure, unsigned int subdivisions);
     void add_links(const Scene &scene, const SceneBodies &structure);
     void move_ends(const StepView &step);
     void set_links(const StepView &step);
+    void add_bodies(const Scene &scene, const SceneBodies &structure);
+    void write_bodies(const StepView &step);
     void write(const StepView &step, const std::string &name, const VtuFile &file,
                PvdFile &collection) const;
 
@@ -63,6 +67,16 @@ namespace taut
     std::size_t wire_displacement = 0;             ///< arrays of the files
     std::size_t link_displacement = 0, force = 0, gap = 0, open = 0;
     PvdFile wire_collection, link_collection;
+
+    /// A custom body that shows itself.
+    struct BodyFiles
+    {
+      std::string stem;
+      std::size_t index = 0; ///< on this rank, or Structure::elsewhere
+      PvdFile collection;    ///< on the root
+      std::size_t n_frames = 0;
+    };
+    std::vector<BodyFiles> bodies;
   };
 } // namespace taut
 

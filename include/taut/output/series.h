@@ -28,7 +28,7 @@ namespace taut
     void record(const StepView &step) override;
 
     /// Writes the rest. Throws UserError when the disk is full.
-    void close();
+    void finish() override;
 
   private:
     void add_link(const Row &row);

@@ -16,8 +16,14 @@ namespace taut
   /// A stiffness: a positive number, or "rigid" for infinity.
   double parse_stiffness(const std::string &text, const std::string &entry);
 
-  /// A direction "x, y" of any length as a unit vector.
-  Point parse_direction(const std::vector<double> &components, const std::string &entry);
+  /// A point "x, y" or "x, y, z"; two numbers are in the plane z = 0.
+  Coordinates parse_coordinates(const std::vector<double> &components, const std::string &entry);
+
+  /// The unit vector along a direction; an EntryError if it is zero.
+  Coordinates unit(const Coordinates &direction, const std::string &entry);
+
+  /// A direction "x, y" or "x, y, z" of any length as a unit vector.
+  Coordinates parse_direction(const std::vector<double> &components, const std::string &entry);
 
   /// The named element of a list of wires or masses; its index, or `ground` if there is none.
   template <typename Item>
@@ -30,14 +36,15 @@ namespace taut
   }
 
   /**
-   * Attachments from "ground", "mass", "wire @ 12.5", or several on one wire, "wire @ 0:5:60".
+   * Attachments from "ground", "mass", "wire @ 12.5", or several on one wire, "wire @ 0:5:60"; on a
+   * body "plate @ 0.1, 0.2", or several, "plate @ 0.1, 0.2; 0.3, 0.2".
    * Unknown names are UserErrors that list the known ones.
    */
   std::vector<Attachment> parse_attachments(const std::string &text, const Scene &scene,
                                             const std::string &entry);
 
   /// Place of an attachment in the undeformed scene; not for the ground.
-  Point place(const Scene &scene, const Attachment &point);
+  Coordinates place(const Scene &scene, const Attachment &point);
 } // namespace taut
 
 #endif

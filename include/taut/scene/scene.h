@@ -2,7 +2,9 @@
 #ifndef taut_scene_h
 #define taut_scene_h
 
+#include <taut/base/coordinates.h>
 #include <taut/base/start.h>
+#include <taut/scene/body_type.h>
 #include <taut/scene/expression.h>
 
 #include <cstddef>
@@ -12,12 +14,6 @@
 
 namespace taut
 {
-  /// A point or direction of the vertical plane; x along the line, y upwards [m].
-  struct Point
-  {
-    double x = 0., y = 0.;
-  };
-
   /// A scalar motion a wire point can have: along the wire, normal to it (to the left of the way
   /// from a to b), slope.
   enum class WireMotion
@@ -65,7 +61,7 @@ namespace taut
   {
     std::string name;
     std::string origin; ///< path of its section in the parameter file, for messages; may be empty
-    Point a, b;
+    Coordinates a, b;
     double mass_per_length = 0.; ///< [kg/m]
     bool has_axial = false;      ///< an elastic bar along the wire
     double axial_stiffness = 0.; ///< EA [N]
@@ -80,9 +76,9 @@ namespace taut
     InitialMotion axial_start, transverse_start;
 
     double length() const;
-    Point tangent() const; ///< unit vector from a to b
-    Point normal() const;  ///< tangent turned by +90 degrees
-    Point at(double s) const;
+    Coordinates tangent() const; ///< unit vector from a to b
+    Coordinates normal() const;  ///< tangent turned by +90 degrees
+    Coordinates at(double s) const;
   };
 
   /// One motion of one wire held, moved or sprung at given positions.
@@ -115,7 +111,7 @@ namespace taut
   {
     std::string name;
     std::string origin; ///< path of its section in the parameter file, for messages; may be empty
-    Point position;
+    Coordinates position;
     double mass = 0.;    ///< [kg]; 0: a massless node
     double inertia = 0.; ///< about the plane's normal [kg m^2]
     bool moves[3] = {false, true, false};
@@ -135,7 +131,7 @@ namespace taut
     std::string origin; ///< path of its section in the parameter file, for messages; may be empty
     std::size_t from = ground, to = ground; ///< masses
     bool rotational = false;                ///< about the plane's normal
-    Point direction = {0., 1.};             ///< unit vector, if not rotational
+    Coordinates direction = {0., 1.};       ///< unit vector, if not rotational
     double stiffness = 0.;                  ///< [N/m, N m/rad]
     double damping = 0.;                    ///< [N s/m, N m s/rad]
   };
@@ -147,11 +143,13 @@ namespace taut
     {
       ground,
       wire,
-      mass
+      mass,
+      body
     };
     Kind kind = Kind::ground;
-    std::size_t index = 0; ///< of the wire or mass
-    double position = 0.;  ///< s on the wire [m], at t = 0 if it moves
+    std::size_t index = 0;  ///< of the wire, mass or body
+    double position = 0.;   ///< s on the wire [m], at t = 0 if it moves
+    Coordinates place = {}; ///< of a body, in its own coordinates, undeformed [m]
   };
 
   enum class LinkKind
@@ -187,7 +185,7 @@ namespace taut
     LinkKind kind = LinkKind::joint;
     Attachment from, to;
     bool rotational = false;
-    Point direction = {0., 1.};
+    Coordinates direction = {0., 1.};
     double stiffness = std::numeric_limits<double>::infinity(); ///< [N/m, N m/rad]; infinite: rigid
     double damping = 0.;                                        ///< [N s/m, N m s/rad]
     double gap = 0.;                                            ///< D at U = 0, N = 0 [m, rad]
@@ -225,7 +223,7 @@ namespace taut
     Kind kind = Kind::point;
     Attachment target;
     bool rotational = false;
-    Point direction = {0., 1.};
+    Coordinates direction = {0., 1.};
     Expression magnitude; ///< [N, N m; N/m if distributed]
     double speed = 0.;    ///< of a moving force [m/s]
   };
@@ -238,18 +236,19 @@ namespace taut
     std::string origin; ///< path of its section in the parameter file, for messages; may be empty
     Attachment point;
     bool rotational = false;
-    Point direction = {0., 1.};
+    Coordinates direction = {0., 1.};
   };
 
   /// What is modelled, as plain values.
   struct Scene
   {
-    Point gravity = {0., -9.81}; ///< [m/s^2]
+    Coordinates gravity = {0., -9.81}; ///< [m/s^2]
     Start start = Start::equilibrium;
     std::vector<Wire> wires;
     std::vector<Support> supports;
     std::vector<PointMass> point_masses;
     std::vector<Mass> masses;
+    std::vector<CustomBody> bodies;
     std::vector<Spring> springs;
     std::vector<Link> links;
     std::vector<Load> loads;

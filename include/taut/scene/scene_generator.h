@@ -14,7 +14,7 @@ namespace taut
 {
   /**
    * Fills a scene from a parameter file. Chosen by name, from this library or from a plugin; the
-   * calls come in the order of the functions below. Gravity and start are set by the caller.
+   * calls come in the order of the functions below.
    */
   class SceneGenerator
   {
@@ -27,8 +27,9 @@ namespace taut
     /// Declares everything, a section a name; read strictly.
     virtual void declare_parameters(dealii::ParameterHandler &prm) = 0;
 
-    /// The scene of the entries read. Throws UserError.
-    virtual Scene generate() const = 0;
+    /// Adds what the entries read describe to a scene, which has gravity, start and the bodies of
+    /// the parameter file. Throws UserError.
+    virtual void fill(Scene &scene) const = 0;
   };
 } // namespace taut
 

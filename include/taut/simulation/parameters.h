@@ -3,6 +3,7 @@
 #define taut_parameters_h
 
 #include <taut/base/exceptions.h>
+#include <taut/output/observer.h>
 #include <taut/output/statistics.h>
 #include <taut/partition/make_partition.h>
 #include <taut/scene/named_items.h>
@@ -27,8 +28,8 @@ namespace taut
     std::string folder = "results";
     double interval = 0., link_interval = 0.01, field_interval = 0.1;
     unsigned int subdivisions = 1;
-    bool energy = false;
-    bool overwrite = false; ///< from the command line, not from the file
+    std::vector<std::string> observers; ///< registered names
+    bool overwrite = false;             ///< from the command line, not from the file
 
     /// A probe by name.
     struct ProbeItem
@@ -74,6 +75,7 @@ namespace taut
     }
 
     std::vector<std::string> shared_libraries;
+    BodyParameters bodies;
     std::string generator_name = "catenary";
     std::vector<double> gravity = {0., -9.81};
     std::string start = "equilibrium";
@@ -113,6 +115,9 @@ namespace taut
     std::unique_ptr<TimeIntegrator>
     integrator(const std::string &name, const std::map<std::string, std::string> &entries) const;
 
+    /// A new observer of this name with the entries that the file gives it.
+    std::unique_ptr<Observer> make_observer(const std::string &name) const;
+
     /// "Time/Newmark/Beta = 0.3" of each entry of a scheme that is not at its default and has no
     /// part in this one.
     std::vector<std::string>
@@ -133,6 +138,8 @@ namespace taut
                       const Communicator &processes);
     void keep_listing(const dealii::ParameterHandler &prm);
     void create_integrators();
+    void create_observers();
+    void declare_observers(dealii::ParameterHandler &prm);
     void declare(dealii::ParameterHandler &prm);
 
     /// Entries and values for print(), as text.
@@ -141,6 +148,7 @@ namespace taut
     ParameterFile file;
     std::unique_ptr<SceneGenerator> generator;
     std::map<std::string, std::unique_ptr<TimeIntegrator>> integrators;
+    std::map<std::string, std::unique_ptr<Observer>> observers; ///< those that declare the entries
   };
 } // namespace taut
 

@@ -15,8 +15,8 @@
 
 namespace taut
 {
-  class Energy;
   class Fields;
+  class ObserverList;
 
   /**
    * Throws an EntryError on Output/Folder if a run could not write its results there, because it is
@@ -67,7 +67,6 @@ namespace taut
 
   private:
     void describe() const;
-    void prepare_folder() const;
     RunDescription description(bool is_partial) const;
     void find_start();
     void report_free_bodies() const;
@@ -79,8 +78,10 @@ namespace taut
     void update_probes(const State &state);
     void stop_before_start();
     void print_cost(const TimeStepper &stepper, double until, double all) const;
-    void advance(TimeStepper &stepper, const std::vector<Observer *> &observers, Fields &fields,
-                 Energy *energy);
+    void advance(TimeStepper &stepper, const ObserverList &observers, Fields &fields);
+    void show(const ObserverList &observers, Fields &fields, const State &state,
+              const Certificate &certificate);
+    void add_guests(ObserverList &observers) const;
     void on_root(const std::function<void()> &work) const;
 
     const Parameters &parameters;

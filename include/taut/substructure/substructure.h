@@ -2,10 +2,10 @@
 #ifndef taut_substructure_h
 #define taut_substructure_h
 
+#include <taut/base/coordinates.h>
 #include <taut/base/sparse_vector.h>
 #include <taut/substructure/symmetric_matrix.h>
 
-#include <array>
 #include <functional>
 #include <memory>
 #include <string>
@@ -35,10 +35,6 @@ namespace taut
 
     double at(double t) const { return motion ? motion(t) : 0.; }
   };
-
-  /// A place or a direction in space. What a place means is up to a substructure: the position
-  /// along a wire is its first coordinate, a point of a finite-element model all of them [m].
-  using Coordinates = std::array<double, 3>;
 
   /**
    * One body between interfaces, discretised: M U" + C U' + K U = P + B N. Its DoFs are
@@ -81,6 +77,10 @@ namespace taut
 
     /// True if it is not the same at all times.
     bool external_force_varies() const { return !time_loads.empty(); }
+
+    /// Adds a force along @p form, of its magnitude or of magnitude(t) [N].
+    void add_force(const SparseVector &form, double magnitude);
+    void add_force(SparseVector form, std::function<double(double)> magnitude);
 
     /// Kind of DoF i: 0 a displacement, 1 a slope or rotation.
     unsigned int kind(unsigned int i) const

@@ -81,12 +81,12 @@ namespace taut
     void add_loads(const Scene &scene, std::size_t wire, double gravity);
     void interpolate(const Expression &f, std::vector<double> &U) const;
     void evaluate(double s, bool slope, SparseVector &result) const;
-    double component(const Point &direction) const;
+    double component(const Coordinates &direction) const;
 
     std::vector<double> nodes; ///< of this piece, s on the whole wire
     double wire_length;
-    bool is_last; ///< the piece with the wire's end
-    Point axis;   ///< unit vector of the motion in the plane
+    bool is_last;     ///< the piece with the wire's end
+    Coordinates axis; ///< unit vector of the motion in the plane
     WireMotion motion;
     bool beam = false;
     bool bends_freely = false; ///< no tension: a rigid rotation costs nothing
@@ -106,7 +106,7 @@ namespace taut
   std::unique_ptr<Substructure>
   make_wire(const Wire &wire, WireMotion motion = WireMotion::transverse,
             std::vector<Support> supports = {}, std::vector<PointMass> point_masses = {},
-            std::vector<Load> loads = {}, const Point &gravity = {0., -9.81});
+            std::vector<Load> loads = {}, const Coordinates &gravity = {0., -9.81});
 } // namespace taut
 
 #endif

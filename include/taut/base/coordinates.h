@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_coordinates_h
+#define taut_coordinates_h
+
+#include <cmath>
+
+namespace taut
+{
+  /// A point [m] or a direction in space: x along the line, y upwards, z out of the plane, which a
+  /// plane scene leaves at zero. What a place on a body means is up to the body: the position along
+  /// a wire is its first coordinate.
+  struct Coordinates
+  {
+    double x = 0., y = 0., z = 0.;
+
+    double operator[](const unsigned int i) const { return i == 0 ? x : i == 1 ? y : z; }
+  };
+
+  inline double dot(const Coordinates &a, const Coordinates &b)
+  {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+  }
+
+  inline Coordinates operator-(const Coordinates &a, const Coordinates &b)
+  {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+  }
+
+  /// @p a + s @p b
+  inline Coordinates add_scaled(const Coordinates &a, const double s, const Coordinates &b)
+  {
+    return {a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
+  }
+
+  inline double norm(const Coordinates &a)
+  {
+    return std::hypot(std::hypot(a.x, a.y), a.z);
+  }
+
+  inline bool operator==(const Coordinates &a, const Coordinates &b)
+  {
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+  }
+} // namespace taut
+
+#endif

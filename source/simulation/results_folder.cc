@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "results_folder.h"
+
+#include <taut/base/exceptions.h>
+#include <taut/base/version.h>
+#include <taut/output/observer.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+namespace taut
+{
+  namespace
+  {
+    namespace fs = std::filesystem;
+
+    /// Names of the tables and other single files of a run; those of observers that it does not
+    /// have, too: they would be of another run.
+    std::set<std::string> names_of_results()
+    {
+      std::set<std::string> names = {
+          "used.prm",     "start.csv", "sliding.csv",     "links.csv",       "probes.csv",
+          "supports.csv", "wires.pvd", "certificate.csv", "statistics.json", "links.pvd"};
+      for (const std::string &observer : Registry<Observer>::instance().list())
+        for (const std::string &name : Registry<Observer>::instance().create(observer)->files())
+          names.insert(name);
+      return names;
+    }
+
+    /// The files of a run in a folder. One that cannot be read has none: writing then says what is
+    /// wrong.
+    std::vector<fs::path> results_in(const fs::path &folder)
+    {
+      const std::set<std::string> names = names_of_results();
+      const auto begins = [](const std::string &name, const std::string &stem)
+      { return name.compare(0, stem.size(), stem) == 0; };
+      std::vector<fs::path> results;
+      std::error_code error;
+      for (const fs::directory_entry &entry : fs::directory_iterator(folder, error))
+      {
+        const std::string name = entry.path().filename().string(),
+                          ending = entry.path().extension().string();
+        if (names.count(name) ||
+            (ending == ".vtu" &&
+             (begins(name, "wires_") || begins(name, "links_") || begins(name, "body_"))) ||
+            (ending == ".pvd" && begins(name, "body_")))
+          results.push_back(entry.path());
+      }
+      return results;
+    }
+  } // namespace
+
+  void check_folder(const OutputParameters &output)
+  {
+    std::error_code error;
+    if (fs::exists(output.folder, error) && !fs::is_directory(output.folder, error))
+      throw EntryError("Output/Folder", "it is a file; name a folder");
+    if (!output.overwrite && !results_in(output.folder).empty())
+      throw EntryError(
+          "Output/Folder",
+          "'" + output.folder +
+              "' holds the results of a run; name another folder, or run with --overwrite");
+  }
+
+  void prepare_folder(const Parameters &parameters, const std::vector<std::string> &comments)
+  {
+    const fs::path folder = parameters.output.folder;
+    std::error_code error;
+    check_folder(parameters.output);
+    // Files of a longer run would mix with those of this one.
+    for (const fs::path &file : results_in(folder))
+      fs::remove(file, error);
+    fs::create_directories(folder, error);
+    if (error)
+      throw EntryError("Output/Folder",
+                       "cannot make '" + folder.string() + "': " + error.message());
+    std::ofstream used(folder / "used.prm");
+    used << "# Written by taut " << version()
+         << "; the entries of the run whose results are beside this file.\n";
+    for (const std::string &comment : comments)
+      used << "# " << comment << '\n';
+    parameters.print(used);
+    used.close();
+    if (!used)
+      throw EntryError("Output/Folder", "cannot write into '" + folder.string() +
+                                            "': no permission, or the disk is full");
+  }
+
+  void check_results_folder(const Parameters &parameters, const Communicator &processes)
+  {
+    processes.agree(
+        [&]
+        {
+          if (processes.is_root())
+            check_folder(parameters.output);
+        });
+  }
+} // namespace taut
