@@ -57,8 +57,8 @@ namespace
     void begin(const taut::RunView &run) override
     {
       if (run.communicator.is_root())
-        file = std::make_unique<taut::CsvFile>(
-            run.folder + "/largest.csv", std::vector<std::string>{"time [s]", "largest [m]"});
+        file = std::make_unique<taut::CsvFile>(run.folder + "/largest.csv",
+                                               std::vector<std::string>{"time [s]", "largest [m]"});
     }
 
     void record(const taut::StepView &step) override
@@ -90,6 +90,6 @@ namespace
 
   const taut::Register<taut::BodyType, ElasticPlate>
       plate_type("elastic plate", "a plate of 2 m x 1 m in plane strain, clamped at x = 0");
-  const taut::Register<taut::Observer, LargestDisplacement>
-      observer("largest displacement", "largest.csv: of all DoFs");
+  const taut::Register<taut::Observer, LargestDisplacement> observer("largest displacement",
+                                                                     "largest.csv: of all DoFs");
 } // namespace
