@@ -64,13 +64,13 @@ subsection Output
   end
 end
 subsection Study
-  set Ladders = ITEM
-  set Figures = ITEM
-  subsection Ladder ITEM
+  set Parameters = ITEM
+  set Quantities = ITEM
+  subsection Parameter ITEM
     set Entries = Time/Step
     set Values  = 1
   end
-  subsection Figure ITEM
+  subsection Quantity ITEM
     set Of = ITEM
   end
 end

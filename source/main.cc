@@ -133,7 +133,7 @@ int main(int argc, char **argv)
     po::notify(arguments);
     if (arguments.count("help"))
       std::cout
-          << "taut: mechanical systems whose parts touch through one-sided contacts\n\n"
+          << "taut: mechanical systems whose parts touch through unilateral contacts\n\n"
           << "Usage: taut FILE.prm [options]    run a parameter file, .prm or .json\n"
           << "       taut                       write an annotated parameter file, taut.prm\n\n"
           << options;

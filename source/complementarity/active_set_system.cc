@@ -38,10 +38,10 @@ namespace taut
     }
 
     /// Not amplitudes that something resists: an operator knows G N = -e only.
-    bool solves_with_kernel(const MixedComplementarityProblem &problem,
-                            const ComplementarityOperator &matrix)
+    bool solves_with_null_space(const MixedComplementarityProblem &problem,
+                                const ComplementarityOperator &matrix)
     {
-      return matrix.has_kernel_solver() && !problem.has_resistance();
+      return matrix.has_null_space_solver() && !problem.has_resistance();
     }
   } // namespace
 
@@ -55,7 +55,7 @@ namespace taut
     start(problem, matrix, set, solution, terms);
     rhs.resize(problem.size());
     shift = 0.;
-    kernel_is_ready = false;
+    null_space_is_ready = false;
     double last_gap = 0., last_step = 0.;
     bool is_solved = false;
     MixedComplementaritySolution best; // of the corrections of one that is solved
@@ -76,8 +76,8 @@ namespace taut
           break;
         return Outcome::inadmissible;
       }
-      gaps(problem, matrix, solution.multiplier, solution.kernel_amplitude, solution.gap);
-      gap_terms(problem, matrix, solution.multiplier, solution.kernel_amplitude, terms);
+      gaps(problem, matrix, solution.multiplier, solution.mode_amplitude, solution.gap);
+      gap_terms(problem, matrix, solution.multiplier, solution.mode_amplitude, terms);
 
       // Contradictory rows grow by the same step in each correction, and so do the terms that gaps
       // are measured with: with a shift, gaps are small only if the steps are getting small, too.
@@ -101,7 +101,7 @@ namespace taut
       last_gap = gap;
       last_step = size;
     }
-    if (is_solved && problem.n_kernel() > 0 && !solves_with_kernel(problem, matrix))
+    if (is_solved && problem.n_null_space() > 0 && !solves_with_null_space(problem, matrix))
       balance(problem, matrix, set, solution);
     return is_solved ? Outcome::solved : Outcome::unsettled;
   }
@@ -116,23 +116,23 @@ namespace taut
     std::vector<double> last;
     std::vector<double> amplitude;
     if (matrix.is_iterative() && solution.multiplier.size() == problem.size() &&
-        solution.kernel_amplitude.size() == problem.n_kernel())
+        solution.mode_amplitude.size() == problem.n_null_space())
     {
       last.swap(solution.multiplier);
-      amplitude.swap(solution.kernel_amplitude);
+      amplitude.swap(solution.mode_amplitude);
     }
     solution.reset(problem);
     if (last.empty())
     {
       if (matrix.is_iterative())
-        gap_terms(problem, matrix, solution.multiplier, solution.kernel_amplitude, terms);
+        gap_terms(problem, matrix, solution.multiplier, solution.mode_amplitude, terms);
       return;
     }
     for (const std::size_t i : set)
       solution.multiplier[i] = last[i];
-    solution.kernel_amplitude.swap(amplitude);
-    gaps(problem, matrix, solution.multiplier, solution.kernel_amplitude, solution.gap);
-    gap_terms(problem, matrix, solution.multiplier, solution.kernel_amplitude, terms);
+    solution.mode_amplitude.swap(amplitude);
+    gaps(problem, matrix, solution.multiplier, solution.mode_amplitude, solution.gap);
+    gap_terms(problem, matrix, solution.multiplier, solution.mode_amplitude, terms);
   }
 
   /// Gaps round with the amplitudes, however small the loads are: the last correction is one of the
@@ -143,11 +143,11 @@ namespace taut
                                 MixedComplementaritySolution &solution)
   {
     std::fill(step.begin(), step.end(), 0.);
-    if (!correct_kernel(problem, set, solution))
+    if (!correct_null_space(problem, set, solution))
       return;
     for (const std::size_t i : set)
       solution.multiplier[i] += step[i];
-    gaps(problem, matrix, solution.multiplier, solution.kernel_amplitude, solution.gap);
+    gaps(problem, matrix, solution.multiplier, solution.mode_amplitude, solution.gap);
   }
 
   bool ActiveSetSystem::correct(const MixedComplementarityProblem &problem,
@@ -156,22 +156,22 @@ namespace taut
                                 MixedComplementaritySolution &solution)
   {
     std::transform(solution.gap.begin(), solution.gap.end(), rhs.begin(), std::negate<double>());
-    if (problem.n_kernel() > 0 && solves_with_kernel(problem, matrix))
-      return correct_with_kernel(problem, matrix, set, solution);
+    if (problem.n_null_space() > 0 && solves_with_null_space(problem, matrix))
+      return correct_with_null_space(problem, matrix, set, solution);
     if (!matrix.solve(set, rhs, shift, step))
     {
       if (shift != 0.)
         return false;
       shift = options.redundancy_shift;
-      kernel_is_ready = false;
+      null_space_is_ready = false;
       if (!matrix.solve(set, rhs, shift, step))
         return false;
     }
-    if (problem.n_kernel() > 0)
+    if (problem.n_null_space() > 0)
     {
-      if (!kernel_is_ready)
-        prepare_kernel(problem, matrix, set);
-      if (!correct_kernel(problem, set, solution))
+      if (!null_space_is_ready)
+        prepare_null_space(problem, matrix, set);
+      if (!correct_null_space(problem, set, solution))
         return false;
     }
     for (const std::size_t i : set)
@@ -180,16 +180,19 @@ namespace taut
   }
 
   /// The same where the operator solves for multipliers and amplitudes at once.
-  bool ActiveSetSystem::correct_with_kernel(const MixedComplementarityProblem &problem,
-                                            ComplementarityOperator &matrix,
-                                            const std::vector<std::size_t> &set,
-                                            MixedComplementaritySolution &solution)
+  bool ActiveSetSystem::correct_with_null_space(const MixedComplementarityProblem &problem,
+                                                ComplementarityOperator &matrix,
+                                                const std::vector<std::size_t> &set,
+                                                MixedComplementaritySolution &solution)
   {
-    std::vector<double> load(problem.n_kernel()), amplitude;
-    for (std::size_t k = 0; k < problem.n_kernel(); ++k)
-      load[k] = -problem.kernel_load[k] - problem.kernel[k].dot(solution.multiplier);
+    std::vector<double> load(problem.n_null_space()), amplitude;
+    for (std::size_t k = 0; k < problem.n_null_space(); ++k)
+      load[k] = -problem.null_space_load[k] - problem.null_space[k].dot(solution.multiplier);
     const auto solve = [&]
-    { return matrix.solve_with_kernel(set, rhs, problem.kernel, load, shift, step, amplitude); };
+    {
+      return matrix.solve_with_null_space(set, rhs, problem.null_space, load, shift, step,
+                                          amplitude);
+    };
     if (!solve())
     {
       if (shift != 0.)
@@ -200,52 +203,53 @@ namespace taut
     }
     for (const std::size_t i : set)
       solution.multiplier[i] += step[i];
-    for (std::size_t k = 0; k < problem.n_kernel(); ++k)
-      solution.kernel_amplitude[k] += amplitude[k];
+    for (std::size_t k = 0; k < problem.n_null_space(); ++k)
+      solution.mode_amplitude[k] += amplitude[k];
     return true;
   }
 
-  void ActiveSetSystem::prepare_kernel(const MixedComplementarityProblem &problem,
-                                       ComplementarityOperator &matrix,
-                                       const std::vector<std::size_t> &set)
+  void ActiveSetSystem::prepare_null_space(const MixedComplementarityProblem &problem,
+                                           ComplementarityOperator &matrix,
+                                           const std::vector<std::size_t> &set)
   {
-    const std::size_t n_kernel = problem.n_kernel();
-    kernel_responses.resize(n_kernel);
-    kernel_schur.reinit(n_kernel);
-    for (std::size_t k = 0; k < n_kernel; ++k)
+    const std::size_t n_null_space = problem.n_null_space();
+    null_space_responses.resize(n_null_space);
+    null_space_schur.reinit(n_null_space);
+    for (std::size_t k = 0; k < n_null_space; ++k)
     {
-      std::vector<double> kernel_rhs(problem.size(), 0.);
-      problem.kernel[k].add_to(1., kernel_rhs);
-      matrix.solve(set, kernel_rhs, shift, kernel_responses[k]);
+      std::vector<double> null_space_rhs(problem.size(), 0.);
+      problem.null_space[k].add_to(1., null_space_rhs);
+      matrix.solve(set, null_space_rhs, shift, null_space_responses[k]);
       for (std::size_t l = 0; l <= k; ++l)
-        kernel_schur.set(k, l,
-                         problem.kernel[k].dot(kernel_responses[l]) +
-                             (k == l ? problem.resistance(k) : 0.));
+        null_space_schur.set(k, l,
+                             problem.null_space[k].dot(null_space_responses[l]) +
+                                 (k == l ? problem.resistance(k) : 0.));
     }
-    kernel_is_ready = true;
+    null_space_is_ready = true;
   }
 
   // step solves F x = -D on the set: with the amplitudes' share it also brings G N + e to zero.
-  bool ActiveSetSystem::correct_kernel(const MixedComplementarityProblem &problem,
-                                       const std::vector<std::size_t> &set,
-                                       MixedComplementaritySolution &solution)
+  bool ActiveSetSystem::correct_null_space(const MixedComplementarityProblem &problem,
+                                           const std::vector<std::size_t> &set,
+                                           MixedComplementaritySolution &solution)
   {
-    const std::size_t n_kernel = problem.n_kernel();
-    std::vector<std::size_t> all(n_kernel);
+    const std::size_t n_null_space = problem.n_null_space();
+    std::vector<std::size_t> all(n_null_space);
     std::iota(all.begin(), all.end(), 0);
-    std::vector<double> unbalance = problem.kernel_load, amplitude;
-    for (std::size_t k = 0; k < n_kernel; ++k)
+    std::vector<double> unbalance = problem.null_space_load, amplitude;
+    for (std::size_t k = 0; k < n_null_space; ++k)
     {
-      unbalance[k] += problem.kernel[k].dot(solution.multiplier) + problem.kernel[k].dot(step);
-      unbalance[k] -= problem.resistance(k) * solution.kernel_amplitude[k];
+      unbalance[k] +=
+          problem.null_space[k].dot(solution.multiplier) + problem.null_space[k].dot(step);
+      unbalance[k] -= problem.resistance(k) * solution.mode_amplitude[k];
     }
-    if (!kernel_schur.solve(all, unbalance, 0., amplitude))
+    if (!null_space_schur.solve(all, unbalance, 0., amplitude))
       return false;
-    for (std::size_t k = 0; k < n_kernel; ++k)
+    for (std::size_t k = 0; k < n_null_space; ++k)
     {
-      solution.kernel_amplitude[k] += amplitude[k];
+      solution.mode_amplitude[k] += amplitude[k];
       for (const std::size_t i : set)
-        step[i] -= kernel_responses[k][i] * amplitude[k];
+        step[i] -= null_space_responses[k][i] * amplitude[k];
     }
     return true;
   }

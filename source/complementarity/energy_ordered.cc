@@ -11,7 +11,7 @@ namespace taut
   {
     /// c of F + c G^T R G: each update of alpha gains about three digits of balance, for three
     /// digits of rounding.
-    constexpr double kernel_factor = 1e3;
+    constexpr double null_space_factor = 1e3;
 
     /// Updates of alpha; some five are enough where the bodies are held well.
     constexpr unsigned int max_updates = 60;
@@ -55,14 +55,14 @@ namespace taut
       std::vector<char> closed(problem.size());
       for (std::size_t i = 0; i < problem.size(); ++i)
         closed[i] = !problem.unilateral[i] || solution.multiplier[i] > 0.;
-      gaps(problem, matrix, solution.multiplier, solution.kernel_amplitude, solution.gap);
+      gaps(problem, matrix, solution.multiplier, solution.mode_amplitude, solution.gap);
       KernelPenalty closed_rows(problem, matrix, closed);
-      add(solution.kernel_amplitude, 1., closed_rows.closing_amplitude(solution.gap));
+      add(solution.mode_amplitude, 1., closed_rows.closing_amplitude(solution.gap));
 
       const std::vector<double> terms = penalty.amplitude_terms(solution.multiplier);
       for (std::size_t k = 0; k < terms.size(); ++k)
-        if (std::abs(solution.kernel_amplitude[k]) <= 1e-15 * factor * terms[k])
-          solution.kernel_amplitude[k] = 0.;
+        if (std::abs(solution.mode_amplitude[k]) <= 1e-15 * factor * terms[k])
+          solution.mode_amplitude[k] = 0.;
     }
 
     /**
@@ -74,20 +74,19 @@ namespace taut
                 const std::vector<std::size_t> &set, const ComplementarityOptions &options,
                 MixedComplementaritySolution &solution)
     {
-      std::vector<double> load(problem.n_kernel(), 0.), terms;
-      add(load, factor, penalty.weigh(problem.kernel_load));
+      std::vector<double> load(problem.n_null_space(), 0.), terms;
+      add(load, factor, penalty.weigh(problem.null_space_load));
       MixedComplementarityProblem held_problem = problem;
       held_problem.free_gap =
-          penalty.without_kernel(problem.free_gap, problem.free_gap, load).free_gap;
+          penalty.without_null_space(problem.free_gap, problem.free_gap, load).free_gap;
 
       MixedComplementaritySolution candidate = solution;
       if (ActiveSetSystem(options).solve(held_problem, held, set, options.linear_tolerance,
                                          candidate, terms) != ActiveSetSystem::Outcome::solved)
         return;
-      add(candidate.kernel_amplitude, factor,
-          penalty.weigh(penalty.unbalance(candidate.multiplier)));
+      add(candidate.mode_amplitude, factor, penalty.weigh(penalty.unbalance(candidate.multiplier)));
       for (MixedComplementaritySolution *const either : {&solution, &candidate})
-        gaps(problem, matrix, either->multiplier, either->kernel_amplitude, either->gap);
+        gaps(problem, matrix, either->multiplier, either->mode_amplitude, either->gap);
       if (residual(problem, matrix, candidate).max < residual(problem, matrix, solution).max)
         solution = candidate;
     }
@@ -120,14 +119,14 @@ namespace taut
     changes = 0;
     solution.reset(problem);
     DenseOperator dense = assemble(matrix);
-    const Outcome outcome = problem.n_kernel() == 0 ? minimize(problem, dense, solution)
+    const Outcome outcome = problem.n_null_space() == 0 ? minimize(problem, dense, solution)
                             : problem.has_resistance()
                                 ? minimize_with_resistance(problem, dense, solution)
-                                : minimize_with_kernel(problem, dense, solution);
+                                : minimize_with_null_space(problem, dense, solution);
 
     std::vector<double> terms, weights;
-    gaps(problem, matrix, solution.multiplier, solution.kernel_amplitude, solution.gap);
-    gap_terms(problem, matrix, solution.multiplier, solution.kernel_amplitude, terms);
+    gaps(problem, matrix, solution.multiplier, solution.mode_amplitude, solution.gap);
+    gap_terms(problem, matrix, solution.multiplier, solution.mode_amplitude, terms);
     multiplier_weights(problem, matrix, solution.multiplier, terms, weights);
     taut::residual(problem, solution, terms, weights, final_residual);
     for (std::size_t i = 0; i < problem.size(); ++i)
@@ -156,23 +155,23 @@ namespace taut
   {
     DenseOperator whole = matrix;
     MixedComplementarityProblem without = problem;
-    without.kernel.clear();
-    without.kernel_load.clear();
-    without.kernel_resistance.clear();
+    without.null_space.clear();
+    without.null_space_load.clear();
+    without.null_space_resistance.clear();
     without.gap_scale.resize(problem.size(), 0.);
     std::vector<std::size_t> resisted, free;
-    for (std::size_t k = 0; k < problem.n_kernel(); ++k)
+    for (std::size_t k = 0; k < problem.n_null_space(); ++k)
     {
-      const SparseVector &G = problem.kernel[k];
+      const LinearForm &G = problem.null_space[k];
       if (!(problem.resistance(k) > 0.))
       {
-        without.kernel.push_back(G);
-        without.kernel_load.push_back(problem.kernel_load[k]);
+        without.null_space.push_back(G);
+        without.null_space_load.push_back(problem.null_space_load[k]);
         free.push_back(k);
         continue;
       }
       resisted.push_back(k);
-      const double amplitude = problem.kernel_load[k] / problem.resistance(k);
+      const double amplitude = problem.null_space_load[k] / problem.resistance(k);
       for (std::size_t e = 0; e < G.index.size(); ++e)
       {
         const std::size_t i = G.index[e];
@@ -186,17 +185,17 @@ namespace taut
     }
     MixedComplementaritySolution part;
     part.reset(without);
-    const Outcome outcome =
-        free.empty() ? minimize(without, whole, part) : minimize_with_kernel(without, whole, part);
+    const Outcome outcome = free.empty() ? minimize(without, whole, part)
+                                         : minimize_with_null_space(without, whole, part);
     if (outcome == Outcome::not_held)
       for (std::size_t &k : failed)
         k = free[k];
     solution.multiplier = part.multiplier;
     for (std::size_t k = 0; k < free.size(); ++k)
-      solution.kernel_amplitude[free[k]] = part.kernel_amplitude[k];
+      solution.mode_amplitude[free[k]] = part.mode_amplitude[k];
     for (const std::size_t k : resisted)
-      solution.kernel_amplitude[k] =
-          (problem.kernel[k].dot(solution.multiplier) + problem.kernel_load[k]) /
+      solution.mode_amplitude[k] =
+          (problem.null_space[k].dot(solution.multiplier) + problem.null_space_load[k]) /
           problem.resistance(k);
     std::vector<std::size_t> set;
     for (std::size_t i = 0; i < problem.size(); ++i)
@@ -207,7 +206,7 @@ namespace taut
     if (ActiveSetSystem(options).solve(problem, matrix, set, options.linear_tolerance, candidate,
                                        terms) == ActiveSetSystem::Outcome::solved)
     {
-      gaps(problem, matrix, solution.multiplier, solution.kernel_amplitude, solution.gap);
+      gaps(problem, matrix, solution.multiplier, solution.mode_amplitude, solution.gap);
       if (taut::residual(problem, matrix, candidate).max <
           taut::residual(problem, matrix, solution).max)
         solution = candidate;
@@ -216,21 +215,22 @@ namespace taut
   }
 
   EnergyOrderedActiveSet::Outcome
-  EnergyOrderedActiveSet::minimize_with_kernel(const MixedComplementarityProblem &problem,
-                                               DenseOperator &matrix,
-                                               MixedComplementaritySolution &solution)
+  EnergyOrderedActiveSet::minimize_with_null_space(const MixedComplementarityProblem &problem,
+                                                   DenseOperator &matrix,
+                                                   MixedComplementaritySolution &solution)
   {
     // Gaps are as accurate as the penalty's terms allow; the dead band must not get wider by them.
-    ComplementarityOptions kernel_options = options;
-    kernel_options.dead_band /= kernel_factor;
-    EnergyDescent descent(kernel_options);
+    ComplementarityOptions null_space_options = options;
+    null_space_options.dead_band /= null_space_factor;
+    EnergyDescent descent(null_space_options);
     KernelPenalty penalty(problem, matrix, std::vector<char>(problem.size(), 1));
 
     // N >= 0 with the least unbalance: the same descent with G^T R G and G^T R e alone.
     DenseOperator projector(problem.size());
     penalty.add_to(projector, 1.);
     const std::vector<double> zeros(problem.size(), 0.);
-    const auto balance = penalty.without_kernel(zeros, zeros, penalty.weigh(problem.kernel_load));
+    const auto balance =
+        penalty.without_null_space(zeros, zeros, penalty.weigh(problem.null_space_load));
     descent.start(balance, projector);
     descent.descend(balance, projector);
     changes += descent.n_changes();
@@ -238,7 +238,7 @@ namespace taut
     if (!failed.empty())
       return Outcome::not_held;
 
-    const double factor = kernel_factor * compliance(problem, matrix, descent.multiplier());
+    const double factor = null_space_factor * compliance(problem, matrix, descent.multiplier());
     const bool is_consistent = hold(problem, matrix, penalty, factor, descent, solution);
     changes += descent.n_changes();
     failed = is_consistent ? std::vector<std::size_t>() : descent.contradictory_rows();
@@ -255,14 +255,14 @@ namespace taut
     std::vector<double> terms;
     for (unsigned int update = 0; update < max_updates; ++update)
     {
-      gap_terms(problem, matrix, solution.multiplier, solution.kernel_amplitude, terms);
-      std::vector<double> amplitude = solution.kernel_amplitude;
-      add(amplitude, factor, penalty.weigh(problem.kernel_load));
-      const auto problem_at = penalty.without_kernel(problem.free_gap, terms, amplitude);
+      gap_terms(problem, matrix, solution.multiplier, solution.mode_amplitude, terms);
+      std::vector<double> amplitude = solution.mode_amplitude;
+      add(amplitude, factor, penalty.weigh(problem.null_space_load));
+      const auto problem_at = penalty.without_null_space(problem.free_gap, terms, amplitude);
       if ((update == 0 && !descent.start(problem_at, held)) || !descent.descend(problem_at, held))
         return false;
       solution.multiplier = descent.multiplier();
-      add(solution.kernel_amplitude, factor, penalty.weigh(penalty.unbalance(solution.multiplier)));
+      add(solution.mode_amplitude, factor, penalty.weigh(penalty.unbalance(solution.multiplier)));
       if (penalty.unbalanced(solution.multiplier, balanced).empty())
         break;
     }

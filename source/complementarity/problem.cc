@@ -24,10 +24,10 @@ namespace taut
     }
   } // namespace
 
-  std::vector<char> MixedComplementarityProblem::rows_in_kernel() const
+  std::vector<char> MixedComplementarityProblem::rows_in_null_space() const
   {
-    std::vector<char> result(n_kernel() > 0 ? size() : 0, 0);
-    for (const SparseVector &vector : kernel)
+    std::vector<char> result(n_null_space() > 0 ? size() : 0, 0);
+    for (const LinearForm &vector : null_space)
       for (std::size_t e = 0; e < vector.index.size(); ++e)
         if (vector.value[e] != 0.)
           result[vector.index[e]] = 1;
@@ -36,18 +36,18 @@ namespace taut
 
   bool MixedComplementarityProblem::has_resistance() const
   {
-    return std::any_of(kernel_resistance.begin(), kernel_resistance.end(),
+    return std::any_of(null_space_resistance.begin(), null_space_resistance.end(),
                        [](const double value) { return value > 0.; });
   }
 
   void MixedComplementarityProblem::check(const ComplementarityOperator &matrix) const
   {
     if (matrix.size() != size() || free_gap.size() != size() ||
-        (!gap_scale.empty() && gap_scale.size() != size()) || kernel.size() != n_kernel() ||
+        (!gap_scale.empty() && gap_scale.size() != size()) || null_space.size() != n_null_space() ||
         (!held_open.empty() && held_open.size() != size()) ||
-        (!kernel_resistance.empty() && kernel_resistance.size() != n_kernel()) ||
-        std::any_of(kernel.begin(), kernel.end(),
-                    [&](const SparseVector &vector)
+        (!null_space_resistance.empty() && null_space_resistance.size() != n_null_space()) ||
+        std::any_of(null_space.begin(), null_space.end(),
+                    [&](const LinearForm &vector)
                     {
                       return std::any_of(vector.index.begin(), vector.index.end(),
                                          [&](const unsigned int i) { return i >= size(); });
@@ -59,13 +59,13 @@ namespace taut
   {
     multiplier.assign(problem.size(), 0.);
     gap.assign(problem.free_gap.begin(), problem.free_gap.end());
-    kernel_amplitude.assign(problem.n_kernel(), 0.);
+    mode_amplitude.assign(problem.n_null_space(), 0.);
     if (closed.size() != problem.size())
       closed.assign(problem.size(), 0);
   }
 
   void gap_terms(const MixedComplementarityProblem &problem, const ComplementarityOperator &matrix,
-                 const std::vector<double> &multiplier, const std::vector<double> &kernel_amplitude,
+                 const std::vector<double> &multiplier, const std::vector<double> &mode_amplitude,
                  std::vector<double> &terms)
   {
     const std::size_t n = problem.size();
@@ -74,13 +74,13 @@ namespace taut
       terms[i] += std::abs(problem.free_gap[i]);
     for (std::size_t i = 0; i < problem.gap_scale.size(); ++i)
       terms[i] += problem.gap_scale[i];
-    if (kernel_amplitude.empty())
+    if (mode_amplitude.empty())
       return;
 
     const std::vector<double> own_terms = terms;
-    for (std::size_t k = 0; k < kernel_amplitude.size(); ++k)
+    for (std::size_t k = 0; k < mode_amplitude.size(); ++k)
     {
-      const SparseVector &vector = problem.kernel[k];
+      const LinearForm &vector = problem.null_space[k];
       double weighted_terms = 0., weights = 0.;
       for (std::size_t e = 0; e < vector.index.size(); ++e)
         if (multiplier[vector.index[e]] != 0.)
@@ -89,22 +89,22 @@ namespace taut
           weights += vector.value[e] * vector.value[e];
         }
       const double fit = weights > 0. ? weighted_terms / weights : 0.;
-      const double size = std::max(std::abs(kernel_amplitude[k]), fit);
+      const double size = std::max(std::abs(mode_amplitude[k]), fit);
       for (std::size_t e = 0; e < vector.index.size(); ++e)
         terms[vector.index[e]] += std::abs(vector.value[e]) * size;
     }
   }
 
   void gaps(const MixedComplementarityProblem &problem, const ComplementarityOperator &matrix,
-            const std::vector<double> &multiplier, const std::vector<double> &kernel_amplitude,
+            const std::vector<double> &multiplier, const std::vector<double> &mode_amplitude,
             std::vector<double> &gap)
   {
     const std::size_t n = problem.size();
     matrix.apply(multiplier, gap);
     for (std::size_t i = 0; i < n; ++i)
       gap[i] += problem.free_gap[i];
-    for (std::size_t k = 0; k < kernel_amplitude.size(); ++k)
-      problem.kernel[k].add_to(kernel_amplitude[k], gap);
+    for (std::size_t k = 0; k < mode_amplitude.size(); ++k)
+      problem.null_space[k].add_to(mode_amplitude[k], gap);
   }
 
   void multiplier_weights(const MixedComplementarityProblem &problem,
@@ -115,7 +115,7 @@ namespace taut
     weights.resize(problem.size());
     for (std::size_t i = 0; i < problem.size(); ++i)
       weights[i] = matrix.diagonal(i);
-    if (problem.n_kernel() == 0)
+    if (problem.n_null_space() == 0)
       return;
 
     double largest = 0.;
@@ -123,9 +123,9 @@ namespace taut
       largest = std::max(largest, std::abs(value));
     if (largest > 0.)
     {
-      const std::vector<char> in_kernel = problem.rows_in_kernel();
+      const std::vector<char> in_null_space = problem.rows_in_null_space();
       for (std::size_t i = 0; i < problem.size(); ++i)
-        if (in_kernel[i])
+        if (in_null_space[i])
           weights[i] = std::max(weights[i], terms[i] / largest);
     }
   }
@@ -136,7 +136,7 @@ namespace taut
   {
     const std::size_t n = problem.size();
     result.rows.resize(n);
-    result.kernel.resize(problem.n_kernel());
+    result.null_space.resize(problem.n_null_space());
     result.max = 0.;
     for (std::size_t i = 0; i < n; ++i)
     {
@@ -147,17 +147,17 @@ namespace taut
       result.rows[i] = relative(std::abs(violation), terms[i]);
       result.max = larger(result.max, result.rows[i]);
     }
-    for (std::size_t k = 0; k < problem.n_kernel(); ++k)
+    for (std::size_t k = 0; k < problem.n_null_space(); ++k)
     {
-      double balance = problem.kernel_load[k];
+      double balance = problem.null_space_load[k];
       double scale = std::abs(balance);
       if (problem.resistance(k) > 0.)
       {
-        const double resisted = problem.resistance(k) * solution.kernel_amplitude[k];
+        const double resisted = problem.resistance(k) * solution.mode_amplitude[k];
         balance -= resisted;
         scale += std::abs(resisted);
       }
-      const SparseVector &vector = problem.kernel[k];
+      const LinearForm &vector = problem.null_space[k];
       for (std::size_t e = 0; e < vector.index.size(); ++e)
       {
         const std::size_t i = vector.index[e];
@@ -166,8 +166,8 @@ namespace taut
         balance += g * solution.multiplier[i];
         scale += std::abs(g) * (std::abs(solution.multiplier[i]) + known_to);
       }
-      result.kernel[k] = relative(std::abs(balance), scale);
-      result.max = larger(result.max, result.kernel[k]);
+      result.null_space[k] = relative(std::abs(balance), scale);
+      result.max = larger(result.max, result.null_space[k]);
     }
   }
 
@@ -176,7 +176,7 @@ namespace taut
                                    const MixedComplementaritySolution &solution)
   {
     std::vector<double> terms, weights;
-    gap_terms(problem, matrix, solution.multiplier, solution.kernel_amplitude, terms);
+    gap_terms(problem, matrix, solution.multiplier, solution.mode_amplitude, terms);
     multiplier_weights(problem, matrix, solution.multiplier, terms, weights);
     ComplementarityResidual result;
     residual(problem, solution, terms, weights, result);

@@ -67,10 +67,10 @@ namespace taut
                                      MixedComplementaritySolution &solution)
   {
     set.clear();
-    const std::vector<char> in_kernel = problem.rows_in_kernel();
+    const std::vector<char> in_null_space = problem.rows_in_null_space();
     for (std::size_t i = 0; i < problem.size(); ++i)
     {
-      const bool inert = matrix.diagonal(i) == 0. && (in_kernel.empty() || !in_kernel[i]);
+      const bool inert = matrix.diagonal(i) == 0. && (in_null_space.empty() || !in_null_space[i]);
       solution.closed[i] =
           !inert && !problem.is_held_open(i) && (!problem.unilateral[i] || solution.closed[i]);
       if (solution.closed[i])

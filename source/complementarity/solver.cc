@@ -38,7 +38,7 @@ namespace taut
     {
       check_inert_rows(problem, matrix);
       if (result.solution.closed.size() != problem.size())
-        result.solution.closed.assign(problem.size(), problem.n_kernel() > 0);
+        result.solution.closed.assign(problem.size(), problem.n_null_space() > 0);
       result.iterations = 0;
       result.used_fallback = false;
       if (!use_newton || !solve_with_newton(problem, matrix))
@@ -56,13 +56,13 @@ namespace taut
                                                const ComplementarityOperator &matrix) const
   {
     std::vector<std::size_t> violated;
-    const std::vector<char> in_kernel = problem.rows_in_kernel();
+    const std::vector<char> in_null_space = problem.rows_in_null_space();
     for (std::size_t i = 0; i < problem.size(); ++i)
     {
       const double d = problem.free_gap[i];
       const double scale = problem.gap_scale.empty() ? 0. : problem.gap_scale[i];
       const bool is_open = problem.is_held_open(i) || (d > 0. && problem.unilateral[i]);
-      if (matrix.diagonal(i) == 0. && (in_kernel.empty() || !in_kernel[i]) && !is_open &&
+      if (matrix.diagonal(i) == 0. && (in_null_space.empty() || !in_null_space[i]) && !is_open &&
           std::abs(d) > options.tolerance * (std::abs(d) + scale))
         violated.push_back(i);
     }
@@ -97,7 +97,7 @@ namespace taut
                               failed);
     if (outcome == Outcome::not_held)
       throw BodyNotHeld("no admissible multiplier balances the load on " +
-                            list("kernel vector", failed) + ": hold the body",
+                            list("null space vector", failed) + ": hold the body",
                         failed);
     if (result.residual.max <= options.tolerance)
       return;
@@ -107,7 +107,7 @@ namespace taut
     result.used_fallback = !use_newton;
     if (solve_with_newton(problem, matrix))
       return;
-    if (problem.n_kernel() > 0)
+    if (problem.n_null_space() > 0)
     {
       result.solution.closed.assign(problem.size(), 1);
       if (solve_with_newton(problem, matrix))

@@ -6,20 +6,22 @@
 namespace taut
 {
   AssembledSchurComplement::AssembledSchurComplement(const FactoredStructure &solvers,
-                                                     const ContactRows &rows)
-      : rows(rows), processes(solvers.structure().communicator()), columns(solvers, rows)
+                                                     const Constraints &constraints)
+      : constraints(constraints), processes(solvers.structure().communicator()),
+        columns(solvers, constraints)
   {
   }
 
-  void AssembledSchurComplement::free_motion(const BlockVector &P, std::vector<double> &d,
-                                             std::vector<double> &terms_size) const
+  void AssembledSchurComplement::contact_free_predictor(const BodyVectors &P,
+                                                        std::vector<double> &d,
+                                                        std::vector<double> &terms_size) const
   {
-    columns.free_motion(P, d, terms_size);
+    columns.contact_free_predictor(P, d, terms_size);
   }
 
   const std::vector<double> &AssembledSchurComplement::compute_moving()
   {
-    const std::size_t n = rows.size(), n_fixed = rows.n_fixed();
+    const std::size_t n = constraints.size(), n_fixed = constraints.n_fixed();
     for (std::size_t i = n_fixed; i < n; ++i)
       columns.compute(i);
     shares.assign((n - n_fixed) * n, 0.);
@@ -35,8 +37,8 @@ namespace taut
   }
 
   DenseSchurComplement::DenseSchurComplement(const FactoredStructure &solvers,
-                                             const ContactRows &rows)
-      : AssembledSchurComplement(solvers, rows), F(rows.size())
+                                             const Constraints &constraints)
+      : AssembledSchurComplement(solvers, constraints), F(constraints.size())
   {
   }
 
@@ -44,7 +46,7 @@ namespace taut
   {
     compliance = S;
     columns.setup();
-    for (std::size_t i = 0; i < rows.n_fixed(); ++i)
+    for (std::size_t i = 0; i < constraints.n_fixed(); ++i)
     {
       shares.clear();
       for (std::size_t j = 0; j <= i; ++j)
@@ -58,7 +60,8 @@ namespace taut
   void DenseSchurComplement::update_moving()
   {
     const double *share = compute_moving().data();
-    for (std::size_t i = rows.n_fixed(); i < rows.size(); ++i, share += rows.size())
+    for (std::size_t i = constraints.n_fixed(); i < constraints.size();
+         ++i, share += constraints.size())
       set_row(i, share);
   }
 
@@ -71,14 +74,14 @@ namespace taut
 
   std::string DenseSchurComplement::description() const
   {
-    return "assembled dense, " + std::to_string(rows.size()) + " rows";
+    return "assembled dense, " + std::to_string(constraints.size()) + " constraints";
   }
 
   SparseSchurComplement::SparseSchurComplement(const FactoredStructure &solvers,
-                                               const ContactRows &rows)
-      : AssembledSchurComplement(solvers, rows)
+                                               const Constraints &constraints)
+      : AssembledSchurComplement(solvers, constraints)
   {
-    F.reinit(rows.size(), rows.size() - rows.n_fixed());
+    F.reinit(constraints.size(), constraints.size() - constraints.n_fixed());
   }
 
   void SparseSchurComplement::setup(const std::vector<double> &S)
@@ -86,8 +89,8 @@ namespace taut
     compliance = S;
     columns.setup();
     SymmetricEntries entries;
-    std::vector<std::size_t> last_visit(rows.n_fixed(), rows.size());
-    for (std::size_t i = 0; i < rows.n_fixed(); ++i)
+    std::vector<std::size_t> last_visit(constraints.n_fixed(), constraints.size());
+    for (std::size_t i = 0; i < constraints.n_fixed(); ++i)
     {
       columns.visit_reached(i,
                             [&](const std::size_t j)
@@ -98,7 +101,7 @@ namespace taut
                             });
     }
     gather(processes, entries);
-    for (std::size_t i = 0; i < rows.n_fixed(); ++i)
+    for (std::size_t i = 0; i < constraints.n_fixed(); ++i)
       entries.add(i, i, S[i]);
     F.set_interior(entries);
     update_moving();
@@ -107,9 +110,10 @@ namespace taut
   void SparseSchurComplement::update_moving()
   {
     const double *share = compute_moving().data();
-    for (std::size_t i = rows.n_fixed(); i < rows.size(); ++i, share += rows.size())
+    for (std::size_t i = constraints.n_fixed(); i < constraints.size();
+         ++i, share += constraints.size())
     {
-      std::vector<double> border(share, share + rows.size());
+      std::vector<double> border(share, share + constraints.size());
       border[i] += compliance[i];
       F.set_border(i, border);
     }
@@ -117,7 +121,7 @@ namespace taut
 
   std::string SparseSchurComplement::description() const
   {
-    return "assembled sparse, " + std::to_string(rows.size()) + " rows, " +
+    return "assembled sparse, " + std::to_string(constraints.size()) + " constraints, " +
            std::to_string(F.n_entries()) + " entries";
   }
 } // namespace taut

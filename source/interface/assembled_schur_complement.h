@@ -16,17 +16,17 @@ namespace taut
   class AssembledSchurComplement : public SchurComplement
   {
   public:
-    AssembledSchurComplement(const FactoredStructure &solvers, const ContactRows &rows);
+    AssembledSchurComplement(const FactoredStructure &solvers, const Constraints &constraints);
 
-    void free_motion(const BlockVector &P, std::vector<double> &d,
-                     std::vector<double> &terms_size) const override;
+    void contact_free_predictor(const BodyVectors &P, std::vector<double> &d,
+                                std::vector<double> &terms_size) const override;
 
   protected:
-    /// The columns of the moving rows anew. Returns these rows of B^T A^-1 B, each of rows.size()
-    /// numbers, one after the other.
+    /// The columns of the moving constraints anew. Returns these constraints of B^T A^-1 B, each of
+    /// constraints.size() numbers, one after the other.
     const std::vector<double> &compute_moving();
 
-    const ContactRows &rows;
+    const Constraints &constraints;
     const Communicator &processes;
     ResponseColumns columns;
     std::vector<double> compliance, shares;
@@ -36,7 +36,7 @@ namespace taut
   class DenseSchurComplement : public AssembledSchurComplement
   {
   public:
-    DenseSchurComplement(const FactoredStructure &solvers, const ContactRows &rows);
+    DenseSchurComplement(const FactoredStructure &solvers, const Constraints &constraints);
 
     void setup(const std::vector<double> &S) override;
     void update_moving() override;
@@ -49,11 +49,11 @@ namespace taut
     DenseOperator F;
   };
 
-  /// F as a sparse matrix, the moving rows as its border; see SchurComplement.
+  /// F as a sparse matrix, the moving constraints as its border; see SchurComplement.
   class SparseSchurComplement : public AssembledSchurComplement
   {
   public:
-    SparseSchurComplement(const FactoredStructure &solvers, const ContactRows &rows);
+    SparseSchurComplement(const FactoredStructure &solvers, const Constraints &constraints);
 
     void setup(const std::vector<double> &S) override;
     void update_moving() override;

@@ -16,16 +16,17 @@ namespace taut
     constexpr double dependence_shift = 1e-12;
   } // namespace
 
-  CoarseSpace::CoarseSpace(const FactoredStructure &solvers, const BodyRows &body_rows)
-      : solvers(solvers), body_rows(body_rows), responses(body_rows.size())
+  CoarseSpace::CoarseSpace(const FactoredStructure &solvers,
+                           const BodyConstraints &body_constraints)
+      : solvers(solvers), body_constraints(body_constraints), responses(body_constraints.size())
   {
     const Communicator &processes = solvers.structure().communicator();
     std::size_t n_own = 0;
     for (std::size_t k = 0; k < solvers.structure().size(); ++k)
     {
       first_column.push_back(n_own);
-      kernels.push_back(solvers.structure()[k].kernel().vectors);
-      n_own += kernels.back().size();
+      null_spaces.push_back(solvers.structure()[k].null_space().vectors);
+      n_own += null_spaces.back().size();
     }
     const std::vector<std::size_t> sizes = processes.gather(n_own);
     const auto own = sizes.begin() + processes.rank();
@@ -42,7 +43,7 @@ namespace taut
     solvers.structure().communicator().agree(
         [&]
         {
-          for (std::size_t k = 0; k < body_rows.size(); ++k)
+          for (std::size_t k = 0; k < body_constraints.size(); ++k)
             if (is_changed[k])
               add_responses(k, active);
         });
@@ -62,14 +63,14 @@ namespace taut
   void CoarseSpace::set_columns(const std::vector<char> &active)
   {
     MatrixEntries entries;
-    for (std::size_t k = 0; k < body_rows.size(); ++k)
-      for (std::size_t v = 0; v < kernels[k].size(); ++v)
-        for (const BodyRows::Entry &entry : body_rows[k])
-          if (active[entry.row])
+    for (std::size_t k = 0; k < body_constraints.size(); ++k)
+      for (std::size_t v = 0; v < null_spaces[k].size(); ++v)
+        for (const BodyConstraints::Entry &entry : body_constraints[k])
+          if (active[entry.constraint])
           {
-            const double z = entry.form.dot(kernels[k][v]);
+            const double z = entry.form.dot(null_spaces[k][v]);
             if (z != 0.)
-              entries.add(entry.row, first_column[k] + v, z);
+              entries.add(entry.constraint, first_column[k] + v, z);
           }
     gather(solvers.structure().communicator(), entries);
     Z.assign(active.size(), {});
@@ -82,8 +83,8 @@ namespace taut
   {
     responses[k] = {};
     std::map<std::size_t, std::vector<double>> loads;
-    for (const BodyRows::Entry &entry : body_rows[k])
-      for (const auto &[column, z] : Z[entry.row])
+    for (const BodyConstraints::Entry &entry : body_constraints[k])
+      for (const auto &[column, z] : Z[entry.constraint])
       {
         std::vector<double> &load = loads[column];
         load.resize(solvers.structure()[k].n_dofs(), 0.);
@@ -93,9 +94,9 @@ namespace taut
     {
       solvers[k].solve(load);
       ++local_solves;
-      for (const BodyRows::Entry &entry : body_rows[k])
-        if (active[entry.row])
-          responses[k].add(entry.row, column, entry.form.dot(load));
+      for (const BodyConstraints::Entry &entry : body_constraints[k])
+        if (active[entry.constraint])
+          responses[k].add(entry.constraint, column, entry.form.dot(load));
     }
   }
 

@@ -3,7 +3,7 @@
 #define taut_coarse_space_h
 
 #include <taut/base/sparse_cholesky.h>
-#include <taut/interface/body_rows.h>
+#include <taut/interface/body_constraints.h>
 #include <taut/substructure/factored_structure.h>
 
 #include <utility>
@@ -12,10 +12,11 @@
 namespace taut
 {
   /**
-   * Deflation of an iteration on F_aa by the free motions of the bodies (Farhat, Chen, Mandel
-   * 1995): Z = G^T = B^T R on the active rows, with R the kernel vectors of all floating bodies. At
-   * large steps A_k has hardly any resistance against R_k, and F the large eigenvalues on Z that an
-   * iteration would have to find. With E = Z^T F Z the balancing preconditioner (Mandel 1993) is
+   * Deflation of an iteration on F_aa by the rigid body modes of the bodies (Farhat, Chen, Mandel
+   * 1995): Z = G^T = B^T R on the active rows, with R the null space vectors of all floating
+   * bodies. At large steps A_k has hardly any resistance against R_k, and F the large eigenvalues
+   * on Z that an iteration would have to find. With E = Z^T F Z the balancing preconditioner
+   * (Mandel 1993) is
    *
    *     M^-1 -> P^T M^-1 P + Z E^-1 Z^T,    P = 1 - F Z E^-1 Z^T.
    *
@@ -26,9 +27,9 @@ namespace taut
   {
   public:
     /// The references are kept. Called by all ranks together, as are the others.
-    CoarseSpace(const FactoredStructure &solvers, const BodyRows &body_rows);
+    CoarseSpace(const FactoredStructure &solvers, const BodyConstraints &body_constraints);
 
-    /// For the active rows; arguments as for RowPreconditioner::setup().
+    /// For the active rows; arguments as for InterfacePreconditioner::setup().
     void setup(const std::vector<char> &active, const std::vector<char> &is_changed,
                const std::vector<double> &compliance);
 
@@ -50,9 +51,9 @@ namespace taut
     void factor();
 
     const FactoredStructure &solvers;
-    const BodyRows &body_rows;
-    std::vector<std::vector<std::vector<double>>> kernels; ///< R of each body of this rank
-    std::vector<std::size_t> first_column;                 ///< of each of them
+    const BodyConstraints &body_constraints;
+    std::vector<std::vector<std::vector<double>>> null_spaces; ///< R of each body of this rank
+    std::vector<std::size_t> first_column;                     ///< of each of them
     std::size_t n_columns = 0;
 
     using Row = std::vector<std::pair<std::size_t, double>>; ///< column and entry

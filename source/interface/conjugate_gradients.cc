@@ -13,7 +13,8 @@ namespace taut
 {
   namespace
   {
-    /// A function on vectors over rows as Epetra operator; its inverse is the preconditioner.
+    /// A function on vectors over constraints as Epetra operator; its inverse is the
+    /// preconditioner.
     class FunctionOperator : public Epetra_Operator
     {
     public:
@@ -38,7 +39,7 @@ namespace taut
       }
       int SetUseTranspose(bool) override { return 0; } // symmetric
       double NormInf() const override { return -1.; }
-      const char *Label() const override { return "rows"; }
+      const char *Label() const override { return "constraints"; }
       bool UseTranspose() const override { return false; }
       bool HasNormInf() const override { return false; }
       const Epetra_Comm &Comm() const override { return map.Comm(); }
@@ -87,8 +88,8 @@ namespace taut
     }
     catch (const Belos::CGIterateFailure &)
     {
-      // Not positive: the rows depend on each other, or only rounding is left. What was found so
-      // far is kept.
+      // Not positive: the constraints depend on each other, or only rounding is left. What was
+      // found so far is kept.
     }
     catch (const Belos::StatusTestError &)
     {

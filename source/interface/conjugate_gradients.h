@@ -14,7 +14,8 @@ namespace taut
    * Preconditioned conjugate gradients of Belos for A x = b from x = 0, until the norm of the
    * residual that the recursion carries is below @p tolerance times that of b, or @p bound
    * iterations. Ends early, with what it has, at a direction along which A is not positive. Returns
-   * the number of iterations. Each rank solves for itself: vectors over rows are the same on all.
+   * the number of iterations. Each rank solves for itself: vectors over constraints are the same on
+   * all.
    */
   int conjugate_gradients(const RowOperator &A, const RowOperator &preconditioner,
                           const std::vector<double> &b, double tolerance, int bound,

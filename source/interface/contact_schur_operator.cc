@@ -8,9 +8,11 @@
 namespace taut
 {
   ContactSchurOperator::ContactSchurOperator(const FactoredStructure &solvers,
-                                             const BodyRows &body_rows, const std::size_t n_rows)
-      : solvers(solvers), body_rows(body_rows), map(static_cast<int>(n_rows), 0, communicator),
-        compliance(n_rows, 0.), shift(n_rows, 0.), active(n_rows, 1)
+                                             const BodyConstraints &body_constraints,
+                                             const std::size_t n_constraints)
+      : solvers(solvers), body_constraints(body_constraints),
+        map(static_cast<int>(n_constraints), 0, communicator), compliance(n_constraints, 0.),
+        shift(n_constraints, 0.), active(n_constraints, 1)
   {
   }
 
@@ -35,25 +37,25 @@ namespace taut
     }
     ++applications;
     share.assign(active.size(), 0.);
-    for (std::size_t k = 0; k < body_rows.size(); ++k)
+    for (std::size_t k = 0; k < body_constraints.size(); ++k)
     {
       // One body after the other: its vector stays in the cache between loads, solve and motions.
       bool is_loaded = false;
-      for (const BodyRows::Entry &entry : body_rows[k])
-        if (active[entry.row] && x[entry.row] != 0.)
+      for (const BodyConstraints::Entry &entry : body_constraints[k])
+        if (active[entry.constraint] && x[entry.constraint] != 0.)
         {
           if (!is_loaded)
             work.assign(solvers.structure()[k].n_dofs(), 0.);
           is_loaded = true;
-          entry.form.add_to(x[entry.row], work);
+          entry.form.add_to(x[entry.constraint], work);
         }
       if (!is_loaded)
         continue;
       solvers[k].solve(work);
       ++local_solves;
-      for (const BodyRows::Entry &entry : body_rows[k])
-        if (active[entry.row])
-          share[entry.row] += entry.form.dot(work);
+      for (const BodyConstraints::Entry &entry : body_constraints[k])
+        if (active[entry.constraint])
+          share[entry.constraint] += entry.form.dot(work);
     }
     solvers.structure().communicator().sum(share);
     for (std::size_t i = 0; i < active.size(); ++i)

@@ -37,16 +37,17 @@ namespace taut
 
   MatrixFreeSchurComplement::MatrixFreeSchurComplement(const InterfaceParameters &parameters,
                                                        const FactoredStructure &solvers,
-                                                       const ContactRows &rows)
-      : parameters(parameters), solvers(solvers), rows(rows), body_rows(solvers.structure(), rows),
-        F(solvers, body_rows, rows.size()),
-        preconditioner(parameters.preconditioner, solvers, body_rows),
-        flexibilities(solvers, body_rows), tolerance(smallest_residual),
+                                                       const Constraints &constraints)
+      : parameters(parameters), solvers(solvers), constraints(constraints),
+        body_constraints(solvers.structure(), constraints),
+        F(solvers, body_constraints, constraints.size()),
+        preconditioner(parameters.preconditioner, solvers, body_constraints),
+        flexibilities(solvers, body_constraints), tolerance(smallest_residual),
         work(solvers.structure().zero())
   {
-    if (parameters.coarse_space != "kernels" && parameters.coarse_space != "none")
+    if (parameters.coarse_space != "rigid body modes" && parameters.coarse_space != "none")
       throw UserError("unknown coarse space '" + parameters.coarse_space +
-                      "'; known are: kernels, none. Correct the name");
+                      "'; known are: rigid body modes, none. Correct the name");
   }
 
   void MatrixFreeSchurComplement::set_tolerance(const double wanted)
@@ -58,12 +59,12 @@ namespace taut
   {
     compliance = S;
     F.set_compliance(S);
-    if (parameters.coarse_space == "kernels" && !solvers.is_generalised_inverse())
-      coarse_space = std::make_unique<CoarseSpace>(solvers, body_rows);
-    is_changed.assign(body_rows.size(), 1);
+    if (parameters.coarse_space == "rigid body modes" && !solvers.is_generalised_inverse())
+      coarse_space = std::make_unique<CoarseSpace>(solvers, body_constraints);
+    is_changed.assign(body_constraints.size(), 1);
     is_stale = true;
-    body_rows.update();
-    for (std::size_t k = 0; k < body_rows.size(); ++k)
+    body_constraints.update();
+    for (std::size_t k = 0; k < body_constraints.size(); ++k)
     {
       flexibilities.find_coupling(k);
       flexibilities.compute(k);
@@ -73,14 +74,14 @@ namespace taut
 
   void MatrixFreeSchurComplement::update_moving()
   {
-    if (rows.n_fixed() == rows.size())
+    if (constraints.n_fixed() == constraints.size())
       return;
     is_stale = true;
     const auto mark = [&]
     {
       std::vector<std::size_t> marked;
-      for (std::size_t k = 0; k < body_rows.size(); ++k)
-        if (!body_rows[k].empty() && body_rows[k].back().moving)
+      for (std::size_t k = 0; k < body_constraints.size(); ++k)
+        if (!body_constraints[k].empty() && body_constraints[k].back().moving)
         {
           is_changed[k] = 1;
           marked.push_back(k);
@@ -88,7 +89,7 @@ namespace taut
       return marked;
     };
     std::vector<std::size_t> touched = mark();
-    body_rows.update();
+    body_constraints.update();
     for (const std::size_t k : mark())
       touched.push_back(k);
     for (const std::size_t k : touched)
@@ -98,13 +99,13 @@ namespace taut
 
   void MatrixFreeSchurComplement::compute_diagonal()
   {
-    diagonal_entries.assign(rows.size(), 0.);
+    diagonal_entries.assign(constraints.size(), 0.);
     flexibilities.add_to_diagonal(diagonal_entries);
     solvers.structure().communicator().sum(diagonal_entries);
     const std::vector<double> local =
         solvers.is_generalised_inverse() ? local_flexibilities() : diagonal_entries;
-    scale.assign(rows.size(), 1.);
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    scale.assign(constraints.size(), 1.);
+    for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       diagonal_entries[i] += compliance[i];
       const double size =
@@ -118,8 +119,8 @@ namespace taut
   /// bodies, this does not.
   std::vector<double> MatrixFreeSchurComplement::local_flexibilities() const
   {
-    std::vector<double> result(rows.size(), 0.), diagonal;
-    for (std::size_t k = 0; k < body_rows.size(); ++k)
+    std::vector<double> result(constraints.size(), 0.), diagonal;
+    for (std::size_t k = 0; k < body_constraints.size(); ++k)
     {
       diagonal.assign(solvers.structure()[k].n_dofs(), 0.);
       solvers.visit(k,
@@ -128,28 +129,29 @@ namespace taut
                       if (i == j)
                         diagonal[i] += value;
                     });
-      for (const auto &[row, moving, form] : body_rows[k])
+      for (const auto &[constraint, moving, form] : body_constraints[k])
         for (std::size_t e = 0; e < form.index.size(); ++e)
           if (diagonal[form.index[e]] > 0.)
-            result[row] += form.value[e] * form.value[e] / diagonal[form.index[e]];
+            result[constraint] += form.value[e] * form.value[e] / diagonal[form.index[e]];
     }
     solvers.structure().communicator().sum(result);
     return result;
   }
 
-  void MatrixFreeSchurComplement::free_motion(const BlockVector &P, std::vector<double> &d,
-                                              std::vector<double> &terms_size) const
+  void MatrixFreeSchurComplement::contact_free_predictor(const BodyVectors &P,
+                                                         std::vector<double> &d,
+                                                         std::vector<double> &terms_size) const
   {
     work = P;
     solvers.solve(work);
-    d.resize(rows.size());
-    terms_size.resize(rows.size());
-    rows.share_of_motions(work, d, terms_size);
+    d.resize(constraints.size());
+    terms_size.resize(constraints.size());
+    constraints.share_of_motions(work, d, terms_size);
   }
 
   std::string MatrixFreeSchurComplement::description() const
   {
-    return "matrix-free, " + std::to_string(rows.size()) + " rows, preconditioner " +
+    return "matrix-free, " + std::to_string(constraints.size()) + " constraints, preconditioner " +
            parameters.preconditioner + ", coarse space " + parameters.coarse_space +
            (coarse_space ? " (" + std::to_string(coarse_space->size()) + ")" : "");
   }
@@ -184,16 +186,16 @@ namespace taut
   /// Preconditioner and coarse space for a set, as far as it is new.
   void MatrixFreeSchurComplement::prepare(const std::vector<std::size_t> &set, const double shift)
   {
-    std::vector<char> wanted(rows.size(), 0);
+    std::vector<char> wanted(constraints.size(), 0);
     for (const std::size_t i : set)
       wanted[i] = 1;
     F.restrict_to(wanted);
     F.set_shift(shift, diagonal_entries);
     if (!is_stale && active == wanted)
       return;
-    for (std::size_t k = 0; k < body_rows.size(); ++k)
-      for (const BodyRows::Entry &entry : body_rows[k])
-        if (!active.empty() && active[entry.row] != wanted[entry.row])
+    for (std::size_t k = 0; k < body_constraints.size(); ++k)
+      for (const BodyConstraints::Entry &entry : body_constraints[k])
+        if (!active.empty() && active[entry.constraint] != wanted[entry.constraint])
           is_changed[k] = 1;
     active = wanted;
     is_stale = false;
@@ -205,11 +207,11 @@ namespace taut
 
   void MatrixFreeSchurComplement::scaled_apply(const std::vector<double> &x, std::vector<double> &y)
   {
-    row_work.resize(x.size());
+    constraint_work.resize(x.size());
     for (std::size_t i = 0; i < x.size(); ++i)
-      row_work[i] = active[i] ? scale[i] * x[i] : x[i];
+      constraint_work[i] = active[i] ? scale[i] * x[i] : x[i];
     y.resize(x.size());
-    F.apply(row_work.data(), y.data());
+    F.apply(constraint_work.data(), y.data());
     for (std::size_t i = 0; i < x.size(); ++i)
       y[i] = active[i] ? scale[i] * y[i] : x[i];
   }
@@ -218,17 +220,17 @@ namespace taut
   void MatrixFreeSchurComplement::scaled_precondition(const std::vector<double> &r,
                                                       std::vector<double> &z)
   {
-    row_work.assign(r.size(), 0.);
+    constraint_work.assign(r.size(), 0.);
     for (std::size_t i = 0; i < r.size(); ++i)
       if (active[i])
-        row_work[i] = r[i] / scale[i];
+        constraint_work[i] = r[i] / scale[i];
     if (coarse_space)
     {
-      coarse_space->solve(row_work, coarse_part, coarse_motion);
+      coarse_space->solve(constraint_work, coarse_part, coarse_motion);
       for (std::size_t i = 0; i < r.size(); ++i)
-        row_work[i] -= coarse_motion[i];
+        constraint_work[i] -= coarse_motion[i];
     }
-    preconditioner.apply(row_work, z);
+    preconditioner.apply(constraint_work, z);
     if (coarse_space)
     {
       coarse_space->project(z);
@@ -243,8 +245,8 @@ namespace taut
                                         const std::vector<double> &rhs, const double shift,
                                         std::vector<double> &x)
   {
-    x.assign(rows.size(), 0.);
-    std::vector<double> b(rows.size(), 0.);
+    x.assign(constraints.size(), 0.);
+    std::vector<double> b(constraints.size(), 0.);
     for (const std::size_t i : set)
       b[i] = scale[i] * rhs[i];
     if (largest(b) == 0.)
@@ -258,26 +260,26 @@ namespace taut
     return is_solved;
   }
 
-  bool MatrixFreeSchurComplement::solve_with_kernel(const std::vector<std::size_t> &set,
-                                                    const std::vector<double> &rhs,
-                                                    const std::vector<SparseVector> &kernel,
-                                                    const std::vector<double> &load,
-                                                    const double shift, std::vector<double> &x,
-                                                    std::vector<double> &alpha)
+  bool MatrixFreeSchurComplement::solve_with_null_space(const std::vector<std::size_t> &set,
+                                                        const std::vector<double> &rhs,
+                                                        const std::vector<LinearForm> &null_space,
+                                                        const std::vector<double> &load,
+                                                        const double shift, std::vector<double> &x,
+                                                        std::vector<double> &alpha)
   {
     prepare(set, shift);
-    const NaturalCoarseProblem coarse_problem(kernel, scale, active);
-    x.assign(rows.size(), 0.);
+    const NaturalCoarseProblem coarse_problem(null_space, scale, active);
+    x.assign(constraints.size(), 0.);
     bool is_solved = coarse_problem.holds_the_bodies();
     if (is_solved)
     {
-      std::vector<double> b(rows.size(), 0.), image;
+      std::vector<double> b(constraints.size(), 0.), image;
       for (const std::size_t i : set)
         b[i] = scale[i] * rhs[i];
       coarse_problem.balance(load, x);
       is_solved = refine(&coarse_problem, b, x);
       scaled_apply(x, image);
-      for (std::size_t i = 0; i < rows.size(); ++i)
+      for (std::size_t i = 0; i < constraints.size(); ++i)
         image[i] = b[i] - image[i];
       alpha = coarse_problem.amplitudes(image);
       for (const std::size_t i : set)
@@ -288,14 +290,15 @@ namespace taut
     return is_solved;
   }
 
-  /// In scaled rows, from x on. What counts is the true residual, not the one of the recursion.
-  bool MatrixFreeSchurComplement::refine(const NaturalCoarseProblem *kernel,
+  /// In scaled constraints, from x on. What counts is the true residual, not the one of the
+  /// recursion.
+  bool MatrixFreeSchurComplement::refine(const NaturalCoarseProblem *null_space,
                                          const std::vector<double> &b, std::vector<double> &x)
   {
     const auto project = [&](std::vector<double> &v)
     {
-      if (kernel)
-        kernel->project(v);
+      if (null_space)
+        null_space->project(v);
     };
     std::vector<double> projected;
     const RowOperator matrix = [&](const std::vector<double> &in, std::vector<double> &out)
@@ -323,7 +326,7 @@ namespace taut
       return largest(r);
     };
     ++counts.n_systems;
-    const int bound = 100 + 10 * static_cast<int>(rows.size());
+    const int bound = 100 + 10 * static_cast<int>(constraints.size());
     double best = residual(), size = larger(largest(b), largest(x));
     for (int restart = 0; restart < most_restarts && best > tolerance * size; ++restart)
     {

@@ -3,9 +3,9 @@
 #define taut_matrix_free_schur_complement_h
 
 #include "coarse_space.h"
+#include "constraint_flexibilities.h"
+#include "interface_preconditioner.h"
 #include "natural_coarse_problem.h"
-#include "row_flexibilities.h"
-#include "row_preconditioner.h"
 
 #include <taut/interface/contact_schur_operator.h>
 #include <taut/interface/schur_complement.h>
@@ -18,35 +18,38 @@ namespace taut
   /**
    * F applied through the factors of the bodies, its systems solved by preconditioned conjugate
    * gradients; see SchurComplement. Rows are scaled by F_ii^-1/2, or the like in statics: forces
-   * and moments, stiff and soft rows then have one norm.
+   * and moments, stiff and soft constraints then have one norm.
    */
   class MatrixFreeSchurComplement : public SchurComplement, private ComplementarityOperator
   {
   public:
     MatrixFreeSchurComplement(const InterfaceParameters &parameters,
-                              const FactoredStructure &solvers, const ContactRows &rows);
+                              const FactoredStructure &solvers, const Constraints &constraints);
 
     void setup(const std::vector<double> &S) override;
     void update_moving() override;
-    void free_motion(const BlockVector &P, std::vector<double> &d,
-                     std::vector<double> &terms_size) const override;
+    void contact_free_predictor(const BodyVectors &P, std::vector<double> &d,
+                                std::vector<double> &terms_size) const override;
     ComplementarityOperator &matrix() override { return *this; }
     std::string description() const override;
     InterfaceStatistics statistics() const override;
 
   private:
-    std::size_t size() const override { return rows.size(); }
+    std::size_t size() const override { return constraints.size(); }
     double diagonal(std::size_t i) const override { return diagonal_entries[i]; }
     void apply(const std::vector<double> &x, std::vector<double> &y) const override;
     void apply_absolute(const std::vector<double> &x, std::vector<double> &y) const override;
     bool solve(const std::vector<std::size_t> &set, const std::vector<double> &rhs, double shift,
                std::vector<double> &x) override;
 
-    bool solve_with_kernel(const std::vector<std::size_t> &set, const std::vector<double> &rhs,
-                           const std::vector<SparseVector> &kernel, const std::vector<double> &load,
-                           double shift, std::vector<double> &x,
-                           std::vector<double> &alpha) override;
-    bool has_kernel_solver() const override { return parameters.coarse_space == "kernels"; }
+    bool solve_with_null_space(const std::vector<std::size_t> &set, const std::vector<double> &rhs,
+                               const std::vector<LinearForm> &null_space,
+                               const std::vector<double> &load, double shift,
+                               std::vector<double> &x, std::vector<double> &alpha) override;
+    bool has_null_space_solver() const override
+    {
+      return parameters.coarse_space == "rigid body modes";
+    }
 
     bool is_iterative() const override { return true; }
     void set_tolerance(double wanted) override;
@@ -56,27 +59,27 @@ namespace taut
     void prepare(const std::vector<std::size_t> &set, double shift);
     void scaled_apply(const std::vector<double> &x, std::vector<double> &y);
     void scaled_precondition(const std::vector<double> &r, std::vector<double> &z);
-    bool refine(const NaturalCoarseProblem *kernel, const std::vector<double> &b,
+    bool refine(const NaturalCoarseProblem *null_space, const std::vector<double> &b,
                 std::vector<double> &x);
 
     const InterfaceParameters parameters;
     const FactoredStructure &solvers;
-    const ContactRows &rows;
-    BodyRows body_rows;
+    const Constraints &constraints;
+    BodyConstraints body_constraints;
     ContactSchurOperator F;
-    RowPreconditioner preconditioner;
+    InterfacePreconditioner preconditioner;
     RowFlexibilities flexibilities;
     std::unique_ptr<CoarseSpace> coarse_space; ///< null: none, or in statics
     std::vector<double> compliance, diagonal_entries;
-    std::vector<double> scale;    ///< F_ii^-1/2; in statics of the unknowns at the row only
-    std::vector<char> active;     ///< rows that everything is prepared for
+    std::vector<double> scale;    ///< F_ii^-1/2; in statics of the unknowns at the constraint only
+    std::vector<char> active;     ///< constraints that everything is prepared for
     std::vector<char> is_changed; ///< bodies that it is not prepared for
-    bool is_stale = true;         ///< a matrix or a moving row has changed
+    bool is_stale = true;         ///< a matrix or a moving constraint has changed
     double tolerance;             ///< relative residual at which a solve ends
     InterfaceStatistics counts;
-    std::vector<double> row_work, coarse_part, coarse_motion;
+    std::vector<double> constraint_work, coarse_part, coarse_motion;
     mutable std::vector<double> share;
-    mutable BlockVector work;
+    mutable BodyVectors work;
   };
 } // namespace taut
 

@@ -11,20 +11,20 @@ namespace taut
     constexpr double smallest_pivot = 1e-12;
   } // namespace
 
-  NaturalCoarseProblem::NaturalCoarseProblem(const std::vector<SparseVector> &kernel,
+  NaturalCoarseProblem::NaturalCoarseProblem(const std::vector<LinearForm> &null_space,
                                              const std::vector<double> &scale,
                                              const std::vector<char> &active)
-      : G(kernel.size())
+      : G(null_space.size())
   {
     // The motions at each row, so that products are formed only between those that meet.
     std::vector<std::vector<std::pair<std::size_t, double>>> at_row(active.size());
-    for (std::size_t k = 0; k < kernel.size(); ++k)
-      for (std::size_t e = 0; e < kernel[k].index.size(); ++e)
+    for (std::size_t k = 0; k < null_space.size(); ++k)
+      for (std::size_t e = 0; e < null_space[k].index.size(); ++e)
       {
-        const unsigned int i = kernel[k].index[e];
+        const unsigned int i = null_space[k].index[e];
         if (!active[i])
           continue;
-        G[k].add(i, kernel[k].value[e] * scale[i]);
+        G[k].add(i, null_space[k].value[e] * scale[i]);
         at_row[i].emplace_back(k, G[k].value.back());
       }
     SymmetricEntries entries;

@@ -2,8 +2,8 @@
 #ifndef taut_natural_coarse_problem_h
 #define taut_natural_coarse_problem_h
 
+#include <taut/base/linear_form.h>
 #include <taut/base/sparse_cholesky.h>
-#include <taut/base/sparse_vector.h>
 
 #include <vector>
 
@@ -21,10 +21,10 @@ namespace taut
   class NaturalCoarseProblem
   {
   public:
-    /// @p kernel has a row of G in each vector, and @p scale a factor for each of its columns; only
-    /// the columns of active rows count.
-    NaturalCoarseProblem(const std::vector<SparseVector> &kernel, const std::vector<double> &scale,
-                         const std::vector<char> &active);
+    /// @p null space has a row of G in each vector, and @p scale a factor for each of its columns;
+    /// only the columns of active rows count.
+    NaturalCoarseProblem(const std::vector<LinearForm> &null_space,
+                         const std::vector<double> &scale, const std::vector<char> &active);
 
     /// False if the rows of G are dependent: the active rows do not hold a body.
     bool holds_the_bodies() const { return is_definite; }
@@ -42,7 +42,7 @@ namespace taut
     std::vector<double> amplitudes(const std::vector<double> &x) const;
 
   private:
-    std::vector<SparseVector> G;
+    std::vector<LinearForm> G;
     SparseCholesky squares; ///< G G^T
     bool is_definite = false;
   };

@@ -7,12 +7,12 @@
 
 namespace taut
 {
-  ResponseColumns::ResponseColumns(const FactoredStructure &solvers, const ContactRows &rows)
-      : solvers(solvers), rows(rows), columns(rows.size()), reach(solvers.structure().size()),
-        widest(solvers.structure().size(), 0)
+  ResponseColumns::ResponseColumns(const FactoredStructure &solvers, const Constraints &constraints)
+      : solvers(solvers), constraints(constraints), columns(constraints.size()),
+        reach(solvers.structure().size()), widest(solvers.structure().size(), 0)
   {
-    for (std::size_t i = 0; i < rows.n_fixed(); ++i)
-      for (const auto &[k, form] : rows[i].terms)
+    for (std::size_t i = 0; i < constraints.n_fixed(); ++i)
+      for (const auto &[k, form] : constraints[i].terms)
       {
         const auto [first, last] = std::minmax_element(form.index.begin(), form.index.end());
         reach[k].push_back({*first, *last, i});
@@ -26,7 +26,7 @@ namespace taut
   void ResponseColumns::setup()
   {
     std::size_t in_columns = 0;
-    for (std::size_t i = 0; i < rows.n_fixed(); ++i)
+    for (std::size_t i = 0; i < constraints.n_fixed(); ++i)
     {
       compute(i);
       for (std::size_t p = 0; p < columns[i].substructure.size(); ++p)
@@ -34,7 +34,7 @@ namespace taut
     }
     // Work of a solve: 4 products of b x b blocks a node, b of order 2; of a column: one product an
     // entry.
-    by_columns = rows.size() > 0 && in_columns < 8 * solvers.structure().n_dofs();
+    by_columns = constraints.size() > 0 && in_columns < 8 * solvers.structure().n_dofs();
     work = solvers.structure().zero();
   }
 
@@ -42,13 +42,13 @@ namespace taut
   {
     Column &column = columns[i];
     column.substructure.clear();
-    const std::vector<Term> &terms = rows[i].terms;
+    const std::vector<Term> &terms = constraints[i].terms;
     std::size_t used = 0;
     for (std::size_t a = 0; a < terms.size(); ++a)
     {
       if (column.part.size() <= used)
         column.part.emplace_back();
-      // Both ends of a row on one substructure: their columns add, as full vectors.
+      // Both ends of a constraint on one substructure: their columns add, as full vectors.
       const auto known =
           std::find(column.substructure.begin(), column.substructure.end(), terms[a].substructure);
       if (known == column.substructure.end())
@@ -73,7 +73,7 @@ namespace taut
   {
     double sum = 0.;
     const Column &c = columns[i];
-    for (const Term &term : rows[j].terms)
+    for (const Term &term : constraints[j].terms)
       for (std::size_t p = 0; p < c.substructure.size(); ++p)
         if (c.substructure[p] == term.substructure)
           sum += c.part[p].dot(term.form);
@@ -93,27 +93,27 @@ namespace taut
                                  [&](const Reach &r, const unsigned int dof)
                                  { return r.first + widest[k] < dof; });
       for (; at != reach[k].end() && at->first < end; ++at)
-        if (at->last >= begin && at->row <= i)
-          visit(at->row);
+        if (at->last >= begin && at->constraint <= i)
+          visit(at->constraint);
     }
   }
 
-  void ResponseColumns::free_motion(const BlockVector &P, std::vector<double> &d,
-                                    std::vector<double> &terms_size) const
+  void ResponseColumns::contact_free_predictor(const BodyVectors &P, std::vector<double> &d,
+                                               std::vector<double> &terms_size) const
   {
-    d.resize(rows.size());
-    terms_size.resize(rows.size());
+    d.resize(constraints.size());
+    terms_size.resize(constraints.size());
     if (!by_columns)
     {
       work = P;
       solvers.solve(work);
-      rows.share_of_motions(work, d, terms_size);
+      constraints.share_of_motions(work, d, terms_size);
       return;
     }
     vectorised(
         [&]
         {
-          for (std::size_t i = 0; i < rows.size(); ++i)
+          for (std::size_t i = 0; i < constraints.size(); ++i)
           {
             const Column &column = columns[i];
             ScalarProduct product;

@@ -2,7 +2,7 @@
 #ifndef taut_response_columns_h
 #define taut_response_columns_h
 
-#include <taut/interface/contact_rows.h>
+#include <taut/interface/constraints.h>
 #include <taut/substructure/factored_structure.h>
 
 #include <functional>
@@ -10,53 +10,54 @@
 
 namespace taut
 {
-  /// The columns A_k^-1 B_k of the rows, without the tails where they have decayed: what both
-  /// assembled forms of F are made of.
+  /// The columns A_k^-1 B_k of the constraints, without the tails where they have decayed: what
+  /// both assembled forms of F are made of.
   class ResponseColumns
   {
   public:
     /// The arguments are kept by reference.
-    ResponseColumns(const FactoredStructure &solvers, const ContactRows &rows);
+    ResponseColumns(const FactoredStructure &solvers, const Constraints &constraints);
 
-    /// After a change of A_k: the columns of the fixed rows anew.
+    /// After a change of A_k: the columns of the fixed constraints anew.
     void setup();
 
-    /// Column of row i anew.
+    /// Column of constraint i anew.
     void compute(std::size_t i);
 
     /// The share of the substructures here in F_ij, without compliance.
     double entry(std::size_t i, std::size_t j) const;
 
-    /// Calls @p visit(j) for every fixed row j <= i that the column of row i reaches, and maybe
-    /// more than once.
+    /// Calls @p visit(j) for every fixed constraint j <= i that the column of constraint i reaches,
+    /// and maybe more than once.
     void visit_reached(std::size_t i, const std::function<void(std::size_t)> &visit) const;
 
     /// The share of the substructures here in d = B^T A^-1 P.
-    void free_motion(const BlockVector &P, std::vector<double> &d,
-                     std::vector<double> &terms_size) const;
+    void contact_free_predictor(const BodyVectors &P, std::vector<double> &d,
+                                std::vector<double> &terms_size) const;
 
   private:
-    /// A_k^-1 B_k of one row, for the substructures that it touches.
+    /// A_k^-1 B_k of one constraint, for the substructures that it touches.
     struct Column
     {
       std::vector<std::size_t> substructure;
       std::vector<WindowedVector> part;
     };
 
-    /// The DoFs first..last of a substructure that a fixed row acts on.
+    /// The DoFs first..last of a substructure that a fixed constraint acts on.
     struct Reach
     {
       unsigned int first, last;
-      std::size_t row;
+      std::size_t constraint;
     };
 
     const FactoredStructure &solvers;
-    const ContactRows &rows;
+    const Constraints &constraints;
     std::vector<Column> columns;
     std::vector<std::vector<Reach>> reach; ///< of each substructure, by first DoF
     std::vector<unsigned int> widest;      ///< last - first of each substructure's reaches
-    bool by_columns = false; ///< free_motion() from the stored columns is cheaper than a solve
-    mutable BlockVector work;
+    bool by_columns =
+        false; ///< contact_free_predictor() from the stored columns is cheaper than a solve
+    mutable BodyVectors work;
   };
 } // namespace taut
 

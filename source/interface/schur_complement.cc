@@ -19,50 +19,51 @@ namespace taut
     constexpr std::size_t n_samples = 16;
 
     /// Numbers that an assembled F would store beside F, over the number of DoFs, on all ranks.
-    double stored_numbers_per_dof(const FactoredStructure &solvers, const ContactRows &rows)
+    double stored_numbers_per_dof(const FactoredStructure &solvers, const Constraints &constraints)
     {
       WindowedVector column;
       double sum = 0.;
-      const std::size_t n = std::min(n_samples, rows.n_fixed());
+      const std::size_t n = std::min(n_samples, constraints.n_fixed());
       for (std::size_t s = 0; s < n; ++s)
-        for (const auto &[k, form] : rows[s * rows.n_fixed() / n].terms)
+        for (const auto &[k, form] : constraints[s * constraints.n_fixed() / n].terms)
         {
           solvers[k].column(form, column);
           sum += column.value.size();
         }
-      // Without a coarse problem statics stores the response of all rows to each free motion.
-      std::size_t n_kernel = 0;
+      // Without a coarse problem statics stores the response of all constraints to each rigid body
+      // mode.
+      std::size_t n_null_space = 0;
       for (std::size_t k = 0; solvers.is_generalised_inverse() && k < solvers.structure().size();
            ++k)
-        n_kernel += solvers.structure()[k].kernel().vectors.size();
-      std::vector<double> totals = {(n > 0 ? sum / n : 0.) * rows.size() +
-                                        static_cast<double>(n_kernel) * rows.size(),
+        n_null_space += solvers.structure()[k].null_space().vectors.size();
+      std::vector<double> totals = {(n > 0 ? sum / n : 0.) * constraints.size() +
+                                        static_cast<double>(n_null_space) * constraints.size(),
                                     static_cast<double>(solvers.structure().n_dofs())};
       solvers.structure().communicator().sum(totals);
       return totals[0] / std::max(1., totals[1]);
     }
 
-    /// The form that suits the rows and the decay of their columns, known only once A_k is
+    /// The form that suits the constraints and the decay of their columns, known only once A_k is
     /// factored.
     class AutomaticSchurComplement : public SchurComplement
     {
     public:
       AutomaticSchurComplement(const InterfaceParameters &parameters,
-                               const FactoredStructure &solvers, const ContactRows &rows)
-          : parameters(parameters), solvers(solvers), rows(rows)
+                               const FactoredStructure &solvers, const Constraints &constraints)
+          : parameters(parameters), solvers(solvers), constraints(constraints)
       {
       }
       void setup(const std::vector<double> &S) override
       {
         parameters.form = choice();
-        chosen = make_schur_complement(parameters, solvers, rows);
+        chosen = make_schur_complement(parameters, solvers, constraints);
         chosen->setup(S);
       }
       void update_moving() override { chosen->update_moving(); }
-      void free_motion(const BlockVector &P, std::vector<double> &d,
-                       std::vector<double> &terms_size) const override
+      void contact_free_predictor(const BodyVectors &P, std::vector<double> &d,
+                                  std::vector<double> &terms_size) const override
       {
-        chosen->free_motion(P, d, terms_size);
+        chosen->contact_free_predictor(P, d, terms_size);
       }
       ComplementarityOperator &matrix() override { return chosen->matrix(); }
       std::string description() const override { return chosen->description(); }
@@ -71,33 +72,34 @@ namespace taut
     private:
       std::string choice() const
       {
-        if (rows.size() <= most_dense_rows)
+        if (constraints.size() <= most_dense_rows)
           return "assembled dense";
-        if (solvers.has_free_motions())
+        if (solvers.has_rigid_body_modes())
           return "assembled sparse";
-        return stored_numbers_per_dof(solvers, rows) <= most_stored_numbers ? "assembled sparse"
-                                                                            : "matrix-free";
+        return stored_numbers_per_dof(solvers, constraints) <= most_stored_numbers
+                   ? "assembled sparse"
+                   : "matrix-free";
       }
 
       InterfaceParameters parameters;
       const FactoredStructure &solvers;
-      const ContactRows &rows;
+      const Constraints &constraints;
       std::unique_ptr<SchurComplement> chosen;
     };
   } // namespace
 
   std::unique_ptr<SchurComplement> make_schur_complement(const InterfaceParameters &parameters,
                                                          const FactoredStructure &solvers,
-                                                         const ContactRows &rows)
+                                                         const Constraints &constraints)
   {
     if (parameters.form == "automatic")
-      return std::make_unique<AutomaticSchurComplement>(parameters, solvers, rows);
+      return std::make_unique<AutomaticSchurComplement>(parameters, solvers, constraints);
     if (parameters.form == "assembled dense")
-      return std::make_unique<DenseSchurComplement>(solvers, rows);
+      return std::make_unique<DenseSchurComplement>(solvers, constraints);
     if (parameters.form == "assembled sparse")
-      return std::make_unique<SparseSchurComplement>(solvers, rows);
+      return std::make_unique<SparseSchurComplement>(solvers, constraints);
     if (parameters.form == "matrix-free")
-      return std::make_unique<MatrixFreeSchurComplement>(parameters, solvers, rows);
+      return std::make_unique<MatrixFreeSchurComplement>(parameters, solvers, constraints);
     throw UserError("unknown form of the interface operator '" + parameters.form +
                     "'; known are: automatic, assembled dense, assembled sparse, matrix-free. "
                     "Correct the name");

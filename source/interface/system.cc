@@ -87,9 +87,9 @@ namespace taut
 
   std::size_t System::add(const Constraint &constraint)
   {
-    constraints.push_back(constraint.row());
-    constraints.back().link = constraints.size() - 1;
-    return constraints.size() - 1;
+    list.push_back(constraint.constraint());
+    list.back().link = list.size() - 1;
+    return list.size() - 1;
   }
 
   const Substructure *System::body(const std::size_t number) const
@@ -97,8 +97,8 @@ namespace taut
     return index[number] == Structure::elsewhere ? nullptr : &bodies[index[number]];
   }
 
-  ContactRows System::rows() const
+  Constraints System::constraints() const
   {
-    return ContactRows(bodies, constraints);
+    return Constraints(bodies, list);
   }
 } // namespace taut

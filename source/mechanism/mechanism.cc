@@ -46,7 +46,7 @@ namespace taut
 
   void Mechanism::add_springs(const Scene &scene)
   {
-    SparseVector row, other;
+    LinearForm row, other;
     for (const Spring &spring : scene.springs)
     {
       row = {};
@@ -73,7 +73,7 @@ namespace taut
     {
       if (load.target.kind != Attachment::Kind::mass)
         continue;
-      SparseVector row;
+      LinearForm row;
       motion(load.target.index, load.rotational, load.direction, row);
       if (row.index.empty())
         continue;
@@ -86,7 +86,7 @@ namespace taut
   }
 
   void Mechanism::motion(const std::size_t mass, const bool rotational,
-                         const Coordinates &direction, SparseVector &result) const
+                         const Coordinates &direction, LinearForm &result) const
   {
     result = {};
     const double factor[3] = {rotational ? 0. : direction.x, rotational ? 0. : direction.y,
@@ -96,7 +96,7 @@ namespace taut
         result.add(i, factor[dofs[i].motion]);
   }
 
-  SparseVector Mechanism::displacement(const Coordinates &place, const Coordinates &direction) const
+  LinearForm Mechanism::displacement(const Coordinates &place, const Coordinates &direction) const
   {
     std::vector<std::size_t> masses;
     for (const Dof &dof : dofs)
@@ -106,7 +106,7 @@ namespace taut
       throw UserError("body '" + name() + "' has " + std::to_string(masses.size()) +
                       " masses, counted from 0, and a constraint is to act on number " +
                       std::to_string(place[0]));
-    SparseVector form;
+    LinearForm form;
     motion(masses[static_cast<std::size_t>(place[0])], false, direction, form);
     return form;
   }
@@ -122,7 +122,7 @@ namespace taut
     }
   }
 
-  Substructure::Kernel Mechanism::kernel() const
+  Substructure::NullSpace Mechanism::null_space() const
   {
     // Eigenvectors of zero eigenvalue of the stiffness scaled to a unit diagonal; a DoF without any
     // stiffness is one.
@@ -142,28 +142,28 @@ namespace taut
     if (info != 0)
       throw std::runtime_error("LAPACK dsyev failed on the stiffness of " + name());
 
-    Kernel kernel;
+    NullSpace null_space;
     std::vector<std::vector<double>> reduced;
     for (int k = 0; k < n && eigenvalues[k] < 1e-13 * n; ++k)
     {
       std::vector<double> R(n);
       for (int i = 0; i < n; ++i)
         R[i] = scale[i] * a[k * n + i];
-      kernel.vectors.push_back(R);
+      null_space.vectors.push_back(R);
       // Gaussian elimination with the largest entry as pivot gives independent DoFs to hold.
       for (std::size_t p = 0; p < reduced.size(); ++p)
       {
-        const unsigned int pivot = kernel.fixing_dofs[p];
+        const unsigned int pivot = null_space.fixing_dofs[p];
         const double factor = R[pivot] / reduced[p][pivot];
         for (int i = 0; i < n; ++i)
           R[i] -= factor * reduced[p][i];
       }
       const auto largest = std::max_element(
           R.begin(), R.end(), [](double p, double q) { return std::fabs(p) < std::fabs(q); });
-      kernel.fixing_dofs.push_back(largest - R.begin());
+      null_space.fixing_dofs.push_back(largest - R.begin());
       reduced.push_back(std::move(R));
     }
-    return kernel;
+    return null_space;
   }
 
   std::vector<std::vector<std::size_t>> connected_masses(const Scene &scene)

@@ -2,7 +2,7 @@
 #include "courant_numbers.h"
 
 #include <taut/model/contact_mass.h>
-#include <taut/model/scene_rows.h>
+#include <taut/model/scene_constraints.h>
 #include <taut/time/choose_scheme.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace taut
       return link.from.kind == Attachment::Kind::wire || link.to.kind == Attachment::Kind::wire;
     }
 
-    /// The exactly rigid one-sided links, if nodes without mass suit all of them: stops on bars or
+    /// The exactly rigid unilateral links, if nodes without mass suit all of them: stops on bars or
     /// strings, two elements apart, whose waves are slow enough; otherwise none.
     std::vector<std::size_t> find_springy_stops(const Scene &scene, const double step)
     {
@@ -61,7 +61,8 @@ namespace taut
     return link.contact_mass != ContactMass::stays && is_on_wire(link);
   }
 
-  void take_contact_mass(Scene &scene, const SolverParameters &parameters, const double step)
+  void redistribute_contact_mass(Scene &scene, const SolverParameters &parameters,
+                                 const double step)
   {
     const std::vector<std::size_t> stops = find_springy_stops(scene, step);
     if (stops.empty())
@@ -74,8 +75,8 @@ namespace taut
                     [](const Link &link) { return link.unilateral() && !is_massless(link); }))
     {
       const SceneBodies structure(lighter);
-      const ContactRows rows = scene_rows(lighter, structure);
-      if (!rigid_rows(structure, rows, parameters, step).empty())
+      const Constraints constraints = scene_constraints(lighter, structure);
+      if (!rigid_constraints(structure, constraints, parameters, step).empty())
         return;
     }
     scene = std::move(lighter);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
 #include <taut/model/form_finding.h>
-#include <taut/model/scene_rows.h>
+#include <taut/model/scene_constraints.h>
 #include <taut/scene/entries.h>
 #include <taut/time/static_equilibrium.h>
 
@@ -75,7 +75,7 @@ namespace taut
       return result;
     }
 
-    /// Bilateral rows that hold the `to` ends: their multipliers are minus the tensions.
+    /// Bilateral constraints that hold the `to` ends: their multipliers are minus the tensions.
     std::vector<double> tensions(const Scene &base, const std::vector<Link> &droppers,
                                  const SolverParameters &parameters)
     {
@@ -92,12 +92,12 @@ namespace taut
         scene.links.push_back(hold);
       }
       const SceneBodies structure(scene);
-      const ContactRows rows = scene_rows(scene, structure);
-      const StaticState state = static_equilibrium(structure, rows, parameters, 0.);
+      const Constraints constraints = scene_constraints(scene, structure);
+      const StaticState state = static_equilibrium(structure, constraints, parameters, 0.);
       std::vector<double> result;
       for (std::size_t i = 0; i < droppers.size(); ++i)
       {
-        const double tension = -state.multiplier[rows.row_of_link(base.links.size() + i)];
+        const double tension = -state.multiplier[constraints.index_of_link(base.links.size() + i)];
         if (!(tension >= 0.))
         {
           std::ostringstream out;
@@ -124,8 +124,8 @@ namespace taut
         scene.loads.push_back(force(droppers[i], droppers[i].to, -tension[i]));
       }
       const SceneBodies structure(scene);
-      const ContactRows rows = scene_rows(scene, structure);
-      const StaticState state = static_equilibrium(structure, rows, parameters, 0.);
+      const Constraints constraints = scene_constraints(scene, structure);
+      const StaticState state = static_equilibrium(structure, constraints, parameters, 0.);
       std::vector<double> result;
       for (const Link &dropper : droppers)
       {

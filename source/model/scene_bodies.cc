@@ -57,11 +57,11 @@ namespace taut
     }
     /// Of a point of a custom body; EntryError about @p entry if it is not on the body or does not
     /// move along the direction.
-    SparseVector displacement(const Substructure &body, const Attachment &at,
-                              const Coordinates &direction, const std::string &origin,
-                              const std::string &entry)
+    LinearForm displacement(const Substructure &body, const Attachment &at,
+                            const Coordinates &direction, const std::string &origin,
+                            const std::string &entry)
     {
-      SparseVector form;
+      LinearForm form;
       try
       {
         form = body.displacement(at.place, direction);
@@ -143,7 +143,7 @@ namespace taut
     {
       if (load.target.kind != Attachment::Kind::body || load.target.index != body)
         continue;
-      const SparseVector form = displacement(made, load.target, load.direction, load.origin, "On");
+      const LinearForm form = displacement(made, load.target, load.direction, load.origin, "On");
       if (load.magnitude.depends_on_time())
         made.add_force(form, [f = load.magnitude](const double t) { return f(0., t); });
       else
@@ -199,17 +199,17 @@ namespace taut
       {
         std::ostringstream title;
         title << name << (k == 1 ? " slope" : "") << " cut at " << nodes[pieces[p].first] << " m";
-        CutRow row{title.str(), k == 1, {}};
+        CutConstraint constraint{title.str(), k == 1, {}};
         const auto append = [&](const std::size_t body, const unsigned int dof, const double sign)
         {
-          row.terms.push_back({body, {}});
-          row.terms.back().form.add(dof, sign);
+          constraint.terms.push_back({body, {}});
+          constraint.terms.back().form.add(dof, sign);
         };
         if (left)
           append(indices[p - 1], left->last_dof() + k, 1.);
         if (right)
           append(indices[p], right->first_dof() + k, -1.);
-        cuts.push_back(std::move(row));
+        cuts.push_back(std::move(constraint));
       }
       left = right;
     }
@@ -231,14 +231,14 @@ namespace taut
                                   const Coordinates &direction, const double factor,
                                   const bool derivative, std::vector<Term> &terms) const
   {
-    const auto append = [&](const std::size_t k, const double f, SparseVector form)
+    const auto append = [&](const std::size_t k, const double f, LinearForm form)
     {
       for (double &v : form.value)
         v *= f;
       if (!form.index.empty())
         terms.push_back({k, std::move(form)});
     };
-    SparseVector form;
+    LinearForm form;
     if (point.kind == Attachment::Kind::mass)
     {
       const std::size_t k = mechanism_of_mass[point.index];

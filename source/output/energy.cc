@@ -15,16 +15,17 @@ namespace taut
       return sum;
     }
 
-    /// True for a row whose force is a mean over the step.
+    /// True for a constraint whose force is a mean over the step.
     bool is_mean(const StepView &step, const std::size_t i)
     {
       return !step.state.is_mean.empty() && step.state.is_mean[i];
     }
 
     /// Energy of a link's spring [J].
-    double stored(const Row &row, const State::LinkSpring &spring)
+    double stored(const ConstraintData &constraint, const State::LinkSpring &spring)
     {
-      return std::isinf(row.stiffness) ? 0. : .5 * row.stiffness * spring.u * spring.u;
+      return std::isinf(constraint.stiffness) ? 0.
+                                              : .5 * constraint.stiffness * spring.u * spring.u;
     }
   } // namespace
 
@@ -49,8 +50,8 @@ namespace taut
     start.structure.communicator().sum(sums, 2);
     total.kinetic = sums[0];
     total.strain = sums[1];
-    for (std::size_t i = 0; i < start.rows.size(); ++i)
-      total.links += stored(start.rows[i], start.state.link_springs[i]);
+    for (std::size_t i = 0; i < start.constraints.size(); ++i)
+      total.links += stored(start.constraints[i], start.state.link_springs[i]);
     start_energy = total.kinetic + total.strain + total.links;
     keep(start);
     has_begun = true;
@@ -61,8 +62,8 @@ namespace taut
   void Energy::set_forces(const StepView &step)
   {
     const State &state = step.state;
-    std::vector<double> in_balance = state.multiplier, impulsive(step.rows.size(), 0.);
-    for (std::size_t i = 0; i < step.rows.size(); ++i)
+    std::vector<double> in_balance = state.multiplier, impulsive(step.constraints.size(), 0.);
+    for (std::size_t i = 0; i < step.constraints.size(); ++i)
       if (is_mean(step, i))
         std::swap(in_balance[i], impulsive[i]);
     for (std::size_t k = 0; k < step.structure.size(); ++k)
@@ -75,8 +76,8 @@ namespace taut
       for (std::size_t i = 0; i < P[k].size(); ++i)
         balance[k][i] = P[k][i] - CV[k][i] - step.reference.force[k][i] - state.KU[k][i];
     }
-    step.rows.add_forces(in_balance, balance);
-    step.rows.add_forces(impulsive, impulses);
+    step.constraints.add_forces(in_balance, balance);
+    step.constraints.add_forces(impulsive, impulses);
   }
 
   void Energy::add_bodies(const StepView &step, Balance &share)
@@ -128,15 +129,15 @@ namespace taut
     }
   }
 
-  /// Work of the forces of moving rows on the bodies of this rank.
+  /// Work of the forces of moving constraints on the bodies of this rank.
   void Energy::add_moving_rows(const StepView &step, Balance &share) const
   {
     const State &state = step.state;
-    for (std::size_t i = step.rows.n_fixed(); i < step.rows.size(); ++i)
+    for (std::size_t i = step.constraints.n_fixed(); i < step.constraints.size(); ++i)
     {
-      const Row &row = step.rows[i];
-      const double now = state.multiplier[i] * evaluate(row.terms, state.dU);
-      const double before = N0[i] * evaluate(terms0[i - step.rows.n_fixed()], state.dU);
+      const ConstraintData &constraint = step.constraints[i];
+      const double now = state.multiplier[i] * evaluate(constraint.terms, state.dU);
+      const double before = N0[i] * evaluate(terms0[i - step.constraints.n_fixed()], state.dU);
       if (!is_mean(step, i))
         share.contacts += .5 * (before + now);
       else if (step.scheme.velocity_projection)
@@ -144,31 +145,31 @@ namespace taut
     }
   }
 
-  /// Springs and dampers of the links, and the work of the rows from their own motions.
+  /// Springs and dampers of the links, and the work of the constraints from their own motions.
   void Energy::add_rows(const StepView &step)
   {
     const State &state = step.state;
     total.links = 0.;
-    for (std::size_t i = 0; i < step.rows.size(); ++i)
+    for (std::size_t i = 0; i < step.constraints.size(); ++i)
     {
-      const Row &row = step.rows[i];
+      const ConstraintData &constraint = step.constraints[i];
       const State::LinkSpring &spring = state.link_springs[i];
-      total.links += stored(row, spring);
+      total.links += stored(constraint, spring);
       if (is_mean(step, i))
       {
         // What the spring does not store of the work on it is the contact's.
-        const double damper = row.damping * spring.du * spring.du / state.last_step;
+        const double damper = constraint.damping * spring.du * spring.du / state.last_step;
         if (std::isfinite(damper))
           total.link_dampers += damper;
-        total.contacts += state.row_work[i];
-        if (!std::isinf(row.stiffness))
-          total.contacts += stored(row, spring) - stored(row, springs0[i]) + damper;
+        total.contacts += state.constraint_work[i];
+        if (!std::isinf(constraint.stiffness))
+          total.contacts += stored(constraint, spring) - stored(constraint, springs0[i]) + damper;
         continue;
       }
       const double mean = .5 * (N0[i] + state.multiplier[i]);
-      if (!std::isinf(row.stiffness))
-        total.link_dampers += row.damping * .5 * (springs0[i].v + spring.v) * spring.du;
-      total.contacts += mean * (row.moving ? spring.du : state.gap[i] - gap0[i]);
+      if (!std::isinf(constraint.stiffness))
+        total.link_dampers += constraint.damping * .5 * (springs0[i].v + spring.v) * spring.du;
+      total.contacts += mean * (constraint.moving ? spring.du : state.gap[i] - gap0[i]);
     }
   }
 
@@ -185,8 +186,8 @@ namespace taut
     gap0 = state.gap;
     springs0 = state.link_springs;
     terms0.clear();
-    for (std::size_t i = step.rows.n_fixed(); i < step.rows.size(); ++i)
-      terms0.push_back(step.rows[i].terms);
+    for (std::size_t i = step.constraints.n_fixed(); i < step.constraints.size(); ++i)
+      terms0.push_back(step.constraints[i].terms);
   }
 
   void Energy::record(const StepView &step)

@@ -181,7 +181,7 @@ namespace taut
   std::vector<float> Fields::displacements(const std::vector<Sample> &samples,
                                            const StepView &step) const
   {
-    const BlockVector &reference = step.reference.displacement, &U = step.state.U;
+    const BodyVectors &reference = step.reference.displacement, &U = step.state.U;
     std::vector<double> shares;
     shares.reserve(3 * samples.size());
     for (const Sample &sample : samples)
@@ -227,7 +227,8 @@ namespace taut
     for (std::size_t e = n_fixed_ends; e < ends.size(); ++e)
     {
       const Link &link = step.scene.links[link_of_end[e]];
-      const double s = step.rows.position(step.rows.row_of_link(link_of_end[e]), step.state.time);
+      const double s = step.constraints.position(step.constraints.index_of_link(link_of_end[e]),
+                                                 step.state.time);
       const Attachment contact = {Attachment::Kind::wire, link.to.index, s};
       // The `to` end is the last of its link. What slides along is drawn where it touches.
       if (e + 1 == ends.size() || link_of_end[e + 1] != link_of_end[e])
@@ -242,10 +243,10 @@ namespace taut
     std::vector<float> forces, gaps, opened;
     for (const std::size_t link : link_of_end)
     {
-      const std::size_t row = step.rows.row_of_link(link);
-      forces.push_back(static_cast<float>(step.state.multiplier[row]));
-      gaps.push_back(static_cast<float>(step.state.geometric_gap[row]));
-      opened.push_back(step.state.multiplier[row] == 0. ? 1.f : 0.f);
+      const std::size_t constraint = step.constraints.index_of_link(link);
+      forces.push_back(static_cast<float>(step.state.multiplier[constraint]));
+      gaps.push_back(static_cast<float>(step.state.geometric_gap[constraint]));
+      opened.push_back(step.state.multiplier[constraint] == 0. ? 1.f : 0.f);
     }
     link_file->set(VtuFile::positions, places(ends));
     link_file->set(force, forces);

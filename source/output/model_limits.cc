@@ -58,7 +58,7 @@ namespace taut
     ends.push_back(entries.size());
   }
 
-  void ModelLimits::Forms::evaluate(const BlockVector &U, double *const result) const
+  void ModelLimits::Forms::evaluate(const BodyVectors &U, double *const result) const
   {
     std::size_t e = 0;
     for (std::size_t i = 0; i < ends.size(); ++i)

@@ -10,24 +10,24 @@ namespace taut
   namespace
   {
     /// Rows of a symmetric matrix, by number.
-    std::map<unsigned int, SparseVector> rows_of(const SymmetricMatrix &matrix,
-                                                 const std::vector<unsigned int> &wanted)
+    std::map<unsigned int, LinearForm> rows_of(const SymmetricMatrix &matrix,
+                                               const std::vector<unsigned int> &wanted)
     {
-      std::map<unsigned int, SparseVector> rows;
+      std::map<unsigned int, LinearForm> constraints;
       for (const unsigned int i : wanted)
-        rows[i];
+        constraints[i];
       matrix.visit(
           [&](const unsigned int i, const unsigned int j, const double value)
           {
-            for (const auto &[row, column] : {std::make_pair(i, j), std::make_pair(j, i)})
+            for (const auto &[constraint, column] : {std::make_pair(i, j), std::make_pair(j, i)})
             {
-              const auto found = rows.find(row);
-              if (found != rows.end() &&
+              const auto found = constraints.find(constraint);
+              if (found != constraints.end() &&
                   (i != j || found->second.index.empty() || found->second.index.back() != column))
                 found->second.add(column, value);
             }
           });
-      return rows;
+      return constraints;
     }
   } // namespace
 
@@ -64,7 +64,7 @@ namespace taut
       if (place.is_here)
       {
         // Supports are at nodes, where one shape function is 1 and all others are 0.
-        const SparseVector &form = terms[0].form;
+        const LinearForm &form = terms[0].form;
         const auto one = std::max_element(form.value.begin(), form.value.end(),
                                           [](const double a, const double b)
                                           { return std::fabs(a) < std::fabs(b); });
@@ -77,10 +77,10 @@ namespace taut
     }
     for (const auto &[body, dofs] : fixed)
     {
-      const auto rows = rows_of(structure[body].mass(), dofs);
+      const auto constraints = rows_of(structure[body].mass(), dofs);
       for (Place &place : places)
         if (place.is_here && place.fixed && place.body == body)
-          place.mass = rows.at(place.dof);
+          place.mass = constraints.at(place.dof);
     }
     values.assign(places.size(), 0.);
   }
@@ -104,7 +104,8 @@ namespace taut
     structure.communicator().sum(values);
   }
 
-  void Reactions::update_start(const Reference &reference, State state, const ContactRows &rows)
+  void Reactions::update_start(const Reference &reference, State state,
+                               const Constraints &constraints)
   {
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
@@ -115,7 +116,7 @@ namespace taut
       body.stiffness().vmult_add(-1., state.U[k].data(), r.data());
       body.stiffness().vmult_add(-1., reference.displacement[k].data(), r.data());
     }
-    rows.add_forces(state.multiplier, state.balance);
+    constraints.add_forces(state.multiplier, state.balance);
     update(reference, state);
   }
 } // namespace taut

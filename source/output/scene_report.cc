@@ -262,7 +262,7 @@ namespace taut
     }
     out << "<text x=\"8\" y=\"14\">black: wires, blue: supports, green: masses, red: links "
            "(hollow: "
-           "one-sided); heights x "
+           "unilateral); heights x "
         << sy / sx << "</text>\n</svg>\n";
     out.close();
     if (!out)

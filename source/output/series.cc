@@ -4,14 +4,14 @@
 
 namespace taut
 {
-  Series::Series(const std::string &folder, const Scene &scene, const ContactRows &rows,
+  Series::Series(const std::string &folder, const Scene &scene, const Constraints &constraints,
                  const double interval, const double link_interval)
       : interval(interval), sliding(interval), links(link_interval), supports(link_interval),
         probes(interval)
   {
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      if (!rows[i].is_cut())
-        add_link(rows[i]);
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      if (!constraints[i].is_cut())
+        add_link(constraints[i]);
     for (const SupportPoint &point : support_points(scene))
       supports.add_quantity(point.name + (point.is_moment ? " moment" : " force"),
                             point.is_moment ? "N m" : "N");
@@ -35,18 +35,18 @@ namespace taut
     certificate = std::make_unique<CsvFile>(folder + "/certificate.csv", columns);
   }
 
-  void Series::add_link(const Row &row)
+  void Series::add_link(const ConstraintData &constraint)
   {
-    IntervalTable &table = row.moving ? sliding : links;
-    if (row.moving)
-      table.add_value(row.name + " position", "m");
-    table.add_quantity(row.name + (row.rotational ? " moment" : " force"),
-                       row.rotational ? "N m" : "N");
-    const std::string gap = row.name + " gap", unit = row.rotational ? "rad" : "m";
-    if (row.unilateral)
+    IntervalTable &table = constraint.moving ? sliding : links;
+    if (constraint.moving)
+      table.add_value(constraint.name + " position", "m");
+    table.add_quantity(constraint.name + (constraint.rotational ? " moment" : " force"),
+                       constraint.rotational ? "N m" : "N");
+    const std::string gap = constraint.name + " gap", unit = constraint.rotational ? "rad" : "m";
+    if (constraint.unilateral)
     {
       table.add_quantity(gap, unit);
-      table.add_state(row.name);
+      table.add_state(constraint.name);
     }
     else
       table.add_value(gap, unit);
@@ -56,16 +56,16 @@ namespace taut
   {
     const State &state = step.state;
     values.clear();
-    for (std::size_t i = 0; i < step.rows.size(); ++i)
+    for (std::size_t i = 0; i < step.constraints.size(); ++i)
     {
-      const Row &row = step.rows[i];
-      if (row.moving != moving || row.is_cut())
+      const ConstraintData &constraint = step.constraints[i];
+      if (constraint.moving != moving || constraint.is_cut())
         continue;
       if (moving)
-        values.push_back(step.rows.position(i, state.time));
+        values.push_back(step.constraints.position(i, state.time));
       values.push_back(state.multiplier[i]);
       values.push_back(state.geometric_gap[i]);
-      if (row.unilateral)
+      if (constraint.unilateral)
         values.push_back(state.multiplier[i] != 0.);
     }
     if (!values.empty())

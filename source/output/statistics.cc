@@ -26,14 +26,14 @@ namespace taut
       return 1e-9 * (1. + std::fabs(window[1]));
     }
 
-    const char *const expected_figures[] = {"Mean",
-                                            "Standard deviation",
-                                            "Mean + 3 standard deviations",
-                                            "Mean - 3 standard deviations",
-                                            "Maximum",
-                                            "Minimum",
-                                            "Contact loss",
-                                            "Uplift"};
+    const char *const expected_quantities[] = {"Mean",
+                                               "Standard deviation",
+                                               "Mean + 3 standard deviations",
+                                               "Mean - 3 standard deviations",
+                                               "Maximum",
+                                               "Minimum",
+                                               "Contact loss",
+                                               "Uplift"};
 
     /// Shortest of the steps between increasing times if they differ, else 0 [s].
     double shortest_of_unequal_steps(const std::vector<double> &times)
@@ -83,9 +83,9 @@ namespace taut
                       "frequency is not compared with them [Hz]",
                       Double(0., Double::max_double_value));
     prm.enter_subsection("Expected ranges");
-    for (const char *name : expected_figures)
+    for (const char *name : expected_quantities)
       prm.add_parameter(name, expected[name],
-                        "Lower and upper bound, printed beside the figure; empty: none " +
+                        "Lower and upper bound, printed beside the quantity; empty: none " +
                             std::string(std::string(name) == "Contact loss" ? "[%]"
                                         : std::string(name) == "Uplift"     ? "[mm]"
                                                                             : "[N]"),
@@ -131,7 +131,7 @@ namespace taut
   }
 
   Statistics::Statistics(const StatisticsParameters &parameters, const Scene &scene,
-                         const ContactRows &rows)
+                         const Constraints &rows)
       : parameters(parameters)
   {
     for (std::size_t i = 0; i < rows.size(); ++i)
@@ -145,7 +145,7 @@ namespace taut
         link_rotates.push_back(rows[i].rotational);
       }
     }
-    link_figures.resize(link_names.size());
+    link_quantities.resize(link_names.size());
     for (const Probe &probe : scene.probes)
     {
       probe_names.push_back(probe.name);
@@ -167,16 +167,16 @@ namespace taut
     const double dt = times.empty() ? 0. : state.time - times.back();
     times.push_back(state.time);
     measures = &step.measures;
-    rows = &step.rows;
+    rows = &step.constraints;
     for (Contact &contact : contacts)
     {
-      contact.position.push_back(step.rows.position(contact.row, state.time));
+      contact.position.push_back(step.constraints.position(contact.row, state.time));
       contact.force.push_back(state.multiplier[contact.row]);
       contact.mean_force.push_back(step.measures.mean_force(contact.row));
     }
-    for (std::size_t i = 0; i < link_figures.size(); ++i)
+    for (std::size_t i = 0; i < link_quantities.size(); ++i)
     {
-      LinkFigures &link = link_figures[i];
+      LinkQuantities &link = link_quantities[i];
       const double force = state.multiplier[i];
       if (force == 0.)
         link.open_time += dt;
@@ -194,10 +194,10 @@ namespace taut
       lowering[i] = std::min(lowering[i], step.probes[i]);
       last[i] = step.probes[i];
     }
-    support_figures.resize(support_names.size());
-    for (std::size_t i = 0; i < support_figures.size(); ++i)
+    support_quantities.resize(support_names.size());
+    for (std::size_t i = 0; i < support_quantities.size(); ++i)
     {
-      SupportFigures &support = support_figures[i];
+      SupportQuantities &support = support_quantities[i];
       const double force = step.supports[i];
       if (times.size() == 1)
         support = {force, force, force};
@@ -222,9 +222,9 @@ namespace taut
     worst.drift = std::max(worst.drift, step.certificate.drift);
   }
 
-  Statistics::ContactFigures Statistics::figures(const Contact &recorded) const
+  Statistics::ContactQuantities Statistics::quantities(const Contact &recorded) const
   {
-    ContactFigures result;
+    ContactQuantities result;
     // Of unequal steps each counts by its length: at equal intervals, as short as the shortest.
     Contact contact = recorded;
     constexpr double most_samples = 4e6;
@@ -282,12 +282,12 @@ namespace taut
     return result;
   }
 
-  std::vector<Statistics::NamedFigure> Statistics::named_figures() const
+  std::vector<Statistics::NamedQuantity> Statistics::named_quantities() const
   {
-    std::vector<NamedFigure> list;
+    std::vector<NamedQuantity> list;
     for (const Contact &contact : contacts)
     {
-      const ContactFigures f = figures(contact);
+      const ContactQuantities f = quantities(contact);
       const Moments &m = f.filtered;
       list.insert(list.end(), {{contact.name, "mean", m.mean},
                                {contact.name, "standard deviation", m.deviation},
@@ -295,9 +295,9 @@ namespace taut
                                {contact.name, "minimum", m.minimum},
                                {contact.name, "contact loss", f.loss}});
     }
-    for (std::size_t i = 0; i < link_figures.size(); ++i)
+    for (std::size_t i = 0; i < link_quantities.size(); ++i)
     {
-      const LinkFigures &f = link_figures[i];
+      const LinkQuantities &f = link_quantities[i];
       list.insert(list.end(), {{link_names[i], "open time", f.open_time},
                                {link_names[i], "closed time", f.closed_time},
                                {link_names[i], "largest force", f.largest_force},

@@ -41,31 +41,32 @@ namespace taut
     }
   } // namespace
 
-  const std::vector<double> *Statistics::expected_range(const std::string &figure) const
+  const std::vector<double> *Statistics::expected_range(const std::string &quantity) const
   {
-    const auto range = parameters.expected.find(figure);
+    const auto range = parameters.expected.find(quantity);
     return range != parameters.expected.end() && range->second.size() == 2 ? &range->second
                                                                            : nullptr;
   }
 
-  std::vector<Statistics::Figure> Statistics::table(const ContactFigures &f, const bool raw) const
+  std::vector<Statistics::Quantity> Statistics::table(const ContactQuantities &f,
+                                                      const bool raw) const
   {
     const Moments &m = raw ? f.raw : f.filtered;
-    std::vector<Figure> rows = {{"Mean", "N", m.mean},
-                                {"Standard deviation", "N", m.deviation},
-                                {"Mean + 3 standard deviations", "N", m.mean + 3. * m.deviation},
-                                {"Mean - 3 standard deviations", "N", m.mean - 3. * m.deviation},
-                                {"Maximum", "N", m.maximum},
-                                {"Minimum", "N", m.minimum}};
+    std::vector<Quantity> rows = {{"Mean", "N", m.mean},
+                                  {"Standard deviation", "N", m.deviation},
+                                  {"Mean + 3 standard deviations", "N", m.mean + 3. * m.deviation},
+                                  {"Mean - 3 standard deviations", "N", m.mean - 3. * m.deviation},
+                                  {"Maximum", "N", m.maximum},
+                                  {"Minimum", "N", m.minimum}};
     if (raw)
       return rows;
     rows.push_back({"Contact loss", "%", 100. * f.loss});
-    for (Figure &row : rows)
+    for (Quantity &row : rows)
       row.expected = expected_range(row.name);
     return rows;
   }
 
-  std::vector<Statistics::Figure> Statistics::table(const std::size_t probe) const
+  std::vector<Statistics::Quantity> Statistics::table(const std::size_t probe) const
   {
     const bool rotates = probe_rotates[probe];
     const std::string unit = rotates ? "mrad" : "mm";
@@ -76,18 +77,18 @@ namespace taut
   Statistics::Verdict Statistics::verdict() const
   {
     Verdict result;
-    const auto judge = [&](const std::vector<Figure> &figures)
+    const auto judge = [&](const std::vector<Quantity> &quantities)
     {
-      for (const Figure &figure : figures)
-        if (figure.expected != nullptr)
-          ++(is_inside(figure.value, *figure.expected) ? result.n_inside : result.n_outside);
+      for (const Quantity &quantity : quantities)
+        if (quantity.expected != nullptr)
+          ++(is_inside(quantity.value, *quantity.expected) ? result.n_inside : result.n_outside);
     };
     for (const Contact &contact : contacts)
     {
-      const ContactFigures f = figures(contact);
-      const std::vector<Figure> rows = table(f, false);
+      const ContactQuantities f = quantities(contact);
+      const std::vector<Quantity> rows = table(f, false);
       const bool expected =
-          std::any_of(rows.begin(), rows.end(), [](const Figure &r) { return r.expected; });
+          std::any_of(rows.begin(), rows.end(), [](const Quantity &r) { return r.expected; });
       if (f.are_judged())
         judge(rows);
       if (expected && !(f.are_judged() && f.is_complete))
@@ -106,7 +107,7 @@ namespace taut
                           : "none";
   }
 
-  std::string Statistics::window_text(const ContactFigures &f) const
+  std::string Statistics::window_text(const ContactQuantities &f) const
   {
     if (parameters.window.size() < 2)
       return "";
@@ -120,7 +121,7 @@ namespace taut
 
   void Statistics::print_contact(const Contact &contact, std::ostream &out) const
   {
-    const ContactFigures f = figures(contact);
+    const ContactQuantities f = quantities(contact);
     out << "Contact force of '" << contact.name << "'" << window_text(f) << " (" << f.n_samples
         << " samples, ";
     if (f.is_filtered)
@@ -135,7 +136,7 @@ namespace taut
       out << "  no sample in the window\n";
       return;
     }
-    const std::vector<Figure> rows = table(f, false), raw = table(f, true);
+    const std::vector<Quantity> rows = table(f, false), raw = table(f, true);
     for (std::size_t i = 0; i < rows.size(); ++i)
       out << "  " << std::left << std::setw(36) << rows[i].name << std::right << std::setw(10)
           << rows[i].value << ' ' << std::left << std::setw(3) << rows[i].unit << std::right
@@ -146,21 +147,21 @@ namespace taut
   void Statistics::print_links(std::ostream &out) const
   {
     std::size_t n_opened = 0, longest = 0;
-    for (std::size_t i = 0; i < link_figures.size(); ++i)
-      if (link_unilateral[i] && link_figures[i].open_time > 0.)
+    for (std::size_t i = 0; i < link_quantities.size(); ++i)
+      if (link_unilateral[i] && link_quantities[i].open_time > 0.)
       {
         ++n_opened;
         if (!link_unilateral[longest] ||
-            link_figures[i].open_time > link_figures[longest].open_time)
+            link_quantities[i].open_time > link_quantities[longest].open_time)
           longest = i;
       }
     const std::size_t n_unilateral = std::count(link_unilateral.begin(), link_unilateral.end(), 1);
     if (n_unilateral == 0)
       return;
-    out << "One-sided links that opened: " << n_opened << " of " << n_unilateral;
+    out << "Unilateral links that opened: " << n_opened << " of " << n_unilateral;
     if (n_opened > 0)
       out << "; longest '" << link_names[longest] << "', " << std::setprecision(4)
-          << link_figures[longest].open_time << " s";
+          << link_quantities[longest].open_time << " s";
     out << '\n';
   }
 
@@ -174,7 +175,7 @@ namespace taut
       out << "Displacement of the probes along their directions: largest, smallest\n";
     for (std::size_t i = 0; i < uplift.size(); ++i)
     {
-      const std::vector<Figure> rows = table(i);
+      const std::vector<Quantity> rows = table(i);
       out << "  " << std::left << std::setw(36) << probe_names[i] << std::right << std::setw(10)
           << rows[0].value << std::setw(10) << rows[1].value << ' ' << std::left << std::setw(4)
           << rows[0].unit << std::right;
@@ -185,7 +186,7 @@ namespace taut
     print_links(out);
     const Verdict all = verdict();
     if (all.text() != "none")
-      out << "Expected ranges: " << all.n_inside << " figures inside, " << all.n_outside
+      out << "Expected ranges: " << all.n_inside << " quantities inside, " << all.n_outside
           << " outside" << (all.is_complete ? "" : "; not all of what they are for was evaluated")
           << '\n';
     if (n_steps > 0)

@@ -227,7 +227,7 @@ def low_pass(record, step, frequency):
 
 
 def read_study(folder):
-    """The ladders and settings of a study: dictionaries of work_precision.csv, with those that failed left out."""
+    """The parameter lists and settings of a study: dictionaries of work_precision.csv, with those that failed left out."""
     try:
         with open(os.path.join(folder, "study.json"), encoding="utf-8") as file:
             study = json.load(file)
@@ -235,7 +235,7 @@ def read_study(folder):
             lines = [line for line in csv.DictReader(file) if not line["message"]]
         numbers = ("error [1]", "error of finer ones too [1]", "error of the reference [1]", "seconds", "x real time", "front")
         settings = [{**line, **{name: float(line[name]) for name in numbers}} for line in lines]
-        return study["ladders"], settings, study["end [s]"]
+        return study["parameters"], settings, study["end [s]"]
     except OSError as error:
         raise UserError(f"'{folder}' holds no whole study: {error}") from error
     except (KeyError, TypeError, ValueError) as error:

@@ -35,50 +35,51 @@ namespace taut
       basis.push_back(std::move(v));
     }
 
-    /// The work of a row on the free motions of a body.
-    Vector work(const Row &row, const std::size_t body, const Substructure::Kernel &kernel)
+    /// The work of a constraint on the rigid body modes of a body.
+    Vector work(const ConstraintData &constraint, const std::size_t body,
+                const Substructure::NullSpace &null_space)
     {
-      Vector result(kernel.vectors.size(), 0.);
-      for (const Term &term : row.terms)
+      Vector result(null_space.vectors.size(), 0.);
+      for (const Term &term : constraint.terms)
         if (term.substructure == body)
           for (std::size_t j = 0; j < result.size(); ++j)
-            result[j] += term.form.dot(kernel.vectors[j]);
+            result[j] += term.form.dot(null_space.vectors[j]);
       return result;
     }
   } // namespace
 
-  std::vector<char> free_bodies(const std::vector<Substructure::Kernel> &kernels,
-                                const ContactRows &rows, const Vector &multiplier)
+  std::vector<char> free_bodies(const std::vector<Substructure::NullSpace> &null_spaces,
+                                const Constraints &constraints, const Vector &multiplier)
   {
-    const std::size_t n = kernels.size();
+    const std::size_t n = null_spaces.size();
     std::vector<std::vector<Vector>> opposed(n);
-    // Groups of bodies that rows join, by one of their members; n is the ground.
+    // Groups of bodies that constraints join, by one of their members; n is the ground.
     std::vector<std::size_t> group(n + 1);
     std::iota(group.begin(), group.end(), 0);
     const auto join = [&](const std::size_t a, const std::size_t b)
     { std::replace(group.begin(), group.end(), std::size_t(group[a]), std::size_t(group[b])); };
     for (std::size_t k = 0; k < n; ++k)
-      if (kernels[k].vectors.empty())
+      if (null_spaces[k].vectors.empty())
         join(k, n);
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t i = 0; i < constraints.size(); ++i)
     {
-      if (rows[i].unilateral && multiplier[i] == 0.)
+      if (constraints[i].unilateral && multiplier[i] == 0.)
         continue;
       std::set<std::size_t> ends;
-      for (const Term &term : rows[i].terms)
+      for (const Term &term : constraints[i].terms)
         ends.insert(term.substructure);
       if (ends.size() == 1)
         ends.insert(n);
       for (const std::size_t k : ends)
       {
         join(*ends.begin(), k);
-        if (k < n && !kernels[k].vectors.empty())
-          extend(opposed[k], work(rows[i], k, kernels[k]));
+        if (k < n && !null_spaces[k].vectors.empty())
+          extend(opposed[k], work(constraints[i], k, null_spaces[k]));
       }
     }
     std::vector<char> result(n);
     for (std::size_t k = 0; k < n; ++k)
-      result[k] = group[k] != group[n] || opposed[k].size() < kernels[k].vectors.size();
+      result[k] = group[k] != group[n] || opposed[k].size() < null_spaces[k].vectors.size();
     return result;
   }
 } // namespace taut

@@ -90,7 +90,7 @@ namespace taut
         "Link interval", link_interval,
         "Least time between two lines of links.csv and supports.csv; 0: every step. With an "
         "interval, they have the least and largest value since the line before, and how often "
-        "each one-sided link opened or closed [s]",
+        "each unilateral link opened or closed [s]",
         not_negative());
     prm.add_parameter(
         "Field interval", field_interval,
@@ -140,10 +140,10 @@ namespace taut
                       "Run a scheme although it is known to fail with the links of the scene");
     prm.add_parameter(
         "Allow energy gain", allow_energy_gain,
-        "Let a run succeed whose one-sided links gave more than a tenth of the energy "
+        "Let a run succeed whose unilateral links gave more than a tenth of the energy "
         "that moves, where they can only take it");
     prm.add_parameter(
-        "Massless contact", massless_contact,
+        "Mass redistribution", mass_redistribution,
         "Whether the node of a wire at a rigid stop or dropper gives its mass to its "
         "neighbours; impacts then take no energy and their force stays bounded as the step falls, "
         "with any scheme. 'mass': the total mass stays, the force overshoots least. 'inertia': "
@@ -273,7 +273,7 @@ namespace taut
       check_pair(statistics.window, "Statistics/Window");
       for (const auto &[figure, range] : statistics.expected)
         check_pair(range, "Statistics/Expected ranges/" + figure);
-      study.ladders(entry_values);
+      study.parameter_lists(entry_values);
     }
     catch (const EntryError &e)
     {
@@ -336,9 +336,9 @@ namespace taut
                   : start == "undeformed" ? Start::undeformed
                                           : Start::given;
     generator->fill(scene);
-    const ContactMass contact_mass = massless_contact == "mass"      ? ContactMass::keeps_total
-                                     : massless_contact == "inertia" ? ContactMass::keeps_inertia
-                                                                     : ContactMass::stays;
+    const ContactMass contact_mass = mass_redistribution == "mass"      ? ContactMass::keeps_total
+                                     : mass_redistribution == "inertia" ? ContactMass::keeps_inertia
+                                                                        : ContactMass::stays;
     for (Link &link : scene.links)
       if (link.rigid() && link.unilateral() && !link.moving())
         link.contact_mass = contact_mass;

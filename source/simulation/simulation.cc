@@ -6,7 +6,7 @@
 #include <taut/base/interruption.h>
 #include <taut/model/contact_mass.h>
 #include <taut/model/form_finding.h>
-#include <taut/model/scene_rows.h>
+#include <taut/model/scene_constraints.h>
 #include <taut/output/fields.h>
 #include <taut/output/scene_report.h>
 #include <taut/output/series.h>
@@ -32,8 +32,8 @@ namespace taut
     Scene prepare_contacts(Scene scene, const Parameters &parameters)
     {
       if (parameters.chooses_contact_mass())
-        take_contact_mass(scene, parameters.solver,
-                          parameters.step_parameters.shortest(parameters.step));
+        redistribute_contact_mass(scene, parameters.solver,
+                                  parameters.step_parameters.shortest(parameters.step));
       return scene;
     }
   } // namespace
@@ -43,7 +43,7 @@ namespace taut
       : parameters(parameters), log(log), processes(processes),
         model(prepare_contacts(find_lengths(parameters.scene(), parameters.solver), parameters)),
         bodies(model, make_partition(model, parameters.partition), processes),
-        links(scene_rows(model, bodies)), reactions(model, bodies)
+        links(scene_constraints(model, bodies)), reactions(model, bodies)
   {
     for (const Probe &probe : model.probes)
     {
@@ -278,7 +278,7 @@ namespace taut
       if (!links[i].is_cut() && is_massless(model.links[links[i].link]))
         massless.push_back(i);
     if (!massless.empty())
-      log << "Massless contact: nodes of wires under " << links.names(massless)
+      log << "Mass redistribution: nodes of wires under " << links.names(massless)
           << " gave their mass to their neighbours\n";
     std::string name = parameters.scheme;
     if (name == "automatic")

@@ -2,7 +2,7 @@
 #include <taut/base/exceptions.h>
 #include <taut/base/instruction_set.h>
 #include <taut/model/form_finding.h>
-#include <taut/model/scene_rows.h>
+#include <taut/model/scene_constraints.h>
 #include <taut/simulation/free_bodies.h>
 #include <taut/simulation/simulation.h>
 #include <taut/time/initial_state.h>
@@ -49,9 +49,9 @@ namespace taut
                              [](const std::size_t sum, const Structure::Body &body)
                              { return sum + body.n_dofs; })
           << " DoFs in all";
-    if (!bodies.cut_rows().empty())
-      log << "\n  wires cut in " << counted(bodies.cut_rows().size(), "row");
-    log << "\n  " << counted(links.size(), "multiplier") << ": " << n_unilateral << " one-sided, "
+    if (!bodies.cut_constraints().empty())
+      log << "\n  wires cut in " << counted(bodies.cut_constraints().size(), "constraint");
+    log << "\n  " << counted(links.size(), "multiplier") << ": " << n_unilateral << " unilateral, "
         << links.size() - n_unilateral << " bilateral; " << links.size() - links.n_fixed()
         << " moving; " << n_rigid << " rigid\n";
 
@@ -93,10 +93,10 @@ namespace taut
   /// Says which bodies are at rest only because nothing pushes them.
   void Simulation::report_free_bodies() const
   {
-    std::vector<Substructure::Kernel> kernels;
+    std::vector<Substructure::NullSpace> null_spaces;
     for (std::size_t k = 0; k < bodies.size(); ++k)
-      kernels.push_back(bodies[k].kernel());
-    const std::vector<char> free = free_bodies(kernels, links, start.multiplier);
+      null_spaces.push_back(bodies[k].null_space());
+    const std::vector<char> free = free_bodies(null_spaces, links, start.multiplier);
 
     const std::vector<Structure::Body> &all = bodies.all_bodies();
     std::vector<double> flags(all.size(), 0.);
@@ -121,14 +121,14 @@ namespace taut
   {
     if (model.start != Start::equilibrium || probe_terms.empty())
       return;
-    BlockVector rest = reference.displacement;
+    BodyVectors rest = reference.displacement;
     if (links.n_fixed() < links.size())
     {
       const Scene without = without_sliding_contacts(model);
-      const ContactRows fixed_rows = scene_rows(without, bodies);
+      const Constraints fixed_constraints = scene_constraints(without, bodies);
       try
       {
-        rest = static_equilibrium(bodies, fixed_rows, parameters.solver, 0.).displacement;
+        rest = static_equilibrium(bodies, fixed_constraints, parameters.solver, 0.).displacement;
       }
       catch (const BodyNotHeld &)
       {

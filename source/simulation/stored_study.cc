@@ -91,8 +91,8 @@ namespace taut
                        const std::map<std::string, std::string> &scene)
     {
       std::set<std::string> varied;
-      for (const json &ladder : study.at("ladders"))
-        for (const json &entry : ladder.at("entries"))
+      for (const json &parameter_list : study.at("parameters"))
+        for (const json &entry : parameter_list.at("entries"))
           varied.insert(entry.get<std::string>());
       for (const std::string &path : varied)
         if (scene.count(path) == 0)
@@ -127,12 +127,12 @@ namespace taut
       std::ostringstream text;
       text << "Accuracy " << accuracy << ": ";
       const json &values = best->at("values");
-      for (const json &ladder : study.at("ladders"))
+      for (const json &parameter_list : study.at("parameters"))
       {
-        const std::string name = ladder.at("name").get<std::string>(),
+        const std::string name = parameter_list.at("name").get<std::string>(),
                           value = values.at(name).get<std::string>();
         text << name << " = " << value << ", ";
-        for (const json &entry : ladder.at("entries"))
+        for (const json &entry : parameter_list.at("entries"))
           choice.overrides.push_back(entry.get<std::string>() + "=" + value);
       }
       text << "error " << best->at("error").get<double>() << " (of the reference "

@@ -38,7 +38,7 @@ namespace taut
     }
   } // namespace
 
-  void StudyParameters::LadderItem::declare(dealii::ParameterHandler &prm)
+  void StudyParameters::ParameterListItem::declare(dealii::ParameterHandler &prm)
   {
     prm.add_parameter("Entries", entries,
                       "Paths of the entries that take each value together, 'Section/Entry', "
@@ -50,13 +50,13 @@ namespace taut
     prm.add_parameter("Refined", refined,
                       "Whether a smaller value is a finer model: the reference then starts from "
                       "the least value and halves it, together with those of the other refined "
-                      "ladders");
+                      "parameters");
     prm.add_parameter("Reference", reference,
                       "Value in the reference if it is not refined; empty: that of the scene",
                       Anything());
   }
 
-  void StudyParameters::FigureItem::declare(dealii::ParameterHandler &prm)
+  void StudyParameters::QuantityItem::declare(dealii::ParameterHandler &prm)
   {
     prm.add_parameter("Of", of, "Name of a sliding contact, another link or a probe", Anything());
     prm.add_parameter(
@@ -69,19 +69,19 @@ namespace taut
         Anything());
     prm.add_parameter("Exact", exact,
                       "The exact value, a formula in t for a history; empty: from a reference "
-                      "that is refined [the figure's unit]",
+                      "that is refined [the quantity's unit]",
                       Anything());
     prm.add_parameter("Scale", scale,
                       "Errors are relative to it; 0: to the reference, of a history to its root "
-                      "mean square [the figure's unit]",
+                      "mean square [the quantity's unit]",
                       Double(0., Double::max_double_value));
   }
 
   void StudyParameters::declare_names(dealii::ParameterHandler &prm)
   {
     prm.enter_subsection("Study");
-    ladder_items.declare_names(prm);
-    figures.declare_names(prm);
+    parameter_list_items.declare_names(prm);
+    quantities.declare_names(prm);
     prm.leave_subsection();
   }
 
@@ -94,7 +94,7 @@ namespace taut
                       "empty: the folder 'study' in that of the results",
                       Anything());
     prm.add_parameter("Accuracy", accuracy,
-                      "Largest relative error wanted of the figures: the run takes the cheapest "
+                      "Largest relative error wanted of the quantities: the run takes the cheapest "
                       "setting of the stored study of this scene that has it; 0: as written [1]",
                       Double(0., 1.));
     prm.add_parameter("Accuracies", accuracies,
@@ -106,31 +106,32 @@ namespace taut
                       "Most refinements of the reference; it ends earlier when its error is below "
                       "a tenth of the least of Accuracies [1]",
                       Integer(1, 20));
-    ladder_items.declare_parameters(prm);
-    figures.declare_parameters(prm);
+    parameter_list_items.declare_parameters(prm);
+    quantities.declare_parameters(prm);
     prm.leave_subsection();
   }
 
-  std::vector<Ladder>
-  StudyParameters::ladders(const std::map<std::string, std::string> &scene) const
+  std::vector<ParameterList>
+  StudyParameters::parameter_lists(const std::map<std::string, std::string> &scene) const
   {
-    std::vector<Ladder> result;
+    std::vector<ParameterList> result;
     std::vector<std::string> known;
     for (const auto &[path, value] : scene)
       known.push_back(path);
     std::set<std::string> taken;
-    for (std::size_t i = 0; i < ladder_items.names.size(); ++i)
+    for (std::size_t i = 0; i < parameter_list_items.names.size(); ++i)
     {
-      const LadderItem &item = ladder_items.items[i];
-      const std::string title = ladder_items.title(i);
-      Ladder ladder;
-      ladder.name = ladder_items.names[i];
-      ladder.entries = split(item.entries, ',');
-      ladder.values = split(item.values, item.values.find(';') != std::string::npos ? ';' : ',');
-      ladder.refined = item.refined;
-      if (ladder.entries.empty())
+      const ParameterListItem &item = parameter_list_items.items[i];
+      const std::string title = parameter_list_items.title(i);
+      ParameterList parameter_list;
+      parameter_list.name = parameter_list_items.names[i];
+      parameter_list.entries = split(item.entries, ',');
+      parameter_list.values =
+          split(item.values, item.values.find(';') != std::string::npos ? ';' : ',');
+      parameter_list.refined = item.refined;
+      if (parameter_list.entries.empty())
         throw EntryError(title + "/Entries", "name the entries that take the values");
-      for (const std::string &entry : ladder.entries)
+      for (const std::string &entry : parameter_list.entries)
       {
         if (scene.count(entry) == 0)
           throw EntryError(title + "/Entries", "there is no entry '" + entry +
@@ -143,19 +144,21 @@ namespace taut
                                                    "how it is solved; take another entry");
         if (!taken.insert(entry).second)
           throw EntryError(title + "/Entries",
-                           "'" + entry + "' is varied twice; remove it from one of the ladders");
+                           "'" + entry +
+                               "' is varied twice; remove it from one of the parameter_lists");
       }
-      if (ladder.values.empty() ||
-          std::count(ladder.values.begin(), ladder.values.end(), std::string()) > 0)
+      if (parameter_list.values.empty() ||
+          std::count(parameter_list.values.begin(), parameter_list.values.end(), std::string()) > 0)
         throw EntryError(title + "/Values", "give one or more values, none of them empty");
-      if (ladder.refined)
-        for (const std::string &value : ladder.values)
+      if (parameter_list.refined)
+        for (const std::string &value : parameter_list.values)
           if (!is_positive_number(value))
             throw EntryError(title + "/Values", "'" + value +
                                                     "' is no positive number, so it cannot be "
                                                     "halved; set Refined = false");
-      ladder.reference = item.reference.empty() ? scene.at(ladder.entries[0]) : item.reference;
-      result.push_back(ladder);
+      parameter_list.reference =
+          item.reference.empty() ? scene.at(parameter_list.entries[0]) : item.reference;
+      result.push_back(parameter_list);
     }
     return result;
   }

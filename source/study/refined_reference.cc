@@ -12,13 +12,13 @@ namespace taut
   {
     constexpr double highest_order = 2.;
 
-    FigureReference extrapolate_number(const std::vector<StudyFigure> &levels)
+    QuantityReference extrapolate_number(const std::vector<StudyQuantity> &levels)
     {
       const std::size_t n = levels.size();
       const double last = levels[n - 1].value, change = last - levels[n - 2].value,
                    before = n > 2 ? levels[n - 2].value - levels[n - 3].value : 0.;
-      FigureReference reference;
-      reference.figure.value = last;
+      QuantityReference reference;
+      reference.quantity.value = last;
       if (n == 2)
         reference.error = std::fabs(change);
       else if (change * before > 0. && std::fabs(change) < std::fabs(before))
@@ -26,7 +26,7 @@ namespace taut
         reference.order = std::log2(before / change);
         const double correction =
             change / (std::exp2(std::min(highest_order, reference.order)) - 1.);
-        reference.figure.value += correction;
+        reference.quantity.value += correction;
         reference.error =
             std::max({std::fabs(correction), std::fabs(change), .25 * std::fabs(before)});
       }
@@ -38,13 +38,13 @@ namespace taut
       return reference;
     }
 
-    FigureReference last_history(const std::vector<StudyFigure> &levels)
+    QuantityReference last_history(const std::vector<StudyQuantity> &levels)
     {
       const std::size_t n = levels.size();
       const double change = distance(levels[n - 2], levels[n - 1]),
                    before = n > 2 ? distance(levels[n - 3], levels[n - 2]) : 0.;
-      FigureReference reference;
-      reference.figure = levels[n - 1];
+      QuantityReference reference;
+      reference.quantity = levels[n - 1];
       reference.error = std::max(change, before);
       // Slower than the square root of the step, the sum of the changes is a guess.
       constexpr double slowest = .75;
@@ -58,32 +58,32 @@ namespace taut
     }
   } // namespace
 
-  FigureReference extrapolate(const std::vector<StudyFigure> &levels)
+  QuantityReference extrapolate(const std::vector<StudyQuantity> &levels)
   {
     if (levels.size() > 1)
       return levels.back().is_history() ? last_history(levels) : extrapolate_number(levels);
-    FigureReference reference;
-    reference.figure = levels.back();
+    QuantityReference reference;
+    reference.quantity = levels.back();
     reference.error = std::numeric_limits<double>::infinity();
     return reference;
   }
 
-  StudyFigure exact_figure(const std::string &formula, const std::string &entry,
-                           const StudyFigure &figure)
+  StudyQuantity exact_quantity(const std::string &formula, const std::string &entry,
+                               const StudyQuantity &quantity)
   {
     const Expression exact(formula, entry);
-    StudyFigure result;
+    StudyQuantity result;
     result.value = exact(0., 0.);
-    if (!figure.is_history())
+    if (!quantity.is_history())
       return result;
-    result.time = figure.time;
+    result.time = quantity.time;
     double sum = 0.;
-    for (const double t : figure.time)
+    for (const double t : quantity.time)
     {
       result.history.push_back(exact(0., t));
       sum += result.history.back() * result.history.back();
     }
-    result.value = std::sqrt(sum / figure.time.size());
+    result.value = std::sqrt(sum / quantity.time.size());
     return result;
   }
 } // namespace taut

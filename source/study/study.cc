@@ -59,7 +59,7 @@ namespace taut
   /// What one run gave.
   struct Study::Run
   {
-    std::vector<StudyFigure> figures;
+    std::vector<StudyQuantity> quantities;
     double seconds = 0., certificate = 0.;
     long n_steps = 0;
   };
@@ -73,14 +73,14 @@ namespace taut
     const StudyParameters &study = parameters.study;
     const auto refuse = [&](const std::string &entry, const std::string &message)
     { throw UserError(parameters.explain(EntryError(entry, message))); };
-    if (study.ladder_items.names.empty())
-      refuse("Study/Ladders", "a study needs one or more lists of values to try");
-    if (study.figures.names.empty())
-      refuse("Study/Figures", "a study needs one or more figures to measure the error of");
+    if (study.parameter_list_items.names.empty())
+      refuse("Study/Parameters", "a study needs one or more lists of values to try");
+    if (study.quantities.names.empty())
+      refuse("Study/Quantities", "a study needs one or more quantities to measure the error of");
     if (!(parameters.end_time > 0.))
       refuse("Time/End", "a study measures runs in time; take a later end");
-    result.ladders = study.ladders(parameters.values());
-    result.figure_names = study.figures.names;
+    result.parameter_lists = study.parameter_lists(parameters.values());
+    result.figure_names = study.quantities.names;
     result.end_time = parameters.end_time;
   }
 
@@ -89,7 +89,7 @@ namespace taut
     try
     {
       make_settings();
-      check_figures();
+      check_quantities();
       prepare_folder();
       find_references();
     }
@@ -135,8 +135,9 @@ namespace taut
   {
     std::vector<StudySetting> &settings = result.settings;
     settings.erase(std::remove_if(settings.begin(), settings.end(),
-                                  [](const StudySetting &setting)
-                                  { return setting.figures.empty() && setting.message.empty(); }),
+                                  [](const StudySetting &setting) {
+                                    return setting.quantities.empty() && setting.message.empty();
+                                  }),
                    settings.end());
     result.is_partial = true;
     const bool all_timed =
@@ -155,7 +156,7 @@ namespace taut
     std::filesystem::remove_all(parameters.study_folder() + "/run");
     if (result.is_partial && result.settings.empty())
       return;
-    find_bounds(result.ladders, result.settings);
+    find_bounds(result.parameter_lists, result.settings);
     find_front(result.settings);
     write_work_precision(result, parameters.study_folder() + "/work_precision.csv");
     write_study(result, parameters.values(), parameters.study_folder() + "/study.json");
@@ -181,42 +182,42 @@ namespace taut
   {
     constexpr std::size_t most_settings = 10000;
     std::size_t n = 1;
-    for (const Ladder &ladder : result.ladders)
-      n = std::min(n * ladder.values.size(), most_settings + 1);
+    for (const ParameterList &parameter_list : result.parameter_lists)
+      n = std::min(n * parameter_list.values.size(), most_settings + 1);
     if (n > most_settings)
-      throw EntryError("Study/Ladders", "they make more than 10000 settings; take fewer values");
+      throw EntryError("Study/Parameters", "they make more than 10000 settings; take fewer values");
     for (std::size_t i = 0; i < n; ++i)
     {
       StudySetting setting;
       std::size_t rest = i;
-      for (const Ladder &ladder : result.ladders)
+      for (const ParameterList &parameter_list : result.parameter_lists)
       {
-        setting.values.push_back(ladder.values[rest % ladder.values.size()]);
-        rest /= ladder.values.size();
+        setting.values.push_back(parameter_list.values[rest % parameter_list.values.size()]);
+        rest /= parameter_list.values.size();
       }
       result.settings.push_back(std::move(setting));
     }
   }
 
-  void Study::check_figures() const
+  void Study::check_quantities() const
   {
     std::ostringstream silent;
     const Simulation simulation(parameters, silent);
-    const FigureRecorder recorder(parameters.study, parameters.statistics, simulation.scene(),
-                                  simulation.rows());
+    const QuantityRecorder recorder(parameters.study, parameters.statistics, simulation.scene(),
+                                    simulation.constraints());
   }
 
   std::vector<std::string> Study::reference_values(const unsigned int level) const
   {
     std::vector<std::string> values;
-    for (const Ladder &ladder : result.ladders)
+    for (const ParameterList &parameter_list : result.parameter_lists)
     {
       double least = std::numeric_limits<double>::infinity();
-      if (ladder.refined)
-        for (const std::string &value : ladder.values)
+      if (parameter_list.refined)
+        for (const std::string &value : parameter_list.values)
           least = std::min(least, std::stod(value));
-      values.push_back(ladder.refined ? to_text(std::ldexp(least, -static_cast<int>(level)))
-                                      : ladder.reference);
+      values.push_back(parameter_list.refined ? to_text(std::ldexp(least, -static_cast<int>(level)))
+                                              : parameter_list.reference);
     }
     return values;
   }
@@ -224,7 +225,7 @@ namespace taut
   void Study::find_references()
   {
     const StudyParameters &study = parameters.study;
-    const std::size_t n = study.figures.items.size();
+    const std::size_t n = study.quantities.items.size();
     const double wanted =
         study.accuracies.empty()
             ? 0.
@@ -233,32 +234,32 @@ namespace taut
     bool all_exact = true;
     for (std::size_t i = 0; i < n; ++i)
     {
-      result.references[i].is_exact = !study.figures.items[i].exact.empty();
+      result.references[i].is_exact = !study.quantities.items[i].exact.empty();
       all_exact = all_exact && result.references[i].is_exact;
     }
-    std::vector<std::vector<StudyFigure>> levels(n); // of each figure
+    std::vector<std::vector<StudyQuantity>> levels(n); // of each quantity
     for (unsigned int level = 0; level < (all_exact ? 1 : study.reference_levels); ++level)
     {
       const std::vector<std::string> values = reference_values(level);
       log << "Reference:";
       for (std::size_t k = 0; k < values.size(); ++k)
-        log << (k > 0 ? ", " : " ") << result.ladders[k].name << " = " << values[k];
+        log << (k > 0 ? ", " : " ") << result.parameter_lists[k].name << " = " << values[k];
       const Run run = run_once(values, false, true);
       bool done = level > 0;
       for (std::size_t i = 0; i < n; ++i)
       {
-        FigureReference &reference = result.references[i];
-        const StudyParameters::FigureItem &item = study.figures.items[i];
-        const std::string title = study.figures.title(i);
-        levels[i].push_back(run.figures[i]);
+        QuantityReference &reference = result.references[i];
+        const StudyParameters::QuantityItem &item = study.quantities.items[i];
+        const std::string title = study.quantities.title(i);
+        levels[i].push_back(run.quantities[i]);
         if (reference.is_exact)
-          reference.figure = exact_figure(item.exact, title + "/Exact", run.figures[i]);
+          reference.quantity = exact_quantity(item.exact, title + "/Exact", run.quantities[i]);
         else
           reference = extrapolate(levels[i]);
-        reference.scale = item.scale > 0. ? item.scale : std::fabs(reference.figure.value);
+        reference.scale = item.scale > 0. ? item.scale : std::fabs(reference.quantity.value);
         if (!(reference.scale > 0.))
           throw EntryError(title + "/Scale", "the reference is 0: give a scale for its errors");
-        log << "; " << study.figures.names[i] << " " << run.figures[i].value;
+        log << "; " << study.quantities.names[i] << " " << run.quantities[i].value;
         done = done && reference.error <= wanted * reference.scale;
       }
       log << std::endl;
@@ -267,8 +268,8 @@ namespace taut
     }
     for (std::size_t i = 0; i < n; ++i)
     {
-      const FigureReference &reference = result.references[i];
-      log << "  " << study.figures.names[i] << ": " << to_text(reference.figure.value);
+      const QuantityReference &reference = result.references[i];
+      log << "  " << study.quantities.names[i] << ": " << to_text(reference.quantity.value);
       if (reference.is_exact)
         log << ", exact\n";
       else
@@ -281,11 +282,11 @@ namespace taut
   }
 
   Study::Run Study::run_once(const std::vector<std::string> &values, const bool with_output,
-                             const bool with_figures) const
+                             const bool with_quantities) const
   {
     std::vector<std::string> all = overrides;
     for (std::size_t k = 0; k < values.size(); ++k)
-      for (const std::string &entry : result.ladders[k].entries)
+      for (const std::string &entry : result.parameter_lists[k].entries)
         all.push_back(entry + "=" + values[k]);
     all.push_back("Output/Folder=" + parameters.study_folder() + "/run");
     Parameters chosen;
@@ -302,17 +303,18 @@ namespace taut
       if (chosen.step_parameters.adaptive())
         throw EntryError("Time/Step control", "a study compares fixed steps; set 'fixed'");
       Simulation simulation(chosen, silent);
-      FigureRecorder recorder(chosen.study, chosen.statistics, simulation.scene(),
-                              simulation.rows());
+      QuantityRecorder recorder(chosen.study, chosen.statistics, simulation.scene(),
+                                simulation.constraints());
       Stopwatch stopwatch(simulation.n_steps());
       simulation.stop_if(stop_asked);
       simulation.observe(stopwatch);
-      if (with_figures)
+      if (with_quantities)
         simulation.observe(recorder);
       simulation.run();
       const Certificate &worst = recorder.worst_certificate();
-      return {with_figures ? recorder.figures() : std::vector<StudyFigure>(), stopwatch.seconds(),
-              std::max(worst.complementarity, worst.balance), simulation.n_steps()};
+      return {with_quantities ? recorder.quantities() : std::vector<StudyQuantity>(),
+              stopwatch.seconds(), std::max(worst.complementarity, worst.balance),
+              simulation.n_steps()};
     }
     catch (const EntryError &e)
     {
@@ -335,7 +337,7 @@ namespace taut
       setting.seconds_with_output = run.seconds;
       setting.certificate = run.certificate;
       setting.n_steps = run.n_steps;
-      compare(setting, run.figures);
+      compare(setting, run.quantities);
     }
     catch (const UserError &e)
     {
@@ -348,7 +350,7 @@ namespace taut
     if (!first)
       return;
     for (std::size_t k = 0; k < setting.values.size(); ++k)
-      log << (k > 0 ? ", " : "  ") << result.ladders[k].name << " = " << setting.values[k];
+      log << (k > 0 ? ", " : "  ") << result.parameter_lists[k].name << " = " << setting.values[k];
     if (setting.message.empty())
       log << ": error " << setting.error << ", " << setting.seconds_with_output << " s"
           << std::endl;
@@ -356,23 +358,23 @@ namespace taut
       log << ": " << setting.message << std::endl;
   }
 
-  void Study::compare(StudySetting &setting, const std::vector<StudyFigure> &figures) const
+  void Study::compare(StudySetting &setting, const std::vector<StudyQuantity> &quantities) const
   {
-    for (std::size_t i = 0; i < figures.size(); ++i)
+    for (std::size_t i = 0; i < quantities.size(); ++i)
     {
-      const FigureReference &reference = result.references[i];
-      const StudyFigure exact =
+      const QuantityReference &reference = result.references[i];
+      const StudyQuantity exact =
           reference.is_exact
-              ? exact_figure(parameters.study.figures.items[i].exact,
-                             parameters.study.figures.title(i) + "/Exact", figures[i])
-              : reference.figure;
-      setting.figures.push_back(figures[i].value);
-      setting.errors.push_back(distance(figures[i], exact) / reference.scale);
+              ? exact_quantity(parameters.study.quantities.items[i].exact,
+                               parameters.study.quantities.title(i) + "/Exact", quantities[i])
+              : reference.quantity;
+      setting.quantities.push_back(quantities[i].value);
+      setting.errors.push_back(distance(quantities[i], exact) / reference.scale);
       setting.reference_error =
           std::max(setting.reference_error, reference.error / reference.scale);
     }
     setting.error = *std::max_element(setting.errors.begin(), setting.errors.end());
     if (!std::isfinite(setting.error))
-      setting.message = "the figures are not finite";
+      setting.message = "the quantities are not finite";
   }
 } // namespace taut

@@ -19,13 +19,14 @@ namespace taut
     return .5 * (sorted[(n - 1) / 2] + sorted[n / 2]);
   }
 
-  void find_bounds(const std::vector<Ladder> &ladders, std::vector<StudySetting> &settings)
+  void find_bounds(const std::vector<ParameterList> &parameter_lists,
+                   std::vector<StudySetting> &settings)
   {
     const auto is_finer = [&](const StudySetting &finer, const StudySetting &setting)
     {
-      for (std::size_t k = 0; k < ladders.size(); ++k)
-        if (ladders[k].refined ? std::stod(finer.values[k]) > std::stod(setting.values[k])
-                               : finer.values[k] != setting.values[k])
+      for (std::size_t k = 0; k < parameter_lists.size(); ++k)
+        if (parameter_lists[k].refined ? std::stod(finer.values[k]) > std::stod(setting.values[k])
+                                       : finer.values[k] != setting.values[k])
           return false;
       return finer.message.empty();
     };
@@ -72,14 +73,14 @@ namespace taut
     return best;
   }
 
-  const StudySetting *cheapest(const StudyResult &result, const std::size_t figure,
+  const StudySetting *cheapest(const StudyResult &result, const std::size_t quantity,
                                const double accuracy)
   {
-    const FigureReference &reference = result.references[figure];
+    const QuantityReference &reference = result.references[quantity];
     const StudySetting *best = nullptr;
     for (const StudySetting &setting : result.settings)
       if (setting.message.empty() &&
-          setting.bounds[figure] + reference.error / reference.scale <= accuracy &&
+          setting.bounds[quantity] + reference.error / reference.scale <= accuracy &&
           (!best || setting.least_seconds() < best->least_seconds()))
         best = &setting;
     return best;

@@ -20,7 +20,7 @@ namespace taut
     {
       std::string text;
       for (std::size_t k = 0; k < setting.values.size(); ++k)
-        text += (k > 0 ? ", " : "") + result.ladders[k].name + " = " + setting.values[k];
+        text += (k > 0 ? ", " : "") + result.parameter_lists[k].name + " = " + setting.values[k];
       return text;
     }
 
@@ -28,7 +28,7 @@ namespace taut
     {
       std::string text;
       for (std::size_t k = 0; k < setting.values.size(); ++k)
-        if (result.ladders[k].refined)
+        if (result.parameter_lists[k].refined)
           text += (text.empty() ? "" : ", ") + setting.values[k];
       return text;
     }
@@ -44,13 +44,13 @@ namespace taut
           << result.end_time / setting.seconds_with_output << " |\n"
           << std::defaultfloat;
     }
-    /// The values on the ladders that are not refined, "BDF2, string": what settings are compared
-    /// by.
+    /// The values on the parameter_lists that are not refined, "BDF2, string": what settings are
+    /// compared by.
     std::string kind(const StudyResult &result, const StudySetting &setting)
     {
       std::string text;
       for (std::size_t k = 0; k < setting.values.size(); ++k)
-        if (!result.ladders[k].refined)
+        if (!result.parameter_lists[k].refined)
           text += (text.empty() ? "" : ", ") + setting.values[k];
       return text;
     }
@@ -66,9 +66,9 @@ namespace taut
       if (kinds.size() < 2 || accuracies.empty())
         return;
       out << "What each can do: x real time of its cheapest setting for an error of\n\n|";
-      for (const Ladder &ladder : result.ladders)
-        if (!ladder.refined)
-          out << ' ' << ladder.name;
+      for (const ParameterList &parameter_list : result.parameter_lists)
+        if (!parameter_list.refined)
+          out << ' ' << parameter_list.name;
       out << " | ";
       for (const double accuracy : accuracies)
         out << std::setprecision(6) << 100. * accuracy << " % | ";
@@ -110,9 +110,9 @@ namespace taut
     const auto flags = out.flags();
     const auto precision = out.precision();
     std::string head = "|", rule = "|";
-    for (const Ladder &ladder : result.ladders)
+    for (const ParameterList &parameter_list : result.parameter_lists)
     {
-      head += " " + ladder.name + " |";
+      head += " " + parameter_list.name + " |";
       rule += "---|";
     }
     out << "The settings that nothing beats in both cost and error:\n\n"
@@ -146,7 +146,7 @@ namespace taut
     {
       out << "Cheapest for an error of " << std::setprecision(6) << 100. * accuracy
           << " %, its own, that of all finer settings and that of the reference:\n";
-      name_cheapest("all figures", cheapest(result.settings, accuracy));
+      name_cheapest("all quantities", cheapest(result.settings, accuracy));
       if (result.figure_names.size() > 1)
         for (std::size_t i = 0; i < result.figure_names.size(); ++i)
           name_cheapest(result.figure_names[i], cheapest(result, i, accuracy));
@@ -160,8 +160,8 @@ namespace taut
   void write_work_precision(const StudyResult &result, const std::string &path)
   {
     std::vector<std::string> columns;
-    for (const Ladder &ladder : result.ladders)
-      columns.push_back(ladder.name);
+    for (const ParameterList &parameter_list : result.parameter_lists)
+      columns.push_back(parameter_list.name);
     for (const char *name :
          {"error [1]", "error of finer ones too [1]", "error of the reference [1]", "seconds",
           "median seconds", "seconds with output", "steps", "us a step", "x real time",
@@ -192,8 +192,8 @@ namespace taut
            << static_cast<double>(setting.n_steps) << 1e6 * seconds / setting.n_steps
            << result.end_time / seconds << setting.certificate
            << static_cast<double>(setting.is_on_front);
-      for (std::size_t i = 0; i < setting.figures.size(); ++i)
-        file << setting.figures[i] << setting.errors[i];
+      for (std::size_t i = 0; i < setting.quantities.size(); ++i)
+        file << setting.quantities[i] << setting.errors[i];
       file << std::string();
       file.end_line();
     }
@@ -212,27 +212,28 @@ namespace taut
     for (const auto &[entry, value] : scene)
       if (!is_irrelevant_for_study(entry))
         root["scene"][entry] = value;
-    root["ladders"] = json::array();
-    for (const Ladder &ladder : result.ladders)
-      root["ladders"].push_back(
-          {{"name", ladder.name}, {"entries", ladder.entries}, {"values", ladder.values}});
-    root["figures"] = json::array();
+    root["parameters"] = json::array();
+    for (const ParameterList &parameter_list : result.parameter_lists)
+      root["parameters"].push_back({{"name", parameter_list.name},
+                                    {"entries", parameter_list.entries},
+                                    {"values", parameter_list.values}});
+    root["quantities"] = json::array();
     for (std::size_t i = 0; i < result.figure_names.size(); ++i)
     {
-      const FigureReference &reference = result.references[i];
-      root["figures"].push_back({{"name", result.figure_names[i]},
-                                 {"reference", reference.figure.value},
-                                 {"error of the reference", reference.error},
-                                 {"observed order", reference.order},
-                                 {"scale", reference.scale},
-                                 {"exact", reference.is_exact}});
+      const QuantityReference &reference = result.references[i];
+      root["quantities"].push_back({{"name", result.figure_names[i]},
+                                    {"reference", reference.quantity.value},
+                                    {"error of the reference", reference.error},
+                                    {"observed order", reference.order},
+                                    {"scale", reference.scale},
+                                    {"exact", reference.is_exact}});
     }
     root["settings"] = json::array();
     for (const StudySetting &setting : result.settings)
     {
       json entry;
       for (std::size_t k = 0; k < setting.values.size(); ++k)
-        entry["values"][result.ladders[k].name] = setting.values[k];
+        entry["values"][result.parameter_lists[k].name] = setting.values[k];
       if (!setting.message.empty())
         entry["message"] = setting.message;
       else

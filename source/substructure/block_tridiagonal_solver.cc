@@ -31,15 +31,15 @@ namespace taut
       void solve(std::vector<double> &x) const override;
       void solve_beside(std::vector<double> &x, const LocalSolver &other,
                         std::vector<double> &y) const override;
-      void column(const SparseVector &rhs, WindowedVector &x) const override;
-      double flexibility(const SparseVector &rhs) const override;
+      void column(const LinearForm &rhs, WindowedVector &x) const override;
+      double flexibility(const LinearForm &rhs) const override;
 
     private:
       class Inwards;
       class Outwards;
       void solve_middle(double *x) const;
 
-      bool element_of(const SparseVector &rhs, unsigned int &node,
+      bool element_of(const LinearForm &rhs, unsigned int &node,
                       std::array<double, 2 * b> &r) const;
       void solve_element(unsigned int node, const std::array<double, 2 * b> &rhs, double *x) const;
 
@@ -288,7 +288,7 @@ namespace taut
     /// The element that @p rhs lives on, by its first node, and the entries there; false if it is
     /// more than one.
     template <int b>
-    bool BlockTridiagonalSolver<b>::element_of(const SparseVector &rhs, unsigned int &node,
+    bool BlockTridiagonalSolver<b>::element_of(const LinearForm &rhs, unsigned int &node,
                                                std::array<double, 2 * b> &r) const
     {
       node = rhs.index.empty() ? 0 : *std::min_element(rhs.index.begin(), rhs.index.end()) / b;
@@ -304,7 +304,7 @@ namespace taut
     }
 
     template <int b>
-    double BlockTridiagonalSolver<b>::flexibility(const SparseVector &rhs) const
+    double BlockTridiagonalSolver<b>::flexibility(const LinearForm &rhs) const
     {
       unsigned int node;
       std::array<double, 2 * b> r{}, x{};
@@ -320,7 +320,7 @@ namespace taut
     }
 
     template <int b>
-    void BlockTridiagonalSolver<b>::column(const SparseVector &rhs, WindowedVector &x) const
+    void BlockTridiagonalSolver<b>::column(const LinearForm &rhs, WindowedVector &x) const
     {
       x.first = 0;
       x.value.clear();

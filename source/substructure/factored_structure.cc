@@ -74,10 +74,10 @@ namespace taut
     /// Part of a motion that rounding may lose.
     constexpr double largest_loss = 1e-6;
 
-    /// The same where the free motions of a body can be unknowns of their own.
+    /// The same where the rigid body modes of a body can be unknowns of their own.
     constexpr double largest_loss_beside_amplitudes = 1e-8;
 
-    /// E over R^T J R, from which free motions stand out against elastic ones.
+    /// E over R^T J R, from which rigid body modes stand out against elastic ones.
     constexpr double least_part_of_inertia = .5;
   } // namespace
 
@@ -194,11 +194,12 @@ namespace taut
     check_digits(k, loss);
   }
 
-  /// False if the free motions cannot be unknowns; where they only may not, says what allows it.
+  /// False if the rigid body modes cannot be unknowns; where they only may not, says what allows
+  /// it.
   bool FactoredStructure::take_apart(const std::size_t k, const bool use_amplitudes)
   {
     const Substructure &body = bodies[k];
-    if (body.kernel().vectors.empty() || !set_free_motions(k))
+    if (body.null_space().vectors.empty() || !set_rigid_body_modes(k))
       return false;
     if (!use_amplitudes)
       throw EntryError(body.origin(),
@@ -211,19 +212,19 @@ namespace taut
   }
 
   /// False if elastic motions resist the inertia less than the free ones, so that E would cancel.
-  bool FactoredStructure::set_free_motions(const std::size_t k)
+  bool FactoredStructure::set_rigid_body_modes(const std::size_t k)
   {
     const Substructure &body = bodies[k];
-    const Substructure::Kernel kernel = body.kernel();
-    const auto held = with_springs(body.stiffness(), kernel.fixing_dofs);
+    const Substructure::NullSpace null_space = body.null_space();
+    const auto held = with_springs(body.stiffness(), null_space.fixing_dofs);
     std::vector<ScaledMatrix> A = summands(k);
     A.back().second = held.get();
     auto solver = solver_of(body);
     factor(k, *solver, A, body.constrained_dofs());
 
-    FreeMotions own;
-    own.fixing_dofs = kernel.fixing_dofs;
-    for (std::vector<double> R : kernel.vectors)
+    RigidBodyModes own;
+    own.fixing_dofs = null_space.fixing_dofs;
+    for (std::vector<double> R : null_space.vectors)
     {
       const auto inertia = [&](const std::vector<double> &x)
       {
@@ -259,10 +260,10 @@ namespace taut
     return true;
   }
 
-  bool FactoredStructure::has_free_motions() const
+  bool FactoredStructure::has_rigid_body_modes() const
   {
     double n = 0.;
-    for (const FreeMotions &own : motions)
+    for (const RigidBodyModes &own : motions)
       n += own.vectors.size();
     return bodies.communicator().max(n) > 0.;
   }
@@ -270,7 +271,7 @@ namespace taut
   void FactoredStructure::remove_rounding(const std::size_t k, std::vector<double> &KU,
                                           std::vector<double> &balance) const
   {
-    const FreeMotions &own = motions[k];
+    const RigidBodyModes &own = motions[k];
     const std::size_t n = own.rigid.size();
     if (n == 0)
       return;
@@ -305,13 +306,13 @@ namespace taut
     }
   }
 
-  void FactoredStructure::factor_stiffness(const std::vector<Substructure::Kernel> &kernels)
+  void FactoredStructure::factor_stiffness(const std::vector<Substructure::NullSpace> &null_spaces)
   {
     kind = Kind::stiffness;
     motions.assign(solvers.size(), {});
     for (std::size_t k = 0; k < solvers.size(); ++k)
     {
-      const auto held = with_springs(bodies[k].stiffness(), kernels[k].fixing_dofs);
+      const auto held = with_springs(bodies[k].stiffness(), null_spaces[k].fixing_dofs);
       factor(k, *solvers[k], {{1., held.get()}}, bodies[k].constrained_dofs());
       check_digits(k, lost_digits(k, *solvers[k], {{1., held.get()}}));
     }
@@ -350,10 +351,10 @@ namespace taut
     auto solver = solver_of(bodies[k]);
     if (kind == Kind::stiffness || !motions[k].vectors.empty())
     {
-      const Substructure::Kernel kernel = bodies[k].kernel();
-      if (!are_held(kernel.vectors, held))
+      const Substructure::NullSpace null_space = bodies[k].null_space();
+      if (!are_held(null_space.vectors, held))
       {
-        const auto sprung = with_springs(bodies[k].stiffness(), kernel.fixing_dofs);
+        const auto sprung = with_springs(bodies[k].stiffness(), null_space.fixing_dofs);
         std::vector<ScaledMatrix> A = summands(k);
         A.back().second = sprung.get();
         factor(k, *solver, A, all);
@@ -364,7 +365,7 @@ namespace taut
     return solver;
   }
 
-  void FactoredStructure::solve(BlockVector &X) const
+  void FactoredStructure::solve(BodyVectors &X) const
   {
     std::size_t k = 0;
     for (; k + 1 < solvers.size(); k += 2)

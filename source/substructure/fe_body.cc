@@ -128,7 +128,7 @@ namespace taut
     for (unsigned int i = 0; i < source.m(); ++i)
       for (auto entry = source.begin(i); entry != source.end(i); ++entry)
       {
-        const SparseVector &a = forms[i], &b = forms[entry->column()];
+        const LinearForm &a = forms[i], &b = forms[entry->column()];
         for (std::size_t p = 0; p < a.index.size(); ++p)
           for (std::size_t q = 0; q < b.index.size(); ++q)
             if (a.index[p] >= b.index[q])
@@ -187,8 +187,7 @@ namespace taut
   }
 
   template <int dim>
-  SparseVector FEBody<dim>::displacement(const Coordinates &place,
-                                         const Coordinates &direction) const
+  LinearForm FEBody<dim>::displacement(const Coordinates &place, const Coordinates &direction) const
   {
     const dealii::FiniteElement<dim> &element = handler.get_fe();
     if (element.n_components() != 1 && element.n_components() != dim)
@@ -219,7 +218,7 @@ namespace taut
     double along = 0.;
     for (int d = 0; d < 3; ++d)
       along += direction[d] * scalar_direction[d];
-    SparseVector result;
+    LinearForm result;
     for (unsigned int i = 0; i < dofs.size(); ++i)
       for (unsigned int c = 0; c < element.n_components(); ++c)
       {
@@ -233,7 +232,7 @@ namespace taut
   }
 
   template <int dim>
-  SparseVector FEBody<dim>::displacement_of_dof(const dealii::types::global_dof_index dof) const
+  LinearForm FEBody<dim>::displacement_of_dof(const dealii::types::global_dof_index dof) const
   {
     return forms[dof];
   }
@@ -396,12 +395,12 @@ namespace taut
                                  return std::fabs(dot(force, mode)) > dependent * scale;
                                }),
                 modes.end());
-    null_space = {};
+    own_null_space = {};
     std::vector<std::vector<double>> rest = modes;
     while (eliminate(rest, kept, dof, pivot))
     {
-      null_space.vectors.push_back(pivot);
-      null_space.fixing_dofs.push_back(dof);
+      own_null_space.vectors.push_back(pivot);
+      own_null_space.fixing_dofs.push_back(dof);
     }
   }
 

@@ -15,8 +15,8 @@ namespace taut
       void factor(const std::vector<ScaledMatrix> &summands,
                   const std::vector<unsigned int> &constrained_dofs) override;
       void solve(std::vector<double> &x) const override;
-      void column(const SparseVector &rhs, WindowedVector &x) const override;
-      double flexibility(const SparseVector &rhs) const override;
+      void column(const LinearForm &rhs, WindowedVector &x) const override;
+      double flexibility(const LinearForm &rhs) const override;
 
     private:
       std::size_t n = 0;
@@ -57,7 +57,7 @@ namespace taut
       factors.solve(x);
     }
 
-    void SparseDirectSolver::column(const SparseVector &rhs, WindowedVector &x) const
+    void SparseDirectSolver::column(const LinearForm &rhs, WindowedVector &x) const
     {
       x.first = 0;
       x.value.assign(n, 0.);
@@ -65,7 +65,7 @@ namespace taut
       solve(x.value);
     }
 
-    double SparseDirectSolver::flexibility(const SparseVector &rhs) const
+    double SparseDirectSolver::flexibility(const LinearForm &rhs) const
     {
       WindowedVector x;
       column(rhs, x);

@@ -31,15 +31,15 @@ namespace taut
     return n;
   }
 
-  BlockVector Structure::zero() const
+  BodyVectors Structure::zero() const
   {
-    BlockVector U;
+    BodyVectors U;
     for (const auto &substructure : substructures)
       U.emplace_back(substructure->n_dofs(), 0.);
     return U;
   }
 
-  double magnitude(const std::vector<Term> &terms, const BlockVector &U)
+  double magnitude(const std::vector<Term> &terms, const BodyVectors &U)
   {
     double sum = 0.;
     for (const auto &[k, form] : terms)
@@ -48,7 +48,7 @@ namespace taut
     return sum;
   }
 
-  double evaluate(const std::vector<Term> &terms, const BlockVector &U)
+  double evaluate(const std::vector<Term> &terms, const BodyVectors &U)
   {
     double sum = 0.;
     for (const Term &term : terms)

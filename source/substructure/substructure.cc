@@ -47,7 +47,7 @@ namespace taut
     return dofs;
   }
 
-  SparseVector Substructure::displacement(const Coordinates &, const Coordinates &) const
+  LinearForm Substructure::displacement(const Coordinates &, const Coordinates &) const
   {
     throw UserError("body '" + name() + "' has no places that a constraint could act on");
   }
@@ -72,12 +72,12 @@ namespace taut
       load->add(t, P);
   }
 
-  void Substructure::add_force(const SparseVector &form, const double magnitude)
+  void Substructure::add_force(const LinearForm &form, const double magnitude)
   {
     form.add_to(magnitude, constant_force);
   }
 
-  void Substructure::add_force(SparseVector form, std::function<double(double)> magnitude)
+  void Substructure::add_force(LinearForm form, std::function<double(double)> magnitude)
   {
     time_loads.push_back(std::make_unique<PointLoad>(std::move(form), std::move(magnitude)));
   }

@@ -21,9 +21,9 @@ namespace taut
     constexpr double rounding_of_way = 1e-10;
   } // namespace
 
-  BalanceCertificate::BalanceCertificate(const Structure &structure, const ContactRows &rows,
+  BalanceCertificate::BalanceCertificate(const Structure &structure, const Constraints &constraints,
                                          const Reference &origin)
-      : structure(structure), rows(rows), impulses(structure.zero())
+      : structure(structure), constraints(constraints), impulses(structure.zero())
   {
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
@@ -39,19 +39,19 @@ namespace taut
   }
 
   double BalanceCertificate::measure(const StepCoefficients &c, const StepForces &forces,
-                                     const RowMotions &row_motions, State &state)
+                                     const ConstraintMotions &constraint_motions, State &state)
   {
     for (std::size_t k = 0; k < structure.size(); ++k)
       std::copy(forces.P[k].begin(), forces.P[k].end(), state.balance[k].begin());
-    rows.add_forces(row_motions.in_balance(), state.balance);
-    const bool has_impulses = !row_motions.impulsive().empty();
+    constraints.add_forces(constraint_motions.in_balance(), state.balance);
+    const bool has_impulses = !constraint_motions.impulsive().empty();
     if (has_impulses)
     {
       for (std::vector<double> &f : impulses)
         std::fill(f.begin(), f.end(), 0.);
-      rows.add_forces(row_motions.impulsive(), impulses);
+      constraints.add_forces(constraint_motions.impulsive(), impulses);
     }
-    rows.largest_forces(state.multiplier, contact_force);
+    constraints.largest_forces(state.multiplier, contact_force);
 
     double result = 0.;
     work_of_balance = 0.;

@@ -16,20 +16,20 @@ namespace taut
     /// this one it is below a thousandth after ten steps.
     constexpr double most_ringing = .5;
 
-    /// B^T A^-1 B of the one-sided rows, 0 for the others.
-    std::vector<double> flexibilities(const Structure &structure, const ContactRows &rows,
+    /// B^T A^-1 B of the unilateral constraints, 0 for the others.
+    std::vector<double> flexibilities(const Structure &structure, const Constraints &constraints,
                                       const SolverParameters &parameters, const StepCoefficients &c)
     {
       FactoredStructure solvers(structure, parameters.local_solver);
       const Communicator &processes = structure.communicator();
       processes.agree([&] { solvers.factor(c.mass_factor(), c.velocity); });
-      std::vector<double> result(rows.size(), 0.);
-      for (std::size_t i = 0; i < rows.size(); ++i)
-        for (const Term &term : rows[i].terms)
-          if (rows[i].unilateral)
+      std::vector<double> result(constraints.size(), 0.);
+      for (std::size_t i = 0; i < constraints.size(); ++i)
+        for (const Term &term : constraints[i].terms)
+          if (constraints[i].unilateral)
           {
             result[i] += solvers[term.substructure].flexibility(term.form);
-            const auto &motions = solvers.free_motions()[term.substructure];
+            const auto &motions = solvers.rigid_body_modes()[term.substructure];
             for (std::size_t v = 0; v < motions.vectors.size(); ++v)
             {
               const double motion = term.form.dot(motions.vectors[v]);
@@ -40,34 +40,34 @@ namespace taut
       return result;
     }
 
-    /// Not 0 for each row that acts on elements, and not on lumped masses alone.
-    std::vector<double> rows_on_elements(const Structure &structure, const ContactRows &rows)
+    /// Not 0 for each constraint that acts on elements, and not on lumped masses alone.
+    std::vector<double> rows_on_elements(const Structure &structure, const Constraints &constraints)
     {
-      std::vector<double> result(rows.size(), 0.);
-      for (std::size_t i = 0; i < rows.size(); ++i)
-        for (const Term &term : rows[i].terms)
+      std::vector<double> result(constraints.size(), 0.);
+      for (std::size_t i = 0; i < constraints.size(); ++i)
+        for (const Term &term : constraints[i].terms)
           result[i] += !structure[term.substructure].is_lumped();
       structure.communicator().sum(result);
       return result;
     }
 
-    void check_restitution(const Structure &structure, const ContactRows &rows)
+    void check_restitution(const Structure &structure, const Constraints &constraints)
     {
-      const std::vector<double> on_elements = rows_on_elements(structure, rows);
+      const std::vector<double> on_elements = rows_on_elements(structure, constraints);
       const std::string entry = "Time/Moreau-Jean/Restitution";
       bool has_one = false;
-      for (std::size_t i = 0; i < rows.size(); ++i)
+      for (std::size_t i = 0; i < constraints.size(); ++i)
       {
-        if (!rows[i].unilateral || !std::isinf(rows[i].stiffness))
+        if (!constraints[i].unilateral || !std::isinf(constraints[i].stiffness))
           continue;
         has_one = true;
         if (on_elements[i] > 0.)
           throw EntryError(entry, "an elastic body rebounds by its own waves, and with restitution "
                                   "its node would bounce at the rigid link '" +
-                                      rows[i].name + "'. Set it to 0");
+                                      constraints[i].name + "'. Set it to 0");
       }
       if (!has_one)
-        throw EntryError(entry, "restitution is a law of rigid one-sided links, and the scene has "
+        throw EntryError(entry, "restitution is a law of rigid unilateral links, and the scene has "
                                 "none. Set it to 0, or remove the Stiffness of a link");
     }
 
@@ -85,13 +85,14 @@ namespace taut
     }
   } // namespace
 
-  std::vector<std::size_t> rigid_rows(const Structure &structure, const ContactRows &rows,
-                                      const SolverParameters &parameters, const double step)
+  std::vector<std::size_t> rigid_constraints(const Structure &structure,
+                                             const Constraints &constraints,
+                                             const SolverParameters &parameters, const double step)
   {
     const auto is_unilateral = [&]()
     {
-      for (std::size_t i = 0; i < rows.size(); ++i)
-        if (rows[i].unilateral)
+      for (std::size_t i = 0; i < constraints.size(); ++i)
+        if (constraints[i].unilateral)
           return true;
       return false;
     };
@@ -99,27 +100,28 @@ namespace taut
     if (!is_unilateral())
       return result;
     const StepCoefficients c = generalised_alpha(step, .8);
-    const std::vector<double> flexibility = flexibilities(structure, rows, parameters, c);
-    const std::vector<char> without_mass = rows.without_mass();
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      if (rows[i].unilateral && !without_mass[i] &&
-          1. / (rows[i].stiffness + c.velocity * rows[i].damping) < flexibility[i])
+    const std::vector<double> flexibility = flexibilities(structure, constraints, parameters, c);
+    const std::vector<char> without_mass = constraints.without_mass();
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      if (constraints[i].unilateral && !without_mass[i] &&
+          1. / (constraints[i].stiffness + c.velocity * constraints[i].damping) < flexibility[i])
         result.push_back(i);
     return result;
   }
 
-  SchemeChoice choose_scheme(const Structure &structure, const ContactRows &rows,
+  SchemeChoice choose_scheme(const Structure &structure, const Constraints &constraints,
                              const SolverParameters &parameters, const double step,
                              const double restitution)
   {
-    const std::vector<std::size_t> rigid = rigid_rows(structure, rows, parameters, step);
+    const std::vector<std::size_t> rigid =
+        rigid_constraints(structure, constraints, parameters, step);
     if (restitution > 0.)
-      check_restitution(structure, rows);
+      check_restitution(structure, constraints);
     if (rigid.empty())
       return {"generalised-alpha",
               {{"Generalised-alpha/Spectral radius", "0.8"}},
-              "no one-sided link is stiffer than the bodies in one step"};
-    const std::string reason = "one-sided link '" + rows[rigid.front()].name +
+              "no unilateral link is stiffer than the bodies in one step"};
+    const std::string reason = "unilateral link '" + constraints[rigid.front()].name +
                                "' acts as rigid: it is stiffer than the bodies in one step";
     const std::string body = body_without_definite_mass(structure);
     if (body.empty())
@@ -136,35 +138,38 @@ namespace taut
   }
 
   void check_scheme(const TimeIntegrator &integrator, const Structure &structure,
-                    const ContactRows &rows, const SolverParameters &parameters, const double step)
+                    const Constraints &constraints, const SolverParameters &parameters,
+                    const double step)
   {
     const StepCoefficients c = integrator.coefficients(step);
     const std::string anyway = ", or set 'Time/Allow unsuitable scheme'";
-    const std::vector<char> without_mass = rows.without_mass();
-    for (std::size_t i = 0; c.velocity_level && i < rows.size(); ++i)
+    const std::vector<char> without_mass = constraints.without_mass();
+    for (std::size_t i = 0; c.velocity_level && i < constraints.size(); ++i)
     {
       if (without_mass[i] && c.alpha_f == .5)
-        throw EntryError("Time/Massless contact",
+        throw EntryError("Time/Mass redistribution",
                          "Moreau-Jean with conditions on velocities and Theta 1/2 never damps the "
                          "force of a node without mass, here at link '" +
-                             rows[i].name + "'; take other Conditions, Theta > 1/2" + anyway);
-      if (rows[i].moving && std::isinf(rows[i].stiffness))
+                             constraints[i].name + "'; take other Conditions, Theta > 1/2" +
+                             anyway);
+      if (constraints[i].moving && std::isinf(constraints[i].stiffness))
         throw EntryError("Time/Moreau-Jean/Conditions",
                          "conditions on velocities let the gap of a moving rigid contact drift, "
                          "here of '" +
-                             rows[i].name + "'; take 'gaps then velocities'" + anyway);
+                             constraints[i].name + "'; take 'gaps then velocities'" + anyway);
     }
     const double ringing = c.ringing();
     if (c.mean_force || ringing <= most_ringing)
       return;
-    const std::vector<std::size_t> rigid = rigid_rows(structure, rows, parameters, step);
+    const std::vector<std::size_t> rigid =
+        rigid_constraints(structure, constraints, parameters, step);
     if (rigid.empty())
       return;
     std::ostringstream out;
-    out << integrator.description() << " fails at one-sided links that act as rigid, here '"
-        << rows[rigid.front()].name << "': an error of its force keeps " << ringing
+    out << integrator.description() << " fails at unilateral links that act as rigid, here '"
+        << constraints[rigid.front()].name << "': an error of its force keeps " << ringing
         << " of itself from step to step, so that it rings. Take 'automatic' or more dissipation, "
-           "give the link a Stiffness, set 'Time/Massless contact'"
+           "give the link a Stiffness, set 'Time/Mass redistribution'"
         << anyway;
     throw EntryError("Time/Scheme", out.str());
   }

@@ -52,19 +52,20 @@ namespace taut
     }
   } // namespace
 
-  ContactMeasures::ContactMeasures(const Structure &structure, const ContactRows &rows,
+  ContactMeasures::ContactMeasures(const Structure &structure, const Constraints &constraints,
                                    const Reference &reference, const State &start)
-      : structure(structure), rows(rows), reference(reference), forces(rows.size()),
-        multiplier0(start.multiplier), gap0(start.gap)
+      : structure(structure), constraints(constraints), reference(reference),
+        forces(constraints.size()), multiplier0(start.multiplier), gap0(start.gap)
   {
     const std::vector<double> times = resolved_times();
-    rows.share_of_motions(reference.displacement, noise = std::vector<double>(rows.size()),
-                          work = std::vector<double>(rows.size()));
+    constraints.share_of_motions(reference.displacement,
+                                 noise = std::vector<double>(constraints.size()),
+                                 work = std::vector<double>(constraints.size()));
     structure.communicator().sum(work);
-    noise.assign(rows.size(), 0.);
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    noise.assign(constraints.size(), 0.);
+    for (std::size_t i = 0; i < constraints.size(); ++i)
     {
-      noise[i] = rounding_of_gaps * (work[i] + std::fabs(rows[i].gap));
+      noise[i] = rounding_of_gaps * (work[i] + std::fabs(constraints[i].gap));
       forces[i].window = times[i];
       forces[i].mean = start.multiplier[i];
       forces[i].impulses.push_back({start.time, 0.});
@@ -79,23 +80,23 @@ namespace taut
     for (std::size_t k = 0; k < structure.size(); ++k)
       rest += .5 * std::fabs(dot(reference.displacement[k], reference.force[k]));
     structure.communicator().sum(&rest, 1);
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t i = 0; i < constraints.size(); ++i)
       rest += std::fabs(start.multiplier[i]) * noise[i] / rounding_of_gaps;
     rest *= rounding_of_energy;
   }
 
-  /// 2 / omega_max of the elements under each one-sided row; 0: lumped bodies only.
+  /// 2 / omega_max of the elements under each unilateral constraint; 0: lumped bodies only.
   std::vector<double> ContactMeasures::resolved_times() const
   {
-    std::vector<double> highest(rows.size(), 0.);
+    std::vector<double> highest(constraints.size(), 0.);
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       if (structure[k].is_lumped())
         continue;
       const std::vector<double> omega = frequencies(structure[k]);
-      for (std::size_t i = 0; i < rows.size(); ++i)
-        for (const Term &term : rows[i].terms)
-          if (term.substructure == k && rows[i].unilateral)
+      for (std::size_t i = 0; i < constraints.size(); ++i)
+        for (const Term &term : constraints[i].terms)
+          if (term.substructure == k && constraints[i].unilateral)
             for (const unsigned int dof : term.form.index)
               highest[i] = std::max(highest[i], omega[dof]);
     }
@@ -112,9 +113,9 @@ namespace taut
   {
     ++n_steps;
     bool is_one_sided = false;
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t i = 0; i < constraints.size(); ++i)
     {
-      if (!rows[i].unilateral)
+      if (!constraints[i].unilateral)
         continue;
       is_one_sided = true;
       add_energy(i, state, c);
@@ -123,7 +124,7 @@ namespace taut
       multiplier0[i] = state.multiplier[i];
       gap0[i] = state.gap[i];
     }
-    // Without a one-sided row there is no contact that could have given it.
+    // Without a unilateral constraint there is no contact that could have given it.
     if (is_one_sided && c.mean_force && !c.velocity_level)
       found.contact_energy += std::max(0., certificate.energy_gain);
     if (n_steps < steps_between_scales || n_steps % steps_between_scales == 0)
@@ -138,8 +139,8 @@ namespace taut
     const bool is_mean = c.mean_force && state.is_mean[i];
     const double change = state.gap[i] - gap0[i];
     double energy = 0.;
-    if (is_mean && !rows[i].moving && std::isinf(rows[i].stiffness))
-      energy = state.row_work[i];
+    if (is_mean && !constraints[i].moving && std::isinf(constraints[i].stiffness))
+      energy = state.constraint_work[i];
     else if (std::fabs(change) > noise[i])
       energy = is_mean ? state.multiplier[i] * change
                        : .5 * (multiplier0[i] + state.multiplier[i]) * change;
@@ -154,7 +155,7 @@ namespace taut
     if (force.event_energy > worst_event)
     {
       worst_event = force.event_energy;
-      found.energy_row = i;
+      found.energy_constraint = i;
       found.energy_begin = force.event_begin;
       found.energy_end = state.time;
     }
@@ -183,13 +184,13 @@ namespace taut
 
   void ContactMeasures::add_gap(const std::size_t i, const State &state, const StepCoefficients &c)
   {
-    if (!std::isinf(rows[i].stiffness))
+    if (!std::isinf(constraints[i].stiffness))
       return;
     const double gap = state.multiplier[i] > 0. ? std::fabs(state.gap[i]) : -state.gap[i];
     if (gap > found.gap)
     {
       found.gap = gap;
-      found.gap_row = i;
+      found.gap_constraint = i;
     }
     // A condition on velocities leaves a gap of the motion of a step.
     Force &force = forces[i];
@@ -219,10 +220,10 @@ namespace taut
     kinetic = std::max(kinetic, sums[0]);
     strain = std::max(strain, std::fabs(sums[1]));
     loads = std::max(loads, std::fabs(sums[2]));
-    rows.share_of_motions(state.U, vector = std::vector<double>(rows.size()),
-                          work = std::vector<double>(rows.size()));
+    constraints.share_of_motions(state.U, vector = std::vector<double>(constraints.size()),
+                                 work = std::vector<double>(constraints.size()));
     structure.communicator().sum(work);
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t i = 0; i < constraints.size(); ++i)
       noise[i] = std::max(noise[i], rounding_of_gaps * work[i]);
   }
 
@@ -232,7 +233,7 @@ namespace taut
     result.scale = kinetic + strain + loads + rest;
     if (result.contact_energy > 0.)
       result.relative_energy = result.contact_energy / result.scale;
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       const Force &force = forces[i];
       if (force.gap > most_steps_of_motion * force.motion && force.gap > noise[i] &&
@@ -255,9 +256,10 @@ namespace taut
     if (!(s.relative_energy > wrong_energy))
       return "";
     std::ostringstream out;
-    out << "one-sided links gave " << s.contact_energy << " J, " << s.relative_energy
+    out << "unilateral links gave " << s.contact_energy << " J, " << s.relative_energy
         << " of the energy that moves, where they can only take it: most at '"
-        << rows[s.energy_row].name << "' between t = " << s.energy_begin << " and " << s.energy_end
+        << constraints[s.energy_constraint].name << "' between t = " << s.energy_begin << " and "
+        << s.energy_end
         << " s. The motion is wrong. Set 'Time/Scheme' to 'automatic', take a smaller step, or set "
            "'Time/Allow energy gain'";
     return out.str();
@@ -277,16 +279,16 @@ namespace taut
     };
     if (s.relative_energy > suspicious_energy)
       add("contact_energy", s.relative_energy, suspicious_energy, s.energy_end,
-          "one-sided links gave ", s.contact_energy, " J, most at '", rows[s.energy_row].name,
-          "' between t = ", s.energy_begin, " and ", s.energy_end,
-          " s: take 'Scheme = automatic' or a smaller step");
+          "unilateral links gave ", s.contact_energy, " J, most at '",
+          constraints[s.energy_constraint].name, "' between t = ", s.energy_begin, " and ",
+          s.energy_end, " s: take 'Scheme = automatic' or a smaller step");
     if (s.gap_drifts)
-      add("contact_gap", s.gap, 0., 0., "'", rows[s.gap_row].name,
+      add("contact_gap", s.gap, 0., 0., "'", constraints[s.gap_constraint].name,
           "' presses across a gap, or penetrates, by more than the motion of a step: take "
           "conditions on gaps");
     if (s.resolution > unresolved)
       add("peak_over_mean", s.resolution, unresolved, 0., "the largest force of '",
-          rows[s.resolution_row].name, "', ", s.peak,
+          constraints[s.resolution_row].name, "', ", s.peak,
           " N, is an impulse over a step; its largest mean over ", s.mean_time, " s is ",
           s.mean_peak, " N: report that, or the impulse");
     return result;
@@ -295,7 +297,7 @@ namespace taut
   std::string ContactMeasures::report() const
   {
     const Summary s = summary();
-    if (rows.size() == 0)
+    if (constraints.size() == 0)
       return "";
     std::ostringstream out;
     out.precision(2);

@@ -265,7 +265,7 @@ namespace taut
                           dealii::Patterns::Double(.5, 1.));
         prm.add_parameter("Restitution", restitution,
                           "Newton's coefficient: velocity of separation over that of approach at "
-                          "rigid one-sided links. An elastic body rebounds by its own waves with "
+                          "rigid unilateral links. An elastic body rebounds by its own waves with "
                           "0; of a rigid one it says how much [1]",
                           dealii::Patterns::Double(0., 1.));
         prm.add_parameter(
@@ -315,23 +315,24 @@ namespace taut
     };
 
     const Register<TimeIntegrator, BackwardEuler> register_backward_euler(
-        "backward Euler", "first order, dissipates; forces of rigid one-sided links never ring");
+        "backward Euler", "first order, dissipates; forces of rigid unilateral links never ring");
     const Register<TimeIntegrator, BDF2>
-        register_bdf2("BDF2", "second order, dissipates high frequencies; at rigid one-sided links "
-                              "bodies rebound at random");
+        register_bdf2("BDF2",
+                      "second order, dissipates high frequencies; at rigid unilateral links "
+                      "bodies rebound at random");
     const Register<TimeIntegrator, Newmark>
         register_newmark("Newmark", "second order at gamma 1/2; for smooth problems, compliant "
-                                    "links, and rigid ones with 'Massless contact'");
+                                    "links, and rigid ones with 'Mass redistribution'");
     const Register<TimeIntegrator, GeneralisedAlpha>
         register_generalised_alpha("generalised-alpha",
                                    "second order, dissipation chosen by the spectral radius; for "
                                    "compliant links, with spectral radius 0 for rigid ones");
     const Register<TimeIntegrator, MoreauJean> register_moreau_jean(
         "Moreau-Jean",
-        "theta method with impulses, for rigid one-sided links: conditions on gaps, on "
+        "theta method with impulses, for rigid unilateral links: conditions on gaps, on "
         "velocities, or on both, and restitution");
     const Register<TimeIntegrator, HHT>
         register_hht("HHT", "second order, dissipation chosen by alpha; for smooth problems, "
-                            "compliant links, and rigid ones with 'Massless contact'");
+                            "compliant links, and rigid ones with 'Mass redistribution'");
   } // namespace
 } // namespace taut

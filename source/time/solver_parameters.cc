@@ -16,22 +16,22 @@ namespace taut
         Patterns::Selection("block tridiagonal|sparse direct"));
     prm.add_parameter(
         "Interface operator", interface.form,
-        "Contact Schur complement F. 'automatic': by number of rows and step; the log "
-        "names it. 'assembled dense': fastest up to some hundred rows. 'assembled "
-        "sparse': for many rows that act on each other only near by: small steps, "
+        "Contact Schur complement F. 'automatic': by number of constraints and step; the log "
+        "names it. 'assembled dense': fastest up to some hundred constraints. 'assembled "
+        "sparse': for many constraints that act on each other only near by: small steps, "
         "many bodies. 'matrix-free': applied through the factors of the bodies, "
         "solved by conjugate gradients: least memory.",
         Patterns::Selection("automatic|assembled dense|assembled sparse|matrix-free"));
     prm.add_parameter(
         "Preconditioner", interface.preconditioner,
         "Of the matrix-free operator. 'diagonal': 1/F_ii. 'lumped': the matrices of the bodies at "
-        "the rows. 'Dirichlet': their Schur complements there, fewest iterations.",
+        "the constraints. 'Dirichlet': their Schur complements there, fewest iterations.",
         Patterns::Selection("diagonal|lumped|Dirichlet"));
     prm.add_parameter(
         "Coarse space", interface.coarse_space,
-        "Of the matrix-free operator. 'kernels': the free motions of floating bodies are solved "
+        "Of the matrix-free operator. 'rigid body modes': those of floating bodies are solved "
         "for directly, so that the iterations do not grow with the number of bodies or the step.",
-        Patterns::Selection("kernels|none"));
+        Patterns::Selection("rigid body modes|none"));
     prm.add_parameter("Complementarity", complementarity,
                       "Search for the closed links. 'semismooth Newton': starts from the last step "
                       "and hands over to the other if it cycles. 'energy-ordered': one link at a "

@@ -3,8 +3,8 @@
 #include <taut/complementarity/active_set_system.h>
 #include <taut/complementarity/solver.h>
 #include <taut/interface/schur_complement.h>
-#include <taut/time/kernel_rows.h>
 #include <taut/time/matrix_norms.h>
+#include <taut/time/mode_equations.h>
 #include <taut/time/static_equilibrium.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace taut
     }
 
     /// P - K (given displacements of supports), and those displacements.
-    void set_loads(const Structure &structure, const double t, BlockVector &P, BlockVector &lift)
+    void set_loads(const Structure &structure, const double t, BodyVectors &P, BodyVectors &lift)
     {
       P = structure.zero();
       lift = structure.zero();
@@ -39,26 +39,26 @@ namespace taut
       }
     }
 
-    std::size_t set_kernel(const std::vector<Substructure::Kernel> &kernels,
-                           const Communicator &processes, const ContactRows &rows,
-                           const BlockVector &P, MixedComplementarityProblem &problem)
+    std::size_t set_null_space(const std::vector<Substructure::NullSpace> &null_spaces,
+                               const Communicator &processes, const Constraints &constraints,
+                               const BodyVectors &P, MixedComplementarityProblem &problem)
     {
-      KernelVectors vectors;
-      for (const Substructure::Kernel &kernel : kernels)
-        vectors.push_back(&kernel.vectors);
-      return set_kernel_rows(vectors, processes, rows, P, problem);
+      ModeVectors vectors;
+      for (const Substructure::NullSpace &null_space : null_spaces)
+        vectors.push_back(&null_space.vectors);
+      return set_mode_equations(vectors, processes, constraints, P, problem);
     }
 
-    /// The body that kernel vector @p index belongs to; null if it is on another rank, whose first
-    /// vector is not @p first.
-    const Substructure *body_of_kernel(const std::vector<Substructure::Kernel> &kernels,
-                                       const Structure &structure, const std::size_t first,
-                                       const std::size_t index)
+    /// The body that null space vector @p index belongs to; null if it is on another rank, whose
+    /// first vector is not @p first.
+    const Substructure *body_of_null_space(const std::vector<Substructure::NullSpace> &null_spaces,
+                                           const Structure &structure, const std::size_t first,
+                                           const std::size_t index)
     {
       std::size_t end = first;
-      for (std::size_t k = 0; k < kernels.size(); ++k)
+      for (std::size_t k = 0; k < null_spaces.size(); ++k)
       {
-        end += kernels[k].vectors.size();
+        end += null_spaces[k].vectors.size();
         if (index >= first && index < end)
           return &structure[k];
       }
@@ -66,51 +66,51 @@ namespace taut
     }
 
     /// U = A^-1 (P + B N) + given displacements + R alpha, and the gaps that follow from it.
-    void displace(const FactoredStructure &solvers, const ContactRows &rows,
-                  const std::vector<Substructure::Kernel> &kernels, const std::size_t first_kernel,
-                  const BlockVector &P, const BlockVector &lift,
+    void displace(const FactoredStructure &solvers, const Constraints &constraints,
+                  const std::vector<Substructure::NullSpace> &null_spaces,
+                  const std::size_t first_null_space, const BodyVectors &P, const BodyVectors &lift,
                   const std::vector<double> &compliance,
                   const MixedComplementaritySolution &solution, StaticState &state)
     {
       state.multiplier = solution.multiplier;
       state.displacement = P;
-      rows.add_forces(state.multiplier, state.displacement);
+      constraints.add_forces(state.multiplier, state.displacement);
       solvers.solve(state.displacement);
-      std::size_t amplitude = first_kernel;
-      for (std::size_t k = 0; k < kernels.size(); ++k)
+      std::size_t amplitude = first_null_space;
+      for (std::size_t k = 0; k < null_spaces.size(); ++k)
       {
         std::vector<double> &U = state.displacement[k];
         for (std::size_t i = 0; i < U.size(); ++i)
           U[i] += lift[k][i];
-        for (const std::vector<double> &R : kernels[k].vectors)
+        for (const std::vector<double> &R : null_spaces[k].vectors)
         {
           for (std::size_t i = 0; i < U.size(); ++i)
-            U[i] += solution.kernel_amplitude[amplitude] * R[i];
+            U[i] += solution.mode_amplitude[amplitude] * R[i];
           ++amplitude;
         }
       }
-      state.geometric_gap = rows.motions(state.displacement);
-      state.gap.resize(rows.size());
-      for (std::size_t i = 0; i < rows.size(); ++i)
+      state.geometric_gap = constraints.motions(state.displacement);
+      state.gap.resize(constraints.size());
+      for (std::size_t i = 0; i < constraints.size(); ++i)
       {
-        state.geometric_gap[i] += rows[i].gap;
+        state.geometric_gap[i] += constraints[i].gap;
         state.gap[i] = state.geometric_gap[i] + compliance[i] * state.multiplier[i];
       }
     }
 
     /**
-     * Iterative refinement on the rows that are closed. F N + d adds what A^-1 makes of loads and
-     * of contact forces apart from each other, and where springs stand in for the contacts that
-     * hold a body, the two are large and cancel; A^-1 (P + B N) does not. What is left of gaps and
-     * balance there is solved for once more, and kept if it becomes less.
+     * Iterative refinement on the constraints that are closed. F N + d adds what A^-1 makes of
+     * loads and of contact forces apart from each other, and where springs stand in for the
+     * contacts that hold a body, the two are large and cancel; A^-1 (P + B N) does not. What is
+     * left of gaps and balance there is solved for once more, and kept if it becomes less.
      */
-    void refine(const FactoredStructure &solvers, const ContactRows &rows,
-                ComplementarityOperator &matrix, const std::vector<Substructure::Kernel> &kernels,
-                const BlockVector &P, const BlockVector &lift,
-                const std::vector<double> &compliance, MixedComplementaritySolution &solution,
-                StaticState &state)
+    void refine(const FactoredStructure &solvers, const Constraints &constraints,
+                ComplementarityOperator &matrix,
+                const std::vector<Substructure::NullSpace> &null_spaces, const BodyVectors &P,
+                const BodyVectors &lift, const std::vector<double> &compliance,
+                MixedComplementaritySolution &solution, StaticState &state)
     {
-      const std::size_t n = rows.size();
+      const std::size_t n = constraints.size();
       const Communicator &processes = solvers.structure().communicator();
       std::vector<std::size_t> set;
       for (std::size_t i = 0; i < n; ++i)
@@ -120,27 +120,29 @@ namespace taut
         return;
 
       MixedComplementarityProblem left;
-      std::size_t first_kernel = 0;
+      std::size_t first_null_space = 0;
       // Largest gap of the set over the motions it is summed from, and what is not balanced.
       const auto error = [&]
       {
-        BlockVector forces = P;
-        rows.add_forces(state.multiplier, forces);
-        first_kernel = set_kernel(kernels, processes, rows, forces, left);
+        BodyVectors forces = P;
+        constraints.add_forces(state.multiplier, forces);
+        first_null_space = set_null_space(null_spaces, processes, constraints, forces, left);
         left.free_gap = state.gap;
         std::vector<double> size(n, 0.);
         for (std::size_t i = 0; i < n; ++i)
-          size[i] = magnitude(rows[i].terms, state.displacement);
+          size[i] = magnitude(constraints[i].terms, state.displacement);
         processes.sum(size);
         double largest = 0.;
         for (const std::size_t i : set)
-          largest = std::max(largest, relative(state.gap[i], size[i] + std::fabs(rows[i].gap)));
-        for (std::size_t k = 0; k < left.n_kernel(); ++k)
+          largest =
+              std::max(largest, relative(state.gap[i], size[i] + std::fabs(constraints[i].gap)));
+        for (std::size_t k = 0; k < left.n_null_space(); ++k)
         {
           double terms = 0.;
-          for (std::size_t e = 0; e < left.kernel[k].index.size(); ++e)
-            terms += std::fabs(left.kernel[k].value[e] * state.multiplier[left.kernel[k].index[e]]);
-          largest = std::max(largest, relative(left.kernel_load[k], terms));
+          for (std::size_t e = 0; e < left.null_space[k].index.size(); ++e)
+            terms += std::fabs(left.null_space[k].value[e] *
+                               state.multiplier[left.null_space[k].index[e]]);
+          largest = std::max(largest, relative(left.null_space_load[k], terms));
         }
         return largest;
       };
@@ -171,14 +173,15 @@ namespace taut
         {
           refined.multiplier[i] += correction.multiplier[i];
           largest = std::max(largest, std::fabs(refined.multiplier[i]));
-          if (rows[i].unilateral)
+          if (constraints[i].unilateral)
             smallest = std::min(smallest, refined.multiplier[i]);
         }
         const bool admissible = smallest >= -1e-12 * largest;
-        for (std::size_t k = 0; k < left.n_kernel(); ++k)
-          refined.kernel_amplitude[k] += correction.kernel_amplitude[k];
+        for (std::size_t k = 0; k < left.n_null_space(); ++k)
+          refined.mode_amplitude[k] += correction.mode_amplitude[k];
         StaticState refined_state = state;
-        displace(solvers, rows, kernels, first_kernel, P, lift, compliance, refined, refined_state);
+        displace(solvers, constraints, null_spaces, first_null_space, P, lift, compliance, refined,
+                 refined_state);
         std::swap(state, refined_state);
         const double new_error = error();
         if (!admissible || !(new_error < last_error))
@@ -193,15 +196,15 @@ namespace taut
 
     /// Recomputes the balance K U = P + B N of each body, relative to the terms of each kind of
     /// DoF.
-    void certify_balance(const Structure &structure, const ContactRows &rows, const double t,
+    void certify_balance(const Structure &structure, const Constraints &constraints, const double t,
                          StaticState &state)
     {
-      BlockVector r = structure.zero();
+      BodyVectors r = structure.zero();
       for (std::size_t k = 0; k < structure.size(); ++k)
         structure[k].external_force(t, r[k]);
-      rows.add_forces(state.multiplier, r);
+      constraints.add_forces(state.multiplier, r);
       std::vector<PerKind> contact;
-      rows.largest_forces(state.multiplier, contact);
+      constraints.largest_forces(state.multiplier, contact);
       for (std::size_t k = 0; k < structure.size(); ++k)
       {
         const Substructure &body = structure[k];
@@ -229,7 +232,7 @@ namespace taut
     }
 
     /// Throws if the tolerance is missed, on all ranks what the rank of the worst body says.
-    void check_certificate(const Structure &structure, const ContactRows &rows,
+    void check_certificate(const Structure &structure, const Constraints &constraints,
                            const SolverParameters &parameters, const Certificate &certificate,
                            const double own_balance)
     {
@@ -242,14 +245,14 @@ namespace taut
         std::ostringstream out;
         out << "static equilibrium misses the contact tolerance: residual of the links "
             << certificate.complementarity;
-        if (rows.size() > 0)
-          out << " (worst: '" << rows[certificate.worst_row].name << "')";
+        if (constraints.size() > 0)
+          out << " (worst: '" << constraints[certificate.worst_constraint].name << "')";
         out << ", of the force balance " << certificate.balance << " (worst: '"
             << structure[certificate.worst_body].name() << "'), allowed "
             << parameters.contact_tolerance << ". Check stiffnesses for extreme ratios.";
-        const bool rows_are_worse =
-            rows.size() > 0 && !(certificate.complementarity <= parameters.contact_tolerance);
-        throw EntryError(rows_are_worse ? rows.origin(certificate.worst_row)
+        const bool rows_are_worse = constraints.size() > 0 &&
+                                    !(certificate.complementarity <= parameters.contact_tolerance);
+        throw EntryError(rows_are_worse ? constraints.origin(certificate.worst_constraint)
                                         : structure[certificate.worst_body].origin(),
                          out.str());
       };
@@ -257,38 +260,39 @@ namespace taut
     }
   } // namespace
 
-  StaticState static_equilibrium(const Structure &structure, const ContactRows &rows,
+  StaticState static_equilibrium(const Structure &structure, const Constraints &constraints,
                                  const SolverParameters &parameters, const double t)
   {
-    std::vector<Substructure::Kernel> kernels;
+    std::vector<Substructure::NullSpace> null_spaces;
     for (std::size_t k = 0; k < structure.size(); ++k)
-      kernels.push_back(structure[k].kernel());
+      null_spaces.push_back(structure[k].null_space());
     const Communicator &processes = structure.communicator();
     FactoredStructure solvers(structure, parameters.local_solver);
-    processes.agree([&] { solvers.factor_stiffness(kernels); });
+    processes.agree([&] { solvers.factor_stiffness(null_spaces); });
 
-    const std::size_t n = rows.size();
+    const std::size_t n = constraints.size();
     std::vector<double> compliance(n);
     for (std::size_t i = 0; i < n; ++i)
-      compliance[i] = 1. / rows[i].stiffness;
-    const auto schur = make_schur_complement(parameters.interface, solvers, rows);
+      compliance[i] = 1. / constraints[i].stiffness;
+    const auto schur = make_schur_complement(parameters.interface, solvers, constraints);
     schur->setup(compliance);
 
-    BlockVector P, lift;
+    BodyVectors P, lift;
     processes.agree([&] { set_loads(structure, t, P, lift); });
 
     MixedComplementarityProblem problem;
-    schur->free_motion(P, problem.free_gap, problem.gap_scale);
+    schur->contact_free_predictor(P, problem.free_gap, problem.gap_scale);
     processes.sum(problem.free_gap);
     processes.sum(problem.gap_scale);
-    const std::vector<double> lifted = rows.motions(lift);
+    const std::vector<double> lifted = constraints.motions(lift);
     for (std::size_t i = 0; i < n; ++i)
     {
-      problem.unilateral.push_back(rows[i].unilateral);
-      problem.gap_scale[i] += std::fabs(lifted[i]) + std::fabs(rows[i].gap);
-      problem.free_gap[i] += lifted[i] + rows[i].gap;
+      problem.unilateral.push_back(constraints[i].unilateral);
+      problem.gap_scale[i] += std::fabs(lifted[i]) + std::fabs(constraints[i].gap);
+      problem.free_gap[i] += lifted[i] + constraints[i].gap;
     }
-    const std::size_t first_kernel = set_kernel(kernels, processes, rows, P, problem);
+    const std::size_t first_null_space =
+        set_null_space(null_spaces, processes, constraints, P, problem);
 
     StaticState state;
     state.multiplier.assign(n, 0.);
@@ -303,8 +307,8 @@ namespace taut
     }
     catch (const ContradictoryRows &e)
     {
-      throw EntryError(e.rows().empty() ? "" : rows.origin(e.rows().front()),
-                       "static equilibrium: the links " + rows.names(e.rows()) +
+      throw EntryError(e.rows().empty() ? "" : constraints.origin(e.rows().front()),
+                       "static equilibrium: the links " + constraints.names(e.rows()) +
                            " contradict each other. Remove one of them, give one a finite "
                            "stiffness, or check the gaps.");
     }
@@ -317,8 +321,8 @@ namespace taut
       processes.agree(
           [&]
           {
-            if (const Substructure *body =
-                    body_of_kernel(kernels, structure, first_kernel, e.kernel().front()))
+            if (const Substructure *body = body_of_null_space(
+                    null_spaces, structure, first_null_space, e.null_space().front()))
               throw BodyNotHeld("static equilibrium: body '" + body->name() +
                                     "' is not held: no admissible contact force balances its "
                                     "loads. Add a support or a link, or start with 'Start = "
@@ -327,20 +331,22 @@ namespace taut
           });
       throw;
     }
-    displace(solvers, rows, kernels, first_kernel, P, lift, compliance, solution, state);
-    refine(solvers, rows, schur->matrix(), kernels, P, lift, compliance, solution, state);
+    displace(solvers, constraints, null_spaces, first_null_space, P, lift, compliance, solution,
+             state);
+    refine(solvers, constraints, schur->matrix(), null_spaces, P, lift, compliance, solution,
+           state);
     solution.gap = state.gap;
     if (n > 0)
     {
       const ComplementarityResidual result = residual(problem, schur->matrix(), solution);
       state.certificate.complementarity = result.max;
-      state.certificate.worst_row =
+      state.certificate.worst_constraint =
           std::max_element(result.rows.begin(), result.rows.end()) - result.rows.begin();
     }
-    processes.agree([&] { certify_balance(structure, rows, t, state); });
+    processes.agree([&] { certify_balance(structure, constraints, t, state); });
     const double own_balance = state.certificate.balance;
     state.certificate.balance = processes.max(own_balance);
-    check_certificate(structure, rows, parameters, state.certificate, own_balance);
+    check_certificate(structure, constraints, parameters, state.certificate, own_balance);
     return state;
   }
 } // namespace taut

@@ -6,7 +6,7 @@ namespace taut
   /**
    * Iterative refinement of an accepted step. A step that brings a body back from afar ends with
    * the rounding of its way; what the balance at its end lacks is solved for. False, and nothing
-   * changes, if the rows have no answer to it.
+   * changes, if the constraints have no answer to it.
    */
   bool TimeStepper::refine()
   {
@@ -27,14 +27,14 @@ namespace taut
       for (const ConstrainedDof &constraint : body.constraints())
         left[constraint.dof] = 0.;
     }
-    if (!row_motions.correct(current, *schur, solvers, right_hand_side))
+    if (!constraint_motions.correct(current, *schur, solvers, right_hand_side))
       return false;
-    rows.add_forces(row_motions.corrections(), right_hand_side);
+    constraints.add_forces(constraint_motions.corrections(), right_hand_side);
     solvers.solve(right_hand_side);
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       std::vector<double> &dU = right_hand_side[k];
-      row_motions.add_corrected_motions(solvers, k, dU);
+      constraint_motions.add_corrected_motions(solvers, k, dU);
       for (const ConstrainedDof &constraint : structure[k].constraints())
         dU[constraint.dof] = 0.;
       for (std::size_t i = 0; i < dU.size(); ++i)
@@ -45,7 +45,7 @@ namespace taut
         current.A[k][i] += c.acceleration * dU[i];
       }
     }
-    row_motions.add_correction(right_hand_side, current);
+    constraint_motions.add_correction(right_hand_side, current);
     return true;
   }
 } // namespace taut

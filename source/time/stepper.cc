@@ -5,12 +5,12 @@
 namespace taut
 {
   Stepper::Stepper(const System &system, const StepperOptions &options)
-      : system(system), rows(system.rows()),
-        start(find_initial_state(system.structure(), rows, options.solver, options.start)),
-        contact_measures(system.structure(), rows, start.reference, start.state)
+      : system(system), constraints(system.constraints()),
+        start(find_initial_state(system.structure(), constraints, options.solver, options.start)),
+        contact_measures(system.structure(), constraints, start.reference, start.state)
   {
     start_certificate = start.certificate;
-    stepper = std::make_unique<TimeStepper>(system.structure(), rows, options.solver,
+    stepper = std::make_unique<TimeStepper>(system.structure(), constraints, options.solver,
                                             choose(options), options.step, start.reference,
                                             start.state, options.start == Start::equilibrium);
   }
@@ -21,7 +21,7 @@ namespace taut
     if (options.scheme == "automatic")
     {
       const SchemeChoice choice =
-          choose_scheme(structure, rows, options.solver, options.step, options.restitution);
+          choose_scheme(structure, constraints, options.solver, options.step, options.restitution);
       std::map<std::string, std::string> entries = choice.entries;
       entries["Moreau-Jean/Restitution"] = std::to_string(options.restitution);
       integrator = make_integrator(choice.name, entries);
@@ -32,7 +32,7 @@ namespace taut
     scheme_description = integrator->description();
     check_mass(*integrator, structure, options.step);
     if (!options.allow_unsuitable_scheme)
-      check_scheme(*integrator, structure, rows, options.solver, options.step);
+      check_scheme(*integrator, structure, constraints, options.solver, options.step);
     return *integrator;
   }
 
@@ -49,12 +49,12 @@ namespace taut
 
   double Stepper::multiplier(const std::size_t constraint) const
   {
-    return state().multiplier[rows.row_of_link(constraint)];
+    return state().multiplier[constraints.index_of_link(constraint)];
   }
 
   double Stepper::gap(const std::size_t constraint) const
   {
-    return state().geometric_gap[rows.row_of_link(constraint)];
+    return state().geometric_gap[constraints.index_of_link(constraint)];
   }
 
   double Stepper::displacement(const Displacement &form) const

@@ -14,10 +14,10 @@ namespace taut
 {
   namespace
   {
-    ContactRows &at_time(ContactRows &rows, const double t)
+    Constraints &at_time(Constraints &constraints, const double t)
     {
-      rows.update(t);
-      return rows;
+      constraints.update(t);
+      return constraints;
     }
 
     /// Balance from which a step is refined, and how often: ordinary steps are below 1e-11.
@@ -59,19 +59,19 @@ namespace taut
     };
   } // namespace
 
-  TimeStepper::TimeStepper(const Structure &structure, ContactRows &rows,
+  TimeStepper::TimeStepper(const Structure &structure, Constraints &constraints,
                            const SolverParameters &parameters, const TimeIntegrator &integrator,
                            const double step, Reference reference, State start, const bool at_rest)
-      : structure(structure), rows(rows), parameters(parameters), integrator(integrator),
-        step(step), origin(std::move(reference)), current(std::move(start)),
+      : structure(structure), constraints(constraints), parameters(parameters),
+        integrator(integrator), step(step), origin(std::move(reference)), current(std::move(start)),
         first_step_by_source(!at_rest), segment_start(current.time),
         solvers(structure, parameters.local_solver),
-        schur(make_schur_complement(parameters.interface, solvers, rows)),
+        schur(make_schur_complement(parameters.interface, solvers, constraints)),
         complementarity(parameters.complementarity),
-        row_motions(structure, at_time(rows, current.time), origin, current),
-        balance(structure, rows, origin)
+        constraint_motions(structure, at_time(constraints, current.time), origin, current),
+        balance(structure, constraints, origin)
   {
-    for (BlockVector *v : {&forces.P, &right_hand_side, &lift, &forces.old_A, &forces.old_balance})
+    for (BodyVectors *v : {&forces.P, &right_hand_side, &lift, &forces.old_A, &forces.old_balance})
       *v = structure.zero();
     forces.external_size.resize(structure.size());
     for (std::size_t k = 0; k < structure.size(); ++k)
@@ -100,11 +100,12 @@ namespace taut
     if (c.starts_itself())
     {
       structure.communicator().agree([&] { start_balance(); });
-      current.gap_rate = rows.motions(current.V);
+      current.gap_rate = constraints.motions(current.V);
     }
   }
 
-  /// r = P + B N - C V - K U at the start, where no rigid row has a force that a scheme would need.
+  /// r = P + B N - C V - K U at the start, where no rigid constraint has a force that a scheme
+  /// would need.
   void TimeStepper::start_balance()
   {
     for (std::size_t k = 0; k < structure.size(); ++k)
@@ -116,10 +117,10 @@ namespace taut
       body.damping().vmult_add(-1., current.V[k].data(), r.data());
     }
     std::vector<double> N = current.multiplier;
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      if (row_motions.mean_force(i) && !(projection && rows[i].moving))
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      if (constraint_motions.mean_force(i) && !(projection && constraints[i].moving))
         N[i] = 0.;
-    rows.add_forces(N, current.balance);
+    constraints.add_forces(N, current.balance);
     hold_quasi_static_dofs();
   }
 
@@ -138,14 +139,14 @@ namespace taut
     const bool is_assembled = parameters.interface.form != "matrix-free";
     structure.communicator().agree([&]
                                    { solvers.factor(c.mass_factor(), c.velocity, is_assembled); });
-    has_free_motions = solvers.has_free_motions();
-    row_motions.prepare(c, step);
-    schur->setup(row_motions.compliance());
+    has_rigid_body_modes = solvers.has_rigid_body_modes();
+    constraint_motions.prepare(c, step);
+    schur->setup(constraint_motions.compliance());
     if (!c.velocity_projection)
       return;
     if (!projection)
-      projection = std::make_unique<VelocityProjection>(structure, rows, parameters);
-    projection->prepare(c, step, row_motions.compliance(), schur->matrix());
+      projection = std::make_unique<VelocityProjection>(structure, constraints, parameters);
+    projection->prepare(c, step, constraint_motions.compliance(), schur->matrix());
   }
 
   void TimeStepper::advance()
@@ -161,7 +162,7 @@ namespace taut
     current.time = segment_start + ++n_in_segment * step;
     step_before = current.last_step;
     current.last_step = step;
-    rows.update(current.time);
+    constraints.update(current.time);
     schur->update_moving();
 
     structure.communicator().agree(
@@ -170,31 +171,31 @@ namespace taut
           for (std::size_t k = 0; k < structure.size(); ++k)
             set_history(k);
         });
-    if (const std::vector<double> &old = row_motions.old_place(current); !old.empty())
-      rows.add_forces(old, right_hand_side);
-    row_motions.set_problem(current, *schur, right_hand_side, lift);
-    if (has_free_motions)
-      row_motions.set_free_motions(solvers, right_hand_side);
+    if (const std::vector<double> &old = constraint_motions.old_place(current); !old.empty())
+      constraints.add_forces(old, right_hand_side);
+    constraint_motions.set_problem(current, *schur, right_hand_side, lift);
+    if (has_rigid_body_modes)
+      constraint_motions.set_rigid_body_modes(solvers, right_hand_side);
     solve_rows();
-    rows.add_forces(row_motions.applied(), right_hand_side);
+    constraints.add_forces(constraint_motions.applied(), right_hand_side);
     solvers.solve(right_hand_side);
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
-      row_motions.add_free_motions(solvers, k, right_hand_side[k]);
+      constraint_motions.add_rigid_body_modes(solvers, k, right_hand_side[k]);
       accept(k);
     }
-    row_motions.update(current);
+    constraint_motions.update(current);
     certify();
     if (c.velocity_projection)
       project_velocities();
-    if (c.mean_force && !c.velocity_level && rows.size() > 0)
+    if (c.mean_force && !c.velocity_level && constraints.size() > 0)
       measure_energy();
   }
 
   /**
-   * The change of kinetic energy, minus the work of all forces but those of fixed rows with a mean
-   * force, plus what the springs of these take: not positive but for rounding. Where supports move
-   * it would be the work of their forces, too, and is not measured.
+   * The change of kinetic energy, minus the work of all forces but those of fixed constraints with
+   * a mean force, plus what the springs of these take: not positive but for rounding. Where
+   * supports move it would be the work of their forces, too, and is not measured.
    */
   void TimeStepper::measure_energy()
   {
@@ -208,17 +209,17 @@ namespace taut
     }
     structure.communicator().sum(sums, 2);
     double gain = sums[0] - current.kinetic_energy + sums[1];
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t i = 0; i < constraints.size(); ++i)
     {
-      if (!row_motions.mean_force(i))
+      if (!constraint_motions.mean_force(i))
         continue;
-      if (rows[i].moving)
-        gain -= current.row_work[i];
-      if (!rows[i].moving && !std::isinf(rows[i].stiffness))
+      if (constraints[i].moving)
+        gain -= current.constraint_work[i];
+      if (!constraints[i].moving && !std::isinf(constraints[i].stiffness))
       {
         const State::LinkSpring &spring = current.link_springs[i];
         const double before = spring.u - spring.du;
-        gain += .5 * rows[i].stiffness * (spring.u * spring.u - before * before);
+        gain += .5 * constraints[i].stiffness * (spring.u * spring.u - before * before);
       }
     }
     last.kinetic_energy = current.kinetic_energy = sums[0];
@@ -339,9 +340,9 @@ namespace taut
 
   bool TimeStepper::rigid_row_changed(const State &before)
   {
-    const std::vector<double> &S = row_motions.compliance();
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      if (rows[i].unilateral && 2. * S[i] < schur->matrix().diagonal(i) &&
+    const std::vector<double> &S = constraint_motions.compliance();
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      if (constraints[i].unilateral && 2. * S[i] < schur->matrix().diagonal(i) &&
           (before.multiplier[i] > 0.) != (current.multiplier[i] > 0.))
         return true;
     return false;
@@ -349,14 +350,14 @@ namespace taut
 
   void TimeStepper::solve_rows()
   {
-    if (rows.size() == 0 && !has_free_motions)
+    if (constraints.size() == 0 && !has_rigid_body_modes)
       return;
     solve_or_fail(
         [&]
         {
           const ComplementarityResult &result =
-              complementarity.solve(row_motions.problem(), schur->matrix());
-          row_motions.set_multipliers(result.solution, current);
+              complementarity.solve(constraint_motions.problem(), schur->matrix());
+          constraint_motions.set_multipliers(result.solution, current);
           last.iterations = result.iterations;
           last.fallback = result.used_fallback;
         });
@@ -366,25 +367,25 @@ namespace taut
   /// at.
   void TimeStepper::project_velocities()
   {
-    solve_or_fail([&] { projection->project(row_motions, current); });
+    solve_or_fail([&] { projection->project(constraint_motions, current); });
     if (!(projection->residual() <= last.complementarity))
     {
       last.complementarity = projection->residual();
-      last.worst_row = projection->worst_row();
+      last.worst_constraint = projection->worst_constraint();
     }
     check_rows();
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t i = 0; i < constraints.size(); ++i)
     {
-      current.row_work[i] += projection->work()[i];
+      current.constraint_work[i] += projection->work()[i];
       current.impulse_work += projection->work()[i];
     }
-    // Forces of moving rows act half in their old place.
+    // Forces of moving constraints act half in their old place.
     std::vector<double> &moving = work_rows;
     moving = current.multiplier;
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      if (!rows[i].moving || !row_motions.mean_force(i))
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      if (!constraints[i].moving || !constraint_motions.mean_force(i))
         moving[i] = 0.;
-    rows.add_forces(moving, current.balance);
+    constraints.add_forces(moving, current.balance);
     hold_quasi_static_dofs();
   }
 
@@ -401,12 +402,12 @@ namespace taut
     }
     catch (const ContradictoryRows &e)
     {
-      fail("the links " + rows.names(e.rows()) +
+      fail("the links " + constraints.names(e.rows()) +
                " contradict each other: no contact forces satisfy them all. Remove one of them, "
                "give "
                "one a finite "
                "stiffness, or check the initial gaps",
-           e.rows().empty() ? "" : rows.origin(e.rows().front()));
+           e.rows().empty() ? "" : constraints.origin(e.rows().front()));
     }
   }
 
@@ -442,7 +443,8 @@ namespace taut
     for (int refinements = 0;; ++refinements)
     {
       processes.agree(
-          [&] { own_balance = balance.measure(coefficients, forces, row_motions, current); });
+          [&]
+          { own_balance = balance.measure(coefficients, forces, constraint_motions, current); });
       last.balance = processes.max(own_balance);
       if (!(last.balance > refined_balance) || refinements == most_refinements ||
           coefficients.mean_force || processes.max(balance.is_way() ? 0. : 1.) > 0. || !refine())
@@ -461,8 +463,9 @@ namespace taut
 
   void TimeStepper::certify_rows()
   {
-    last.complementarity = row_motions.residual(current, schur->matrix(), last.worst_row);
-    last.drift = row_motions.drift(current);
+    last.complementarity =
+        constraint_motions.residual(current, schur->matrix(), last.worst_constraint);
+    last.drift = constraint_motions.drift(current);
     check_rows();
   }
 
@@ -471,10 +474,10 @@ namespace taut
     if (!(last.complementarity <= parameters.contact_tolerance))
     {
       std::ostringstream out;
-      out << "link '" << rows[last.worst_row].name << "' misses the contact tolerance: residual "
-          << last.complementarity << " > " << parameters.contact_tolerance
-          << ". Take a smaller step or raise 'Contact tolerance'";
-      fail(out.str(), rows.origin(last.worst_row));
+      out << "link '" << constraints[last.worst_constraint].name
+          << "' misses the contact tolerance: residual " << last.complementarity << " > "
+          << parameters.contact_tolerance << ". Take a smaller step or raise 'Contact tolerance'";
+      fail(out.str(), constraints.origin(last.worst_constraint));
     }
   }
 

@@ -8,7 +8,7 @@ namespace taut
 {
   namespace
   {
-    /// Fades the projection of elastic rows out where S exceeds this part of F_ii.
+    /// Fades the projection of elastic constraints out where S exceeds this part of F_ii.
     constexpr double fading = .3;
 
     /// Rates over their terms that are rounding: steps of thousands of operations, each with one of
@@ -19,7 +19,7 @@ namespace taut
     /// make, below which smaller ones count as rest.
     constexpr double rest = 1e-3;
 
-    /// Part of the diagonal that makes a system with dependent rows definite.
+    /// Part of the diagonal that makes a system with dependent constraints definite.
     constexpr double shift_of_dependent_rows = 1e-9;
 
     /// Systems with M are well-conditioned: nothing has to be taken from the bodies' other solvers.
@@ -39,18 +39,18 @@ namespace taut
     }
   } // namespace
 
-  VelocityProjection::VelocityProjection(const Structure &structure, const ContactRows &rows,
+  VelocityProjection::VelocityProjection(const Structure &structure, const Constraints &constraints,
                                          const SolverParameters &parameters)
-      : structure(structure), rows(rows), solvers(structure, parameters.local_solver),
-        schur(make_schur_complement(for_mass(parameters.interface), solvers, rows)),
+      : structure(structure), constraints(constraints), solvers(structure, parameters.local_solver),
+        schur(make_schur_complement(for_mass(parameters.interface), solvers, constraints)),
         complementarity(parameters.complementarity), dV(structure.zero())
   {
-    const std::size_t n = rows.size();
+    const std::size_t n = constraints.size();
     for (std::vector<double> *v :
          {&relative_softening, &softening, &p, &q, &change, &rate, &work_of_rows, &largest_scale})
       v->assign(n, 0.);
     takes_part.assign(n, 0);
-    has_no_mass = rows.without_mass();
+    has_no_mass = constraints.without_mass();
     problem.free_gap.resize(n);
     problem.gap_scale.resize(n);
     problem.unilateral.resize(n);
@@ -77,14 +77,14 @@ namespace taut
     const double theta = 1. - c.alpha_f;
     has_softening = false;
     std::vector<std::size_t> elastic;
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      if (rows[i].unilateral && S[i] > 0.)
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      if (constraints[i].unilateral && S[i] > 0.)
         elastic.push_back(i);
     const std::vector<double> diagonal = flexibilities(elastic, F);
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       relative_softening[i] = 0.;
-      if (!rows[i].unilateral || S[i] == 0.)
+      if (!constraints[i].unilateral || S[i] == 0.)
         continue;
       const double flexibility = (diagonal[i] - S[i]) / theta,
                    ratio = S[i] / (fading * flexibility);
@@ -96,18 +96,18 @@ namespace taut
   }
 
   /**
-   * The diagonal of a matrix of the rows as the bodies have it with their rigid bilateral rows
-   * closed, F_ii - F_ib F_bb^-1 F_bi, of the rows listed: bodies that are cut in pieces answer as
-   * if they were whole.
+   * The diagonal of a matrix of the constraints as the bodies have it with their rigid bilateral
+   * constraints closed, F_ii - F_ib F_bb^-1 F_bi, of the constraints listed: bodies that are cut in
+   * pieces answer as if they were whole.
    */
   std::vector<double> VelocityProjection::flexibilities(const std::vector<std::size_t> &wanted,
                                                         ComplementarityOperator &F) const
   {
     std::vector<std::size_t> bilateral;
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      if (!rows[i].unilateral && std::isinf(rows[i].stiffness) && F.diagonal(i) > 0.)
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      if (!constraints[i].unilateral && std::isinf(constraints[i].stiffness) && F.diagonal(i) > 0.)
         bilateral.push_back(i);
-    std::vector<double> result(rows.size(), 0.), unit(rows.size(), 0.), column, x;
+    std::vector<double> result(constraints.size(), 0.), unit(constraints.size(), 0.), column, x;
     for (const std::size_t i : wanted)
     {
       result[i] = F.diagonal(i);
@@ -135,30 +135,30 @@ namespace taut
     if (!has_softening)
       return;
     std::vector<std::size_t> softened;
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t i = 0; i < constraints.size(); ++i)
       if (relative_softening[i] > 0.)
         softened.push_back(i);
     const std::vector<double> diagonal = flexibilities(softened, schur->matrix());
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       const double f = diagonal[i];
-      // Infinite: a row without flexibility of its own takes no part.
+      // Infinite: a constraint without flexibility of its own takes no part.
       softening[i] =
           f > 0. && std::isfinite(relative_softening[i]) ? f * relative_softening[i] : 0.;
     }
     schur->setup(softening);
   }
 
-  /// Sets the rows that take part and their impulses. False if all their rates are as they shall
-  /// be.
-  bool VelocityProjection::has_to_act(const RowMotions &motions, const State &state)
+  /// Sets the constraints that take part and their impulses. False if all their rates are as they
+  /// shall be.
+  bool VelocityProjection::has_to_act(const ConstraintMotions &motions, const State &state)
   {
     bool acts = false;
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       takes_part[i] = 0;
       p[i] = motions.mean_force(i) ? step * state.multiplier[i] : 0.;
-      if (!motions.mean_force(i) || has_no_mass[i] || (rows[i].unilateral && !(p[i] > 0.)) ||
+      if (!motions.mean_force(i) || has_no_mass[i] || (constraints[i].unilateral && !(p[i] > 0.)) ||
           !std::isfinite(relative_softening[i]))
         continue;
       takes_part[i] = 1;
@@ -166,8 +166,8 @@ namespace taut
           acts || std::fabs(state.gap_rate[i]) >
                       rounding_of_rates * (motions.velocity_sizes()[i] +
                                            std::fabs(state.gap_rate[i] - motions.velocities()[i]));
-      acts =
-          acts || (c.restitution > 0. && rows[i].unilateral && motions.rates_before_step()[i] < 0.);
+      acts = acts || (c.restitution > 0. && constraints[i].unilateral &&
+                      motions.rates_before_step()[i] < 0.);
     }
     return acts;
   }
@@ -185,23 +185,23 @@ namespace taut
     return std::max(0., sum);
   }
 
-  /// d = D'* - (f + softening) p on the rows that take part.
+  /// d = D'* - (f + softening) p on the constraints that take part.
   void VelocityProjection::set_problem(const State &state)
   {
     const ComplementarityOperator &f = schur->matrix();
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       if (!(f.diagonal(i) > 0.))
         takes_part[i] = 0;
       if (!takes_part[i])
         p[i] = 0.;
-      problem.unilateral[i] = rows[i].unilateral || !takes_part[i];
+      problem.unilateral[i] = constraints[i].unilateral || !takes_part[i];
       problem.held_open[i] = !takes_part[i];
     }
     const double momentum = std::sqrt(2. * kinetic_energy(state));
     f.apply(p, change);
     f.apply_absolute(p, work_vector);
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       rate[i] = state.gap_rate[i];
       problem.free_gap[i] = rate[i] - change[i];
@@ -212,7 +212,7 @@ namespace taut
     }
   }
 
-  void VelocityProjection::project(RowMotions &motions, State &state)
+  void VelocityProjection::project(ConstraintMotions &motions, State &state)
   {
     found = 0.;
     std::fill(work_of_rows.begin(), work_of_rows.end(), 0.);
@@ -234,7 +234,7 @@ namespace taut
   }
 
   /// P - p.
-  void VelocityProjection::solve(const RowMotions &motions, const State &state)
+  void VelocityProjection::solve(const ConstraintMotions &motions, const State &state)
   {
     const auto impulses = [&]()
     {
@@ -245,8 +245,8 @@ namespace taut
     };
     q = impulses();
     bool rebounds = false;
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      if (takes_part[i] && rows[i].unilateral && motions.rates_before_step()[i] < 0. &&
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      if (takes_part[i] && constraints[i].unilateral && motions.rates_before_step()[i] < 0. &&
           c.restitution > 0. && softening[i] == 0.)
       {
         problem.free_gap[i] += c.restitution * motions.rates_before_step()[i];
@@ -267,7 +267,7 @@ namespace taut
    * step do the work p . (D - D_0) / step + q . (D'* + D') / 2 with D' = D'* + f q, a convex
    * parabola in s that is not positive at s = 0.
    */
-  double VelocityProjection::largest_part(const RowMotions &motions, const State &state,
+  double VelocityProjection::largest_part(const ConstraintMotions &motions, const State &state,
                                           const std::vector<double> &plain,
                                           const std::vector<double> &rebounding)
   {
@@ -281,7 +281,7 @@ namespace taut
     };
     const std::vector<double> of_plain = response(plain), of_rebounding = response(rebounding);
     double before = 0.;
-    for (std::size_t i = 0; i < rows.n_fixed(); ++i)
+    for (std::size_t i = 0; i < constraints.n_fixed(); ++i)
       before += p[i] * motions.increments()[i] / step;
     const double a = .5 * dot(rebounding, of_rebounding),
                  b = dot(rebounding, state.gap_rate) + dot(rebounding, of_plain),
@@ -314,17 +314,17 @@ namespace taut
     }
   }
 
-  void VelocityProjection::set_velocities(RowMotions &motions, State &state)
+  void VelocityProjection::set_velocities(ConstraintMotions &motions, State &state)
   {
     for (std::vector<double> &v : dV)
       std::fill(v.begin(), v.end(), 0.);
-    rows.add_forces(q, dV);
+    constraints.add_forces(q, dV);
     solvers.solve(dV);
     change_velocities(state);
     work_vector = motions.velocities();
     motions.update_rates(state);
     schur->matrix().apply(q, change);
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       work_of_rows[i] = .5 * q[i] * (work_vector[i] + motions.velocities()[i]);
       if (!takes_part[i])

@@ -18,7 +18,7 @@ namespace taut
   namespace
   {
     /// A += factor (f g^T + g f^T), or factor f f^T if f and g are the same object.
-    void add_product(const double factor, const SparseVector &f, const SparseVector &g,
+    void add_product(const double factor, const LinearForm &f, const LinearForm &g,
                      SymmetricMatrix &A)
     {
       for (std::size_t i = 0; i < f.index.size(); ++i)
@@ -180,7 +180,7 @@ namespace taut
    * H. B. Khenous, P. Laborde, Y. Renard, European Journal of Mechanics A 27 (2008), 918-932).
    * T^T M T is definite on the other DoFs if M is.
    */
-  std::vector<SparseVector> WireComponent::inertial_forms(const std::size_t e) const
+  std::vector<LinearForm> WireComponent::inertial_forms(const std::size_t e) const
   {
     const unsigned int n = beam ? 4 : degree + 1;
     const double h = nodes[e + 1] - nodes[e];
@@ -198,7 +198,7 @@ namespace taut
       if (massless_dofs.count(dofs[i]) == 0)
         with_mass.push_back(i);
     }
-    std::vector<SparseVector> forms(n);
+    std::vector<LinearForm> forms(n);
     for (const unsigned int i : with_mass)
       forms[i].add(dofs[i], 1.);
     if (with_mass.size() == n)
@@ -206,9 +206,10 @@ namespace taut
 
     const auto fail = [&]()
     {
-      throw EntryError(massless_dofs.lower_bound(dofs[0])->second,
-                       "'Massless contact' needs an element between two contacts whose nodes can "
-                       "take their mass; take a smaller Element size");
+      throw EntryError(
+          massless_dofs.lower_bound(dofs[0])->second,
+          "'Mass redistribution' needs an element between two contacts whose nodes can "
+          "take their mass; take a smaller Element size");
     };
     if (beam)
     {
@@ -294,7 +295,7 @@ namespace taut
     const dealii::FEValues<1, 3> &mass_values = exact_mass ? values : own_mass_values;
     const unsigned int n = discretisation->element->n_dofs_per_cell();
     std::vector<dealii::types::global_dof_index> dofs(n);
-    std::vector<SparseVector> inertial;
+    std::vector<LinearForm> inertial;
     const auto compute =
         [&](const auto &cell, dealii::FullMatrix<double> &m, dealii::FullMatrix<double> &k)
     {

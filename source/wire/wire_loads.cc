@@ -11,7 +11,7 @@ namespace taut
 {
   void WireComponent::add_supports(const Scene &scene, const std::size_t wire)
   {
-    SparseVector row;
+    LinearForm row;
     for (const Support &support : scene.supports)
     {
       const bool mine = motion == WireMotion::axial ? support.motion == WireMotion::axial
@@ -48,7 +48,7 @@ namespace taut
   void WireComponent::add_point_masses(const Scene &scene, const std::size_t wire,
                                        const double gravity)
   {
-    SparseVector row;
+    LinearForm row;
     for (const PointMass &mass : scene.point_masses)
       if (mass.wire == wire)
         for (const double s : mass.positions)
@@ -76,7 +76,7 @@ namespace taut
     struct QuadraturePoint
     {
       double s;
-      SparseVector shape; ///< weighted
+      LinearForm shape; ///< weighted
     };
 
     DistributedLoad(const WireComponent &wire, const double factor, const Expression &magnitude)
@@ -121,7 +121,7 @@ namespace taut
       const double s = load.target.position + load.speed * t;
       if (s < 0. || s > wire.wire_length || !wire.owns(s))
         return;
-      SparseVector shape;
+      LinearForm shape;
       if (load.rotational)
         wire.slope_at(s, shape);
       else
@@ -161,7 +161,7 @@ namespace taut
           force = std::make_unique<DistributedLoad>(*this, factor, load.magnitude);
         else
         {
-          SparseVector shape;
+          LinearForm shape;
           evaluate(load.target.position, load.rotational, shape);
           for (double &v : shape.value)
             v *= factor;

@@ -33,7 +33,7 @@ namespace taut
     return out.str();
   }
 
-  void WireComponent::evaluate(const double s, const bool slope, SparseVector &result) const
+  void WireComponent::evaluate(const double s, const bool slope, LinearForm &result) const
   {
     const auto after = std::upper_bound(nodes.begin(), nodes.end(), s);
     const auto e = std::min<std::ptrdiff_t>(std::max<std::ptrdiff_t>(after - nodes.begin() - 1, 0),
@@ -58,23 +58,23 @@ namespace taut
     }
   }
 
-  void WireComponent::value_at(const double s, SparseVector &result) const
+  void WireComponent::value_at(const double s, LinearForm &result) const
   {
     evaluate(s, false, result);
   }
 
-  void WireComponent::slope_at(const double s, SparseVector &result) const
+  void WireComponent::slope_at(const double s, LinearForm &result) const
   {
     evaluate(s, true, result);
   }
 
-  SparseVector WireComponent::displacement(const Coordinates &place,
-                                           const Coordinates &direction) const
+  LinearForm WireComponent::displacement(const Coordinates &place,
+                                         const Coordinates &direction) const
   {
     if (!(place[0] >= nodes.front()) || !(place[0] <= nodes.back()))
       throw UserError("body '" + name() + "' ends at " + std::to_string(nodes.back()) +
                       " m, and a constraint is to act at " + std::to_string(place[0]) + " m");
-    SparseVector form;
+    LinearForm form;
     value_at(place[0], form);
     for (double &value : form.value)
       value *= component(direction);
@@ -117,7 +117,7 @@ namespace taut
     interpolate(start.velocity, V);
   }
 
-  Substructure::Kernel WireComponent::kernel() const
+  Substructure::NullSpace WireComponent::null_space() const
   {
     // Rigid motions q0 + q1 (s - middle)/(L/2) that cost nothing: q1 only for a beam without
     // tension. Each held DoF of the supports is one condition on (q0, q1).
@@ -138,7 +138,7 @@ namespace taut
     for (const unsigned int dof : sprung_dofs)
       hold(dof);
 
-    Kernel kernel;
+    NullSpace null_space;
     const unsigned int last = dofs_per_node * (nodes.size() - 1);
     const auto add = [&](const double q0, const double q1, const unsigned int dof)
     {
@@ -152,8 +152,8 @@ namespace taut
           for (unsigned int k = 1; k < degree; ++k)
             R[degree * i + k] = q0;
       }
-      kernel.vectors.push_back(std::move(R));
-      kernel.fixing_dofs.push_back(dof);
+      null_space.vectors.push_back(std::move(R));
+      null_space.fixing_dofs.push_back(dof);
     };
 
     if (n_rigid == 1)
@@ -162,13 +162,13 @@ namespace taut
                                     [](const auto &c) { return c.first != 0.; });
       if (!held)
         add(1., 0., 0);
-      return kernel;
+      return null_space;
     }
     if (conditions.empty())
     {
       add(.5, -.5, 0);
       add(.5, .5, last);
-      return kernel;
+      return null_space;
     }
     // One independent condition leaves the motion orthogonal to it; a second one leaves none.
     const auto [c0, c1] = conditions.front();
@@ -177,6 +177,6 @@ namespace taut
                     [&](const auto &c) { return std::fabs(c0 * c.second - c1 * c.first) > 1e-12; });
     if (!held)
       add(-c1, c0, std::fabs(-c1 - c0) > std::fabs(-c1 + c0) ? 0 : last);
-    return kernel;
+    return null_space;
   }
 } // namespace taut

@@ -61,7 +61,7 @@ FEATURES = {
     "the same, adaptive steps": (LINE, ["Time/Step control=adaptive", "Time/Adaptive step/Tolerance=3e-6",
                                         "Time/Adaptive step/Halvings=1"]),
     "bar on a wall": (BAR, []),
-    "the same, massless contact": (BAR, ["Time/Massless contact=mass"]),
+    "the same, mass redistribution": (BAR, ["Time/Mass redistribution=mass"]),
 }
 
 

@@ -6,7 +6,7 @@
 // runs. Usage: decomposition_table [runs] [largest N0 of the dense blocks].
 #include <taut/complementarity/solver.h>
 #include <taut/interface/schur_complement.h>
-#include <taut/model/scene_rows.h>
+#include <taut/model/scene_constraints.h>
 #include <taut/partition/make_partition.h>
 
 #include <algorithm>
@@ -144,21 +144,21 @@ namespace
   /// multipliers, displacements.
   void solve_taut(const taut::Scene &scene, const taut::SceneBodies &structure)
   {
-    const taut::ContactRows rows = taut::scene_rows(scene, structure);
+    const taut::Constraints constraints = taut::scene_constraints(scene, structure);
     taut::FactoredStructure solvers(structure, "block tridiagonal");
     solvers.factor(1e4, 0.);
-    taut::BlockVector U = structure.zero();
+    taut::BodyVectors U = structure.zero();
     for (auto &block : U)
       std::fill(block.begin(), block.end(), 1.);
-    if (rows.size() > 0)
+    if (constraints.size() > 0)
     {
-      const auto schur = taut::make_schur_complement({}, solvers, rows);
-      schur->setup(std::vector<double>(rows.size(), 0.));
+      const auto schur = taut::make_schur_complement({}, solvers, constraints);
+      schur->setup(std::vector<double>(constraints.size(), 0.));
       taut::MixedComplementarityProblem problem;
-      problem.unilateral.assign(rows.size(), 0);
-      schur->free_motion(U, problem.free_gap, problem.gap_scale);
+      problem.unilateral.assign(constraints.size(), 0);
+      schur->contact_free_predictor(U, problem.free_gap, problem.gap_scale);
       taut::ComplementaritySolver solver;
-      rows.add_forces(solver.solve(problem, schur->matrix()).solution.multiplier, U);
+      constraints.add_forces(solver.solve(problem, schur->matrix()).solution.multiplier, U);
     }
     solvers.solve(U);
   }
@@ -215,14 +215,14 @@ int main(int argc, char **argv)
   const int runs = argc > 1 ? std::atoi(argv[1]) : 5;
   const int largest = argc > 2 ? std::atoi(argv[2]) : 3000;
   std::printf("Seconds, in brackets the ratio to n = 1; medians of %d runs\n", runs);
-  for (int row = 0; row < 3; ++row)
+  for (int constraint = 0; constraint < 3; ++constraint)
   {
-    const int N0 = 1000 * (row + 1);
+    const int N0 = 1000 * (constraint + 1);
     std::printf("\nN0 = %d\n| n                            |", N0);
     for (int n = 1; n <= 7; ++n)
       std::printf(" %17d |", n);
     std::printf("\n");
-    print("source (2008)", std::vector<double>(source[row], source[row] + 7));
+    print("source (2008)", std::vector<double>(source[constraint], source[constraint] + 7));
     std::vector<double> a, b, c;
     for (int n = 1; n <= 7; ++n)
     {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Iterations of conjugate gradients on the interface problem of a railway overhead line of EN 50318
 // spans, cut by METIS into n parts: all droppers, the sliding contact and the cuts closed, own
-// weight as load, relative residual 1e-9 in rows of unit diagonal. One table a step (backward
-// Euler) and one for statics; a row each for preconditioner and coarse space. Usage:
-// interface_table [spans] [largest n] [folder prm].
+// weight as load, relative residual 1e-9 in constraints of unit diagonal. One table a step
+// (backward Euler) and one for statics; a constraint each for preconditioner and coarse space.
+// Usage: interface_table [spans] [largest n] [folder prm].
 #include "verification/interface_problem.h"
 
 #include <taut/simulation/parameters.h>
@@ -49,14 +49,14 @@ int main(int argc, char **argv)
     for (std::size_t i = 0; i < numbers.size(); ++i)
       std::printf("---|");
     std::printf("\n");
-    for (const char *coarse_space : {"none", "kernels"})
+    for (const char *coarse_space : {"none", "null spaces"})
       for (const char *preconditioner : {"diagonal", "lumped", "Dirichlet"})
       {
         std::printf("| %s, %s |", preconditioner, coarse_space);
         for (const auto &line : lines)
         {
-          // Statics without the coarse problem is a system for each kernel vector: only where that
-          // ends.
+          // Statics without the coarse problem is a system for each null space vector: only where
+          // that ends.
           if (step == 0. && std::string(coarse_space) == "none" && line->structure.size() > 50)
           {
             std::printf(" - |");

@@ -327,7 +327,7 @@ namespace extremes
     return form;
   }
 
-  Form ExtendedModel::row(const taut::Link &link, const Number &t) const
+  Form ExtendedModel::constraint(const taut::Link &link, const Number &t) const
   {
     const Number sign = link.kind == taut::LinkKind::dropper ? -1 : 1;
     Form form;

@@ -64,7 +64,7 @@ namespace extremes
     Form motion(const taut::Attachment &point, bool rotational,
                 const taut::Coordinates &direction) const;
     /// B of a link at time t, without the gap.
-    Form row(const taut::Link &link, const Number &t) const;
+    Form constraint(const taut::Link &link, const Number &t) const;
     /// External forces at time t.
     Vector load(const Number &t) const;
     /// True if the DoF is held; its value is in given.

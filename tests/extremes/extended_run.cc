@@ -54,7 +54,7 @@ namespace extremes
       Matrix A;           ///< of the free DoFs, with the springs of a static problem
       Matrix A_full;      ///< of all DoFs, without them
       Vector spring;      ///< of the free DoFs
-      Vector flexibility; ///< of the rows with their bodies held: what `shared_by` counts in
+      Vector flexibility; ///< of the constraints with their bodies held: what `shared_by` counts in
       Cholesky factor_of_A;
       bool is_static = false;
 
@@ -154,14 +154,14 @@ namespace extremes
       flexibility.assign(B.size(), Number(0));
       for (std::size_t k = 0; k < B.size(); ++k)
       {
-        Vector full_row(model.n_dofs(), Number(0)), row;
-        for (const auto &[i, v] : model.row(scene.links[k], Number(0)))
+        Vector full_row(model.n_dofs(), Number(0)), constraint;
+        for (const auto &[i, v] : model.constraint(scene.links[k], Number(0)))
           full_row[i] += v;
         for (const std::size_t i : free_dofs)
-          row.push_back(full_row[i]);
-        const Vector x = of_heavy.solve(row);
+          constraint.push_back(full_row[i]);
+        const Vector x = of_heavy.solve(constraint);
         for (std::size_t i = 0; i < n; ++i)
-          flexibility[k] += row[i] * x[i];
+          flexibility[k] += constraint[i] * x[i];
         if (flexibility[k] == 0)
           flexibility[k] = n > 0 ? 1 / heavy(0, 0) : Number(1);
       }
@@ -174,7 +174,7 @@ namespace extremes
       motion = {zero, zero, zero, zero, zero};
       r = zero;
       for (std::size_t k = 0; k < B.size(); ++k)
-        B[k] = model.row(scene.links[k], Number(0));
+        B[k] = model.constraint(scene.links[k], Number(0));
       if (scene.start == taut::Start::equilibrium)
       {
         is_static = true;
@@ -247,7 +247,7 @@ namespace extremes
         prepare(c.scheme);
       const Number t = tau * i;
       for (std::size_t k = 0; k < B.size(); ++k)
-        B[k] = model.row(scene.links[k], t);
+        B[k] = model.constraint(scene.links[k], t);
 
       // Known parts: V = velocity U + v, A = acceleration U + a.
       const std::size_t n = model.n_dofs();
@@ -316,15 +316,15 @@ namespace extremes
       for (std::size_t i = 0; i < n; ++i)
         rhs[i] = full_rhs[free_dofs[i]] - lift[free_dofs[i]];
 
-      std::vector<Vector> rows(m, Vector(n)), columns;
+      std::vector<Vector> constraints(m, Vector(n)), columns;
       for (std::size_t k = 0; k < m; ++k)
       {
         Vector full(model.n_dofs(), Number(0));
         for (const auto &[i, v] : B[k])
           full[i] += v;
         for (std::size_t i = 0; i < n; ++i)
-          rows[k][i] = full[free_dofs[i]];
-        columns.push_back(factor_of_A.solve(rows[k]));
+          constraints[k][i] = full[free_dofs[i]];
+        columns.push_back(factor_of_A.solve(constraints[k]));
       }
       const Vector U_free = factor_of_A.solve(rhs);
       Matrix F(m);
@@ -334,7 +334,7 @@ namespace extremes
         const taut::Link &link = scene.links[k];
         for (std::size_t l = 0; l < m; ++l)
           for (std::size_t i = 0; i < n; ++i)
-            F(k, l) += rows[k][i] * columns[l][i];
+            F(k, l) += constraints[k][i] * columns[l][i];
         F(k, k) += shared_by * flexibility[k];
         if (!link.rigid())
           F(k, k) += 1 / Number(link.stiffness);
@@ -343,7 +343,7 @@ namespace extremes
           d[k] += Number(link.profile(
               static_cast<double>(Number(link.to.position) + Number(link.speed) * t), 0.));
         for (std::size_t i = 0; i < n; ++i)
-          d[k] += rows[k][i] * U_free[i];
+          d[k] += constraints[k][i] * U_free[i];
       }
       if (as_double)
         for (std::size_t k = 0; k < m; ++k)

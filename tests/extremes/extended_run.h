@@ -12,8 +12,9 @@ namespace extremes
    * definite matrix.
    *
    * It is made definite by springs of 1e-45 of a body's stiffness in statics, and by a compliance
-   * of 1e-30 of a row's flexibility in all rows. Both change an answer by less than 1e-25; where
-   * they carry loads or gaps, there is none, and the error says which: "not held", "contradictory".
+   * of 1e-30 of a constraint's flexibility in all constraints. Both change an answer by less than
+   * 1e-25; where they carry loads or gaps, there is none, and the error says which: "not held",
+   * "contradictory".
    *
    * With @p as_double, the diagonals of M, C, K and F and the multipliers of each step are larger
    * by one unit in the last place of a double, more or less: what a program does to a scene that

@@ -45,8 +45,8 @@ namespace extremes
     std::string error;       ///< empty if there is an answer
     double certificate = 0.; ///< largest of the run
 
-    /// Of the extended run: largest |K||U|, and largest motion of a row under its own force, which
-    /// the others take back.
+    /// Of the extended run: largest |K||U|, and largest motion of a constraint under its own force,
+    /// which the others take back.
     double elastic_force = 0., elastic_moment = 0., row_motion = 0., row_turn = 0.;
     unsigned int iterations = 0, n_fallbacks = 0;
   };

@@ -25,10 +25,10 @@ namespace extremes
             open.emplace(d, x, e, y);
 
     std::mt19937 random(seed);
-    std::vector<std::vector<std::size_t>> rows;
+    std::vector<std::vector<std::size_t>> constraints;
     while (!open.empty())
     {
-      // Of some rows that begin with an open pair, the one that closes most.
+      // Of some constraints that begin with an open pair, the one that closes most.
       std::vector<std::size_t> best;
       std::size_t most = 0;
       for (int attempt = 0; attempt < 30; ++attempt)
@@ -36,10 +36,10 @@ namespace extremes
         auto first = open.begin();
         std::advance(first, random() % std::min<std::size_t>(open.size(), 50));
         const auto [d0, x0, e0, y0] = *first;
-        std::vector<std::size_t> row(n, 0), order(n);
+        std::vector<std::size_t> constraint(n, 0), order(n);
         std::vector<char> is_set(n, 0);
-        row[d0] = x0;
-        row[e0] = y0;
+        constraint[d0] = x0;
+        constraint[e0] = y0;
         is_set[d0] = is_set[e0] = 1;
         std::iota(order.begin(), order.end(), 0);
         std::shuffle(order.begin(), order.end(), random);
@@ -53,28 +53,28 @@ namespace extremes
           {
             std::size_t gain = 0;
             for (std::size_t e = 0; e < n; ++e)
-              gain += is_set[e] && open.count(pair(d, x, e, row[e]));
+              gain += is_set[e] && open.count(pair(d, x, e, constraint[e]));
             if (gain > best_gain)
             {
               best_gain = gain;
               best_level = x;
             }
           }
-          row[d] = best_level;
+          constraint[d] = best_level;
           is_set[d] = 1;
           closed += best_gain;
         }
         if (closed > most)
         {
           most = closed;
-          best = row;
+          best = constraint;
         }
       }
       for (std::size_t d = 0; d < n; ++d)
         for (std::size_t e = d + 1; e < n; ++e)
           open.erase({d, best[d], e, best[e]});
-      rows.push_back(best);
+      constraints.push_back(best);
     }
-    return rows;
+    return constraints;
   }
 } // namespace extremes

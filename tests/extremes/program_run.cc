@@ -46,14 +46,14 @@ namespace extremes
       }
       std::vector<double> sum(group.size(), 0.);
       for (std::size_t k = 0; k < group.size(); ++k)
-        sum[group[k]] += view.state.multiplier[view.rows.row_of_link(k)];
+        sum[group[k]] += view.state.multiplier[view.constraints.index_of_link(k)];
       for (std::size_t k = 0; k < group.size(); ++k)
       {
         const bool rotational = view.scene.links[k].rotational;
         if (group[k] == k)
           o[rotational ? moment : force].push_back(sum[k]);
         o[rotational ? angular_gap : gap].push_back(
-            view.state.geometric_gap[view.rows.row_of_link(k)]);
+            view.state.geometric_gap[view.constraints.index_of_link(k)]);
       }
       return o;
     }

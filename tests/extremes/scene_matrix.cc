@@ -23,32 +23,33 @@ namespace extremes
       std::vector<double> levels;
     };
 
-    /// One row of a cover: levels by the name of the dimension.
+    /// One constraint of a cover: levels by the name of the dimension.
     class Levels
     {
     public:
-      Levels(const std::vector<Dimension> &dimensions, const std::vector<std::size_t> &row)
-          : dimensions(dimensions), row(row)
+      Levels(const std::vector<Dimension> &dimensions, const std::vector<std::size_t> &constraint)
+          : dimensions(dimensions), constraint(constraint)
       {
       }
       double operator[](const std::string &name) const
       {
         for (std::size_t d = 0; d < dimensions.size(); ++d)
           if (dimensions[d].name == name)
-            return dimensions[d].levels[row[d]];
+            return dimensions[d].levels[constraint[d]];
         throw std::logic_error("no dimension " + name);
       }
       std::string name() const
       {
         std::ostringstream out;
         for (std::size_t d = 0; d < dimensions.size(); ++d)
-          out << (d > 0 ? ", " : "") << dimensions[d].name << ' ' << dimensions[d].levels[row[d]];
+          out << (d > 0 ? ", " : "") << dimensions[d].name << ' '
+              << dimensions[d].levels[constraint[d]];
         return out.str();
       }
 
     private:
       const std::vector<Dimension> &dimensions;
-      const std::vector<std::size_t> &row;
+      const std::vector<std::size_t> &constraint;
     };
 
     const Dimension steps = {"step", {1e-9, 1e-6, 1e-3, 1., 1e3, 1e6}},
@@ -134,9 +135,9 @@ namespace extremes
       for (const Dimension &d : dimensions)
         sizes.push_back(d.levels.size());
       std::vector<Case> cases;
-      for (const std::vector<std::size_t> &row : pairwise(sizes, seed))
+      for (const std::vector<std::size_t> &constraint : pairwise(sizes, seed))
       {
-        const Levels level(dimensions, row);
+        const Levels level(dimensions, constraint);
         Case c;
         c.family = family;
         c.name = level.name();
@@ -195,7 +196,7 @@ namespace extremes
           }
           if (level["start"] > 0.)
             c.scene.start = level["start"] == 1. ? taut::Start::undeformed : taut::Start::given;
-          // Far from equilibrium, both alike, so that rigid rows start open.
+          // Far from equilibrium, both alike, so that rigid constraints start open.
           for (taut::Mass &m : c.scene.masses)
           {
             m.displacement[1] = G;
@@ -357,7 +358,7 @@ namespace extremes
   {
     const std::vector<Dimension> dimensions = {steps,
                                                {"body", {1, 3, 5}}, // string, beam, mass that turns
-                                               {"rows", {2, 3, 7}},
+                                               {"constraints", {2, 3, 7}},
                                                {"load", {1e-12, 1., 1e12}},
                                                {"at", {.25, .5, .75}},
                                                {"bending stiffness", {1e-6, 1., 1e6}},
@@ -376,7 +377,7 @@ namespace extremes
                    c.n_steps = 2;
                    const int body = static_cast<int>(level["body"]);
                    const bool hangs = level["droppers"] == 1.;
-                   const auto n = static_cast<int>(level["rows"]);
+                   const auto n = static_cast<int>(level["constraints"]);
                    constexpr double length = 16.;
                    const double at = level["at"] * length;
                    if (body == 5)
@@ -412,12 +413,13 @@ namespace extremes
                      {
                        const double x = length * i / (n - 1);
                        // A mass that turns has no points away from it: a joint to a massless node
-                       // would be a body more; its rows hold deflection and, as angular stops,
-                       // rotation.
-                       taut::Link l = link("row" + std::to_string(i) + "_" + std::to_string(copy),
-                                           hangs ? taut::LinkKind::dropper : taut::LinkKind::stop,
-                                           {}, body == 5 ? on_mass(0) : on_wire(x),
-                                           level["compliance"], i % 2 == 1 ? level["gap"] : 0.);
+                       // would be a body more; its constraints hold deflection and, as angular
+                       // stops, rotation.
+                       taut::Link l =
+                           link("constraint" + std::to_string(i) + "_" + std::to_string(copy),
+                                hangs ? taut::LinkKind::dropper : taut::LinkKind::stop, {},
+                                body == 5 ? on_mass(0) : on_wire(x), level["compliance"],
+                                i % 2 == 1 ? level["gap"] : 0.);
                        if (hangs)
                          l.direction = {0., -1.};
                        if (body == 5 && i > 0)

@@ -21,7 +21,7 @@ namespace extremes
   /**
    * A neighbour in the numbers of double precision: stiffnesses, masses, loads, gaps and so on
    * change by up to two units in the last place. Numbers that are equal stay equal, so that
-   * duplicated rows stay duplicates; places stay, so that nodes stay one node.
+   * duplicated constraints stay duplicates; places stay, so that nodes stay one node.
    */
   Case in_last_digits(const Case &c, unsigned int seed);
 } // namespace extremes

@@ -424,7 +424,7 @@ namespace
     void record(const taut::StepView &step) override
     {
       const taut::State &state = step.state;
-      for (const taut::BlockVector *vectors :
+      for (const taut::BodyVectors *vectors :
            {&state.U, &state.V, &state.A, &step.reference.displacement})
         for (const std::vector<double> &vector : *vectors)
           check(vector, "the motion of a body");

@@ -223,7 +223,7 @@ def check_error(folder, ranks):
 def check_study(folder):
     scene = [LINE[0], "--study", "--set", "Time/End=0.5", "--set", "Statistics/Window=",
              "--set", "Study/Reference levels=2", "--set", "Study/Accuracy=0", "--set", f"Study/Folder={folder}/study",
-             "--set", "Study/Ladder step/Values=4e-3, 2e-3, 5e-4"]
+             "--set", "Study/Parameter step/Values=4e-3, 2e-3, 5e-4"]
     program = Program(folder, scene)
     program.says(r"^  scheme = BDF2")
     program.process.send_signal(signal.SIGINT)

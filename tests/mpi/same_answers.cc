@@ -32,7 +32,7 @@ namespace
   };
 
   /// Displacements of points along the wires, summed over the ranks [m].
-  void add_displacements(const taut::StepView &view, const taut::BlockVector &U,
+  void add_displacements(const taut::StepView &view, const taut::BodyVectors &U,
                          std::vector<double> &result)
   {
     constexpr unsigned int n = 200;
@@ -54,8 +54,8 @@ namespace
         [&](const taut::StepView &view)
         {
           Record &now = is_start ? result.rest : result.motion;
-          for (std::size_t i = 0; i < view.rows.size(); ++i)
-            if (!view.rows[i].is_cut())
+          for (std::size_t i = 0; i < view.constraints.size(); ++i)
+            if (!view.constraints[i].is_cut())
             {
               now.force.push_back(view.state.multiplier[i]);
               now.gap.push_back(view.state.geometric_gap[i]);
@@ -120,8 +120,8 @@ namespace
   }
 
   /// Largest eigenvalue of a symmetric positive operator, from below, by the power method.
-  double largest_eigenvalue(taut::BlockVector x,
-                            const std::function<void(taut::BlockVector &)> &apply)
+  double largest_eigenvalue(taut::BodyVectors x,
+                            const std::function<void(taut::BodyVectors &)> &apply)
   {
     double value = 0.;
     for (int iteration = 0; iteration < 60; ++iteration)
@@ -149,7 +149,7 @@ namespace
     const double velocity = step > 0. ? 1. / step : 0., mass = velocity * velocity;
     taut::FactoredStructure solvers(bodies, "block tridiagonal");
     solvers.factor(mass, velocity);
-    taut::BlockVector root = bodies.zero(), start = bodies.zero();
+    taut::BodyVectors root = bodies.zero(), start = bodies.zero();
     for (std::size_t k = 0; k < bodies.size(); ++k)
     {
       const std::vector<taut::ScaledMatrix> summands = {{mass, &bodies[k].mass()},
@@ -170,7 +170,7 @@ namespace
       for (const taut::ConstrainedDof &constraint : bodies[k].constraints())
         start[k][constraint.dof] = 0.;
     }
-    const auto scale = [&](taut::BlockVector &x, const bool divide)
+    const auto scale = [&](taut::BodyVectors &x, const bool divide)
     {
       for (std::size_t k = 0; k < x.size(); ++k)
         for (std::size_t i = 0; i < x[k].size(); ++i)
@@ -178,10 +178,10 @@ namespace
     };
     const double largest =
         largest_eigenvalue(start,
-                           [&](taut::BlockVector &x)
+                           [&](taut::BodyVectors &x)
                            {
                              scale(x, true);
-                             taut::BlockVector y = bodies.zero();
+                             taut::BodyVectors y = bodies.zero();
                              for (std::size_t k = 0; k < x.size(); ++k)
                              {
                                bodies[k].mass().vmult_add(mass, x[k].data(), y[k].data());
@@ -194,7 +194,7 @@ namespace
                              scale(x, true);
                            });
     const double inverse = largest_eigenvalue(start,
-                                              [&](taut::BlockVector &x)
+                                              [&](taut::BodyVectors &x)
                                               {
                                                 scale(x, false);
                                                 solvers.solve(x);

@@ -57,23 +57,23 @@ end
 subsection Study
   set Repeats          = 1
   set Reference levels = 5
-  set Ladders          = step, scheme
-  subsection Ladder step
+  set Parameters          = step, scheme
+  subsection Parameter step
     set Entries = Time/Step
     set Values  = 0.02, 0.01, 0.005, 0.0025
     set Refined = true
   end
-  subsection Ladder scheme
+  subsection Parameter scheme
     set Entries   = Time/Scheme
     set Values    = Newmark, backward Euler
     set Reference = Newmark
   end
-  set Figures = end, motion
-  subsection Figure end
+  set Quantities = end, motion
+  subsection Quantity end
     set Of       = place
     set Quantity = last
   end
-  subsection Figure motion
+  subsection Quantity motion
     set Of       = place
     set Quantity = history
   end
@@ -145,11 +145,11 @@ end
     std::ostringstream log;
   };
 
-  taut::StudyFigure number(const double value)
+  taut::StudyQuantity number(const double value)
   {
-    taut::StudyFigure figure;
-    figure.value = value;
-    return figure;
+    taut::StudyQuantity quantity;
+    quantity.value = value;
+    return quantity;
   }
 } // namespace
 
@@ -158,22 +158,23 @@ TEST(Extrapolation, finds_the_limit_and_order_of_a_power)
 {
   for (const double p : {1., 1.5, 2.})
   {
-    std::vector<taut::StudyFigure> levels;
+    std::vector<taut::StudyQuantity> levels;
     for (int k = 0; k < 3; ++k)
       levels.push_back(number(3. + .1 * std::exp2(-p * k)));
-    const taut::FigureReference reference = taut::extrapolate(levels);
-    EXPECT_NEAR(reference.figure.value, 3., 1e-13);
+    const taut::QuantityReference reference = taut::extrapolate(levels);
+    EXPECT_NEAR(reference.quantity.value, 3., 1e-13);
     EXPECT_NEAR(reference.order, p, 1e-10);
-    EXPECT_GE(reference.error, std::fabs(levels[2].value - reference.figure.value));
+    EXPECT_GE(reference.error, std::fabs(levels[2].value - reference.quantity.value));
   }
 }
 
 // A high order from errors that cancel is not believed, changes that do not fall even less.
 TEST(Extrapolation, doubts_what_does_not_converge_regularly)
 {
-  const taut::FigureReference fast = taut::extrapolate({number(1.), number(1.1), number(1.1001)});
+  const taut::QuantityReference fast = taut::extrapolate({number(1.), number(1.1), number(1.1001)});
   EXPECT_GE(fast.error, .025);
-  const taut::FigureReference erratic = taut::extrapolate({number(1.), number(1.1), number(1.05)});
+  const taut::QuantityReference erratic =
+      taut::extrapolate({number(1.), number(1.1), number(1.05)});
   EXPECT_EQ(erratic.order, 0.);
   EXPECT_NEAR(erratic.error, .1, 1e-12);
   EXPECT_TRUE(std::isinf(taut::extrapolate({number(1.)}).error));
@@ -183,7 +184,7 @@ TEST(Extrapolation, doubts_what_does_not_converge_regularly)
 // u = t on a coarse grid against u = t + 0.25 on a finer one: 0.25 everywhere.
 TEST(Distance, compares_histories_at_their_own_times)
 {
-  taut::StudyFigure coarse, fine;
+  taut::StudyQuantity coarse, fine;
   for (int i = 0; i <= 4; ++i)
   {
     coarse.time.push_back(.3 * i);
@@ -202,15 +203,15 @@ TEST(Distance, compares_histories_at_their_own_times)
 TEST_F(StudyTest, reference_is_as_far_from_the_exact_value_as_it_says)
 {
   const taut::StudyResult result = study();
-  const taut::FigureReference &end = result.references[0], &motion = result.references[1];
-  EXPECT_LE(std::fabs(end.figure.value - std::cos(13.)), end.error);
+  const taut::QuantityReference &end = result.references[0], &motion = result.references[1];
+  EXPECT_LE(std::fabs(end.quantity.value - std::cos(13.)), end.error);
   EXPECT_LT(end.error, 1e-3);
   EXPECT_NEAR(end.order, 2., .6);
   EXPECT_NEAR(motion.order, 2., .05);
   double sum = 0.;
-  for (std::size_t i = 0; i < motion.figure.time.size(); ++i)
-    sum += std::pow(motion.figure.history[i] - std::cos(10. * motion.figure.time[i]), 2);
-  const double rms = std::sqrt(sum / motion.figure.time.size());
+  for (std::size_t i = 0; i < motion.quantity.time.size(); ++i)
+    sum += std::pow(motion.quantity.history[i] - std::cos(10. * motion.quantity.time[i]), 2);
+  const double rms = std::sqrt(sum / motion.quantity.time.size());
   EXPECT_NEAR(rms, motion.error, .05 * rms) << "the error of a history is estimated, not bounded";
 }
 
@@ -219,8 +220,8 @@ TEST_F(StudyTest, reference_is_as_far_from_the_exact_value_as_it_says)
 TEST_F(StudyTest, errors_are_the_real_ones)
 {
   const taut::StudyResult result =
-      study({"Study/Figure end/Exact=cos(13)", "Study/Figure motion/Exact=cos(10*t)",
-             "Study/Figure end/Scale=1", "Study/Figure motion/Scale=1"});
+      study({"Study/Quantity end/Exact=cos(13)", "Study/Quantity motion/Exact=cos(10*t)",
+             "Study/Quantity end/Scale=1", "Study/Quantity motion/Scale=1"});
   ASSERT_EQ(result.settings.size(), 8u);
   const auto error = [&](const std::string &step, const std::string &scheme)
   {
@@ -246,8 +247,8 @@ TEST_F(StudyTest, errors_are_the_real_ones)
 
 TEST_F(StudyTest, a_setting_that_fails_is_a_row_with_its_reason)
 {
-  const taut::StudyResult result =
-      study({"Study/Ladder step/Values=2, 0.01", "Study/Ladder scheme/Values=Newmark, Euler"});
+  const taut::StudyResult result = study({"Study/ParameterList step/Values=2, 0.01",
+                                          "Study/ParameterList scheme/Values=Newmark, Euler"});
   int n_failed = 0;
   for (const taut::StudySetting &setting : result.settings)
   {
@@ -266,8 +267,8 @@ TEST_F(StudyTest, a_setting_that_fails_is_a_row_with_its_reason)
 
 TEST_F(StudyTest, a_step_that_does_not_divide_the_run_is_measured_to_its_last_step)
 {
-  const taut::StudyResult odd =
-      study({"Study/Ladder step/Values=0.017, 0.0005", "Study/Ladder scheme/Values=Newmark"});
+  const taut::StudyResult odd = study({"Study/ParameterList step/Values=0.017, 0.0005",
+                                       "Study/ParameterList scheme/Values=Newmark"});
   EXPECT_EQ(odd.settings[0].n_steps, 76);
   EXPECT_GT(odd.settings[0].least_seconds(), .002 * odd.settings[1].least_seconds());
 }
@@ -295,7 +296,7 @@ TEST(Front, holds_what_nothing_beats)
 // Cancellation at (4, 4), and a scheme that fails at the finest step: by hand.
 TEST(Bounds, hold_for_all_finer_settings)
 {
-  const std::vector<taut::Ladder> ladders = {
+  const std::vector<taut::ParameterList> parameter_lists = {
       {"step", {}, {}, "", true}, {"mesh", {}, {}, "", true}, {"scheme", {}, {}, "", false}};
   std::vector<taut::StudySetting> settings(5);
   const Texts values[] = {
@@ -306,7 +307,7 @@ TEST(Bounds, hold_for_all_finer_settings)
     settings[i].values = values[i];
     settings[i].errors = {errors[i], 2. * errors[i]};
   }
-  taut::find_bounds(ladders, settings);
+  taut::find_bounds(parameter_lists, settings);
   const double expected[] = {.2, .1, .2, .01, .5};
   for (int i = 0; i < 5; ++i)
   {
@@ -314,14 +315,14 @@ TEST(Bounds, hold_for_all_finer_settings)
     EXPECT_EQ(settings[i].bound, 2. * expected[i]) << i;
   }
   settings[2].message = "failed";
-  taut::find_bounds(ladders, settings);
+  taut::find_bounds(parameter_lists, settings);
   EXPECT_EQ(settings[0].bounds[0], .1);
 }
 
 TEST_F(StudyTest, accuracy_takes_the_cheapest_setting_that_has_it)
 {
-  study({"Study/Ladder step/Values=0.05, 0.005, 0.00005", "Study/Figure end/Exact=cos(13)",
-         "Study/Figure motion/Exact=cos(10*t)"});
+  study({"Study/ParameterList step/Values=0.05, 0.005, 0.00005", "Study/Quantity end/Exact=cos(13)",
+         "Study/Quantity motion/Exact=cos(10*t)"});
   taut::Parameters parameters;
   parameters.read("scene.prm", {"Study/Accuracy=0.02"});
   EXPECT_EQ(parameters.step, .005);
@@ -369,21 +370,22 @@ TEST_F(StudyTest, accuracy_refuses_a_study_of_another_scene)
       error_of([&]() { taut::Parameters().read("scene.prm", {"Study/Accuracy=1e-9"}); }),
       {"the best setting", "has an error of", "less accuracy"});
 
-  std::ofstream("results/study/study.json") << "{\"ladders\": [";
+  std::ofstream("results/study/study.json") << "{\"parameter_lists\": [";
   expect_fragments(read({}), {"is damaged"});
-  std::ofstream("results/study/study.json") << "{\"ladders\": [{\"entries\": 3}]}";
+  std::ofstream("results/study/study.json") << "{\"parameter_lists\": [{\"entries\": 3}]}";
   expect_fragments(read({}), {"not a study of this version"});
 }
 
 TEST_F(StudyTest, mistakes_are_named_before_anything_runs)
 {
   const std::vector<std::pair<Texts, Texts>> cases = {
-      {{"Study/Figure end/Of=palce"}, {"Figure end/Of = 'palce'", "did you mean 'place'"}},
-      {{"Study/Figure end/Quantity=lost"}, {"Figure end/Quantity = 'lost'", "mean 'last'"}},
+      {{"Study/Quantity end/Of=palce"}, {"Quantity end/Of = 'palce'", "did you mean 'place'"}},
+      {{"Study/Quantity end/Quantity=lost"}, {"Quantity end/Quantity = 'lost'", "mean 'last'"}},
       {{"Time/End=0"}, {"Time/End", "later end"}},
-      {{"Study/Ladder step/Values=1:2"}, {"Ladder step/Values", "'1:2' is no positive number"}},
-      {{"Study/Figure end/Exact=cos("}, {"Figure end/Exact"}},
-      {{"Study/Figure end/Exact=0"}, {"Figure end/Scale", "reference is 0"}},
+      {{"Study/ParameterList step/Values=1:2"},
+       {"ParameterList step/Values", "'1:2' is no positive number"}},
+      {{"Study/Quantity end/Exact=cos("}, {"Quantity end/Exact"}},
+      {{"Study/Quantity end/Exact=0"}, {"Quantity end/Scale", "reference is 0"}},
   };
   for (const auto &[overrides, fragments] : cases)
   {
@@ -393,11 +395,11 @@ TEST_F(StudyTest, mistakes_are_named_before_anything_runs)
   }
   std::ofstream("scene.prm")
       << std::string(oscillator).substr(0, std::string(oscillator).find("subsection Study"));
-  expect_fragments(error_of([&]() { study(); }), {"Study/Ladders", "one or more lists"});
+  expect_fragments(error_of([&]() { study(); }), {"Study/Parameters", "one or more lists"});
   std::ofstream("scene.prm")
-      << std::string(oscillator).substr(0, std::string(oscillator).find("  set Figures = end"))
+      << std::string(oscillator).substr(0, std::string(oscillator).find("  set Quantities = end"))
       << "end\n";
-  expect_fragments(error_of([&]() { study(); }), {"Study/Figures", "one or more figures"});
+  expect_fragments(error_of([&]() { study(); }), {"Study/Quantities", "one or more quantities"});
   std::ofstream("scene.prm") << oscillator;
   study();
   expect_fragments(error_of([&]() { study(); }), {"Study/Folder", "--overwrite"});

@@ -856,61 +856,64 @@ end
          {{"subsection Statistics\n",
            "subsection Study\nset Repeats = 0 # here\nend\nsubsection Statistics\n"}},
          {"Study/Repeats = '0'"}},
-        {"ladder_of_an_unknown_entry",
+        {"parameter_of_an_unknown_entry",
          network,
          {{"subsection Statistics\n",
-           "subsection Study\nset Ladders = step\nsubsection Ladder step\nset Entries = Time/Stop "
+           "subsection Study\nset Parameters = step\nsubsection Parameter step\nset Entries = "
+           "Time/Stop "
            "# here\nset Values = 1, 2\nend\nend\nsubsection Statistics\n"}},
-         {"Study/Ladder step/Entries", "no entry 'Time/Stop'", "did you mean 'Time/Step'"}},
-        {"ladder_without_entries",
+         {"Study/ParameterList step/Entries", "no entry 'Time/Stop'", "did you mean 'Time/Step'"}},
+        {"parameter_without_entries",
          network,
          {{"subsection Statistics\n",
-           "subsection Study\nset Ladders = step\nsubsection Ladder step\nset Entries =  # "
+           "subsection Study\nset Parameters = step\nsubsection Parameter step\nset Entries =  # "
            "here\nset Values = 1, 2\nend\nend\nsubsection Statistics\n"}},
-         {"Study/Ladder step/Entries", "name the entries"}},
-        {"ladder_of_the_results",
+         {"Study/ParameterList step/Entries", "name the entries"}},
+        {"parameter_of_the_results",
          network,
          {{"subsection Statistics\n",
-           "subsection Study\nset Ladders = step\nsubsection Ladder step\nset Entries = "
+           "subsection Study\nset Parameters = step\nsubsection Parameter step\nset Entries = "
            "Output/Folder # here\nset Values = a, b\nend\nend\nsubsection Statistics\n"}},
-         {"Study/Ladder step/Entries", "not part of the scene"}},
-        {"ladder_of_an_entry_twice",
+         {"Study/ParameterList step/Entries", "not part of the scene"}},
+        {"parameter_of_an_entry_twice",
          network,
          {{"subsection Statistics\n",
-           "subsection Study\nset Ladders = step\nsubsection Ladder step\nset Entries = Time/Step, "
+           "subsection Study\nset Parameters = step\nsubsection Parameter step\nset Entries = "
+           "Time/Step, "
            "Time/Step # here\nset Values = 1, 2\nend\nend\nsubsection Statistics\n"}},
-         {"Study/Ladder step/Entries", "varied twice"}},
-        {"ladder_with_an_empty_value",
+         {"Study/ParameterList step/Entries", "varied twice"}},
+        {"parameter_with_an_empty_value",
          network,
          {{"subsection Statistics\n",
-           "subsection Study\nset Ladders = step\nsubsection Ladder step\nset Entries = "
+           "subsection Study\nset Parameters = step\nsubsection Parameter step\nset Entries = "
            "Time/Step\nset Values = 1, , 2 # here\nend\nend\nsubsection Statistics\n"}},
-         {"Study/Ladder step/Values", "none of them empty"}},
-        {"ladder_without_values",
+         {"Study/ParameterList step/Values", "none of them empty"}},
+        {"parameter_without_values",
          network,
          {{"subsection Statistics\n",
-           "subsection Study\nset Ladders = step\nsubsection Ladder step\nset Entries = "
+           "subsection Study\nset Parameters = step\nsubsection Parameter step\nset Entries = "
            "Time/Step\nset Values =  # here\nend\nend\nsubsection Statistics\n"}},
-         {"Study/Ladder step/Values", "one or more values"}},
+         {"Study/ParameterList step/Values", "one or more values"}},
         {"refined_ladder_of_names",
          network,
          {{"subsection Statistics\n",
-           "subsection Study\nset Ladders = step\nsubsection Ladder step\nset Entries = "
+           "subsection Study\nset Parameters = step\nsubsection Parameter step\nset Entries = "
            "Time/Scheme\nset Values = BDF2 # here\nset Refined = true\nend\nend\nsubsection "
            "Statistics\n"}},
-         {"Study/Ladder step/Values = 'BDF2'", "cannot be halved", "Refined = false"}},
+         {"Study/ParameterList step/Values = 'BDF2'", "cannot be halved", "Refined = false"}},
         {"refined_ladder_of_zero",
          network,
          {{"subsection Statistics\n",
-           "subsection Study\nset Ladders = step\nsubsection Ladder step\nset Entries = "
+           "subsection Study\nset Parameters = step\nsubsection Parameter step\nset Entries = "
            "Time/Step\nset Values = 0.1, 0 # here\nset Refined = true\nend\nend\nsubsection "
            "Statistics\n"}},
-         {"Study/Ladder step/Values", "'0' is no positive number"}},
+         {"Study/ParameterList step/Values", "'0' is no positive number"}},
         {"figure_without_a_name",
          network,
-         {{"subsection Statistics\n", "subsection Study\nset Figures = impulse\nsubsection Figure "
-                                      "impulze # here\nend\nend\nsubsection Statistics\n"}},
-         {"no section 'Figure impulze'", "did you mean 'Figure impulse'"}},
+         {{"subsection Statistics\n",
+           "subsection Study\nset Quantities = impulse\nsubsection Quantity "
+           "impulze # here\nend\nend\nsubsection Statistics\n"}},
+         {"no section 'Quantity impulze'", "did you mean 'Quantity impulse'"}},
 
         // Time, output, statistics
         {"newmark_beta_zero",
@@ -962,7 +965,7 @@ end
          {{"set Stiffness = rigid", "set Stiffness = 1000"},
           {"  subsection Newmark",
            "  subsection Moreau-Jean\nset Restitution = 0.5 # here\nend\n  subsection Newmark"}},
-         {"Restitution = '0.5'", "rigid one-sided links, and the scene has none"}},
+         {"Restitution = '0.5'", "rigid unilateral links, and the scene has none"}},
         {"restitution_of_a_wire",
          network,
          {{"  subsection Newmark",

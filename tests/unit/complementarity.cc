@@ -478,8 +478,8 @@ namespace
   MixedComplementarityProblem beam_on_stops(double load, double position, const Vector &gaps)
   {
     auto result = problem({1, 1, 1}, gaps);
-    result.kernel = kernel_rows(3, {1., 1., 1., 0., 1., 2.});
-    result.kernel_load = {-load, -load * position};
+    result.null_space = mode_equations(3, {1., 1., 1., 0., 1., 2.});
+    result.null_space_load = {-load, -load * position};
     return result;
   }
 
@@ -493,7 +493,7 @@ namespace
       ComplementaritySolver solver(method);
       const auto &all = solver.solve(beam_on_stops(12., 1.25, {0., 0., 0.}), F);
       expect_near(all.solution.multiplier, {2.5, 4., 5.5});
-      expect_near(all.solution.kernel_amplitude, {-2.5e-3, -1.5e-3}, 1e-15);
+      expect_near(all.solution.mode_amplitude, {-2.5e-3, -1.5e-3}, 1e-15);
       EXPECT_FALSE(all.used_fallback);
 
       const auto &lifted = solver.solve(beam_on_stops(10., 1.7, {0., 0., 0.}), F);
@@ -513,7 +513,7 @@ namespace
       const auto &result = solver.solve(beam_on_stops(10., .3, {1e-3, 0., 0.}), F);
       expect_near(result.solution.multiplier, {7., 3., 0.});
       expect_near(result.solution.gap, {0., 0., 1e-3}, 1e-15);
-      expect_near(result.solution.kernel_amplitude, {-1e-3, 1e-3}, 1e-15);
+      expect_near(result.solution.mode_amplitude, {-1e-3, 1e-3}, 1e-15);
     }
   }
 
@@ -550,7 +550,7 @@ namespace
         }
         catch (const BodyNotHeld &error)
         {
-          EXPECT_FALSE(error.kernel().empty());
+          EXPECT_FALSE(error.null_space().empty());
         }
       }
   }
@@ -562,8 +562,8 @@ namespace
     {
       DenseOperator F(2);
       auto two = problem({1, 1}, {0., 0.});
-      two.kernel = kernel_rows(2, {1., 0., 0., 1.});
-      two.kernel_load = {-5., 5.};
+      two.null_space = mode_equations(2, {1., 0., 0., 1.});
+      two.null_space_load = {-5., 5.};
       ComplementaritySolver solver(method);
       try
       {
@@ -572,28 +572,28 @@ namespace
       }
       catch (const BodyNotHeld &error)
       {
-        EXPECT_EQ(error.kernel(), (std::vector<std::size_t>{1}));
+        EXPECT_EQ(error.null_space(), (std::vector<std::size_t>{1}));
       }
     }
   }
 
-  TEST(complementarity, kernel_vectors_with_and_without_resistance_mix)
+  TEST(complementarity, null_space_vectors_with_and_without_resistance_mix)
   {
-    // Claim: E_k = 0 is a kernel vector that contacts alone balance, beside others that E resists.
-    // By hand: N = 10 from the second balance, 2 alpha_0 = N - 4, alpha_1 = -(0.1 N + 0.5 +
-    // alpha_0).
+    // Claim: E_k = 0 is a null space vector that contacts alone balance, beside others that E
+    // resists. By hand: N = 10 from the second balance, 2 alpha_0 = N - 4, alpha_1 = -(0.1 N + 0.5
+    // + alpha_0).
     for (const std::string &method : both_methods)
     {
       DenseOperator F = dense({{.1}});
       auto both = problem({1}, {.5});
-      both.kernel = kernel_rows(1, {1., 1.});
-      both.kernel_load = {-4., -10.};
-      both.kernel_resistance = {2., 0.};
+      both.null_space = mode_equations(1, {1., 1.});
+      both.null_space_load = {-4., -10.};
+      both.null_space_resistance = {2., 0.};
       ComplementaritySolver solver(method);
       const auto &result = solver.solve(both, F);
       expect_near(result.solution.multiplier, {10.});
       expect_near(result.solution.gap, {0.});
-      expect_near(result.solution.kernel_amplitude, {3., -4.5});
+      expect_near(result.solution.mode_amplitude, {3., -4.5});
       EXPECT_FALSE(result.used_fallback);
     }
   }
@@ -606,15 +606,15 @@ namespace
     {
       DenseOperator F(2);
       auto two = problem({1, 1}, {.1, .2});
-      two.kernel = kernel_rows(2, {1., 0., 0., 1.});
-      two.kernel_load = {-5., -7.};
-      two.kernel_resistance = {100., 0.};
+      two.null_space = mode_equations(2, {1., 0., 0., 1.});
+      two.null_space_load = {-5., -7.};
+      two.null_space_resistance = {100., 0.};
       ComplementaritySolver solver(method);
       const auto &result = solver.solve(two, F);
       expect_near(result.solution.multiplier, {0., 7.});
       expect_near(result.solution.gap, {.05, 0.});
-      expect_near(result.solution.kernel_amplitude, {-.05, -.2});
-      two.kernel_load[1] = 7.;
+      expect_near(result.solution.mode_amplitude, {-.05, -.2});
+      two.null_space_load[1] = 7.;
       try
       {
         solver.solve(two, F);
@@ -622,7 +622,7 @@ namespace
       }
       catch (const BodyNotHeld &error)
       {
-        EXPECT_EQ(error.kernel(), (std::vector<std::size_t>{1}));
+        EXPECT_EQ(error.null_space(), (std::vector<std::size_t>{1}));
       }
     }
   }
@@ -636,12 +636,12 @@ namespace
       auto beam = beam_on_stops(10., .3, {1e-3, 0., 0.});
       const MixedComplementaritySolution none =
           ComplementaritySolver(method).solve(beam, F).solution;
-      beam.kernel_resistance = {0., 0.};
+      beam.null_space_resistance = {0., 0.};
       const MixedComplementaritySolution zeros =
           ComplementaritySolver(method).solve(beam, F).solution;
       EXPECT_EQ(none.multiplier, zeros.multiplier);
       EXPECT_EQ(none.gap, zeros.gap);
-      EXPECT_EQ(none.kernel_amplitude, zeros.kernel_amplitude);
+      EXPECT_EQ(none.mode_amplitude, zeros.mode_amplitude);
     }
   }
 
@@ -654,11 +654,11 @@ namespace
         for (std::size_t i = 0; i < n; ++i)
           F.set(i, i, 1.);
         auto loose = problem(std::vector<char>(n, 1), Vector(n, -1.));
-        loose.kernel = {{}};
-        loose.kernel_load = {0.};
+        loose.null_space = {{}};
+        loose.null_space_load = {0.};
         ComplementaritySolver solver(method);
-        EXPECT_EQ(solver.solve(loose, F).solution.kernel_amplitude, Vector{0.});
-        loose.kernel_load = {1.};
+        EXPECT_EQ(solver.solve(loose, F).solution.mode_amplitude, Vector{0.});
+        loose.null_space_load = {1.};
         EXPECT_THROW(solver.solve(loose, F), BodyNotHeld);
       }
   }
@@ -673,8 +673,8 @@ namespace
       {
         DenseOperator F = dense({{0., 0.}, {0., 1.}});
         auto rod = problem({unilateral, unilateral}, {0., -2.});
-        rod.kernel = kernel_rows(2, {1., 1.});
-        rod.kernel_load = {-3.};
+        rod.null_space = mode_equations(2, {1., 1.});
+        rod.null_space_load = {-3.};
         ComplementaritySolver solver(method);
         const auto &result = solver.solve(rod, F);
         expect_near(result.solution.multiplier, {1., 2.});
@@ -696,9 +696,9 @@ namespace
                                {-15., -12., -12., 0., 19., 7.},
                                {-11., 0., -4., -4., 7., 11.}});
       auto touching = problem({1, 0, 1, 1, 0, 1}, {-50., -26., -35., -7., 62., 36.});
-      touching.kernel = kernel_rows(
+      touching.null_space = mode_equations(
           6, {-1., -1., -2., -2., 0., -2., -2., -1., 0., 2., -1., 2., -2., 1., -1., -1., -2., 0.});
-      touching.kernel_load = {-3., -8., -7.};
+      touching.null_space_load = {-3., -8., -7.};
       ComplementaritySolver solver(method);
       const auto &result = solver.solve(touching, F);
       expect_near(result.solution.multiplier, {0., -3., 0., 0., -5., 0.}, 1e-11);
@@ -713,8 +713,8 @@ namespace
     {
       DenseOperator F = dense({{0., 0., 0.}, {0., 0., 0.}, {0., 0., 1.}});
       auto torn = problem({0, 0, 1}, {-1., -2., -1.});
-      torn.kernel = kernel_rows(3, {1., 1., 0.});
-      torn.kernel_load = {-3.};
+      torn.null_space = mode_equations(3, {1., 1., 0.});
+      torn.null_space_load = {-3.};
       ComplementaritySolver solver(method);
       try
       {
@@ -893,11 +893,11 @@ namespace
     MixedComplementaritySolution guess;
     guess.multiplier = {3., 0., 5.};
     guess.gap = {0., 0., 0.};
-    guess.kernel_amplitude = {0., 0.};
+    guess.mode_amplitude = {0., 0.};
     const auto result = residual(beam_on_stops(10., 1., {0., 0., 0.}), DenseOperator(3), guess);
-    EXPECT_GT(result.kernel[0], .05);
-    EXPECT_LT(result.kernel[1], 1e-15);
-    EXPECT_EQ(result.max, result.kernel[0]);
+    EXPECT_GT(result.null_space[0], .05);
+    EXPECT_LT(result.null_space[1], 1e-15);
+    EXPECT_EQ(result.max, result.null_space[0]);
   }
 
   TEST(complementarity, residual_without_terms_is_zero_or_infinite)
@@ -944,7 +944,7 @@ namespace
     three.gap_scale = {1.};
     EXPECT_THROW(solver.solve(three, F), std::invalid_argument);
     three.gap_scale.clear();
-    three.kernel_load = {1.};
+    three.null_space_load = {1.};
     EXPECT_THROW(solver.solve(three, F), std::invalid_argument);
   }
 

@@ -583,14 +583,14 @@ namespace
   }
 
   /// A floating problem with a known solution: d = D - F N - G^T alpha, e = -G N, in small
-  /// integers. With @p resisted about half of the kernel vectors have a resistance E, the others an
-  /// explicit zero, and e = E alpha - G N.
+  /// integers. With @p resisted about half of the null space vectors have a resistance E, the
+  /// others an explicit zero, and e = E alpha - G N.
   Problem generate_floating(unsigned int index, bool resisted = false)
   {
     Generator generator(2 * n_problems + index);
     Problem problem;
     const std::size_t n = problem.n = 1 + generator.integer(40);
-    const std::size_t m = generator.integer(2 * n), n_kernel = 1 + generator.integer(3);
+    const std::size_t m = generator.integer(2 * n), n_null_space = 1 + generator.integer(3);
     problem.V.resize(m * n);
     for (double &entry : problem.V)
       entry = generator.integer(7) - 3;
@@ -601,12 +601,12 @@ namespace
           problem.F[i * n + j] += problem.V[k * n + i] * problem.V[k * n + j];
 
     MixedComplementarityProblem &values = problem.values;
-    Vector G(n_kernel * n);
+    Vector G(n_null_space * n);
     for (double &entry : G)
       entry = generator.integer(5) - 2;
-    values.kernel = kernel_rows(n, G);
-    values.kernel_load.assign(n_kernel, 0.);
-    Vector N(n), alpha(n_kernel);
+    values.null_space = mode_equations(n, G);
+    values.null_space_load.assign(n_null_space, 0.);
+    Vector N(n), alpha(n_null_space);
     for (double &amplitude : alpha)
       amplitude = generator.integer(9) - 4;
     for (std::size_t i = 0; i < n; ++i)
@@ -621,16 +621,16 @@ namespace
     {
       for (std::size_t j = 0; j < n; ++j)
         values.free_gap[i] -= problem.F[i * n + j] * N[j];
-      for (std::size_t k = 0; k < n_kernel; ++k)
+      for (std::size_t k = 0; k < n_null_space; ++k)
       {
         values.free_gap[i] -= G[k * n + i] * alpha[k];
-        values.kernel_load[k] -= G[k * n + i] * N[i];
+        values.null_space_load[k] -= G[k * n + i] * N[i];
       }
     }
-    for (std::size_t k = 0; resisted && k < n_kernel; ++k)
+    for (std::size_t k = 0; resisted && k < n_null_space; ++k)
     {
-      values.kernel_resistance.push_back(generator.integer(2) * (1 + generator.integer(8)));
-      values.kernel_load[k] += values.kernel_resistance[k] * alpha[k];
+      values.null_space_resistance.push_back(generator.integer(2) * (1 + generator.integer(8)));
+      values.null_space_load[k] += values.null_space_resistance[k] * alpha[k];
     }
     return problem;
   }
@@ -669,7 +669,7 @@ namespace
     for (unsigned int index = 0; index < 1000; ++index)
     {
       const Problem problem = generate_floating(index, true);
-      const Vector &E = problem.values.kernel_resistance;
+      const Vector &E = problem.values.null_space_resistance;
       const auto zeros = std::count(E.begin(), E.end(), 0.);
       n_zero += zeros == long(E.size());
       n_mixed += zeros > 0 && zeros < long(E.size());
@@ -688,8 +688,8 @@ namespace
       ++n_compared;
       for (std::size_t k = 0; k < E.size(); ++k)
         if (E[k] > 0.)
-          difference = std::max(
-              difference, std::abs(solution.kernel_amplitude[k] - newton.kernel_amplitude[k]));
+          difference =
+              std::max(difference, std::abs(solution.mode_amplitude[k] - newton.mode_amplitude[k]));
     }
     std::cout << n_zero << " without resistance, " << n_mixed << " mixed, " << n_compared
               << " compared, residual " << largest << ", difference of amplitudes " << difference

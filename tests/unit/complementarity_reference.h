@@ -9,10 +9,10 @@
 #include <vector>
 
 /// G row by row from its entries, row-major, zeros left out.
-inline std::vector<taut::SparseVector> kernel_rows(std::size_t n_rows,
-                                                   const std::vector<double> &entries)
+inline std::vector<taut::LinearForm> mode_equations(std::size_t n_rows,
+                                                    const std::vector<double> &entries)
 {
-  std::vector<taut::SparseVector> result(entries.size() / n_rows);
+  std::vector<taut::LinearForm> result(entries.size() / n_rows);
   for (std::size_t e = 0; e < entries.size(); ++e)
     if (entries[e] != 0.)
       result[e / n_rows].add(e % n_rows, entries[e]);
@@ -194,7 +194,7 @@ namespace reference
     return done;
   }
 
-  /// Solves a problem without kernel; F is n x n.
+  /// Solves a problem without null space; F is n x n.
   inline Solution solve(const taut::MixedComplementarityProblem &problem,
                         const std::vector<double> &F)
   {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Claim: the certificate sees a step that is wrong. Source: matrices, rows and gaps are changed
-// behind the back of the factors, by the amount that the residual then has to have, and the step is
-// refused with the name of what is wrong.
+// Claim: the certificate sees a step that is wrong. Source: matrices, constraints and gaps are
+// changed behind the back of the factors, by the amount that the residual then has to have, and the
+// step is refused with the name of what is wrong.
 #include "run.h"
 
 #include <taut/base/exceptions.h>
-#include <taut/model/scene_rows.h>
+#include <taut/model/scene_constraints.h>
 #include <taut/time/static_equilibrium.h>
 #include <taut/time/time_stepper.h>
 
@@ -53,11 +53,11 @@ namespace
           });
       start.V[0][start.V[0].size() / 2] = velocity;
       start.geometric_gap[0] += gap_error;
-      rows = std::make_unique<taut::ContactRows>(
-          taut::scene_rows(session.simulation().scene(), structure()));
-      stepper = std::make_unique<taut::TimeStepper>(structure(), *rows, session.parameters().solver,
-                                                    session.parameters().integrator("BDF2"), 1e-3,
-                                                    reference, start, false);
+      constraints = std::make_unique<taut::Constraints>(
+          taut::scene_constraints(session.simulation().scene(), structure()));
+      stepper = std::make_unique<taut::TimeStepper>(
+          structure(), *constraints, session.parameters().solver,
+          session.parameters().integrator("BDF2"), 1e-3, reference, start, false);
     }
 
     const taut::SceneBodies &structure() { return session.simulation().structure(); }
@@ -77,7 +77,7 @@ namespace
       return "";
     }
 
-    std::unique_ptr<taut::ContactRows> rows;
+    std::unique_ptr<taut::Constraints> constraints;
     std::unique_ptr<taut::TimeStepper> stepper;
 
   private:
@@ -118,8 +118,8 @@ TEST(Certificate, a_stiffness_that_was_not_factored_misses_the_balance)
 TEST(Certificate, a_row_that_is_not_in_F_misses_the_gaps)
 {
   Steps steps(.1);
-  auto &row = const_cast<taut::Row &>((*steps.rows)[0]);
-  for (taut::Term &term : row.terms)
+  auto &constraint = const_cast<taut::ConstraintData &>((*steps.constraints)[0]);
+  for (taut::Term &term : constraint.terms)
     for (double &value : term.form.value)
       value *= 1.001;
   const std::string refusal = steps.refusal();
@@ -145,10 +145,10 @@ TEST(Certificate, a_moving_row_keeps_the_offset_of_its_start)
   {
     Steps steps(0., offset, text);
     EXPECT_EQ(steps.refusal(), "");
-    const taut::Row &row = (*steps.rows)[0];
-    const double motion = evaluate(row.terms, steps.stepper->reference().displacement) +
-                          evaluate(row.terms, steps.stepper->state().U);
-    EXPECT_NEAR(steps.stepper->state().geometric_gap[0] - row.gap - motion, offset, 1e-13);
+    const taut::ConstraintData &constraint = (*steps.constraints)[0];
+    const double motion = evaluate(constraint.terms, steps.stepper->reference().displacement) +
+                          evaluate(constraint.terms, steps.stepper->state().U);
+    EXPECT_NEAR(steps.stepper->state().geometric_gap[0] - constraint.gap - motion, offset, 1e-13);
   }
 }
 
@@ -160,14 +160,14 @@ TEST(Certificate, statics_measure_their_balance)
   alone.links.clear();
   alone.masses.clear();
   const taut::SceneBodies structure(alone);
-  const taut::ContactRows rows = taut::scene_rows(alone, structure);
+  const taut::Constraints constraints = taut::scene_constraints(alone, structure);
   taut::SolverParameters parameters;
   const taut::Certificate certificate =
-      taut::static_equilibrium(structure, rows, parameters, 0.).certificate;
+      taut::static_equilibrium(structure, constraints, parameters, 0.).certificate;
   EXPECT_GT(certificate.balance, 1e-18);
   EXPECT_LT(certificate.balance, 1e-14);
   parameters.contact_tolerance = 1e-30;
-  EXPECT_THROW(taut::static_equilibrium(structure, rows, parameters, 0.), taut::UserError);
+  EXPECT_THROW(taut::static_equilibrium(structure, constraints, parameters, 0.), taut::UserError);
 }
 
 // Claim: rounding is no error: a beam that lies on supports at all of its nodes has static

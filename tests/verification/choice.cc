@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Claim: 'automatic' takes generalised-alpha where no one-sided link is stiffer than the bodies in
+// Claim: 'automatic' takes generalised-alpha where no unilateral link is stiffer than the bodies in
 // a step, otherwise Moreau-Jean with conditions on gaps, then velocities; it takes the mass of
 // contact nodes where that suits, says which and why, and is nearer to exact solutions than what
 // else it might have taken. Sources: wave equation (prm/bar_on_wall.prm), free fall onto a rigid
@@ -87,7 +87,7 @@ TEST(Schemes, automatic_follows_from_links_bodies_and_step)
   const std::string bar = scene_file("bar_on_wall"), beam = scene_file("beam_over_supports"),
                     smooth = "generalised-alpha (spectral radius 0.8)",
                     rigid = "Moreau-Jean (theta 0.5, gaps then velocities, restitution 0)",
-                    stiffer = "'floor' acts as rigid", compliant = "no one-sided link is stiffer",
+                    stiffer = "'floor' acts as rigid", compliant = "no unilateral link is stiffer",
                     massless = "gave their mass", reduced = "Network.Wire bar.Mass matrix=reduced",
                     soon = "Time.End=0.01", joint = "Network.Link floor.Type=joint",
                     at_once = "Network.Link floor.Gap=0";
@@ -103,7 +103,7 @@ TEST(Schemes, automatic_follows_from_links_bodies_and_step)
   expect_choice(bar, {reduced, "Time.Step=3.5e-3", soon}, "Moreau-Jean (theta 0.5, gaps)",
                 "the mass matrix of 'bar (axial)', 'reduced', has no inverse");
   // Mass that shall stay.
-  const std::string stays = "Time.Massless contact=no";
+  const std::string stays = "Time.Mass redistribution=no";
   for (const std::string step : {"1e-5", "1e-4", "5e-4", "5e-3"})
     expect_choice(bar, {stays, "Time.Step=" + step, soon}, rigid, stiffer);
   expect_choice(bar, {"Network.Link floor.Stiffness=1e8", soon}, rigid, stiffer);
@@ -160,7 +160,7 @@ TEST(Schemes, automatic_leaves_mass_beside_stiff_stops)
     session.run([](const taut::StepView &) {});
     return session.log();
   };
-  const std::string taken = "Massless contact: nodes of wires under ",
+  const std::string taken = "Mass redistribution: nodes of wires under ",
                     kept = "Moreau-Jean (theta 0.5, gaps then velocities";
   const std::string compliant = run("1e3"), stiff = run("1e8");
   EXPECT_NE(compliant.find(taken + "'floor' gave"), std::string::npos) << compliant;
@@ -175,7 +175,7 @@ TEST(Schemes, automatic_knows_restitution_or_says_so)
   expect_choice(falling_masses(), {half, soon},
                 "Moreau-Jean (theta 0.5, gaps then velocities, restitution 0.5)", "'floor'");
   expect_choice(falling_masses("  set Stiffness = 1e9\n"), {half, soon}, "error:",
-                "Time/Moreau-Jean/Restitution: restitution is a law of rigid one-sided links");
+                "Time/Moreau-Jean/Restitution: restitution is a law of rigid unilateral links");
   expect_choice(falling_masses("  set Stiffness = 1\n"), {half, soon}, "error:", "Stiffness");
   expect_choice(scene_file("bar_on_wall"), {half, soon}, "error:", "'floor'");
   expect_choice(falling_masses(),
@@ -268,6 +268,6 @@ TEST(Schemes, a_scheme_by_name_keeps_the_mass_of_its_nodes)
     return N;
   };
   const double by_name = largest({"Time.Scheme=BDF2"});
-  EXPECT_EQ(by_name, largest({"Time.Scheme=BDF2", "Time.Massless contact=no"}));
-  EXPECT_NE(by_name, largest({"Time.Scheme=BDF2", "Time.Massless contact=mass"}));
+  EXPECT_EQ(by_name, largest({"Time.Scheme=BDF2", "Time.Mass redistribution=no"}));
+  EXPECT_NE(by_name, largest({"Time.Scheme=BDF2", "Time.Mass redistribution=mass"}));
 }

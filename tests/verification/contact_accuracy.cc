@@ -35,8 +35,8 @@ namespace
 
   const Overrides ours = {"Time.Scheme=Moreau-Jean",
                           "Time.Moreau-Jean.Conditions=gaps then velocities",
-                          "Time.Massless contact=no"},
-                  bdf2 = {"Time.Scheme=BDF2", "Time.Massless contact=no",
+                          "Time.Mass redistribution=no"},
+                  bdf2 = {"Time.Scheme=BDF2", "Time.Mass redistribution=no",
                           "Time.Allow unsuitable scheme=true", "Time.Allow energy gain=true"};
 
   History run(const Problem &problem, Overrides overrides, const double step)

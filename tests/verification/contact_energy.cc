@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Claim: with conditions on gaps, then velocities, fixed rigid one-sided links never give energy,
+// Claim: with conditions on gaps, then velocities, fixed rigid unilateral links never give energy,
 // whatever bodies, links and steps, and BDF2 does. Source: kinetic and strain energy, measured here
 // by M and K, of random problems without loads: contacts, joints and dampers can only take it.
 #include "run.h"
 
-#include <taut/model/scene_rows.h>
+#include <taut/model/scene_constraints.h>
 #include <taut/time/time_stepper.h>
 
 #include <gtest/gtest.h>
@@ -154,23 +154,23 @@ namespace
   };
 
   /// The state of a scene at its start.
-  taut::State start_of(const taut::Structure &structure, const taut::ContactRows &rows)
+  taut::State start_of(const taut::Structure &structure, const taut::Constraints &constraints)
   {
     taut::State state;
     state.U = state.V = state.A = state.dU = state.V_old = state.KU = state.balance =
         structure.zero();
-    state.multiplier.assign(rows.size(), 0.);
-    state.link_springs.resize(rows.size());
+    state.multiplier.assign(constraints.size(), 0.);
+    state.link_springs.resize(constraints.size());
     for (std::size_t k = 0; k < structure.size(); ++k)
       structure[k].initial_state(state.U[k], state.V[k]);
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      state.geometric_gap.push_back(rows[i].gap);
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      state.geometric_gap.push_back(constraints[i].gap);
     state.gap = state.geometric_gap;
     return state;
   }
 
   /// Kinetic and strain energy of the bodies, and what springs of links hold [J].
-  double energy(const taut::Structure &structure, const taut::ContactRows &rows,
+  double energy(const taut::Structure &structure, const taut::Constraints &constraints,
                 const taut::State &state)
   {
     double sum = 0.;
@@ -183,9 +183,9 @@ namespace
       for (std::size_t i = 0; i < U.size(); ++i)
         sum += .5 * (MV[i] * V[i] + KU[i] * U[i]);
     }
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      if (!std::isinf(rows[i].stiffness))
-        sum += .5 * rows[i].stiffness * std::pow(std::min(0., state.geometric_gap[i]), 2);
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      if (!std::isinf(constraints[i].stiffness))
+        sum += .5 * constraints[i].stiffness * std::pow(std::min(0., state.geometric_gap[i]), 2);
     return sum;
   }
 
@@ -234,14 +234,14 @@ namespace
   Gain run(RandomProblem &problem, const Scheme &scheme)
   {
     const taut::SceneBodies structure(problem.scene);
-    taut::ContactRows rows = taut::scene_rows(problem.scene, structure);
+    taut::Constraints constraints = taut::scene_constraints(problem.scene, structure);
     const double period = shortest_period(structure);
     const auto new_step = [&] { return period * problem.logarithmic(.01, 10.); };
     taut::Reference reference;
     reference.displacement = reference.force = structure.zero();
-    taut::TimeStepper stepper(structure, rows, taut::SolverParameters(), scheme, new_step(),
-                              reference, start_of(structure, rows), false);
-    const double first = energy(structure, rows, stepper.state());
+    taut::TimeStepper stepper(structure, constraints, taut::SolverParameters(), scheme, new_step(),
+                              reference, start_of(structure, constraints), false);
+    const double first = energy(structure, constraints, stepper.state());
     Gain gain;
     double before = first;
     for (int i = 0; i < 40; ++i)
@@ -249,12 +249,12 @@ namespace
       if (i > 0 && problem.index(8) == 0)
         stepper.set_step(new_step());
       stepper.advance();
-      const double now = energy(structure, rows, stepper.state());
+      const double now = energy(structure, constraints, stepper.state());
       gain.largest = std::max(gain.largest, (now - before) / first);
       before = now;
-      const std::vector<double> rates = rows.motions(stepper.state().V);
-      for (std::size_t r = 0; r < rows.size(); ++r)
-        if (!rows[r].unilateral)
+      const std::vector<double> rates = constraints.motions(stepper.state().V);
+      for (std::size_t r = 0; r < constraints.size(); ++r)
+        if (!constraints[r].unilateral)
           gain.projected = std::max(gain.projected, std::fabs(rates[r]));
     }
     return gain;

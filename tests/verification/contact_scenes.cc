@@ -121,7 +121,7 @@ TEST(FlatDrop, steps_that_change_in_contact_give_nothing)
 TEST(FlatWall, takes_all_energy_of_a_string)
 {
   double first = 0., last = 0.;
-  run_scene(flat_wall, {"Time.Massless contact=no"},
+  run_scene(flat_wall, {"Time.Mass redistribution=no"},
             [&](const taut::StepView &view) { (first == 0. ? first : last) = energy(view); });
   figure("string on a flat wall, energy after the hit over that before", last / first);
   EXPECT_NEAR(first, .25, 1e-3);
@@ -283,7 +283,7 @@ TEST(RigidLine, conditions_on_velocities_are_refused)
   Overrides forced = of_rates;
   forced.push_back("Time.Allow unsuitable scheme=true");
   const std::string error = rigid_line(forced, 1e-3).error;
-  EXPECT_TRUE(says(error, "one-sided links gave")) << error;
+  EXPECT_TRUE(says(error, "unilateral links gave")) << error;
   forced.push_back("Time.Allow energy gain=true");
   const Line line = rigid_line(forced, 1e-3);
   EXPECT_EQ(line.error, "");
@@ -311,7 +311,7 @@ TEST(MassRedistribution, of_a_damped_beam_keeps_its_motion)
   {
     double largest = 0.;
     run_scene(scene_file("beam_over_supports"),
-              {"Time.Scheme=Moreau-Jean", "Time.Massless contact=" + massless, "Time.End=1"},
+              {"Time.Scheme=Moreau-Jean", "Time.Mass redistribution=" + massless, "Time.End=1"},
               [&](const taut::StepView &view)
               { largest = std::max(largest, displacement(view, 0, 5.)); });
     return largest;
@@ -327,8 +327,9 @@ TEST(Measures, name_a_peak_that_is_an_impulse)
 {
   const auto resolution = [](const std::string &step)
   {
-    Session session(scene_file("bar_on_wall"), {"Time.Scheme=automatic", "Time.Massless contact=no",
-                                                "Time.Step=" + step, "Time.End=0.55"});
+    Session session(scene_file("bar_on_wall"),
+                    {"Time.Scheme=automatic", "Time.Mass redistribution=no", "Time.Step=" + step,
+                     "Time.End=0.55"});
     double peak = 0.;
     session.run([&](const taut::StepView &view) { peak = view.measures.summary().resolution; });
     figure("bar on a wall, step " + step + " s, peak over its mean", peak);

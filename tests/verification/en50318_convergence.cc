@@ -43,7 +43,7 @@ namespace
     std::string name, file;
     std::size_t contact; ///< counts the sliding contacts of the file
     Figures target;      ///< largest error of a converged value
-    Figures converged;   ///< what earlier ladders found
+    Figures converged;   ///< what earlier refinements found
   };
 
   const Case cases[] = {{"250",
@@ -72,7 +72,7 @@ namespace
     double step, size; ///< [s], [m]
   };
 
-  /// Counts how often the one-sided fixed links open or close.
+  /// Counts how often the unilateral fixed links open or close.
   class Switches : public taut::Observer
   {
   public:
@@ -80,7 +80,7 @@ namespace
     {
       const std::vector<double> &N = step.state.multiplier;
       for (std::size_t i = 0; i < last.size(); ++i)
-        if (step.rows[i].unilateral && !step.rows[i].moving)
+        if (step.constraints[i].unilateral && !step.constraints[i].moving)
           count += (N[i] == 0.) != (last[i] == 0.);
       last = N;
     }
@@ -122,7 +122,8 @@ namespace
     parameters.output.overwrite = true;
     std::ostringstream log;
     taut::Simulation simulation(parameters, log);
-    taut::Statistics statistics(parameters.statistics, simulation.scene(), simulation.rows());
+    taut::Statistics statistics(parameters.statistics, simulation.scene(),
+                                simulation.constraints());
     Switches switches;
     simulation.observe(statistics);
     simulation.observe(switches);
@@ -134,7 +135,7 @@ namespace
       uplift = std::max(uplift, 1e3 * statistics.largest_displacement(i));
     for (std::size_t i = 0; i < statistics.n_contacts(); ++i)
     {
-      const auto f = statistics.contact_figures(i);
+      const auto f = statistics.contact_quantities(i);
       const taut::Moments &m = f.filtered;
       result.figures.push_back({m.mean, m.deviation, m.mean + 3. * m.deviation,
                                 m.mean - 3. * m.deviation, m.maximum, m.minimum, uplift,
@@ -226,23 +227,23 @@ namespace
     std::cout << "|\n";
   }
 
-  /// The ladder of one scheme for one pantograph, and its limit.
-  struct Ladder
+  /// The refinement of one scheme for one pantograph, and its limit.
+  struct Refinement
   {
     std::vector<Figures> figures;
     std::array<Estimate, n_figures> limit;
   };
 
-  Ladder print_ladder(const std::string &scheme, const std::size_t contact,
-                      const std::vector<Level> &levels, const std::vector<Run> &runs)
+  Refinement print_ladder(const std::string &scheme, const std::size_t contact,
+                          const std::vector<Level> &levels, const std::vector<Run> &runs)
   {
-    Ladder ladder;
+    Refinement refinement;
     for (std::size_t l = 0; l < runs.size(); ++l)
     {
-      ladder.figures.push_back(runs[l].figures[contact]);
+      refinement.figures.push_back(runs[l].figures[contact]);
       std::cout << "| " << scheme << ", " << 1e3 * levels[l].step << " ms, " << levels[l].size
                 << " m";
-      for (const double x : ladder.figures.back())
+      for (const double x : refinement.figures.back())
         std::cout << " | " << number(x, 3);
       std::cout << " | " << runs[l].n_switches << " | " << number(runs[l].seconds, 0) << " |\n";
     }
@@ -251,7 +252,7 @@ namespace
       std::cout << "| change " << l;
       for (std::size_t i = 0; i < n_figures; ++i)
       {
-        const double change = ladder.figures[l][i] - ladder.figures[l - 1][i];
+        const double change = refinement.figures[l][i] - refinement.figures[l - 1][i];
         std::cout << " | " << (change >= 5e-4 ? "+" : "") << number(change, 3);
       }
       std::cout << " | | |\n";
@@ -260,34 +261,35 @@ namespace
     for (std::size_t i = 0; i < n_figures; ++i)
     {
       std::vector<double> f;
-      for (const Figures &figures : ladder.figures)
+      for (const Figures &figures : refinement.figures)
         f.push_back(figures[i]);
-      ladder.limit[i] = extrapolate(f);
-      orders.push_back(std::isnan(ladder.limit[i].order) ? "-" : number(ladder.limit[i].order, 1));
-      limits.push_back("**" + number(ladder.limit[i].value, 3) + "** +- " +
-                       number(ladder.limit[i].error, 3));
+      refinement.limit[i] = extrapolate(f);
+      orders.push_back(
+          std::isnan(refinement.limit[i].order) ? "-" : number(refinement.limit[i].order, 1));
+      limits.push_back("**" + number(refinement.limit[i].value, 3) + "** +- " +
+                       number(refinement.limit[i].error, 3));
     }
-    for (const auto &row :
+    for (const auto &constraint :
          {std::make_pair("observed order", orders), std::make_pair("limit", limits)})
     {
-      std::cout << "| " << row.first;
-      for (const std::string &text : row.second)
+      std::cout << "| " << constraint.first;
+      for (const std::string &text : constraint.second)
         std::cout << " | " << text;
       std::cout << " | | |\n";
     }
-    return ladder;
+    return refinement;
   }
 
   /// The limit of the first scheme, its error no less than the distance to the second's limit; how
   /// far the levels of the others are from it.
-  void print_comparison(const std::map<std::string, Ladder> &ladders,
+  void print_comparison(const std::map<std::string, Refinement> &refinements,
                         const std::vector<Level> &levels)
   {
-    const auto a = ladders.find("generalised-alpha"), b = ladders.find("BDF2"),
-               first = ladders.find("backward Euler");
-    if (a == ladders.end())
+    const auto a = refinements.find("generalised-alpha"), b = refinements.find("BDF2"),
+               first = refinements.find("backward Euler");
+    if (a == refinements.end())
       return;
-    if (b != ladders.end())
+    if (b != refinements.end())
     {
       std::cout << "| converged";
       for (std::size_t i = 0; i < n_figures; ++i)
@@ -298,7 +300,7 @@ namespace
       }
       std::cout << " | | |\n";
     }
-    if (first != ladders.end())
+    if (first != refinements.end())
       for (std::size_t l = 0; l < levels.size(); ++l)
       {
         std::cout << "| backward Euler's deviation, " << 1e3 * levels[l].step << " ms";
@@ -325,26 +327,29 @@ namespace
    * Each change is smaller than the one before it, or below a tenth of the target. The BDF2 of the
    * coarsest levels damps visibly, so its claim is for the last change only.
    */
-  void check_changes(const Case &c, const std::string &scheme, const Ladder &ladder, Claims &claims)
+  void check_changes(const Case &c, const std::string &scheme, const Refinement &refinement,
+                     Claims &claims)
   {
-    const std::size_t n = ladder.figures.size();
+    const std::size_t n = refinement.figures.size();
     for (std::size_t i = 0; i < n_figures; ++i)
       for (std::size_t l = scheme == "generalised-alpha" ? 2 : std::max<std::size_t>(n - 1, 2);
            l < n; ++l)
       {
-        const double before = std::fabs(ladder.figures[l - 1][i] - ladder.figures[l - 2][i]),
-                     last = std::fabs(ladder.figures[l][i] - ladder.figures[l - 1][i]);
+        const double before =
+                         std::fabs(refinement.figures[l - 1][i] - refinement.figures[l - 2][i]),
+                     last = std::fabs(refinement.figures[l][i] - refinement.figures[l - 1][i]);
         claims.check(last < before || last <= .1 * c.target[i],
                      c.name + ", " + scheme + ": " + heads[i] + " changes by " + number(before, 4) +
                          ", then by " + number(last, 4));
       }
   }
 
-  void check_limit(const Case &c, const std::string &scheme, const Ladder &ladder, Claims &claims)
+  void check_limit(const Case &c, const std::string &scheme, const Refinement &refinement,
+                   Claims &claims)
   {
     for (std::size_t i = 0; i < n_figures; ++i)
     {
-      const Estimate &e = ladder.limit[i];
+      const Estimate &e = refinement.limit[i];
       const std::string what = c.name + ", " + scheme + ": " + heads[i] + " " + number(e.value, 3) +
                                " +- " + number(e.error, 3);
       claims.check(e.error <= c.target[i], what + ", target " + number(c.target[i], 2));
@@ -353,7 +358,7 @@ namespace
     }
   }
 
-  void check_agreement(const Case &c, const Ladder &a, const Ladder &b, Claims &claims)
+  void check_agreement(const Case &c, const Refinement &a, const Refinement &b, Claims &claims)
   {
     for (std::size_t i = 0; i < n_figures; ++i)
       for (const auto &[x, y] : {std::make_pair(a.figures.back()[i], b.figures.back()[i]),
@@ -364,7 +369,7 @@ namespace
   }
 
   /// The deviation of a first-order scheme's standard deviation from the limit falls at each level.
-  void check_first_order(const Case &c, const Ladder &first, const Ladder &reference,
+  void check_first_order(const Case &c, const Refinement &first, const Refinement &reference,
                          Claims &claims)
   {
     const double limit = reference.limit[1].value;
@@ -433,7 +438,7 @@ int main(int argc, char **argv)
     {
       if (std::find(names.begin(), names.end(), c.name) == names.end())
         continue;
-      std::map<std::string, Ladder> ladders;
+      std::map<std::string, Refinement> refinements;
       std::cout << "\n### " << c.name << " (" << c.file << ")\n\n";
       print_head("scheme, step, elements");
       for (const std::string &scheme : schemes)
@@ -443,24 +448,24 @@ int main(int argc, char **argv)
           runs.push_back(run(arguments["prm"].as<std::string>() + "/" + c.file, scheme, levels[l],
                              arguments["folder"].as<std::string>(),
                              arguments["set"].as<Strings>()));
-        ladders[scheme] = print_ladder(scheme, c.contact, levels, runs);
+        refinements[scheme] = print_ladder(scheme, c.contact, levels, runs);
         std::cout << std::flush;
       }
-      print_comparison(ladders, levels);
+      print_comparison(refinements, levels);
       print_ranges(done[c.file + schemes.front()].front().expected);
       if (arguments.count("tables-only"))
         continue;
-      for (const auto &[scheme, ladder] : ladders)
+      for (const auto &[scheme, refinement] : refinements)
         if (scheme != "backward Euler")
         {
-          check_changes(c, scheme, ladder, claims);
-          check_limit(c, scheme, ladder, claims);
+          check_changes(c, scheme, refinement, claims);
+          check_limit(c, scheme, refinement, claims);
         }
-      const auto a = ladders.find("generalised-alpha"), b = ladders.find("BDF2"),
-                 first = ladders.find("backward Euler");
-      if (a != ladders.end() && b != ladders.end())
+      const auto a = refinements.find("generalised-alpha"), b = refinements.find("BDF2"),
+                 first = refinements.find("backward Euler");
+      if (a != refinements.end() && b != refinements.end())
         check_agreement(c, a->second, b->second, claims);
-      if (a != ladders.end() && first != ladders.end())
+      if (a != refinements.end() && first != refinements.end())
         check_first_order(c, first->second, a->second, claims);
     }
     std::cout << '\n';

@@ -43,12 +43,12 @@ namespace
     std::getline(file, line);
     while (std::getline(file, line))
     {
-      std::vector<double> row;
+      std::vector<double> constraint;
       std::istringstream cells(line);
       for (std::string cell; std::getline(cells, cell, ',');)
-        row.push_back(std::stod(cell));
-      table.push_back(row);
-      EXPECT_EQ(row.size(), std::size_t(n_columns));
+        constraint.push_back(std::stod(cell));
+      table.push_back(constraint);
+      EXPECT_EQ(constraint.size(), std::size_t(n_columns));
     }
     return table;
   }
@@ -57,11 +57,11 @@ namespace
   double relative_error(const std::vector<std::vector<double>> &table)
   {
     double largest = 0., size = 0.;
-    for (const std::vector<double> &row : table)
+    for (const std::vector<double> &constraint : table)
     {
-      largest = std::max(largest, std::fabs(row[error]));
+      largest = std::max(largest, std::fabs(constraint[error]));
       for (int i = kinetic; i < error; ++i)
-        size = std::max(size, std::fabs(row[i]));
+        size = std::max(size, std::fabs(constraint[i]));
     }
     return largest / size;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Claim: impacts on one-sided stops last as long, press as hard and rebound as fast as the exact
+// Claim: impacts on unilateral stops last as long, press as hard and rebound as fast as the exact
 // solutions say: d'Alembert's waves (bar on a wall: D. Doyen, A. Ern, S. Piperno, SIAM J. Sci.
 // Comput. 33 (2011), without gravity; string on a stop: point impedance 2 sqrt(T m)), half-waves of
 // an oscillator.
@@ -133,7 +133,7 @@ TEST(BarOnWall, contact_time_force_impulse_and_rebound_are_exact_to_one_per_cent
   EXPECT_GE(r.least_gap, -1e-12);
 }
 
-// The impulse is the change of momentum: with one-sided forces of any size, for every scheme.
+// The impulse is the change of momentum: with unilateral forces of any size, for every scheme.
 TEST(BarOnWall, impulse_is_the_change_of_momentum)
 {
   for (const std::string scheme : {"BDF2", "backward Euler", "Moreau-Jean"})

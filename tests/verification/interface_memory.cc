@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: the matrix-free interface solve needs memory of the size of the bodies' vectors and
-// factors, at 1e6 DoFs and 1e4 rows: nothing in it is dense in the rows (F alone would be 0.8 GB,
-// and its factor as much). Expected: the peak of the process below 10 times the 17 vectors of a run
-// and the factors, what the solve adds below 4 times the factors and its 4 vectors.
+// factors, at 1e6 DoFs and 1e4 constraints: nothing in it is dense in the constraints (F alone
+// would be 0.8 GB, and its factor as much). Expected: the peak of the process below 10 times the 17
+// vectors of a run and the factors, what the solve adds below 4 times the factors and its 4
+// vectors.
 #include "interface_problem.h"
 
 #include <taut/simulation/parameters.h>
@@ -41,7 +42,7 @@ TEST(InterfaceMemory, of_the_size_of_vectors_and_factors)
   ASSERT_GT(n_dofs, 9.9e5);
   ASSERT_GT(before, 0.);
 
-  const auto solution = problem.solve(10., {"matrix-free", "Dirichlet", "kernels"}, 1e-9);
+  const auto solution = problem.solve(10., {"matrix-free", "Dirichlet", "null spaces"}, 1e-9);
   const double peak = status("VmHWM");
   EXPECT_TRUE(solution.is_solved);
   EXPECT_GE(solution.multiplier.size(), 10000u);
@@ -49,7 +50,7 @@ TEST(InterfaceMemory, of_the_size_of_vectors_and_factors)
   // Block-tridiagonal: D and L, and pivots, their inverses and multipliers from either end, 2 x 2 a
   // node of 2 DoFs.
   const double vector = 8. * n_dofs, factors = 16. * vector;
-  std::cout << "figure | rows | " << solution.multiplier.size() << " 1\n"
+  std::cout << "figure | constraints | " << solution.multiplier.size() << " 1\n"
             << "figure | iterations | " << solution.statistics.n_iterations << " 1\n"
             << "figure | peak over 17 vectors and factors | " << peak / (17. * vector + factors)
             << " 1\nfigure | added by the solve over factors and 4 vectors | "

@@ -4,7 +4,7 @@
 
 #include <taut/complementarity/active_set_system.h>
 #include <taut/interface/schur_complement.h>
-#include <taut/model/scene_rows.h>
+#include <taut/model/scene_constraints.h>
 #include <taut/partition/make_partition.h>
 
 #include <numeric>
@@ -14,7 +14,8 @@
 
 namespace verification
 {
-  /// A scene cut by METIS, all rows closed, own weight as load: the linear system of the interface.
+  /// A scene cut by METIS, all constraints closed, own weight as load: the linear system of the
+  /// interface.
   class InterfaceProblem
   {
   public:
@@ -26,9 +27,9 @@ namespace verification
     /// The same with the cuts that the parameters say.
     InterfaceProblem(taut::Scene model, const taut::PartitionParameters &cuts)
         : scene(std::move(model)), structure(scene, make_partition(scene, cuts)),
-          rows(scene_rows(scene, structure))
+          constraints(scene_constraints(scene, structure))
     {
-      rows.update(0.);
+      constraints.update(0.);
     }
 
     struct Solution
@@ -39,32 +40,32 @@ namespace verification
       bool is_solved = false;
     };
 
-    /// Solves F x = -d of a step by backward Euler [s], or with the kernels in statics (step 0), to
-    /// a relative residual of @p tolerance in rows scaled to a unit diagonal.
+    /// Solves F x = -d of a step by backward Euler [s], or with the null spaces in statics (step
+    /// 0), to a relative residual of @p tolerance in constraints scaled to a unit diagonal.
     Solution solve(const double step, const taut::InterfaceParameters &parameters,
                    const double tolerance) const
     {
       taut::FactoredStructure solvers(structure, "block tridiagonal");
-      std::vector<taut::Substructure::Kernel> kernels;
+      std::vector<taut::Substructure::NullSpace> null_spaces;
       for (std::size_t k = 0; step == 0. && k < structure.size(); ++k)
-        kernels.push_back(structure[k].kernel());
+        null_spaces.push_back(structure[k].null_space());
       if (step > 0.)
         solvers.factor(1. / (step * step), 1. / step);
       else
-        solvers.factor_stiffness(kernels);
-      std::vector<double> S(rows.size());
+        solvers.factor_stiffness(null_spaces);
+      std::vector<double> S(constraints.size());
       for (std::size_t i = 0; i < S.size(); ++i)
-        S[i] = 1. / (rows[i].stiffness + (step > 0. ? rows[i].damping / step : 0.));
-      const auto schur = taut::make_schur_complement(parameters, solvers, rows);
+        S[i] = 1. / (constraints[i].stiffness + (step > 0. ? constraints[i].damping / step : 0.));
+      const auto schur = taut::make_schur_complement(parameters, solvers, constraints);
       schur->setup(S);
 
-      taut::BlockVector P(structure.size());
+      taut::BodyVectors P(structure.size());
       for (std::size_t k = 0; k < P.size(); ++k)
         structure[k].external_force(0., P[k]);
       taut::MixedComplementarityProblem problem;
-      problem.unilateral.assign(rows.size(), 0);
-      schur->free_motion(P, problem.free_gap, problem.gap_scale);
-      set_kernel(kernels, P, problem);
+      problem.unilateral.assign(constraints.size(), 0);
+      schur->contact_free_predictor(P, problem.free_gap, problem.gap_scale);
+      set_null_space(null_spaces, P, problem);
       Solution solution = solve(problem, schur->matrix(), tolerance);
       solution.statistics = schur->statistics();
       solution.description = schur->description();
@@ -75,40 +76,42 @@ namespace verification
     const taut::SceneBodies structure;
 
   private:
-    void set_kernel(const std::vector<taut::Substructure::Kernel> &kernels,
-                    const taut::BlockVector &P, taut::MixedComplementarityProblem &problem) const
+    void set_null_space(const std::vector<taut::Substructure::NullSpace> &null_spaces,
+                        const taut::BodyVectors &P,
+                        taut::MixedComplementarityProblem &problem) const
     {
       std::vector<std::size_t> first;
-      for (std::size_t k = 0; k < kernels.size(); ++k)
+      for (std::size_t k = 0; k < null_spaces.size(); ++k)
       {
-        first.push_back(problem.kernel_load.size());
-        for (const std::vector<double> &R : kernels[k].vectors)
-          problem.kernel_load.push_back(std::inner_product(R.begin(), R.end(), P[k].begin(), 0.));
+        first.push_back(problem.null_space_load.size());
+        for (const std::vector<double> &R : null_spaces[k].vectors)
+          problem.null_space_load.push_back(
+              std::inner_product(R.begin(), R.end(), P[k].begin(), 0.));
       }
-      problem.kernel.resize(problem.kernel_load.size());
-      for (std::size_t i = 0; !kernels.empty() && i < rows.size(); ++i)
-        for (const taut::Term &term : rows[i].terms)
-          for (std::size_t v = 0; v < kernels[term.substructure].vectors.size(); ++v)
-            problem.kernel[first[term.substructure] + v].add(
-                i, term.form.dot(kernels[term.substructure].vectors[v]));
+      problem.null_space.resize(problem.null_space_load.size());
+      for (std::size_t i = 0; !null_spaces.empty() && i < constraints.size(); ++i)
+        for (const taut::Term &term : constraints[i].terms)
+          for (std::size_t v = 0; v < null_spaces[term.substructure].vectors.size(); ++v)
+            problem.null_space[first[term.substructure] + v].add(
+                i, term.form.dot(null_spaces[term.substructure].vectors[v]));
     }
 
     Solution solve(const taut::MixedComplementarityProblem &problem,
                    taut::ComplementarityOperator &F, const double tolerance) const
     {
-      std::vector<double> rhs = problem.free_gap, load = problem.kernel_load, alpha;
+      std::vector<double> rhs = problem.free_gap, load = problem.null_space_load, alpha;
       for (std::vector<double> *v : {&rhs, &load})
         for (double &value : *v)
           value = -value;
-      std::vector<std::size_t> all(rows.size());
+      std::vector<std::size_t> all(constraints.size());
       std::iota(all.begin(), all.end(), 0);
       F.set_tolerance(tolerance);
       Solution solution;
       if (load.empty())
         solution.is_solved = F.solve(all, rhs, 0., solution.multiplier);
-      else if (F.has_kernel_solver())
-        solution.is_solved =
-            F.solve_with_kernel(all, rhs, problem.kernel, load, 0., solution.multiplier, alpha);
+      else if (F.has_null_space_solver())
+        solution.is_solved = F.solve_with_null_space(all, rhs, problem.null_space, load, 0.,
+                                                     solution.multiplier, alpha);
       else
       {
         taut::ActiveSetSystem system{taut::ComplementarityOptions()};
@@ -121,7 +124,7 @@ namespace verification
       return solution;
     }
 
-    taut::ContactRows rows;
+    taut::Constraints constraints;
   };
 } // namespace verification
 

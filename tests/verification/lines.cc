@@ -6,7 +6,7 @@
 // 0.741 m.
 #include "run.h"
 
-#include <taut/model/scene_rows.h>
+#include <taut/model/scene_constraints.h>
 #include <taut/time/time_stepper.h>
 
 #include <gtest/gtest.h>
@@ -87,7 +87,8 @@ namespace
                 {
                   const std::size_t link = span * n_droppers + i;
                   const taut::Link &dropper = view.scene.links[link];
-                  found.force.push_back(view.state.multiplier[view.rows.row_of_link(link)]);
+                  found.force.push_back(
+                      view.state.multiplier[view.constraints.index_of_link(link)]);
                   found.length.push_back(dropper.length);
                   found.height.push_back(displacement(view, 1, dropper.to.position));
                 }
@@ -292,11 +293,11 @@ TEST(Rest, nothing_moves_in_2000_steps_and_a_shorter_step_creates_no_force)
     EXPECT_LT(pantograph, 1e-8) << scheme;
     EXPECT_NEAR(frame, .05, .01);
 
-    taut::ContactRows rows =
-        taut::scene_rows(session.simulation().scene(), session.simulation().structure());
-    taut::TimeStepper stepper(session.simulation().structure(), rows, session.parameters().solver,
-                              session.parameters().integrator(scheme), 1e-5, *reference, last,
-                              true);
+    taut::Constraints constraints =
+        taut::scene_constraints(session.simulation().scene(), session.simulation().structure());
+    taut::TimeStepper stepper(session.simulation().structure(), constraints,
+                              session.parameters().solver, session.parameters().integrator(scheme),
+                              1e-5, *reference, last, true);
     double step_change = 0.;
     for (int i = 0; i < 300; ++i)
     {

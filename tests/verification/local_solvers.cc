@@ -86,7 +86,7 @@ TEST(LocalSolvers, products_give_back_what_was_solved)
 
       for (unsigned int node = 0; node + 1 < n_nodes; ++node)
       {
-        taut::SparseVector form;
+        taut::LinearForm form;
         std::vector<double> load(size, 0.);
         for (unsigned int i = b * node; i < b * (node + 2); ++i)
           form.add(i, load[i] = value(random));
@@ -104,7 +104,7 @@ TEST(LocalSolvers, products_give_back_what_was_solved)
 }
 
 // Elements that repeat themselves, but for two nodes: products with the repetitions found are those
-// with each entry read, whole or by some rows at a time.
+// with each entry read, whole or by some constraints at a time.
 TEST(LocalSolvers, repeated_rows_multiply_as_if_they_were_read)
 {
   std::mt19937 random(2);

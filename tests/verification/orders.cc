@@ -18,7 +18,7 @@ namespace
 {
   using Vector = std::vector<double>;
 
-  /// A dense matrix, row by row.
+  /// A dense matrix, constraint by constraint.
   struct Matrix
   {
     int n;
@@ -81,13 +81,14 @@ namespace
 
   /**
    * M u" + C u' + K u = P(t) of all bodies in one vector. A joint with a stiffness adds k b b^T and
-   * c b b^T; a rigid one is eliminated, u = T y with T the identity but for one row. A support that
-   * moves is a given part of u.
+   * c b b^T; a rigid one is eliminated, u = T y with T the identity but for one constraint. A
+   * support that moves is a given part of u.
    */
   class Reference
   {
   public:
-    Reference(const taut::Structure &structure, const taut::ContactRows &rows, const Motion &motion)
+    Reference(const taut::Structure &structure, const taut::Constraints &constraints,
+              const Motion &motion)
         : structure(structure), motion(motion), M(n_all(structure)), C(n_all(structure)),
           K(n_all(structure)), T(n_all(structure)), M_inverse(0)
     {
@@ -115,8 +116,8 @@ namespace
         }
         offset += structure[k].n_dofs();
       }
-      for (std::size_t r = 0; r < rows.size(); ++r)
-        add_joint(rows[r]);
+      for (std::size_t r = 0; r < constraints.size(); ++r)
+        add_joint(constraints[r]);
       reduce();
     }
 
@@ -167,19 +168,19 @@ namespace
   private:
     static int n_all(const taut::Structure &structure) { return structure.n_dofs(); }
 
-    void add_joint(const taut::Row &row)
+    void add_joint(const taut::ConstraintData &constraint)
     {
       Vector b(M.n, 0.);
-      for (const taut::Term &term : row.terms)
+      for (const taut::Term &term : constraint.terms)
         for (std::size_t i = 0; i < term.form.index.size(); ++i)
           b[offsets[term.substructure] + term.form.index[i]] += term.form.value[i];
-      if (!std::isinf(row.stiffness))
+      if (!std::isinf(constraint.stiffness))
       {
         for (int i = 0; i < M.n; ++i)
           for (int j = 0; j < M.n; ++j)
           {
-            K(i, j) += row.stiffness * b[i] * b[j];
-            C(i, j) += row.damping * b[i] * b[j];
+            K(i, j) += constraint.stiffness * b[i] * b[j];
+            C(i, j) += constraint.damping * b[i] * b[j];
           }
         return;
       }
@@ -303,7 +304,7 @@ namespace
        2.,
        1.}};
 
-  Vector flat(const taut::BlockVector &U)
+  Vector flat(const taut::BodyVectors &U)
   {
     Vector result;
     for (const Vector &block : U)
@@ -325,7 +326,7 @@ namespace
   {
     Session session(scene, {"Time.Step=1e-3", "Time.End=1e-3"});
     const taut::Structure &structure = session.simulation().structure();
-    taut::BlockVector U = structure.zero(), V = structure.zero();
+    taut::BodyVectors U = structure.zero(), V = structure.zero();
     Vector start_u, start_v;
     session.run(
         [&](const taut::StepView &view)
@@ -338,7 +339,7 @@ namespace
           for (std::size_t i = 0; i < rest.size(); ++i)
             start_u[i] += rest[i];
         });
-    Reference reference(structure, session.simulation().rows(), motion);
+    Reference reference(structure, session.simulation().constraints(), motion);
     const std::vector<Vector> exact =
         reference.solve(start_u, start_v, end / coarsest, 16 << (refinements - 1), coarsest);
     double size = 0., force_size = 0.;

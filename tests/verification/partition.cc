@@ -26,10 +26,10 @@ namespace
     run_scene(scene_file(scene), overrides,
               [&](const taut::StepView &view)
               {
-                result.n_cut_rows = view.structure.cut_rows().size();
-                for (std::size_t i = 0; i < view.rows.size(); ++i)
+                result.n_cut_rows = view.structure.cut_constraints().size();
+                for (std::size_t i = 0; i < view.constraints.size(); ++i)
                 {
-                  if (view.rows[i].is_cut())
+                  if (view.constraints[i].is_cut())
                     continue;
                   result.force.push_back(view.state.multiplier[i]);
                   result.gap.push_back(view.state.geometric_gap[i]);
@@ -93,7 +93,7 @@ TEST(Partition, en50318_is_the_same_in_any_number_of_parts)
               {parts(2), parts(7), parts(64)});
 }
 
-// Claim: so in statics, where most pieces float and their free motions are unknowns, and with
+// Claim: so in statics, where most pieces float and their rigid body modes are unknowns, and with
 // moving supports, stops, angular stops, bars and axial cuts. Expected: the uncut run.
 TEST(Partition, every_wire_scene_is_the_same_in_three_parts)
 {
@@ -103,7 +103,7 @@ TEST(Partition, every_wire_scene_is_the_same_in_three_parts)
 }
 
 // Claim: the mesh does not change with the cuts, and cuts can be given by hand. Expected: two cuts
-// of a beam are four rows (displacement and slope), and the answers those of the whole beam.
+// of a beam are four constraints (displacement and slope), and the answers those of the whole beam.
 TEST(Partition, cuts_by_hand_keep_the_answers)
 {
   const Record cut = record("beam_over_supports", {"Time/End=0.1", "Partition/Method=given"},

@@ -23,7 +23,7 @@ TEST(PneumaticLift, mean_and_deviation_are_those_of_an_independent_program)
 {
   Session session(scene_file("en50318_2002_250"), {no_base_spring});
   taut::Statistics statistics(session.parameters().statistics, session.simulation().scene(),
-                              session.simulation().rows());
+                              session.simulation().constraints());
   double start = 0.;
   session.run(
       [&](const taut::StepView &view)
@@ -32,7 +32,7 @@ TEST(PneumaticLift, mean_and_deviation_are_those_of_an_independent_program)
           start = view.state.multiplier.back();
         statistics.record(view);
       });
-  const taut::Moments force = statistics.contact_figures(0).filtered;
+  const taut::Moments force = statistics.contact_quantities(0).filtered;
   figure("force at the start without a base spring", start, "N");
   figure("mean force without a base spring", force.mean, "N");
   figure("standard deviation without a base spring", force.deviation, "N");

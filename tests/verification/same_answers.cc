@@ -29,9 +29,9 @@ namespace
     std::string log;
   };
 
-  double condition_number(taut::SchurComplement &schur, const std::size_t n_rows)
+  double condition_number(taut::SchurComplement &schur, const std::size_t n_constraints)
   {
-    const int n = n_rows;
+    const int n = n_constraints;
     if (n == 0)
       return 1.;
     std::vector<double> F, column, unit(n, 0.), w(n), work(40 * n);
@@ -50,7 +50,7 @@ namespace
   }
 
   /// Condition number of F, of a step by backward Euler or, without one, of the static equilibrium.
-  double condition_number(const taut::Structure &structure, const taut::ContactRows &rows,
+  double condition_number(const taut::Structure &structure, const taut::Constraints &constraints,
                           const double step)
   {
     taut::FactoredStructure solvers(structure, "sparse direct");
@@ -58,17 +58,17 @@ namespace
       solvers.factor(1. / (step * step), 1. / step);
     else
     {
-      std::vector<taut::Substructure::Kernel> kernels;
+      std::vector<taut::Substructure::NullSpace> null_spaces;
       for (std::size_t k = 0; k < structure.size(); ++k)
-        kernels.push_back(structure[k].kernel());
-      solvers.factor_stiffness(kernels);
+        null_spaces.push_back(structure[k].null_space());
+      solvers.factor_stiffness(null_spaces);
     }
-    std::vector<double> S(rows.size());
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      S[i] = 1. / (rows[i].stiffness + (step > 0. ? rows[i].damping / step : 0.));
-    const auto schur = taut::make_schur_complement({"assembled dense"}, solvers, rows);
+    std::vector<double> S(constraints.size());
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      S[i] = 1. / (constraints[i].stiffness + (step > 0. ? constraints[i].damping / step : 0.));
+    const auto schur = taut::make_schur_complement({"assembled dense"}, solvers, constraints);
     schur->setup(S);
-    return condition_number(*schur, rows.size());
+    return condition_number(*schur, constraints.size());
   }
 
   Record record(const std::string &scene, const Overrides &overrides)
@@ -88,11 +88,11 @@ namespace
         });
     const taut::Structure &structure = session.simulation().structure();
     r.condition =
-        condition_number(structure, session.simulation().rows(), session.parameters().step);
+        condition_number(structure, session.simulation().constraints(), session.parameters().step);
     // Scenes that start from an equilibrium start with the rounding of its forces.
     if (session.simulation().scene().start == taut::Start::equilibrium)
-      r.condition =
-          std::max(r.condition, condition_number(structure, session.simulation().rows(), 0.));
+      r.condition = std::max(r.condition,
+                             condition_number(structure, session.simulation().constraints(), 0.));
     r.log = session.log();
     return r;
   }

@@ -119,7 +119,7 @@ TEST(Series, lines_at_intervals_show_a_hit_between_them)
   EXPECT_NEAR(peak, 130., 1.3);
   EXPECT_EQ(n_changes, 2.) << "closed and opened";
   EXPECT_EQ(links.at("buffer changes [1]")[2], 2.);
-  EXPECT_EQ(links.count("rod gap least [m]"), 0u) << "of one-sided links only";
+  EXPECT_EQ(links.count("rod gap least [m]"), 0u) << "of unilateral links only";
   EXPECT_EQ(links.count("rod changes [1]"), 0u);
   figure("peak of a buffer hit for 3.1 ms, largest value in a line of 10 ms", peak, "N");
 }

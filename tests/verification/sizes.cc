@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Claim: the sizes that certificates divide by are those of the vectors and rows, not-a-number
-// included. Source: a loop over all entries.
+// Claim: the sizes that certificates divide by are those of the vectors and constraints,
+// not-a-number included. Source: a loop over all entries.
 #include "run.h"
 
-#include <taut/interface/contact_rows.h>
-#include <taut/model/scene_rows.h>
+#include <taut/interface/constraints.h>
+#include <taut/model/scene_constraints.h>
 #include <taut/time/matrix_norms.h>
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ namespace
       kinds = pattern;
     }
     void initial_state(std::vector<double> &, std::vector<double> &) const override {}
-    Kernel kernel() const override { return {}; }
+    NullSpace null_space() const override { return {}; }
   };
 
   void raise(double &largest, const double x)
@@ -96,37 +96,37 @@ TEST(Sizes, largest_forces_of_rows_are_those_of_a_loop)
   Session session(scene_file("en50318_2002_250_two"), {"Time.End=0.01", "Statistics.Window="});
   session.run([](const taut::StepView &) {});
   const taut::SceneBodies &structure = session.simulation().structure();
-  taut::ContactRows rows = taut::scene_rows(session.simulation().scene(), structure);
+  taut::Constraints constraints = taut::scene_constraints(session.simulation().scene(), structure);
   std::mt19937 random(2);
   std::uniform_real_distribution<double> value(-1., 1.);
   for (int i = 0; i < 20; ++i)
   {
-    rows.update(.01 * i);
-    std::vector<double> N(rows.size());
+    constraints.update(.01 * i);
+    std::vector<double> N(constraints.size());
     for (double &force : N)
       force = value(random) > 0. ? value(random) : 0.;
     if (i % 5 == 0)
       N[random() % N.size()] = std::numeric_limits<double>::quiet_NaN();
     std::vector<taut::PerKind> expected(structure.size(), {0., 0.}), found;
-    std::vector<double> motion(rows.size()), size(rows.size());
-    taut::BlockVector U = structure.zero(), P = structure.zero(), P_expected = P;
+    std::vector<double> motion(constraints.size()), size(constraints.size());
+    taut::BodyVectors U = structure.zero(), P = structure.zero(), P_expected = P;
     for (std::vector<double> &u : U)
       for (double &entry : u)
         entry = value(random);
-    rows.share_of_motions(U, motion, size);
-    rows.add_forces(N, P);
-    for (std::size_t r = 0; r < rows.size(); ++r)
+    constraints.share_of_motions(U, motion, size);
+    constraints.add_forces(N, P);
+    for (std::size_t r = 0; r < constraints.size(); ++r)
     {
-      for (const auto &[k, form] : rows[r].terms)
+      for (const auto &[k, form] : constraints[r].terms)
       {
         form.add_to(N[r], P_expected[k]);
         for (std::size_t j = 0; j < form.index.size(); ++j)
           raise(expected[k][structure[k].kind(form.index[j])], std::fabs(form.value[j] * N[r]));
       }
-      EXPECT_NEAR(motion[r], evaluate(rows[r].terms, U), 1e-15);
-      EXPECT_NEAR(size[r], magnitude(rows[r].terms, U), 1e-15);
+      EXPECT_NEAR(motion[r], evaluate(constraints[r].terms, U), 1e-15);
+      EXPECT_NEAR(size[r], magnitude(constraints[r].terms, U), 1e-15);
     }
-    rows.largest_forces(N, found);
+    constraints.largest_forces(N, found);
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t k = 0; k < found.size(); ++k)
     {

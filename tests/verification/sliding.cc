@@ -61,7 +61,7 @@ TEST(SlidingContact, wavy_wire_shakes_an_oscillator)
 
 // T = 20 kN, 1.35 kg/m, 250 km/h, 120 N: F v t/(T (1 + v/c)) under the contact, whatever its spring
 // is. The contact starts on the support.
-TEST(SlidingContact, constant_force_on_a_massless_contact_is_a_moving_force)
+TEST(SlidingContact, constant_force_on_a_mass_redistribution_is_a_moving_force)
 {
   const double v = 250. / 3.6;
   std::ostringstream scene;

@@ -74,9 +74,9 @@ TEST(String, lies_flat_on_a_floor_between_its_free_lengths)
               right = T * displacement(view, 0, L * (1. - 1e-12), {0., 1.}, true) / (m * g);
               first = L;
               resting = 0.;
-              for (std::size_t i = 0; i < view.rows.size(); ++i)
+              for (std::size_t i = 0; i < view.constraints.size(); ++i)
               {
-                const double x = view.scene.links[view.rows[i].link].to.position;
+                const double x = view.scene.links[view.constraints[i].link].to.position;
                 const double N = view.state.multiplier[i];
                 least = std::min({least, N, view.state.gap[i]});
                 resting += N;
@@ -98,7 +98,7 @@ TEST(String, lies_flat_on_a_floor_between_its_free_lengths)
   EXPECT_GE(least, -1e-12);
 }
 
-// A beam that only one-sided supports and one link at its end hold: its two rigid motions are
+// A beam that only unilateral supports and one link at its end hold: its two rigid motions are
 // unknowns. EI = 2e5 N m^2, 20 kg/m, lifted by 0.1 m. With the distance xi from the lift-off point,
 // EI w = (q l/2) xi^3/6 - q xi^4/24.
 TEST(Beam, heavy_beam_lifts_off_a_floor)
@@ -115,18 +115,18 @@ TEST(Beam, heavy_beam_lifts_off_a_floor)
                                text(spacing) + ":12\n  set Direction = 0, 1\n end\n"));
   const taut::Scene &scene = session.simulation().scene();
   const taut::SceneBodies &structure = session.simulation().structure();
-  const taut::ContactRows &rows = session.simulation().rows();
+  const taut::Constraints &constraints = session.simulation().constraints();
   const taut::StaticState state =
-      static_equilibrium(structure, rows, session.parameters().solver, 0.);
-  EXPECT_EQ(structure[0].kernel().vectors.size(), 2u);
+      static_equilibrium(structure, constraints, session.parameters().solver, 0.);
+  EXPECT_EQ(structure[0].null_space().vectors.size(), 2u);
 
   double end_force = 0., error = 0., first = L, point_reaction = 0., least = 0., sum = 0.,
          unevenness = 0.;
-  for (std::size_t i = 0; i < rows.size(); ++i)
+  for (std::size_t i = 0; i < constraints.size(); ++i)
   {
-    const double x = scene.links[rows[i].link].to.position, N = state.multiplier[i];
+    const double x = scene.links[constraints[i].link].to.position, N = state.multiplier[i];
     sum += N;
-    if (rows[i].name == "lift")
+    if (constraints[i].name == "lift")
     {
       end_force = N;
       continue;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Claim: Moreau-Jean's impulses obey Newton's law of restitution, the rates of moving rows have
-// their convective part, bilateral rows held at velocity level do not drift; with conditions on
-// gaps nothing penetrates, contacts never give energy, and rest stays rest when the step changes.
-// Sources: a ball that bounces (v_n = e^n v_0, closed form); a mass that follows a wavy rail,
-// N = P - m r"; a moving force on a string, F v t/(T (1 + v/c)); theta = 1 without restitution is
-// the backward Euler method (V = dU/step; position and velocity conditions of a closed row agree).
+// Claim: Moreau-Jean's impulses obey Newton's law of restitution, the rates of moving constraints
+// have their convective part, bilateral constraints held at velocity level do not drift; with
+// conditions on gaps nothing penetrates, contacts never give energy, and rest stays rest when the
+// step changes. Sources: a ball that bounces (v_n = e^n v_0, closed form); a mass that follows a
+// wavy rail, N = P - m r"; a moving force on a string, F v t/(T (1 + v/c)); theta = 1 without
+// restitution is the backward Euler method (V = dU/step; position and velocity conditions of a
+// closed constraint agree).
 #include "run.h"
 
 #include <gtest/gtest.h>
@@ -176,7 +177,7 @@ TEST(MoreauJean, theta_one_is_backward_euler)
   }
 }
 
-// Cuts of wires are rigid bilateral rows: the run is that of the wires in one piece.
+// Cuts of wires are rigid bilateral constraints: the run is that of the wires in one piece.
 TEST(MoreauJean, cuts_do_not_drift)
 {
   for (const Overrides &conditions :
@@ -262,7 +263,7 @@ TEST(Schemes, unsuitable_ones_are_refused_by_name)
     EXPECT_NE(refusal.find("'floor'"), std::string::npos) << refusal;
     EXPECT_NE(refusal.find("rings"), std::string::npos) << refusal;
     EXPECT_EQ(message({"Time.Scheme=" + scheme, "Time.Allow unsuitable scheme=true"}), "");
-    EXPECT_EQ(message({"Time.Scheme=" + scheme, "Time.Massless contact=mass"}), "");
+    EXPECT_EQ(message({"Time.Scheme=" + scheme, "Time.Mass redistribution=mass"}), "");
     EXPECT_EQ(message({"Time.Scheme=" + scheme, "Network.Link floor.Stiffness=1000"}), "");
   }
   EXPECT_NE(
@@ -277,7 +278,7 @@ TEST(Schemes, unsuitable_ones_are_refused_by_name)
   const std::string jean = "Time.Scheme=Moreau-Jean", own = "Time.Moreau-Jean.",
                     of_gaps = own + "Conditions=gaps", of_rates = own + "Conditions=velocities",
                     reduced = "Network.Wire bar.Mass matrix=reduced",
-                    massless = "Time.Massless contact=mass";
+                    massless = "Time.Mass redistribution=mass";
   EXPECT_EQ(message({jean, "Network.Link floor.Stiffness=1e8"}), "");
   EXPECT_EQ(message({jean, massless}), "");
   EXPECT_NE(message({jean, of_rates, massless}).find("never damps"), std::string::npos);

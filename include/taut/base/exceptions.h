@@ -63,18 +63,18 @@ namespace taut
   class BodyNotHeld : public EntryError
   {
   public:
-    explicit BodyNotHeld(const std::string &message, std::vector<std::size_t> kernel = {},
+    explicit BodyNotHeld(const std::string &message, std::vector<std::size_t> null_space = {},
                          const std::string &entry = "")
-        : EntryError(entry, message), kernel_indices(std::move(kernel))
+        : EntryError(entry, message), null_space_indices(std::move(null_space))
     {
     }
 
-    /// Indices of the kernel vectors that stay unbalanced in the complementarity problem; empty if
-    /// it was not that.
-    const std::vector<std::size_t> &kernel() const { return kernel_indices; }
+    /// Indices of the null space vectors that stay unbalanced in the complementarity problem; empty
+    /// if it was not that.
+    const std::vector<std::size_t> &null_space() const { return null_space_indices; }
 
   private:
-    std::vector<std::size_t> kernel_indices;
+    std::vector<std::size_t> null_space_indices;
   };
 
   /// A complementarity problem that was left with a residual above the tolerance.

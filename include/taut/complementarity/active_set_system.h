@@ -31,7 +31,7 @@ namespace taut
     explicit ActiveSetSystem(const ComplementarityOptions &options) : options(options) {}
 
     /**
-     * Writes multiplier, kernel_amplitude and gap of @p solution, and the terms s_i of the gaps. @p
+     * Writes multiplier, mode_amplitude and gap of @p solution, and the terms s_i of the gaps. @p
      * set is ordered; keeping the order from call to call lets the operator keep its factor. An
      * iterative operator starts from the multipliers and amplitudes of @p solution, and gets gaps
      * of @p tolerance times s_i; above options.linear_tolerance in one correction, or not at all.
@@ -46,27 +46,28 @@ namespace taut
                std::vector<double> &terms) const;
     bool correct(const MixedComplementarityProblem &problem, ComplementarityOperator &matrix,
                  const std::vector<std::size_t> &set, MixedComplementaritySolution &solution);
-    bool correct_with_kernel(const MixedComplementarityProblem &problem,
-                             ComplementarityOperator &matrix, const std::vector<std::size_t> &set,
-                             MixedComplementaritySolution &solution);
+    bool correct_with_null_space(const MixedComplementarityProblem &problem,
+                                 ComplementarityOperator &matrix,
+                                 const std::vector<std::size_t> &set,
+                                 MixedComplementaritySolution &solution);
     void balance(const MixedComplementarityProblem &problem, const ComplementarityOperator &matrix,
                  const std::vector<std::size_t> &set, MixedComplementaritySolution &solution);
-    void prepare_kernel(const MixedComplementarityProblem &problem, ComplementarityOperator &matrix,
-                        const std::vector<std::size_t> &set);
-    bool correct_kernel(const MixedComplementarityProblem &problem,
-                        const std::vector<std::size_t> &set,
-                        MixedComplementaritySolution &solution);
+    void prepare_null_space(const MixedComplementarityProblem &problem,
+                            ComplementarityOperator &matrix, const std::vector<std::size_t> &set);
+    bool correct_null_space(const MixedComplementarityProblem &problem,
+                            const std::vector<std::size_t> &set,
+                            MixedComplementaritySolution &solution);
 
     ComplementarityOptions options;
 
     double shift = 0.;
     std::vector<double> rhs, step;
 
-    /// F_aa^-1 G_k^T for each kernel vector, and G_a F_aa^-1 G_a^T + E; of this set and shift if
-    /// ready.
-    bool kernel_is_ready = false;
-    std::vector<std::vector<double>> kernel_responses;
-    DenseOperator kernel_schur;
+    /// F_aa^-1 G_k^T for each null space vector, and G_a F_aa^-1 G_a^T + E; of this set and shift
+    /// if ready.
+    bool null_space_is_ready = false;
+    std::vector<std::vector<double>> null_space_responses;
+    DenseOperator null_space_schur;
   };
 } // namespace taut
 

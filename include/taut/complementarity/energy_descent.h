@@ -9,7 +9,7 @@
 namespace taut
 {
   /**
-   * The energy-ordered active set for a problem without kernel. The energy 1/2 N^T F N + d^T N
+   * The energy-ordered active set for a problem without null space. The energy 1/2 N^T F N + d^T N
    * falls with every change of the set, so no set comes back and the method is finite (the argument
    * of Lawson and Hanson, Solving Least Squares Problems, 1974, chapter 23):
    *

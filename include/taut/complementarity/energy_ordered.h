@@ -3,7 +3,7 @@
 #define taut_energy_ordered_h
 
 #include <taut/complementarity/energy_descent.h>
-#include <taut/complementarity/kernel_penalty.h>
+#include <taut/complementarity/null_space_penalty.h>
 
 namespace taut
 {
@@ -23,7 +23,7 @@ namespace taut
     {
       finished,      ///< residual() tells how well
       contradictory, ///< failed_indices() are rows
-      not_held       ///< failed_indices() are kernel vectors
+      not_held       ///< failed_indices() are null space vectors
     };
 
     explicit EnergyOrderedActiveSet(const ComplementarityOptions &options) : options(options) {}
@@ -44,8 +44,8 @@ namespace taut
                      MixedComplementaritySolution &solution);
     Outcome minimize_with_resistance(const MixedComplementarityProblem &problem,
                                      DenseOperator &matrix, MixedComplementaritySolution &solution);
-    Outcome minimize_with_kernel(const MixedComplementarityProblem &problem, DenseOperator &matrix,
-                                 MixedComplementaritySolution &solution);
+    Outcome minimize_with_null_space(const MixedComplementarityProblem &problem,
+                                     DenseOperator &matrix, MixedComplementaritySolution &solution);
     bool hold(const MixedComplementarityProblem &problem, const DenseOperator &matrix,
               KernelPenalty &penalty, double factor, EnergyDescent &descent,
               MixedComplementaritySolution &solution) const;

@@ -2,7 +2,7 @@
 #ifndef taut_complementarity_operator_h
 #define taut_complementarity_operator_h
 
-#include <taut/base/sparse_vector.h>
+#include <taut/base/linear_form.h>
 
 #include <cstddef>
 #include <vector>
@@ -48,19 +48,19 @@ namespace taut
      *
      *     F_aa x_a + G_a^T alpha = rhs_a,    G_a x_a = load
      *
-     * with one vector of @p kernel a row of G, otherwise like solve(); false, too, if the rows of
-     * the set do not hold a body. Only called where has_kernel_solver() is true; elsewhere one
-     * solve() a kernel vector has to do.
+     * with one vector of @p null space a row of G, otherwise like solve(); false, too, if the rows
+     * of the set do not hold a body. Only called where has_kernel_solver() is true; elsewhere one
+     * solve() a null space vector has to do.
      */
-    virtual bool solve_with_kernel(const std::vector<std::size_t> & /*set*/,
-                                   const std::vector<double> & /*rhs*/,
-                                   const std::vector<SparseVector> & /*kernel*/,
-                                   const std::vector<double> & /*load*/, double /*shift*/,
-                                   std::vector<double> & /*x*/, std::vector<double> & /*alpha*/)
+    virtual bool solve_with_null_space(const std::vector<std::size_t> & /*set*/,
+                                       const std::vector<double> & /*rhs*/,
+                                       const std::vector<LinearForm> & /*null_space*/,
+                                       const std::vector<double> & /*load*/, double /*shift*/,
+                                       std::vector<double> & /*x*/, std::vector<double> & /*alpha*/)
     {
       return false;
     }
-    virtual bool has_kernel_solver() const { return false; }
+    virtual bool has_null_space_solver() const { return false; }
 
     /// True if systems are solved by an iteration, to the tolerance set last.
     virtual bool is_iterative() const { return false; }

@@ -17,8 +17,8 @@ namespace taut
    *     N_i >= 0, D_i >= 0, N_i D_i = 0     on unilateral rows.
    *
    * Translations have N in N and D in m, rotations N in N m and D in rad. A row with F_ii = 0 that
-   * no kernel vector moves is inert: its gap is d_i whatever the multipliers, and its multiplier is
-   * 0.
+   * no null space vector moves is inert: its gap is d_i whatever the multipliers, and its
+   * multiplier is 0.
    */
   struct MixedComplementarityProblem
   {
@@ -37,32 +37,32 @@ namespace taut
      */
     std::vector<double> gap_scale;
 
-    /// G, n_kernel vectors over the rows: the motions of the rows with the kernel vectors of
+    /// G, n_kernel vectors over the rows: the motions of the rows with the null space vectors of
     /// floating bodies. Empty otherwise.
-    std::vector<SparseVector> kernel;
+    std::vector<LinearForm> null_space;
 
-    /// e, n_kernel: load on each kernel vector, which G N has to balance [N, N m].
-    std::vector<double> kernel_load;
+    /// e, n_kernel: load on each null space vector, which G N has to balance [N, N m].
+    std::vector<double> null_space_load;
 
-    /// Diagonal of E, n_kernel or empty for zeros: what resists each kernel vector, the inertia of
-    /// the body in a step [N/m, N m/rad].
-    std::vector<double> kernel_resistance;
+    /// Diagonal of E, n_kernel or empty for zeros: what resists each null space vector, the inertia
+    /// of the body in a step [N/m, N m/rad].
+    std::vector<double> null_space_resistance;
 
     double resistance(std::size_t k) const
     {
-      return kernel_resistance.empty() ? 0. : kernel_resistance[k];
+      return null_space_resistance.empty() ? 0. : null_space_resistance[k];
     }
 
-    /// Whether anything resists any of the kernel vectors.
+    /// Whether anything resists any of the null space vectors.
     bool has_resistance() const;
 
     std::size_t size() const { return unilateral.size(); }
-    std::size_t n_kernel() const { return kernel_load.size(); }
+    std::size_t n_null_space() const { return null_space_load.size(); }
 
     bool is_held_open(std::size_t i) const { return !held_open.empty() && held_open[i]; }
 
-    /// Rows that a kernel vector moves: not 0. Empty without kernel vectors.
-    std::vector<char> rows_in_kernel() const;
+    /// Rows that a null space vector moves: not 0. Empty without null space vectors.
+    std::vector<char> rows_in_null_space() const;
 
     /// Throws std::invalid_argument if the sizes of the arrays and of the operator do not fit
     /// together.
@@ -72,9 +72,9 @@ namespace taut
   /// What a solver finds, and where it starts from.
   struct MixedComplementaritySolution
   {
-    std::vector<double> multiplier;       ///< N [N, N m]
-    std::vector<double> gap;              ///< D [m, rad]
-    std::vector<double> kernel_amplitude; ///< alpha, n_kernel
+    std::vector<double> multiplier;     ///< N [N, N m]
+    std::vector<double> gap;            ///< D [m, rad]
+    std::vector<double> mode_amplitude; ///< alpha, n_kernel
 
     /// n rows: not 0 where N_i was solved for and D_i = 0; 0 where N_i = 0.
     std::vector<char> closed;
@@ -95,20 +95,20 @@ namespace taut
    * zero: a_k is the amplitude that would fit their terms, sum_i |G_ki| t_i / sum_i G_ki^2.
    */
   void gap_terms(const MixedComplementarityProblem &problem, const ComplementarityOperator &matrix,
-                 const std::vector<double> &multiplier, const std::vector<double> &kernel_amplitude,
+                 const std::vector<double> &multiplier, const std::vector<double> &mode_amplitude,
                  std::vector<double> &terms);
 
   /**
    * D = F N + d + G^T alpha.
    */
   void gaps(const MixedComplementarityProblem &problem, const ComplementarityOperator &matrix,
-            const std::vector<double> &multiplier, const std::vector<double> &kernel_amplitude,
+            const std::vector<double> &multiplier, const std::vector<double> &mode_amplitude,
             std::vector<double> &gap);
 
   /**
    * The positive factor w_i that makes a multiplier comparable with a gap in min(w_i N_i, D_i):
    * F_ii. The diagonal of a floating body's F depends on the choice of a pseudo-inverse and may
-   * vanish; rows that a kernel vector moves use max(F_ii, s_i / max_j |N_j|) instead.
+   * vanish; rows that a null space vector moves use max(F_ii, s_i / max_j |N_j|) instead.
    */
   void multiplier_weights(const MixedComplementarityProblem &problem,
                           const ComplementarityOperator &matrix,
@@ -127,7 +127,7 @@ namespace taut
 
     /// |G N - E alpha + e|_k / (|e_k| + E_k |alpha_k| + sum_i |G_ki| (|N_i| + s_i / w_i)):
     /// multipliers are known to rounding of s_i / w_i.
-    std::vector<double> kernel;
+    std::vector<double> null_space;
 
     /// The largest of all entries.
     double max = 0.;

@@ -44,9 +44,9 @@ namespace taut
 
     /**
      * The result stays valid, and is the start, until the next call; a problem of another size
-     * starts anew. Throws ContradictoryRows, BodyNotHeld with the indices of its rows and kernel
-     * vectors, and NotSolved if the residual ends above the tolerance. After an exception the next
-     * call starts anew.
+     * starts anew. Throws ContradictoryRows, BodyNotHeld with the indices of its rows and null
+     * space vectors, and NotSolved if the residual ends above the tolerance. After an exception the
+     * next call starts anew.
      */
     const ComplementarityResult &solve(const MixedComplementarityProblem &problem,
                                        ComplementarityOperator &matrix);

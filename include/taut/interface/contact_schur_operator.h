@@ -2,7 +2,7 @@
 #ifndef taut_contact_schur_operator_h
 #define taut_contact_schur_operator_h
 
-#include <taut/interface/body_rows.h>
+#include <taut/interface/body_constraints.h>
 #include <taut/substructure/factored_structure.h>
 
 #include <Epetra_LocalMap.h>
@@ -16,15 +16,15 @@ namespace taut
   /**
    * The interface operator of FETI, F = sum_k B_k^T A_k^-1 B_k + S, applied through the factors of
    * A_k without being formed. Restricted to an active set it acts as the identity on the other
-   * rows, so that it stays definite and an iterative solver sees vectors of one length. Its vectors
-   * are the same on all ranks.
+   * constraints, so that it stays definite and an iterative solver sees vectors of one length. Its
+   * vectors are the same on all ranks.
    */
   class ContactSchurOperator : public Epetra_Operator
   {
   public:
     /// The arguments are kept by reference.
-    ContactSchurOperator(const FactoredStructure &solvers, const BodyRows &body_rows,
-                         std::size_t n_rows);
+    ContactSchurOperator(const FactoredStructure &solvers, const BodyConstraints &body_constraints,
+                         std::size_t n_constraints);
 
     /// Diagonal S [m/N, rad/(N m)].
     void set_compliance(const std::vector<double> &S) { compliance = S; }
@@ -33,13 +33,13 @@ namespace taut
     void restrict_to(const std::vector<char> &set) { active = set; }
     void unrestrict();
 
-    /// Adds shift * diagonal, one entry a row.
+    /// Adds shift * diagonal, one entry a constraint.
     void set_shift(double factor, const std::vector<double> &diagonal);
 
-    /// Y = F X, for each column of the multivectors over the rows.
+    /// Y = F X, for each column of the multivectors over the constraints.
     int Apply(const Epetra_MultiVector &X, Epetra_MultiVector &Y) const override;
 
-    /// y = F x; both have one entry a row.
+    /// y = F x; both have one entry a constraint.
     void apply(const double *x, double *y) const;
 
     /// Products so far but those with zero, and systems of one A_k solved for them on this rank.
@@ -58,7 +58,7 @@ namespace taut
 
   private:
     const FactoredStructure &solvers;
-    const BodyRows &body_rows;
+    const BodyConstraints &body_constraints;
     Epetra_SerialComm communicator;
     Epetra_LocalMap map;
     std::vector<double> compliance, shift;

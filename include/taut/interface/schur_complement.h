@@ -3,7 +3,7 @@
 #define taut_schur_complement_h
 
 #include <taut/complementarity/operator.h>
-#include <taut/interface/contact_rows.h>
+#include <taut/interface/constraints.h>
 #include <taut/substructure/factored_structure.h>
 
 #include <memory>
@@ -16,14 +16,14 @@ namespace taut
   struct InterfaceParameters
   {
     /// "assembled dense", "assembled sparse", "matrix-free", or "automatic" for the one that suits
-    /// number of rows and step.
+    /// number of constraints and step.
     std::string form = "automatic";
 
     /// Of the matrix-free form: "diagonal", "lumped", "Dirichlet".
     std::string preconditioner = "Dirichlet";
 
-    /// Of the matrix-free form: "kernels" of the floating bodies, or "none".
-    std::string coarse_space = "kernels";
+    /// Of the matrix-free form: "rigid body modes" of the floating bodies, or "none".
+    std::string coarse_space = "rigid body modes";
   };
 
   /// What the iterative solution of systems with F has cost so far; all 0 where F is assembled.
@@ -38,9 +38,9 @@ namespace taut
   };
 
   /**
-   * The contact Schur complement F = sum_k B_k^T A_k^-1 B_k + S of the rows, in one of three
-   * forms: assembled dense or sparse, with the columns A_k^-1 B_k of the fixed rows stored once, or
-   * matrix-free.
+   * The contact Schur complement F = sum_k B_k^T A_k^-1 B_k + S of the constraints, in one of three
+   * forms: assembled dense or sparse, with the columns A_k^-1 B_k of the fixed constraints stored
+   * once, or matrix-free.
    */
   class SchurComplement
   {
@@ -50,13 +50,13 @@ namespace taut
     /// After a change of A_k or of the compliances S (diagonal, [m/N, rad/(N m)]): everything anew.
     virtual void setup(const std::vector<double> &S) = 0;
 
-    /// After ContactRows::update(): the moving rows anew.
+    /// After Constraints::update(): the moving constraints anew.
     virtual void update_moving() = 0;
 
-    /// d = B^T A^-1 P, the motion of the rows under forces P, and the sum of the absolute terms
-    /// that each d_i was summed from and rounds with [m, rad]: the shares of this rank.
-    virtual void free_motion(const BlockVector &P, std::vector<double> &d,
-                             std::vector<double> &terms_size) const = 0;
+    /// d = B^T A^-1 P, the motion of the constraints under forces P, and the sum of the absolute
+    /// terms that each d_i was summed from and rounds with [m, rad]: the shares of this rank.
+    virtual void contact_free_predictor(const BodyVectors &P, std::vector<double> &d,
+                                        std::vector<double> &terms_size) const = 0;
 
     /// F, for the complementarity solver.
     virtual ComplementarityOperator &matrix() = 0;
@@ -70,7 +70,7 @@ namespace taut
   /// Throws UserError for unknown names. The references are kept.
   std::unique_ptr<SchurComplement> make_schur_complement(const InterfaceParameters &parameters,
                                                          const FactoredStructure &solvers,
-                                                         const ContactRows &rows);
+                                                         const Constraints &constraints);
 } // namespace taut
 
 #endif

@@ -2,7 +2,7 @@
 #ifndef taut_system_h
 #define taut_system_h
 
-#include <taut/interface/contact_rows.h>
+#include <taut/interface/constraints.h>
 #include <taut/substructure/structure.h>
 
 #include <memory>
@@ -38,12 +38,12 @@ namespace taut
     Constraint &stiffness(double value);
     Constraint &damping(double value);
 
-    const Row &row() const { return data; }
+    const ConstraintData &constraint() const { return data; }
 
   private:
     Constraint(const std::string &name, bool unilateral, const Displacement &a,
                const Displacement &b);
-    Row data;
+    ConstraintData data;
   };
 
   /**
@@ -72,7 +72,7 @@ namespace taut
     std::size_t add(const Constraint &constraint);
 
     std::size_t n_bodies() const { return index.size(); }
-    std::size_t n_constraints() const { return constraints.size(); }
+    std::size_t n_constraints() const { return list.size(); }
 
     /// A body if it is on this rank, otherwise nullptr; and its index among those of this rank.
     const Substructure *body(std::size_t number) const;
@@ -81,15 +81,15 @@ namespace taut
     const Communicator &communicator() const { return bodies.communicator(); }
     const Structure &structure() const { return bodies; }
 
-    /// The rows of the constraints; that of constraint i is row_of_link(i). They keep a reference
-    /// to the system.
-    ContactRows rows() const;
+    /// The constraints of the constraints; that of constraint i is index_of_link(i). They keep a
+    /// reference to the system.
+    Constraints constraints() const;
 
   private:
     Structure bodies;
     std::vector<std::size_t> index; ///< of each body on this rank, or Structure::elsewhere
     std::vector<std::size_t> load;  ///< DoFs of each rank
-    std::vector<Row> constraints;
+    std::vector<ConstraintData> list;
   };
 } // namespace taut
 

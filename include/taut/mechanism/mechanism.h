@@ -22,14 +22,13 @@ namespace taut
     bool is_lumped() const override { return true; }
 
     /// Of the mass whose number among those of this body is place[0]; x and y of the direction.
-    SparseVector displacement(const Coordinates &place,
-                              const Coordinates &direction) const override;
-    Kernel kernel() const override;
+    LinearForm displacement(const Coordinates &place, const Coordinates &direction) const override;
+    NullSpace null_space() const override;
 
     /// Displacement along a direction, or the rotation, of a mass: result . U. Motions that the
     /// mass lacks are zero.
     void motion(std::size_t mass, bool rotational, const Coordinates &direction,
-                SparseVector &result) const;
+                LinearForm &result) const;
 
   private:
     /// One scalar motion: 0 x, 1 y, 2 rotation of a mass.

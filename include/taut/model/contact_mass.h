@@ -12,13 +12,13 @@ namespace taut
   bool is_massless(const Link &link);
 
   /**
-   * Takes the mass from the nodes of wires at rigid stops, as Massless contact = mass does (mass
+   * Takes the mass from the nodes of wires at rigid stops, as Mass redistribution = mass does (mass
    * redistribution), if the elements beside them then are a spring that the step [s] resolves
-   * (doc/accuracy.md): if the rigid one-sided links of the scene are such stops, on bars or
+   * (doc/accuracy.md): if the rigid unilateral links of the scene are such stops, on bars or
    * strings, at least two elements apart, whose fastest waves cross at most four elements a step,
    * and no other link acts as rigid. Throws an EntryError if a body cannot be factored.
    */
-  void take_contact_mass(Scene &scene, const SolverParameters &parameters, double step);
+  void redistribute_contact_mass(Scene &scene, const SolverParameters &parameters, double step);
 } // namespace taut
 
 #endif

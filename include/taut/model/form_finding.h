@@ -17,9 +17,9 @@ namespace taut
   /**
    * Finds the lengths of the droppers that ask for it (Link::find_length), so that in static
    * equilibrium without_sliding_contacts() their `to` ends stand at the prescribed displacement.
-   * Two stages: the prescribed heights as bilateral rows give the tensions; the `from` bodies under
-   * these tensions give the lengths. Repeated until the lengths stand still where they decide about
-   * stiffness and weight.
+   * Two stages: the prescribed heights as bilateral constraints give the tensions; the `from`
+   * bodies under these tensions give the lengths. Repeated until the lengths stand still where they
+   * decide about stiffness and weight.
    *
    * Returns the scene with gap, length and stiffness of these links set and half of the mass of
    * each put on each of its ends. Throws UserError naming the dropper if a tension is negative or a

@@ -12,7 +12,7 @@
 namespace taut
 {
   /// What holds two pieces of a wire together where it was cut: a linear form that is zero.
-  struct CutRow
+  struct CutConstraint
   {
     std::string name;
     bool rotational = false;
@@ -50,8 +50,9 @@ namespace taut
       append_motion(point, false, direction, factor, true, terms);
     }
 
-    /// One row a cut for each motion that is continuous there: displacement, and slope of a beam.
-    const std::vector<CutRow> &cut_rows() const { return cuts; }
+    /// One constraint a cut for each motion that is continuous there: displacement, and slope of a
+    /// beam.
+    const std::vector<CutConstraint> &cut_constraints() const { return cuts; }
 
     /// The index of a custom body of the scene on this rank, or Structure::elsewhere.
     std::size_t index_of_body(std::size_t body) const { return custom_bodies[body]; }
@@ -83,7 +84,7 @@ namespace taut
     std::vector<Coordinates> tangents, normals;
     std::vector<double> lengths;
     std::vector<std::size_t> mechanism_of_mass, custom_bodies;
-    std::vector<CutRow> cuts;
+    std::vector<CutConstraint> cuts;
   };
 } // namespace taut
 

@@ -61,11 +61,11 @@ namespace taut
     double interval = 0., next = 0., start_energy = 0.;
     Balance total;
 
-    BlockVector P, CV, balance, impulses; ///< of the last call
-    BlockVector P0, CV0, balance0, A0;    ///< of the one before it
+    BodyVectors P, CV, balance, impulses; ///< of the last call
+    BodyVectors P0, CV0, balance0, A0;    ///< of the one before it
     std::vector<double> N0, gap0;
     std::vector<State::LinkSpring> springs0;
-    std::vector<std::vector<Term>> terms0; ///< of the moving rows
+    std::vector<std::vector<Term>> terms0; ///< of the moving constraints
   };
 } // namespace taut
 

@@ -62,7 +62,7 @@ namespace taut
       std::vector<Entry> entries;
       std::vector<std::size_t> ends;
       void add(const std::vector<Term> &terms);
-      void evaluate(const BlockVector &U, double *result) const;
+      void evaluate(const BodyVectors &U, double *result) const;
     };
 
     /// Samples along a wire, or along the place where one is above another.

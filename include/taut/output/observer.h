@@ -3,7 +3,7 @@
 #define taut_observer_h
 
 #include <taut/base/registry.h>
-#include <taut/interface/contact_rows.h>
+#include <taut/interface/constraints.h>
 #include <taut/model/scene_bodies.h>
 #include <taut/time/certificate.h>
 #include <taut/time/contact_measures.h>
@@ -25,7 +25,7 @@ namespace taut
   {
     const Scene &scene;
     const SceneBodies &structure;
-    const ContactRows &rows;
+    const Constraints &constraints;
     const Reference &reference;
     const State &state;
     const Certificate &certificate;

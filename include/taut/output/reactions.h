@@ -2,7 +2,7 @@
 #ifndef taut_reactions_h
 #define taut_reactions_h
 
-#include <taut/interface/contact_rows.h>
+#include <taut/interface/constraints.h>
 #include <taut/model/scene_bodies.h>
 #include <taut/time/state.h>
 
@@ -46,7 +46,7 @@ namespace taut
     void update(const Reference &reference, const State &state);
 
     /// In a state whose balance is not known: the start. Called by all ranks together.
-    void update_start(const Reference &reference, State state, const ContactRows &rows);
+    void update_start(const Reference &reference, State state, const Constraints &constraints);
 
     /// One for each of the support_points() [N, N m].
     const std::vector<double> &forces() const { return values; }
@@ -58,7 +58,7 @@ namespace taut
       bool is_here = false; ///< on this rank
       std::size_t body = 0;
       unsigned int dof = 0;
-      SparseVector mass; ///< row of M, of a support that prescribes the motion
+      LinearForm mass; ///< row of M, of a support that prescribes the motion
       double stiffness = 0., damping = 0.;
       bool fixed = false;
     };

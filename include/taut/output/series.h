@@ -16,14 +16,14 @@ namespace taut
    * Time series as CSV: sliding.csv (each sliding contact: position, force, gap), links.csv (force
    * and gap of every fixed link), supports.csv (force of every support on its wire), probes.csv,
    * certificate.csv. A file without content is not made. With an interval, tables but the last have
-   * the extremes since the line before, and of one-sided links how often they opened or closed.
+   * the extremes since the line before, and of unilateral links how often they opened or closed.
    */
   class Series : public Observer
   {
   public:
     /// @p interval and @p link_interval: least time between two lines [s]; 0: every step.
-    Series(const std::string &folder, const Scene &scene, const ContactRows &rows, double interval,
-           double link_interval);
+    Series(const std::string &folder, const Scene &scene, const Constraints &constraints,
+           double interval, double link_interval);
 
     void record(const StepView &step) override;
 
@@ -31,7 +31,7 @@ namespace taut
     void finish() override;
 
   private:
-    void add_link(const Row &row);
+    void add_link(const ConstraintData &constraint);
     void record_links(const StepView &step, bool moving, IntervalTable &table);
 
     double interval, next = 0.;

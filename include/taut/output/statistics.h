@@ -23,7 +23,7 @@ namespace taut
     std::vector<double> window;    ///< positions of a sliding contact [m]; empty: the whole run
     double filter_frequency = 20.; ///< [Hz]
 
-    /// Lower and upper bound by figure; empty: none.
+    /// Lower and upper bound by quantity; empty: none.
     std::map<std::string, std::vector<double>> expected;
 
     /// Declares the members in subsection "Statistics".
@@ -33,7 +33,7 @@ namespace taut
     void check_window(const Scene &scene, double end_time) const;
   };
 
-  /// What the figures are of.
+  /// What the quantities are of.
   struct RunDescription
   {
     std::string scene;          ///< name of the parameter file
@@ -59,12 +59,12 @@ namespace taut
   class Statistics : public Observer
   {
   public:
-    Statistics(const StatisticsParameters &parameters, const Scene &scene, const ContactRows &rows);
+    Statistics(const StatisticsParameters &parameters, const Scene &scene, const Constraints &rows);
 
     void record(const StepView &step) override;
 
     /// Contact force of one sliding contact in the window.
-    struct ContactFigures
+    struct ContactQuantities
     {
       Moments raw, filtered;
       double loss = 0.;
@@ -80,25 +80,28 @@ namespace taut
     std::size_t n_contacts() const { return contacts.size(); }
 
     /// @p contact counts the sliding contacts in the order of the scene.
-    ContactFigures contact_figures(std::size_t contact) const { return figures(contacts[contact]); }
+    ContactQuantities contact_quantities(std::size_t contact) const
+    {
+      return quantities(contacts[contact]);
+    }
 
     /// Largest displacement of a probe [m, rad].
     double largest_displacement(std::size_t probe) const { return uplift[probe]; }
 
-    /// A figure of a sliding contact, another link or a probe.
-    struct NamedFigure
+    /// A quantity of a sliding contact, another link or a probe.
+    struct NamedQuantity
     {
       std::string item, quantity;
       double value; ///< [N, N m, m, rad, s, N s, N m s]; contact loss [1]
     };
 
-    /// All figures that are one number; of a sliding contact of its filtered force.
-    std::vector<NamedFigure> named_figures() const;
+    /// All quantities that are one number; of a sliding contact of its filtered force.
+    std::vector<NamedQuantity> named_quantities() const;
 
     /// Largest residuals of all steps.
     const Certificate &worst_certificate() const { return worst; }
 
-    /// The table, with the expected ranges beside the figures.
+    /// The table, with the expected ranges beside the quantities.
     void print(std::ostream &out) const;
 
     /// The same as JSON. Throws UserError if the file cannot be written.
@@ -117,22 +120,22 @@ namespace taut
       std::vector<double> mean_force = {}; ///< over the time that the element resolves
     };
     /// What a fixed link did.
-    struct LinkFigures
+    struct LinkQuantities
     {
       double open_time = 0., closed_time = 0., largest_force = 0., impulse = 0.;
       double largest_impulse = 0.;
     };
 
     /// Force of a support.
-    struct SupportFigures
+    struct SupportQuantities
     {
       double start = 0., largest = 0., smallest = 0.;
     };
 
-    ContactFigures figures(const Contact &contact) const;
+    ContactQuantities quantities(const Contact &contact) const;
 
     /// A row of a table.
-    struct Figure
+    struct Quantity
     {
       std::string name, unit;
       double value;
@@ -140,14 +143,14 @@ namespace taut
     };
 
     /// Of a sliding contact: the filtered force unless @p raw, with the loss unless raw.
-    std::vector<Figure> table(const ContactFigures &figures, bool raw) const;
+    std::vector<Quantity> table(const ContactQuantities &quantities, bool raw) const;
 
     /// Largest and smallest displacement of a probe.
-    std::vector<Figure> table(std::size_t probe) const;
+    std::vector<Quantity> table(std::size_t probe) const;
 
-    const std::vector<double> *expected_range(const std::string &figure) const;
+    const std::vector<double> *expected_range(const std::string &quantity) const;
 
-    /// How the figures compare with their expected ranges.
+    /// How the quantities compare with their expected ranges.
     struct Verdict
     {
       std::size_t n_inside = 0, n_outside = 0;
@@ -155,7 +158,7 @@ namespace taut
       std::string text() const;
     };
     Verdict verdict() const;
-    std::string window_text(const ContactFigures &figures) const;
+    std::string window_text(const ContactQuantities &quantities) const;
     void print_contact(const Contact &contact, std::ostream &out) const;
     void print_links(std::ostream &out) const;
 
@@ -163,16 +166,16 @@ namespace taut
     std::vector<Contact> contacts;
     std::vector<std::string> link_names, probe_names;
     std::vector<char> link_unilateral, link_rotates;
-    std::vector<LinkFigures> link_figures;
+    std::vector<LinkQuantities> link_quantities;
     std::vector<char> probe_rotates;
     std::vector<double> uplift, lowering, last; ///< of the probes, from rest
     std::vector<std::string> support_names;
     std::vector<char> support_is_moment;
-    std::vector<SupportFigures> support_figures;
+    std::vector<SupportQuantities> support_quantities;
     std::vector<double> times;
     Certificate worst;
     const ContactMeasures *measures = nullptr; ///< of the last step
-    const ContactRows *rows = nullptr;
+    const Constraints *rows = nullptr;
     double worst_complementarity_time = 0., worst_balance_time = 0.;
     std::size_t n_steps = 0, n_iterations = 0, n_fallbacks = 0;
   };

@@ -160,7 +160,7 @@ namespace taut
     sliding_contact ///< a stop whose `to` end moves along a wire
   };
 
-  /// Where the mass of a DoF at a rigid one-sided link goes: to its neighbours, so that the total
+  /// Where the mass of a DoF at a rigid unilateral link goes: to its neighbours, so that the total
   /// mass stays, or also its centre and its moment of inertia.
   enum class ContactMass
   {
@@ -201,7 +201,7 @@ namespace taut
     double mass_per_length = 0.;         ///< [kg/m]; half of the mass goes to each end
     double length = 0.;                  ///< geometric length in the static state, once known [m]
 
-    /// Whether the DoFs of wires that a fixed rigid one-sided link acts on keep their mass.
+    /// Whether the DoFs of wires that a fixed rigid unilateral link acts on keep their mass.
     ContactMass contact_mass = ContactMass::stays;
 
     bool unilateral() const { return kind != LinkKind::joint; }

@@ -82,7 +82,7 @@ namespace taut
 
     std::string scheme = "automatic";
     double step = 1e-3, end_time = 6.912;
-    std::string massless_contact = "automatic";
+    std::string mass_redistribution = "automatic";
     bool allow_unsuitable_scheme = false;
     bool allow_energy_gain = false;
     StepParameters step_parameters;
@@ -127,10 +127,10 @@ namespace taut
     /// The parameter file, without its folder.
     std::string file_name() const;
 
-    /// True if Time/Massless contact leaves to the choice of the scheme which nodes have mass.
+    /// True if Time/Mass redistribution leaves to the choice of the scheme which nodes have mass.
     bool chooses_contact_mass() const
     {
-      return scheme == "automatic" && massless_contact == "automatic" && end_time > 0.;
+      return scheme == "automatic" && mass_redistribution == "automatic" && end_time > 0.;
     }
 
   private:

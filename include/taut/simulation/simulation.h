@@ -2,7 +2,7 @@
 #ifndef taut_simulation_h
 #define taut_simulation_h
 
-#include <taut/interface/contact_rows.h>
+#include <taut/interface/constraints.h>
 #include <taut/output/model_limits.h>
 #include <taut/output/observer.h>
 #include <taut/output/reactions.h>
@@ -57,7 +57,7 @@ namespace taut
 
     const Scene &scene() const { return model; }
     const SceneBodies &structure() const { return bodies; }
-    const ContactRows &rows() const { return links; }
+    const Constraints &constraints() const { return links; }
 
     /// Steps of a run: those that fit into its time.
     long n_steps() const;
@@ -89,7 +89,7 @@ namespace taut
     const Communicator processes;
     const Scene model;
     const SceneBodies bodies;
-    ContactRows links;
+    Constraints links;
 
     Reference reference;
     State start;

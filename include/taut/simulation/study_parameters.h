@@ -16,7 +16,7 @@ namespace dealii
 namespace taut
 {
   /// Entries of a scene that a study changes together, and the values they take in turn.
-  struct Ladder
+  struct ParameterList
   {
     std::string name;
     std::vector<std::string> entries; ///< paths, "Section/Entry"
@@ -33,29 +33,32 @@ namespace taut
     std::vector<double> accuracies = {0.05, 0.01, 0.001};
     unsigned int repeats = 3, reference_levels = 5;
 
-    struct LadderItem
+    struct ParameterListItem
     {
       std::string entries, values, reference;
       bool refined = false;
       void declare(dealii::ParameterHandler &prm);
     };
-    NamedItems<LadderItem> ladder_items{"Study", "Ladders", "Ladder", "lists of values to try"};
+    NamedItems<ParameterListItem> parameter_list_items{"Study", "Parameters", "Parameter",
+                                                       "lists of values to try"};
 
-    struct FigureItem
+    struct QuantityItem
     {
       std::string of, quantity, exact;
       double scale = 0.;
       void declare(dealii::ParameterHandler &prm);
     };
-    NamedItems<FigureItem> figures{"Study", "Figures", "Figure", "figures whose error is measured"};
+    NamedItems<QuantityItem> quantities{"Study", "Quantities", "Quantity",
+                                        "quantities of interest, whose error is measured"};
 
     void declare_names(dealii::ParameterHandler &prm);
 
     /// Declares the members in subsection "Study".
     void declare_parameters(dealii::ParameterHandler &prm);
 
-    /// The ladders, checked against all entries of the scene by path; throws EntryError.
-    std::vector<Ladder> ladders(const std::map<std::string, std::string> &scene) const;
+    /// The parameter lists, checked against all entries of the scene by path; throws EntryError.
+    std::vector<ParameterList>
+    parameter_lists(const std::map<std::string, std::string> &scene) const;
   };
 } // namespace taut
 

@@ -2,18 +2,18 @@
 #ifndef taut_refined_reference_h
 #define taut_refined_reference_h
 
-#include <taut/study/figure_recorder.h>
+#include <taut/study/quantity_recorder.h>
 
 #include <string>
 #include <vector>
 
 namespace taut
 {
-  /// What a figure is compared with.
-  struct FigureReference
+  /// What a quantity is compared with.
+  struct QuantityReference
   {
-    StudyFigure figure;
-    double error = 0.; ///< of the reference itself, in the figure's unit; 0 if it is exact
+    StudyQuantity quantity;
+    double error = 0.; ///< of the reference itself, in the quantity's unit; 0 if it is exact
     double order = 0.; ///< observed under refinement; 0: the changes do not fall like a power
     double scale = 1.; ///< relative errors are relative to it
     bool is_exact = false;
@@ -28,12 +28,12 @@ namespace taut
    * last one, with the sum of the geometric series that the changes make, of which the quotient
    * counts as at least 1/4. One level has an infinite error.
    */
-  FigureReference extrapolate(const std::vector<StudyFigure> &levels);
+  QuantityReference extrapolate(const std::vector<StudyQuantity> &levels);
 
   /// The exact value or history of an entry Exact, a formula in t, on the times of a run.
   /// Throws UserError if the formula makes no sense.
-  StudyFigure exact_figure(const std::string &formula, const std::string &entry,
-                           const StudyFigure &figure);
+  StudyQuantity exact_quantity(const std::string &formula, const std::string &entry,
+                               const StudyQuantity &quantity);
 } // namespace taut
 
 #endif

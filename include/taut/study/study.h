@@ -12,18 +12,18 @@
 
 namespace taut
 {
-  /// One setting of a study: a value for each ladder, and what the runs with it gave.
+  /// One setting of a study: a value for each parameter_list, and what the runs with it gave.
   struct StudySetting
   {
     std::vector<std::string> values;
-    std::string message;         ///< why it failed; empty if it ran
-    std::vector<double> figures; ///< [the figure's unit]
-    std::vector<double> errors;  ///< relative, of each figure
-    std::vector<double> bounds;  ///< largest of these of the setting and of all finer ones
-    double error = 0.;           ///< the largest of the errors
-    double bound = 0.;           ///< the largest of the bounds
-    double reference_error = 0.; ///< relative, the largest of the references'
-    std::vector<double> seconds; ///< of the loop over the steps without output, of each run
+    std::string message;            ///< why it failed; empty if it ran
+    std::vector<double> quantities; ///< [the quantity's unit]
+    std::vector<double> errors;     ///< relative, of each quantity
+    std::vector<double> bounds;     ///< largest of these of the setting and of all finer ones
+    double error = 0.;              ///< the largest of the errors
+    double bound = 0.;              ///< the largest of the bounds
+    double reference_error = 0.;    ///< relative, the largest of the references'
+    std::vector<double> seconds;    ///< of the loop over the steps without output, of each run
     double seconds_with_output = 0.;
     double certificate = 0.; ///< largest residual of any step [1]
     long n_steps = 0;
@@ -36,18 +36,18 @@ namespace taut
   /// Everything that a study found out.
   struct StudyResult
   {
-    std::vector<Ladder> ladders;
+    std::vector<ParameterList> parameter_lists;
     std::vector<std::string> figure_names;
-    std::vector<FigureReference> references;
+    std::vector<QuantityReference> references;
     std::vector<StudySetting> settings;
     double end_time = 0.;    ///< [s]
     bool is_partial = false; ///< ended early: settings or repeated runs are missing
   };
 
   /**
-   * Runs a scene with every combination of the values of the ladders in its section Study, and
-   * measures what each costs and how far its figures are from their references. Cost is processor
-   * time: other work on the machine then matters less.
+   * Runs a scene with every combination of the values of the parameter_lists in its section Study,
+   * and measures what each costs and how far its quantities are from their references. Cost is
+   * processor time: other work on the machine then matters less.
    */
   class Study
   {
@@ -73,12 +73,13 @@ namespace taut
     void measure_settings();
     void keep_measured_settings();
     void write_results();
-    void check_figures() const;
+    void check_quantities() const;
     void find_references();
     std::vector<std::string> reference_values(unsigned int level) const;
-    Run run_once(const std::vector<std::string> &values, bool with_output, bool with_figures) const;
+    Run run_once(const std::vector<std::string> &values, bool with_output,
+                 bool with_quantities) const;
     void run_setting(StudySetting &setting, bool first) const;
-    void compare(StudySetting &setting, const std::vector<StudyFigure> &figures) const;
+    void compare(StudySetting &setting, const std::vector<StudyQuantity> &quantities) const;
 
     std::string file;
     std::vector<std::string> overrides;
@@ -91,11 +92,12 @@ namespace taut
 
   /**
    * Sets StudySetting::bounds and bound. A setting is finer than another if its values on the
-   * refined ladders are at most those of the other, and equal elsewhere. Errors of step and mesh
-   * can cancel by chance, and a scheme can fail at small steps: an error counts once all finer
+   * refined parameter_lists are at most those of the other, and equal elsewhere. Errors of step and
+   * mesh can cancel by chance, and a scheme can fail at small steps: an error counts once all finer
    * settings that ran have it too.
    */
-  void find_bounds(const std::vector<Ladder> &ladders, std::vector<StudySetting> &settings);
+  void find_bounds(const std::vector<ParameterList> &parameter_lists,
+                   std::vector<StudySetting> &settings);
 
   /// Sets StudySetting::is_on_front, by least seconds and bound.
   void find_front(std::vector<StudySetting> &settings);
@@ -104,8 +106,8 @@ namespace taut
   /// @p accuracy, or null.
   const StudySetting *cheapest(const std::vector<StudySetting> &settings, double accuracy);
 
-  /// The same for one figure alone.
-  const StudySetting *cheapest(const StudyResult &result, std::size_t figure, double accuracy);
+  /// The same for one quantity alone.
+  const StudySetting *cheapest(const StudyResult &result, std::size_t quantity, double accuracy);
 } // namespace taut
 
 #endif

@@ -20,9 +20,9 @@ namespace taut
 
     /**
      * A_k = mass M_k + damping C_k + K_k, mass in 1/s^2, damping in 1/s. Where that is so close to
-     * singular that motions lose their sixth digit, free_motions() has them apart from the factor;
-     * if the body has none, or without @p use_amplitudes, an EntryError names it and what helps.
-     * BodyNotHeld names a body that nothing holds.
+     * singular that motions lose their sixth digit, rigid_body_modes() has them apart from the
+     * factor; if the body has none, or without @p use_amplitudes, an EntryError names it and what
+     * helps. BodyNotHeld names a body that nothing holds.
      */
     void factor(double mass, double damping, bool use_amplitudes = true);
 
@@ -37,7 +37,7 @@ namespace taut
      * it. The vectors are chosen so that E is diagonal. Used only where E is at least half of R^T J
      * R, so that it does not cancel: the inertia is smaller than what resists elastic motions.
      */
-    struct FreeMotions
+    struct RigidBodyModes
     {
       std::vector<std::vector<double>> vectors; ///< R'
       std::vector<double> resistance;           ///< diagonal of E [N/m, N m/rad]
@@ -46,30 +46,30 @@ namespace taut
     };
 
     /// Of each body; without vectors where A_k is factored as it is.
-    const std::vector<FreeMotions> &free_motions() const { return motions; }
+    const std::vector<RigidBodyModes> &rigid_body_modes() const { return motions; }
 
     /// True if a body of some rank has them. Called by all ranks together.
-    bool has_free_motions() const;
+    bool has_rigid_body_modes() const;
 
     /**
-     * K_k U of a body with free motions is balanced on them, but for rounding of |K||U|, which may
-     * be more than the inertia. Takes that off the forces on the fixing DoFs of @p KU and adds it
-     * to those of @p balance, in which K_k U is subtracted.
+     * K_k U of a body with rigid body modes is balanced on them, but for rounding of |K||U|, which
+     * may be more than the inertia. Takes that off the forces on the fixing DoFs of @p KU and adds
+     * it to those of @p balance, in which K_k U is subtracted.
      */
     void remove_rounding(std::size_t k, std::vector<double> &KU,
                          std::vector<double> &balance) const;
 
     /**
-     * A_k = K_k, with a spring as stiff as the diagonal on each DoF that holds a kernel vector: its
-     * inverse is a generalised inverse of K_k, exact for forces that are balanced on the kernel
-     * (the springs then carry nothing).
+     * A_k = K_k, with a spring as stiff as the diagonal on each DoF that holds a null space vector:
+     * its inverse is a generalised inverse of K_k, exact for forces that are balanced on the null
+     * space (the springs then carry nothing).
      */
-    void factor_stiffness(const std::vector<Substructure::Kernel> &kernels);
+    void factor_stiffness(const std::vector<Substructure::NullSpace> &null_spaces);
 
     const LocalSolver &operator[](std::size_t k) const { return *solvers[k]; }
 
     /// X_k = A_k^-1 X_k for all k.
-    void solve(BlockVector &X) const;
+    void solve(BodyVectors &X) const;
 
     /// A_k = M_k, with DoFs without mass held at zero. BodyNotHeld names a body with a singular
     /// one.
@@ -83,7 +83,7 @@ namespace taut
 
     /**
      * A solver for A_k with more DoFs held at zero. In statics springs hold it, as in
-     * factor_stiffness(), only if a kernel vector is left that moves none of these DoFs.
+     * factor_stiffness(), only if a null space vector is left that moves none of these DoFs.
      */
     std::unique_ptr<LocalSolver> solver_with_held(std::size_t k,
                                                   const std::vector<unsigned int> &held) const;
@@ -100,7 +100,7 @@ namespace taut
     void check_digits(std::size_t k, double loss) const;
     void factor_body(std::size_t k, bool use_amplitudes);
     bool take_apart(std::size_t k, bool use_amplitudes);
-    bool set_free_motions(std::size_t k);
+    bool set_rigid_body_modes(std::size_t k);
 
     const Structure &bodies;
     const std::string solver_name;
@@ -114,7 +114,7 @@ namespace taut
     Kind kind = Kind::step;
     double mass_factor = 0., damping_factor = 0.; ///< of A_k in a step
     std::vector<std::unique_ptr<LocalSolver>> solvers;
-    std::vector<FreeMotions> motions;
+    std::vector<RigidBodyModes> motions;
   };
 } // namespace taut
 

@@ -76,18 +76,17 @@ namespace taut
                            const dealii::Vector<double> &velocity);
 
     /// At a point of the mesh; a scalar element counts the part of @p direction along its own.
-    SparseVector displacement(const Coordinates &place,
-                              const Coordinates &direction) const override;
+    LinearForm displacement(const Coordinates &place, const Coordinates &direction) const override;
 
     /// A place of the boundary or inside: of DoF @p dof alone, condensed where it depends on
     /// others.
-    SparseVector displacement_of_dof(dealii::types::global_dof_index dof) const;
+    LinearForm displacement_of_dof(dealii::types::global_dof_index dof) const;
 
     /// All DoFs, those that depend on others too, from the displacement that a State has.
     dealii::Vector<double> all_dofs(const std::vector<double> &U) const;
 
     void initial_state(std::vector<double> &U, std::vector<double> &V) const override;
-    Kernel kernel() const override { return null_space; }
+    NullSpace null_space() const override { return own_null_space; }
 
     bool has_fields() const override { return true; }
     void write_vtu(const std::string &path, const std::vector<double> &U) const override;
@@ -106,9 +105,9 @@ namespace taut
     const dealii::DoFHandler<dim> &handler;
     const dealii::Mapping<dim> &mapping;
     const Coordinates scalar_direction;
-    std::vector<SparseVector> forms; ///< of each DoF on those that are kept
+    std::vector<LinearForm> forms; ///< of each DoF on those that are kept
     dealii::Vector<double> U0, V0;
-    Kernel null_space;
+    NullSpace own_null_space;
   };
 } // namespace taut
 

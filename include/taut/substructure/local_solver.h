@@ -2,7 +2,7 @@
 #ifndef taut_local_solver_h
 #define taut_local_solver_h
 
-#include <taut/base/sparse_vector.h>
+#include <taut/base/linear_form.h>
 #include <taut/substructure/symmetric_matrix.h>
 
 #include <memory>
@@ -44,10 +44,10 @@ namespace taut
      * x = A^-1 rhs without the tails where it has decayed below 1e-18 of its largest entry of the
      * same kind. @p rhs lives on the DoFs of one element.
      */
-    virtual void column(const SparseVector &rhs, WindowedVector &x) const = 0;
+    virtual void column(const LinearForm &rhs, WindowedVector &x) const = 0;
 
     /// rhs^T A^-1 rhs, the flexibility of the body under one row.
-    virtual double flexibility(const SparseVector &rhs) const = 0;
+    virtual double flexibility(const LinearForm &rhs) const = 0;
   };
 
   /**

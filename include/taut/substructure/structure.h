@@ -16,11 +16,11 @@ namespace taut
   struct Term
   {
     std::size_t substructure = 0;
-    SparseVector form;
+    LinearForm form;
   };
 
   /// One vector of DoFs for each substructure.
-  using BlockVector = std::vector<std::vector<double>>;
+  using BodyVectors = std::vector<std::vector<double>>;
 
   /**
    * The substructures of a system, each on one rank. Every rank knows the names and sizes of all of
@@ -61,7 +61,7 @@ namespace taut
     const std::vector<Body> &all_bodies() const { return bodies; }
 
     /// Zero vectors of the right sizes.
-    BlockVector zero() const;
+    BodyVectors zero() const;
 
   private:
     Communicator processes;
@@ -70,10 +70,10 @@ namespace taut
   };
 
   /// Sum of the absolute values of the terms applied to U: what a sum that cancels rounds against.
-  double magnitude(const std::vector<Term> &terms, const BlockVector &U);
+  double magnitude(const std::vector<Term> &terms, const BodyVectors &U);
 
   /// Sum of the forms of @p terms applied to U.
-  double evaluate(const std::vector<Term> &terms, const BlockVector &U);
+  double evaluate(const std::vector<Term> &terms, const BodyVectors &U);
 } // namespace taut
 
 #endif

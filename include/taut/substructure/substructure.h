@@ -3,7 +3,7 @@
 #define taut_substructure_h
 
 #include <taut/base/coordinates.h>
-#include <taut/base/sparse_vector.h>
+#include <taut/base/linear_form.h>
 #include <taut/substructure/symmetric_matrix.h>
 
 #include <functional>
@@ -79,8 +79,8 @@ namespace taut
     bool external_force_varies() const { return !time_loads.empty(); }
 
     /// Adds a force along @p form, of its magnitude or of magnitude(t) [N].
-    void add_force(const SparseVector &form, double magnitude);
-    void add_force(SparseVector form, std::function<double(double)> magnitude);
+    void add_force(const LinearForm &form, double magnitude);
+    void add_force(LinearForm form, std::function<double(double)> magnitude);
 
     /// Kind of DoF i: 0 a displacement, 1 a slope or rotation.
     unsigned int kind(unsigned int i) const
@@ -105,7 +105,7 @@ namespace taut
      * body of lumped masses without places ignores the place. Throws UserError if the place is not
      * on the body, or if the body has no such places.
      */
-    virtual SparseVector displacement(const Coordinates &place, const Coordinates &direction) const;
+    virtual LinearForm displacement(const Coordinates &place, const Coordinates &direction) const;
 
     /// A local solver of its own for A = mass M + damping C + K; none: by the matrices, see
     /// make_local_solver().
@@ -127,12 +127,12 @@ namespace taut
      * a DoF to hold: with springs on these DoFs the stiffness is definite. Empty for a body that is
      * held.
      */
-    struct Kernel
+    struct NullSpace
     {
       std::vector<std::vector<double>> vectors;
       std::vector<unsigned int> fixing_dofs;
     };
-    virtual Kernel kernel() const { return {}; }
+    virtual NullSpace null_space() const { return {}; }
 
     /// Where its elements are so unequal that the stiffness of the smallest hides the others, and
     /// what to do, as a part of a message; empty if nowhere.
@@ -159,14 +159,14 @@ namespace taut
   class PointLoad : public TimeLoad
   {
   public:
-    PointLoad(SparseVector shape, std::function<double(double)> magnitude)
+    PointLoad(LinearForm shape, std::function<double(double)> magnitude)
         : shape(std::move(shape)), magnitude(std::move(magnitude))
     {
     }
     void add(double t, std::vector<double> &P) const override { shape.add_to(magnitude(t), P); }
 
   private:
-    SparseVector shape;
+    LinearForm shape;
     std::function<double(double)> magnitude;
   };
 } // namespace taut

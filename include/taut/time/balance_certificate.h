@@ -2,10 +2,10 @@
 #ifndef taut_balance_certificate_h
 #define taut_balance_certificate_h
 
-#include <taut/interface/contact_rows.h>
+#include <taut/interface/constraints.h>
+#include <taut/time/constraint_motions.h>
 #include <taut/time/integrator.h>
 #include <taut/time/matrix_norms.h>
-#include <taut/time/row_motions.h>
 #include <taut/time/state.h>
 
 #include <string>
@@ -16,10 +16,10 @@ namespace taut
   /// What acts on the bodies of this rank from outside, and the step before.
   struct StepForces
   {
-    BlockVector P;                      ///< external force minus the reference's [N, N m]
+    BodyVectors P;                      ///< external force minus the reference's [N, N m]
     std::vector<PerKind> external_size; ///< largest of P of each body
-    BlockVector old_A;                  ///< of the step before [m/s^2, rad/s^2]
-    BlockVector old_balance;            ///< r of the step before [N, N m]
+    BodyVectors old_A;                  ///< of the step before [m/s^2, rad/s^2]
+    BodyVectors old_balance;            ///< r of the step before [N, N m]
   };
 
   /**
@@ -32,7 +32,7 @@ namespace taut
   {
   public:
     /// The arguments are kept by reference.
-    BalanceCertificate(const Structure &structure, const ContactRows &rows,
+    BalanceCertificate(const Structure &structure, const Constraints &constraints,
                        const Reference &origin);
 
     /**
@@ -41,7 +41,7 @@ namespace taut
      * of a body whose numbers are beyond largest_number.
      */
     double measure(const StepCoefficients &c, const StepForces &forces,
-                   const RowMotions &row_motions, State &state);
+                   const ConstraintMotions &constraint_motions, State &state);
 
     /// dU . [(1 - alpha_f) r + alpha_f r0] of this rank's bodies after measure(), with mean forces:
     /// the work of all forces but the means of this step [J].
@@ -68,13 +68,13 @@ namespace taut
                              const Sizes &sizes, double time);
 
     const Structure &structure;
-    const ContactRows &rows;
+    const Constraints &constraints;
     std::vector<std::array<KindNorm, 3>> norms; ///< of M, C, K of each body
     std::vector<PerKind> reference_force;       ///< largest of K U_ref of each body [N, N m]
-    std::vector<PerKind> contact_force;         ///< largest of one row on each body [N, N m]
-    BlockVector impulses;                       ///< forces of this step only
+    std::vector<PerKind> contact_force;         ///< largest of one constraint on each body [N, N m]
+    BodyVectors impulses;                       ///< forces of this step only
     std::vector<double> mean_A;                 ///< accelerations that M acts on, of one body
-    std::vector<double> inertia, damping;       ///< forces of a few rows
+    std::vector<double> inertia, damping;       ///< forces of a few constraints
     double work_of_balance = 0.;
     std::size_t worst = 0;
     bool may_be_way = true;

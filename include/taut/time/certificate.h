@@ -13,26 +13,26 @@ namespace taut
    */
   struct Certificate
   {
-    /// Largest residual of a row: |min(F_ii N_i, D_i)|, or |D_i| if bilateral, over the terms of
-    /// its gap.
+    /// Largest residual of a constraint: |min(F_ii N_i, D_i)|, or |D_i| if bilateral, over the
+    /// terms of its gap.
     double complementarity = 0.;
-    std::size_t worst_row = 0;
+    std::size_t worst_constraint = 0;
 
     /// Largest residual of the equation of motion of a body, over |P| + max_i |B_i N_i| + |K U_ref|
     /// + |K||U| + |C||V| + |M||dU|/step^2; with mean forces |K||dU| besides.
     double balance = 0.;
     std::size_t worst_body = 0; ///< of this rank
 
-    /// Largest gap of a bilateral rigid row that the scheme holds at velocity level only, so that
-    /// its position is free to drift [m, rad].
+    /// Largest gap of a bilateral rigid constraint that the scheme holds at velocity level only, so
+    /// that its position is free to drift [m, rad].
     double drift = 0.;
 
     /// Kinetic energy of all bodies at the end of the step, of schemes with mean forces and
     /// conditions on gaps only [J].
     double kinetic_energy = 0.;
 
-    /// Energy that the system gained in such a step and that neither loads nor moving rows gave
-    /// [J].
+    /// Energy that the system gained in such a step and that neither loads nor moving constraints
+    /// gave [J].
     double energy_gain = 0.;
 
     unsigned int iterations = 0; ///< of the complementarity solver

@@ -2,7 +2,7 @@
 #ifndef taut_contact_measures_h
 #define taut_contact_measures_h
 
-#include <taut/interface/contact_rows.h>
+#include <taut/interface/constraints.h>
 #include <taut/time/certificate.h>
 #include <taut/time/integrator.h>
 #include <taut/time/state.h>
@@ -18,32 +18,33 @@ namespace taut
    * step's equations are solved, not that the scheme suits the contacts.
    *
    * Contact energy: what contacts gave that only can take it. Forces at the ends of steps do the
-   * work W = (N_0 + N_1)(D_1 - D_0) / 2 on a one-sided row, and the positive ones are summed; with
-   * mean forces on conditions on velocities W = N (D_1 - D_0); with mean forces and conditions on
-   * gaps, where W cannot be positive, it is the gain of energy of the whole system that nothing
-   * explains (Certificate::energy_gain). Over the largest kinetic energy plus the largest strain
-   * energy plus the largest work of loads, measured from the reference.
+   * work W = (N_0 + N_1)(D_1 - D_0) / 2 on a unilateral constraint, and the positive ones are
+   * summed; with mean forces on conditions on velocities W = N (D_1 - D_0); with mean forces and
+   * conditions on gaps, where W cannot be positive, it is the gain of energy of the whole system
+   * that nothing explains (Certificate::energy_gain). Over the largest kinetic energy plus the
+   * largest strain energy plus the largest work of loads, measured from the reference.
    *
-   * Gap: the largest penetration, or gap of a row that presses, of rigid one-sided rows.
+   * Gap: the largest penetration, or gap of a constraint that presses, of rigid unilateral
+   * constraints.
    *
-   * Resolution: largest force of a one-sided row over the largest of its means across the shortest
-   * time that its element resolves, max(step, 2 / omega_max). Far above one, the force is an
-   * impulse over a step, and its size says how short the step is.
+   * Resolution: largest force of a unilateral constraint over the largest of its means across the
+   * shortest time that its element resolves, max(step, 2 / omega_max). Far above one, the force is
+   * an impulse over a step, and its size says how short the step is.
    */
   class ContactMeasures
   {
   public:
     /// The arguments but @p start are kept by reference.
-    ContactMeasures(const Structure &structure, const ContactRows &rows, const Reference &reference,
-                    const State &start);
+    ContactMeasures(const Structure &structure, const Constraints &constraints,
+                    const Reference &reference, const State &start);
 
     /// An accepted step, made with these coefficients. Called by all ranks together.
     void record(const State &state, const StepCoefficients &c, const Certificate &certificate);
 
-    /// Mean of the force of a row over the time that its element resolves [N, N m].
+    /// Mean of the force of a constraint over the time that its element resolves [N, N m].
     double mean_force(std::size_t i) const { return forces[i].mean; }
 
-    /// Largest impulse of a row from closing to opening [N s, N m s].
+    /// Largest impulse of a constraint from closing to opening [N s, N m s].
     double largest_impulse(std::size_t i) const { return forces[i].largest_impulse; }
 
     /// Results of the run so far.
@@ -52,14 +53,14 @@ namespace taut
       double contact_energy = 0.;                ///< [J]
       double scale = 0.;                         ///< kinetic + strain + loads, and rounding [J]
       double relative_energy = 0.;               ///< contact energy over the scale [1]
-      std::size_t energy_row = 0;                ///< of the contact that gave most
+      std::size_t energy_constraint = 0;         ///< of the contact that gave most
       double energy_begin = 0., energy_end = 0.; ///< when it closed and opened [s]
       double gap = 0.;                           ///< [m, rad]
-      std::size_t gap_row = 0;
+      std::size_t gap_constraint = 0;
       bool gap_drifts = false; ///< more than a step of motion
       double resolution = 1.;  ///< [1]
       std::size_t resolution_row = 0;
-      double peak = 0., mean_peak = 0., mean_time = 0.; ///< of that row [N, N m; s]
+      double peak = 0., mean_peak = 0., mean_time = 0.; ///< of that constraint [N, N m; s]
     };
     Summary summary() const;
 
@@ -85,10 +86,10 @@ namespace taut
     std::string error() const;
 
     /// Path in the parameter file of what error() is about.
-    std::string error_origin() const { return rows.origin(summary().energy_row); }
+    std::string error_origin() const { return constraints.origin(summary().energy_constraint); }
 
   private:
-    /// Force of a row in time.
+    /// Force of a constraint in time.
     struct Force
     {
       double window = 0.; ///< [s]; 0: each step for itself
@@ -108,7 +109,7 @@ namespace taut
     std::vector<double> resolved_times() const;
 
     const Structure &structure;
-    const ContactRows &rows;
+    const Constraints &constraints;
     const Reference &reference;
     std::vector<Force> forces;
     std::vector<double> multiplier0, gap0, noise;

@@ -27,10 +27,10 @@ namespace taut
    *     M [(1 - alpha_m) A + alpha_m A0] = (1 - alpha_f) r + alpha_f r0.
    *
    * The contact force so enters old and new with its own B, and gaps hold at the end of the step.
-   * With mean forces, those of rigid rows are impulses over the step instead, without a past, and
-   * their conditions may be on velocities after the step: see RowMotions. With a velocity
-   * projection, those of elastic one-sided rows are means, too, and the velocities that a step ends
-   * with are corrected by impulses: see VelocityProjection.
+   * With mean forces, those of rigid constraints are impulses over the step instead, without a
+   * past, and their conditions may be on velocities after the step: see ConstraintMotions. With a
+   * velocity projection, those of elastic unilateral constraints are means, too, and the velocities
+   * that a step ends with are corrected by impulses: see VelocityProjection.
    */
   struct StepCoefficients
   {
@@ -39,10 +39,10 @@ namespace taut
     double v_V = 0., v_A = 0., v_dU = 0.;
     double a_V = 0., a_A = 0., a_dU = 0., a_V_old = 0.;
     double alpha_m = 0., alpha_f = 0.;
-    bool mean_force = false;          ///< of rigid rows; bilateral ones then are at velocity level
-    bool velocity_level = false;      ///< for rigid one-sided rows; needs mean_force
+    bool mean_force = false; ///< of rigid constraints; bilateral ones then are at velocity level
+    bool velocity_level = false;      ///< for rigid unilateral constraints; needs mean_force
     bool velocity_projection = false; ///< after conditions on gaps; needs mean_force
-    double restitution = 0.;          ///< Newton's, of one-sided rows [1]
+    double restitution = 0.;          ///< Newton's, of unilateral constraints [1]
 
     /// Weights of M A, M A0 and r0 in the equation of motion after division by 1 - alpha_f [1].
     double new_inertia() const { return (1. - alpha_m) / (1. - alpha_f); }
@@ -129,14 +129,14 @@ namespace taut
 
   /**
    * The theta method of Moreau and Jean: M (V - V0) = step [theta r + (1 - theta) r0] + B p and
-   * U = U0 + step [theta V + (1 - theta) V0] with the impulses p of rigid rows, whose
+   * U = U0 + step [theta V + (1 - theta) V0] with the impulses p of rigid constraints, whose
    * complementarity is at velocity level with Newton's restitution e. @p theta in [1/2, 1].
    */
   StepCoefficients moreau_jean(double step, double theta, double restitution);
 
   /**
-   * The same with conditions on the gaps of one-sided rows at the end of the step. A mean force N
-   * does the work N (D - D_0) = -N D_0 <= 0 there: it never gives energy.
+   * The same with conditions on the gaps of unilateral constraints at the end of the step. A mean
+   * force N does the work N (D - D_0) = -N D_0 <= 0 there: it never gives energy.
    */
   StepCoefficients moreau_jean_of_gaps(double step, double theta);
 

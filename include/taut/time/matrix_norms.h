@@ -54,15 +54,15 @@ namespace taut
                   const PerKind &velocity, const std::string &when);
 
   /**
-   * Largest absolute row sums of a matrix by kind of row and column, free DoFs only: bounds |A| |x|
-   * from the largest entries of x.
+   * Largest absolute constraint sums of a matrix by kind of constraint and column, free DoFs only:
+   * bounds |A| |x| from the largest entries of x.
    */
   class KindNorm
   {
   public:
     KindNorm(const Substructure &body, const SymmetricMatrix &matrix);
 
-    /// Upper bound of (|A| |x|) for each kind of row.
+    /// Upper bound of (|A| |x|) for each kind of constraint.
     PerKind times(const PerKind &x) const;
 
   private:

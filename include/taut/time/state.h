@@ -14,12 +14,12 @@ namespace taut
    */
   struct Reference
   {
-    BlockVector displacement;       ///< U_ref [m, rad]
-    BlockVector force;              ///< K U_ref [N, N m]
+    BodyVectors displacement;       ///< U_ref [m, rad]
+    BodyVectors force;              ///< K U_ref [N, N m]
     std::vector<double> multiplier; ///< N [N, N m]
 
-    /// Gap of each row, where the closed ones are exact and not rounded as B^T U_ref is; empty: as
-    /// the displacements say [m, rad].
+    /// Gap of each constraint, where the closed ones are exact and not rounded as B^T U_ref is;
+    /// empty: as the displacements say [m, rad].
     std::vector<double> gap;
   };
 
@@ -29,14 +29,14 @@ namespace taut
     double time = 0.;      ///< [s]
     double last_step = 0.; ///< length of the step that ended here; 0: none [s]
 
-    BlockVector U;     ///< displacement from the reference [m, rad]
-    BlockVector V;     ///< velocity
-    BlockVector A;     ///< acceleration
-    BlockVector dU;    ///< increment of the last step
-    BlockVector V_old; ///< velocity before the last step
-    BlockVector KU;    ///< K U [N, N m]
+    BodyVectors U;     ///< displacement from the reference [m, rad]
+    BodyVectors V;     ///< velocity
+    BodyVectors A;     ///< acceleration
+    BodyVectors dU;    ///< increment of the last step
+    BodyVectors V_old; ///< velocity before the last step
+    BodyVectors KU;    ///< K U [N, N m]
     /// P + B N - C V - K (U_ref + U), without forces that are means [N, N m].
-    BlockVector balance;
+    BodyVectors balance;
 
     std::vector<double> multiplier; ///< N, or its mean over the step [N, N m]
     std::vector<double> gap;        ///< D, what complementarity is about [m, rad]
@@ -47,11 +47,11 @@ namespace taut
 
     double kinetic_energy = 0.; ///< with mean forces and conditions on gaps only [J]
 
-    /// Of schemes with mean forces, otherwise empty: not 0 for each row whose multiplier is a mean
-    /// over the last step, and the work of its forces on the bodies, without the part that those of
-    /// a moving row do in its old place [J].
+    /// Of schemes with mean forces, otherwise empty: not 0 for each constraint whose multiplier is
+    /// a mean over the last step, and the work of its forces on the bodies, without the part that
+    /// those of a moving constraint do in its old place [J].
     std::vector<char> is_mean;
-    std::vector<double> row_work;
+    std::vector<double> constraint_work;
 
     /// The part of that work that the impulses of a velocity projection did [J].
     double impulse_work = 0.;

@@ -2,7 +2,7 @@
 #ifndef taut_static_equilibrium_h
 #define taut_static_equilibrium_h
 
-#include <taut/interface/contact_rows.h>
+#include <taut/interface/constraints.h>
 #include <taut/time/certificate.h>
 #include <taut/time/solver_parameters.h>
 
@@ -13,7 +13,7 @@ namespace taut
   /// Displacements, contact forces and gaps at rest.
   struct StaticState
   {
-    BlockVector displacement;          ///< U [m, rad]
+    BodyVectors displacement;          ///< U [m, rad]
     std::vector<double> multiplier;    ///< N [N, N m]
     std::vector<double> gap;           ///< D [m, rad]
     std::vector<double> geometric_gap; ///< D - S N [m, rad]
@@ -22,10 +22,10 @@ namespace taut
 
   /**
    * Solves K U = P(t) + B N with the links' complementarity, without inertia. Bodies that only
-   * links hold keep the amplitudes of their free motions as unknowns. Throws BodyNotHeld,
+   * links hold keep the amplitudes of their rigid body modes as unknowns. Throws BodyNotHeld,
    * ContradictoryRows, or UserError if the certificate misses the contact tolerance.
    */
-  StaticState static_equilibrium(const Structure &structure, const ContactRows &rows,
+  StaticState static_equilibrium(const Structure &structure, const Constraints &constraints,
                                  const SolverParameters &parameters, double t);
 } // namespace taut
 

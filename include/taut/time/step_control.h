@@ -37,8 +37,8 @@ namespace taut
    * times are multiples of the shortest step. A step is repeated at half its length if its local
    * error is above the tolerance, down to the shortest one, which counts as it is; the error is not
    * known, and the length stays, in a step where a rigid
-   * one-sided row opens or closes and in the next one, whose accelerations are jumps. After four
-   * steps with a tenth of the tolerance the length doubles, at a multiple of the new one.
+   * unilateral constraint opens or closes and in the next one, whose accelerations are jumps. After
+   * four steps with a tenth of the tolerance the length doubles, at a multiple of the new one.
    */
   class StepControl
   {
@@ -61,7 +61,7 @@ namespace taut
     const long end;        ///< in shortest steps
     long position = 0, repeated = 0;
     unsigned int level, n_calm = 0;
-    bool had_changed = false; ///< a rigid row in the last step: its accelerations are a jump
+    bool had_changed = false; ///< a rigid constraint in the last step: its accelerations are a jump
   };
 } // namespace taut
 

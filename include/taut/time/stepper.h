@@ -79,7 +79,7 @@ namespace taut
     const TimeIntegrator &choose(const StepperOptions &options);
 
     const System &system;
-    ContactRows rows;
+    Constraints constraints;
     std::unique_ptr<TimeIntegrator> integrator;
     std::string scheme_description;
     Certificate start_certificate;

@@ -6,9 +6,9 @@
 #include <taut/interface/schur_complement.h>
 #include <taut/time/balance_certificate.h>
 #include <taut/time/certificate.h>
+#include <taut/time/constraint_motions.h>
 #include <taut/time/integrator.h>
 #include <taut/time/matrix_norms.h>
-#include <taut/time/row_motions.h>
 #include <taut/time/solver_parameters.h>
 #include <taut/time/state.h>
 #include <taut/time/velocity_projection.h>
@@ -21,25 +21,27 @@ namespace taut
   /**
    * Advances the bodies and the multipliers by steps:
    *
-   *     moving rows -> history P^_k -> free motion of the rows -> N -> U_k -> certificate
+   *     moving constraints -> history P^_k -> rigid body mode of the constraints -> N -> U_k ->
+   * certificate
    *     -> velocities, with schemes that project them.
    *
-   * Everything is in increments, A dU = P^ + B N; RowMotions says what the rows ask for.
+   * Everything is in increments, A dU = P^ + B N; ConstraintMotions says what the constraints ask
+   * for.
    */
   class TimeStepper
   {
   public:
     /**
-     * @p structure and @p rows are kept by reference. @p at_rest says that the start is an
+     * @p structure and @p constraints are kept by reference. @p at_rest says that the start is an
      * equilibrium, so that accelerations are zero; otherwise the first step is the source's, unless
      * the scheme needs no initial acceleration either.
      */
-    TimeStepper(const Structure &structure, ContactRows &rows, const SolverParameters &parameters,
-                const TimeIntegrator &integrator, double step, Reference reference, State start,
-                bool at_rest);
+    TimeStepper(const Structure &structure, Constraints &constraints,
+                const SolverParameters &parameters, const TimeIntegrator &integrator, double step,
+                Reference reference, State start, bool at_rest);
 
-    /// One step. Throws UserError, naming time and row, if the certificate misses the contact
-    /// tolerance.
+    /// One step. Throws UserError, naming time and constraint, if the certificate misses the
+    /// contact tolerance.
     void advance();
 
     /// Length of the steps to come [s].
@@ -58,7 +60,7 @@ namespace taut
      */
     double local_error();
 
-    /// True if a one-sided row that acts as rigid opened or closed since @p before.
+    /// True if a unilateral constraint that acts as rigid opened or closed since @p before.
     bool rigid_row_changed(const State &before);
 
     const State &state() const { return current; }
@@ -93,7 +95,7 @@ namespace taut
     void fail(const std::string &what, const std::string &entry = "") const;
 
     const Structure &structure;
-    ContactRows &rows;
+    Constraints &constraints;
     const SolverParameters parameters;
     const TimeIntegrator &integrator;
     double step, step_before = 0.;
@@ -111,15 +113,15 @@ namespace taut
     FactoredStructure solvers;
     std::unique_ptr<SchurComplement> schur;
     ComplementaritySolver complementarity;
-    RowMotions row_motions;
-    bool has_free_motions = false; ///< a body of some rank
-    bool supports_move = false;    ///< of a body of some rank
+    ConstraintMotions constraint_motions;
+    bool has_rigid_body_modes = false; ///< a body of some rank
+    bool supports_move = false;        ///< of a body of some rank
     BalanceCertificate balance;
     std::unique_ptr<VelocityProjection> projection; ///< of schemes with one
 
     StepForces forces;
-    BlockVector right_hand_side;        ///< then the increments
-    BlockVector lift;                   ///< increments of moving supports
+    BodyVectors right_hand_side;        ///< then the increments
+    BodyVectors lift;                   ///< increments of moving supports
     std::vector<double> work_v, work_a; ///< as long as the longest body
     std::vector<double> work_rows;
   };

@@ -4,7 +4,7 @@
 
 #include <taut/complementarity/solver.h>
 #include <taut/interface/schur_complement.h>
-#include <taut/time/row_motions.h>
+#include <taut/time/constraint_motions.h>
 #include <taut/time/solver_parameters.h>
 #include <taut/time/state.h>
 
@@ -17,20 +17,20 @@ namespace taut
    * The second part of a step whose first part has put conditions on gaps, with impulses p:
    * impulses P after which the gaps do not close either,
    *
-   *     V = V* + M^-1 B (P - p),    0 <= P _|_ D' >= 0 on the one-sided rows with p > 0,
-   *                                 D' = 0 on all rigid bilateral rows.
+   *     V = V* + M^-1 B (P - p),    0 <= P _|_ D' >= 0 on the unilateral constraints with p > 0,
+   *                                 D' = 0 on all rigid bilateral constraints.
    *
-   * U stays. An elastic row with p > 0 is softened, so that its compliance S fades from rigid to
-   * none: 0 <= P _|_ D' + f_ii (S / (alpha F_ii))^2 (P - p) >= 0 with f = B^T M^-1 B. With Newton's
-   * restitution e the condition is D' + e min(0, D'_0), and P goes only so far from the solution
-   * without it that the contacts do not give energy. DoFs without mass and damping have no velocity
-   * of their own: theirs is the mean over the step.
+   * U stays. An elastic constraint with p > 0 is softened, so that its compliance S fades from
+   * rigid to none: 0 <= P _|_ D' + f_ii (S / (alpha F_ii))^2 (P - p) >= 0 with f = B^T M^-1 B. With
+   * Newton's restitution e the condition is D' + e min(0, D'_0), and P goes only so far from the
+   * solution without it that the contacts do not give energy. DoFs without mass and damping have no
+   * velocity of their own: theirs is the mean over the step.
    */
   class VelocityProjection
   {
   public:
     /// The first two arguments are kept by reference.
-    VelocityProjection(const Structure &structure, const ContactRows &rows,
+    VelocityProjection(const Structure &structure, const Constraints &constraints,
                        const SolverParameters &parameters);
 
     /// For steps with these coefficients from now on. @p F is the matrix of their first part, with
@@ -43,34 +43,35 @@ namespace taut
      * of velocities' share of C V off its balance. Throws what ComplementaritySolver does. Called
      * by all ranks together.
      */
-    void project(RowMotions &motions, State &state);
+    void project(ConstraintMotions &motions, State &state);
 
-    /// Of the last step: largest residual of a rate, recomputed from the velocities, and its row.
+    /// Of the last step: largest residual of a rate, recomputed from the velocities, and its
+    /// constraint.
     double residual() const { return found; }
-    std::size_t worst_row() const { return worst; }
+    std::size_t worst_constraint() const { return worst; }
 
     /// Of each body: DoFs without mass and damping, where the step ends in equilibrium.
     const std::vector<std::vector<unsigned int>> &quasi_static_dofs() const { return quasi_static; }
 
-    /// Work of the impulses P - p on the bodies in the last step, of each row [J].
+    /// Work of the impulses P - p on the bodies in the last step, of each constraint [J].
     const std::vector<double> &work() const { return work_of_rows; }
 
   private:
-    bool has_to_act(const RowMotions &motions, const State &state);
+    bool has_to_act(const ConstraintMotions &motions, const State &state);
     std::vector<double> flexibilities(const std::vector<std::size_t> &wanted,
                                       ComplementarityOperator &F) const;
     void setup();
     void set_problem(const State &state);
     double kinetic_energy(const State &state);
-    void solve(const RowMotions &motions, const State &state);
-    double largest_part(const RowMotions &motions, const State &state,
+    void solve(const ConstraintMotions &motions, const State &state);
+    double largest_part(const ConstraintMotions &motions, const State &state,
                         const std::vector<double> &plain, const std::vector<double> &rebounding);
-    void set_velocities(RowMotions &motions, State &state);
+    void set_velocities(ConstraintMotions &motions, State &state);
     void move_quasi_static(State &state);
     void change_velocities(State &state);
 
     const Structure &structure;
-    const ContactRows &rows;
+    const Constraints &constraints;
     FactoredStructure solvers; ///< of M
     std::unique_ptr<SchurComplement> schur;
     ComplementaritySolver complementarity;
@@ -81,14 +82,14 @@ namespace taut
     std::vector<std::vector<unsigned int>>
         quasi_static; ///< DoFs of each body without mass and damping
     bool some_quasi_static = false;
-    std::vector<double> relative_softening;    ///< (S / (alpha F_ii))^2 of each row
+    std::vector<double> relative_softening;    ///< (S / (alpha F_ii))^2 of each constraint
     std::vector<double> softening;             ///< f_ii times that
-    std::vector<char> takes_part, has_no_mass; ///< rows; the latter act on DoFs without mass
+    std::vector<char> takes_part, has_no_mass; ///< constraints; the latter act on DoFs without mass
     MixedComplementarityProblem problem;
     std::vector<double> p, q, change; ///< impulses, P - p, f (P - p)
     std::vector<double> rate, work_of_rows, work_vector;
-    std::vector<double> largest_scale; ///< of each row's rate so far
-    BlockVector dV;
+    std::vector<double> largest_scale; ///< of each constraint's rate so far
+    BodyVectors dV;
     double found = 0.;
     std::size_t worst = 0;
   };

@@ -47,11 +47,11 @@ namespace taut
     unsigned int last_dof() const { return dofs_per_node * (nodes.size() - 1); }
 
     /// Values of the shape functions at s [m]: u(s) = result . U.
-    void value_at(double s, SparseVector &result) const;
+    void value_at(double s, LinearForm &result) const;
 
     /// Slopes of the shape functions at s: du/ds(s) = result . U [1/m]; at a node of a C0 element,
     /// the right one.
-    void slope_at(double s, SparseVector &result) const;
+    void slope_at(double s, LinearForm &result) const;
 
     /// True if slopes are DoFs, so that moments and angular gaps make sense.
     bool has_slopes() const { return beam; }
@@ -61,11 +61,10 @@ namespace taut
 
     /// At position place[0] on the wire; the direction's part along the motion of this component, x
     /// and y in the plane.
-    SparseVector displacement(const Coordinates &place,
-                              const Coordinates &direction) const override;
+    LinearForm displacement(const Coordinates &place, const Coordinates &direction) const override;
 
     void initial_state(std::vector<double> &U, std::vector<double> &V) const override;
-    Kernel kernel() const override;
+    NullSpace null_space() const override;
     std::string uneven_elements() const override;
 
   private:
@@ -75,12 +74,12 @@ namespace taut
 
     void find_massless_dofs(const Scene &scene, std::size_t wire);
     void assemble(const Wire &wire);
-    std::vector<SparseVector> inertial_forms(std::size_t element) const;
+    std::vector<LinearForm> inertial_forms(std::size_t element) const;
     void add_supports(const Scene &scene, std::size_t wire);
     void add_point_masses(const Scene &scene, std::size_t wire, double gravity);
     void add_loads(const Scene &scene, std::size_t wire, double gravity);
     void interpolate(const Expression &f, std::vector<double> &U) const;
-    void evaluate(double s, bool slope, SparseVector &result) const;
+    void evaluate(double s, bool slope, LinearForm &result) const;
     double component(const Coordinates &direction) const;
 
     std::vector<double> nodes; ///< of this piece, s on the whole wire

@@ -173,7 +173,7 @@ def main():
 
 
 # Words after the name of a scheme.
-EXTRA = {"massless": "Time.Massless contact=mass", "lumped": "Network.Wire bar.Mass matrix=lumped",
+EXTRA = {"massless": "Time.Mass redistribution=mass", "lumped": "Network.Wire bar.Mass matrix=lumped",
          "reduced": "Network.Wire bar.Mass matrix=reduced", "gaps": "Time.Moreau-Jean.Conditions=gaps", "theta-1": "Time.Moreau-Jean.Theta=1"}
 
 if __name__ == "__main__":

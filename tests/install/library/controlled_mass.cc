@@ -17,19 +17,19 @@ namespace
         *matrix = std::make_unique<taut::CoordinateMatrix>(1);
       M->add(0, 0, mass);
       constant_force = {-9.81 * mass};
-      taut::SparseVector one;
+      taut::LinearForm one;
       one.add(0, 1.);
       time_loads.push_back(std::make_unique<taut::PointLoad>(one, [&](double) { return force; }));
       finish();
     }
-    taut::SparseVector displacement(const taut::Coordinates &,
-                                    const taut::Coordinates &n) const override
+    taut::LinearForm displacement(const taut::Coordinates &,
+                                  const taut::Coordinates &n) const override
     {
-      taut::SparseVector form;
+      taut::LinearForm form;
       form.add(0, n[1]);
       return form;
     }
-    Kernel kernel() const override { return {{{1.}}, {0}}; }
+    NullSpace null_space() const override { return {{{1.}}, {0}}; }
   };
 } // namespace
 

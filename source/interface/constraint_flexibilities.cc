@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "row_flexibilities.h"
+#include "constraint_flexibilities.h"
 
 #include <cmath>
 #include <numeric>
 
 namespace taut
 {
-  RowFlexibilities::RowFlexibilities(const FactoredStructure &solvers, const BodyRows &rows)
-      : solvers(solvers), rows(rows), parts(rows.size()), group_of(rows.size()),
-        n_groups(rows.size(), 1)
+  RowFlexibilities::RowFlexibilities(const FactoredStructure &solvers,
+                                     const BodyConstraints &constraints)
+      : solvers(solvers), constraints(constraints), parts(constraints.size()),
+        group_of(constraints.size()), n_groups(constraints.size(), 1)
   {
   }
 
@@ -41,19 +42,19 @@ namespace taut
   void RowFlexibilities::compute(const std::size_t k)
   {
     parts[k].clear();
-    for (const BodyRows::Entry &entry : rows[k])
+    for (const BodyConstraints::Entry &entry : constraints[k])
     {
       if (n_groups[k] <= 1)
       {
-        parts[k].push_back({entry.row, 0, solvers[k].flexibility(entry.form)});
+        parts[k].push_back({entry.constraint, 0, solvers[k].flexibility(entry.form)});
         continue;
       }
-      std::vector<SparseVector> forms(n_groups[k]);
+      std::vector<LinearForm> forms(n_groups[k]);
       for (std::size_t e = 0; e < entry.form.index.size(); ++e)
         forms[group_of[k][entry.form.index[e]]].add(entry.form.index[e], entry.form.value[e]);
       for (unsigned int g = 0; g < forms.size(); ++g)
         if (!forms[g].index.empty())
-          parts[k].push_back({entry.row, g, solvers[k].flexibility(forms[g])});
+          parts[k].push_back({entry.constraint, g, solvers[k].flexibility(forms[g])});
     }
   }
 
@@ -61,7 +62,7 @@ namespace taut
   {
     for (const std::vector<Part> &of_body : parts)
       for (const Part &part : of_body)
-        diagonal[part.row] += part.flexibility;
+        diagonal[part.constraint] += part.flexibility;
   }
 
   void RowFlexibilities::add_bound(const std::vector<double> &x, std::vector<double> &y) const
@@ -70,9 +71,9 @@ namespace taut
     {
       sums.assign(n_groups[k], 0.);
       for (const Part &part : parts[k])
-        sums[part.group] += std::sqrt(part.flexibility) * std::fabs(x[part.row]);
+        sums[part.group] += std::sqrt(part.flexibility) * std::fabs(x[part.constraint]);
       for (const Part &part : parts[k])
-        y[part.row] += std::sqrt(part.flexibility) * sums[part.group];
+        y[part.constraint] += std::sqrt(part.flexibility) * sums[part.group];
     }
   }
 } // namespace taut

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
 #include <taut/complementarity/solver.h>
-#include <taut/time/row_motions.h>
+#include <taut/time/constraint_motions.h>
 
 #include <cmath>
 
@@ -9,34 +9,34 @@ namespace taut
 {
   /// The unknowns are the multipliers as they become and not their changes, so that conditions and
   /// search are those of a step.
-  bool RowMotions::correct(const State &state, SchurComplement &schur,
-                           const FactoredStructure &solvers, const BlockVector &left)
+  bool ConstraintMotions::correct(const State &state, SchurComplement &schur,
+                                  const FactoredStructure &solvers, const BodyVectors &left)
   {
     MixedComplementarityProblem problem;
     problem.unilateral = conditions.unilateral;
-    schur.free_motion(left, problem.free_gap, problem.gap_scale);
+    schur.contact_free_predictor(left, problem.free_gap, problem.gap_scale);
     share({&problem.free_gap, &problem.gap_scale});
-    if (!conditions.kernel_resistance.empty())
-      set_free_motions(solvers, left, problem);
+    if (!conditions.null_space_resistance.empty())
+      set_rigid_body_modes(solvers, left, problem);
     correction.reset(problem);
-    if (rows.size() == 0 && problem.n_kernel() == 0)
+    if (constraints.size() == 0 && problem.n_null_space() == 0)
       return true;
 
-    std::vector<double> before(rows.size());
-    std::vector<char> closed(rows.size());
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    std::vector<double> before(constraints.size());
+    std::vector<char> closed(constraints.size());
+    for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       problem.free_gap[i] += state.gap[i];
       problem.gap_scale[i] += std::fabs(state.gap[i]) + terms_size[i];
-      if (rows[i].moving)
-        problem.gap_scale[i] += std::fabs(rows[i].gap);
+      if (constraints[i].moving)
+        problem.gap_scale[i] += std::fabs(constraints[i].gap);
       before[i] = -applied_multiplier[i];
       closed[i] = applied_multiplier[i] != 0. || problem.free_gap[i] < 0.;
     }
-    gaps(problem, schur.matrix(), before, correction.kernel_amplitude, work);
+    gaps(problem, schur.matrix(), before, correction.mode_amplitude, work);
     problem.free_gap.swap(work);
-    for (std::size_t k = 0; k < problem.n_kernel(); ++k)
-      problem.kernel_load[k] += problem.kernel[k].dot(before);
+    for (std::size_t k = 0; k < problem.n_null_space(); ++k)
+      problem.null_space_load[k] += problem.null_space[k].dot(before);
     try
     {
       ComplementaritySolver search;
@@ -47,15 +47,15 @@ namespace taut
     {
       return false;
     }
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t i = 0; i < constraints.size(); ++i)
       correction.multiplier[i] -= applied_multiplier[i];
     return true;
   }
 
-  void RowMotions::add_correction(const BlockVector &dU, State &state)
+  void ConstraintMotions::add_correction(const BodyVectors &dU, State &state)
   {
-    const std::vector<double> moved = rows.motions(dU);
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    const std::vector<double> moved = constraints.motions(dU);
+    for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       const double dN = correction.multiplier[i], du = S[i] * dN;
       applied_multiplier[i] += dN;
@@ -72,6 +72,6 @@ namespace taut
       state.gap[i] = state.geometric_gap[i] + spring.u;
     }
     for (std::size_t k = 0; k < amplitude.size(); ++k)
-      amplitude[k] += correction.kernel_amplitude[k];
+      amplitude[k] += correction.mode_amplitude[k];
   }
 } // namespace taut

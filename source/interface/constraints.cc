@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/interface/contact_rows.h>
+#include <taut/interface/constraints.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,42 +7,45 @@
 
 namespace taut
 {
-  ContactRows::ContactRows(const Structure &structure, std::vector<Row> all)
-      : structure(structure), rows(std::move(all))
+  Constraints::Constraints(const Structure &structure, std::vector<ConstraintData> all)
+      : structure(structure), constraints(std::move(all))
   {
-    for (Row &row : rows)
-      row.moving = row.place != nullptr;
-    fixed = std::stable_partition(rows.begin(), rows.end(),
-                                  [](const Row &row) { return !row.moving; }) -
-            rows.begin();
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    for (ConstraintData &constraint : constraints)
+      constraint.moving = constraint.place != nullptr;
+    fixed =
+        std::stable_partition(constraints.begin(), constraints.end(),
+                              [](const ConstraintData &constraint) { return !constraint.moving; }) -
+        constraints.begin();
+    for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       if (i >= fixed)
       {
-        rows[i].terms = rows[i].place->terms(0.);
-        rows[i].gap = rows[i].place->gap(0.);
+        constraints[i].terms = constraints[i].place->terms(0.);
+        constraints[i].gap = constraints[i].place->gap(0.);
       }
-      if (rows[i].link == no_link)
+      if (constraints[i].link == no_link)
         continue;
-      row_index.resize(std::max(row_index.size(), rows[i].link + 1), no_link);
-      row_index[rows[i].link] = i;
+      row_index.resize(std::max(row_index.size(), constraints[i].link + 1), no_link);
+      row_index[constraints[i].link] = i;
     }
     begin.assign(1, 0);
     for (std::size_t i = 0; i < fixed; ++i)
       append(i);
     std::sort(sizes.begin(), sizes.end(),
-              [](const Size &a, const Size &b)
-              { return std::tie(a.body, a.kind, a.row) < std::tie(b.body, b.kind, b.row); });
+              [](const Size &a, const Size &b) {
+                return std::tie(a.body, a.kind, a.constraint) <
+                       std::tie(b.body, b.kind, b.constraint);
+              });
     n_fixed_sizes = sizes.size();
-    for (std::size_t i = fixed; i < rows.size(); ++i)
+    for (std::size_t i = fixed; i < constraints.size(); ++i)
       append(i);
   }
 
-  /// Entries and sizes of a row, behind those that are known.
-  void ContactRows::append(const std::size_t i)
+  /// Entries and sizes of a constraint, behind those that are known.
+  void Constraints::append(const std::size_t i)
   {
     const std::size_t first_size = sizes.size();
-    for (const auto &[k, form] : rows[i].terms)
+    for (const auto &[k, form] : constraints[i].terms)
       for (std::size_t j = 0; j < form.index.size(); ++j)
       {
         const unsigned int body = static_cast<unsigned int>(k), dof = form.index[j],
@@ -59,29 +62,29 @@ namespace taut
     begin.push_back(entries.size());
   }
 
-  void ContactRows::update(const double t)
+  void Constraints::update(const double t)
   {
     begin.resize(fixed + 1);
     entries.resize(begin.back());
     sizes.resize(n_fixed_sizes);
-    for (std::size_t i = fixed; i < rows.size(); ++i)
+    for (std::size_t i = fixed; i < constraints.size(); ++i)
     {
-      rows[i].terms = rows[i].place->terms(t);
-      rows[i].gap = rows[i].place->gap(t);
+      constraints[i].terms = constraints[i].place->terms(t);
+      constraints[i].gap = constraints[i].place->gap(t);
       append(i);
     }
   }
 
-  double ContactRows::share_of_convection(const std::size_t i, const double t,
-                                          const BlockVector &reference, const BlockVector &U) const
+  double Constraints::share_of_convection(const std::size_t i, const double t,
+                                          const BodyVectors &reference, const BodyVectors &U) const
   {
-    const std::vector<Term> slope = rows[i].place->rates(t);
+    const std::vector<Term> slope = constraints[i].place->rates(t);
     return evaluate(slope, reference) + evaluate(slope, U);
   }
 
-  double ContactRows::profile_rate(const std::size_t i, const double t, const double step) const
+  double Constraints::profile_rate(const std::size_t i, const double t, const double step) const
   {
-    const MovingPlace &place = *rows[i].place;
+    const MovingPlace &place = *constraints[i].place;
     // Central differences of fourth order: their error is below rounding of what a step resolves.
     const double delta = 1e-2 * step;
     return (8. * (place.gap(t + delta) - place.gap(t - delta)) -
@@ -89,10 +92,10 @@ namespace taut
            (12. * delta);
   }
 
-  std::vector<char> ContactRows::acts_on(std::vector<unsigned int> (Substructure::*wanted)()
+  std::vector<char> Constraints::acts_on(std::vector<unsigned int> (Substructure::*wanted)()
                                              const) const
   {
-    std::vector<double> count(rows.size(), 0.);
+    std::vector<double> count(constraints.size(), 0.);
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       const std::vector<unsigned int> dofs = (structure[k].*wanted)();
@@ -108,18 +111,18 @@ namespace taut
     return {count.begin(), count.end()};
   }
 
-  std::vector<double> ContactRows::motions(const BlockVector &U) const
+  std::vector<double> Constraints::motions(const BodyVectors &U) const
   {
-    std::vector<double> result(rows.size());
+    std::vector<double> result(constraints.size());
     share_of_motions(U, result);
     structure.communicator().sum(result);
     return result;
   }
 
-  void ContactRows::share_of_motions(const BlockVector &U, std::vector<double> &motion) const
+  void Constraints::share_of_motions(const BodyVectors &U, std::vector<double> &motion) const
   {
     const Entry *e = entries.data();
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       double sum = 0.;
       for (const Entry *const end = entries.data() + begin[i + 1]; e != end; ++e)
@@ -128,11 +131,11 @@ namespace taut
     }
   }
 
-  void ContactRows::share_of_motions(const BlockVector &U, std::vector<double> &motion,
+  void Constraints::share_of_motions(const BodyVectors &U, std::vector<double> &motion,
                                      std::vector<double> &terms_size) const
   {
     const Entry *e = entries.data();
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       double sum = 0., size = 0.;
       for (const Entry *const end = entries.data() + begin[i + 1]; e != end; ++e)
@@ -146,15 +149,15 @@ namespace taut
     }
   }
 
-  void ContactRows::add_forces(const std::vector<double> &N, BlockVector &P) const
+  void Constraints::add_forces(const std::vector<double> &N, BodyVectors &P) const
   {
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t i = 0; i < constraints.size(); ++i)
       if (N[i] != 0.)
         for (std::size_t e = begin[i]; e < begin[i + 1]; ++e)
           P[entries[e].body][entries[e].dof] += N[i] * entries[e].value;
   }
 
-  void ContactRows::largest_forces(const std::vector<double> &N,
+  void Constraints::largest_forces(const std::vector<double> &N,
                                    std::vector<std::array<double, 2>> &result) const
   {
     result.assign(structure.size(), {0., 0.});
@@ -164,19 +167,19 @@ namespace taut
       double largest = result[body][kind];
       for (; size != sizes.end() && size->body == body && size->kind == kind; ++size)
       {
-        const double force = size->value * std::fabs(N[size->row]);
+        const double force = size->value * std::fabs(N[size->constraint]);
         largest = force > largest || std::isnan(force) ? force : largest;
       }
       result[body][kind] = largest;
     }
   }
 
-  std::string ContactRows::names(const std::vector<std::size_t> &indices) const
+  std::string Constraints::names(const std::vector<std::size_t> &indices) const
   {
     std::string text;
     const std::size_t shown = std::min<std::size_t>(indices.size(), 8);
     for (std::size_t k = 0; k < shown; ++k)
-      text += (k == 0 ? "'" : ", '") + rows[indices[k]].name + "'";
+      text += (k == 0 ? "'" : ", '") + constraints[indices[k]].name + "'";
     if (shown < indices.size())
       text += " and " + std::to_string(indices.size() - shown) + " more";
     return text;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef taut_sparse_vector_h
-#define taut_sparse_vector_h
+#ifndef taut_linear_form_h
+#define taut_linear_form_h
 
 #include <cmath>
 #include <cstddef>
@@ -9,7 +9,7 @@
 namespace taut
 {
   /// A few entries of a long vector. Indices may repeat: their values add.
-  struct SparseVector
+  struct LinearForm
   {
     std::vector<unsigned int> index;
     std::vector<double> value;
@@ -50,7 +50,7 @@ namespace taut
     }
 
     /// Scalar product with a sparse vector.
-    double dot(const SparseVector &x) const
+    double dot(const LinearForm &x) const
     {
       double sum = 0.;
       for (std::size_t k = 0; k < x.index.size(); ++k)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/complementarity/kernel_penalty.h>
+#include <taut/complementarity/null_space_penalty.h>
 
 #include <algorithm>
 #include <cmath>
@@ -31,13 +31,15 @@ namespace taut
 
   KernelPenalty::KernelPenalty(const MixedComplementarityProblem &problem,
                                const DenseOperator &matrix, const std::vector<char> &rows)
-      : problem(problem), kernel(problem.n_kernel() * problem.size(), 0.), all(problem.n_kernel()),
-        row_weights(inverse_diagonal(matrix, rows)), weights(problem.n_kernel())
+      : problem(problem), null_space(problem.n_null_space() * problem.size(), 0.),
+        all(problem.n_null_space()), row_weights(inverse_diagonal(matrix, rows)),
+        weights(problem.n_null_space())
   {
     std::iota(all.begin(), all.end(), 0);
     for (const std::size_t k : all)
-      for (std::size_t e = 0; e < problem.kernel[k].index.size(); ++e)
-        kernel[k * problem.size() + problem.kernel[k].index[e]] += problem.kernel[k].value[e];
+      for (std::size_t e = 0; e < problem.null_space[k].index.size(); ++e)
+        null_space[k * problem.size() + problem.null_space[k].index[e]] +=
+            problem.null_space[k].value[e];
     std::vector<double> solution;
     for (const std::size_t k : all)
     {
@@ -49,14 +51,14 @@ namespace taut
         weights.set(k, l, sum);
       }
       independent.push_back(k);
-      if (!weights.solve(independent, problem.kernel_load, 0., solution))
+      if (!weights.solve(independent, problem.null_space_load, 0., solution))
         independent.pop_back();
     }
   }
 
   std::vector<double> KernelPenalty::unbalance(const std::vector<double> &multiplier) const
   {
-    std::vector<double> sums = problem.kernel_load;
+    std::vector<double> sums = problem.null_space_load;
     for (const std::size_t k : all)
       for (std::size_t i = 0; i < problem.size(); ++i)
         sums[k] += entry(k, i) * multiplier[i];
@@ -71,7 +73,7 @@ namespace taut
     std::vector<double> terms(all.size());
     for (const std::size_t k : all)
     {
-      terms[k] = std::abs(problem.kernel_load[k]);
+      terms[k] = std::abs(problem.null_space_load[k]);
       for (std::size_t i = 0; i < problem.size(); ++i)
         terms[k] += std::abs(entry(k, i)) * largest;
     }
@@ -139,9 +141,9 @@ namespace taut
   }
 
   MixedComplementarityProblem
-  KernelPenalty::without_kernel(const std::vector<double> &free_gap,
-                                const std::vector<double> &gap_scale,
-                                const std::vector<double> &amplitude) const
+  KernelPenalty::without_null_space(const std::vector<double> &free_gap,
+                                    const std::vector<double> &gap_scale,
+                                    const std::vector<double> &amplitude) const
   {
     MixedComplementarityProblem result;
     result.unilateral = problem.unilateral;

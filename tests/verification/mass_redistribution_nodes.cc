@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Claim: 'Massless contact' takes the mass of a node at a rigid stop away without changing the
+// Claim: 'Mass redistribution' takes the mass of a node at a rigid stop away without changing the
 // total mass, its centre and its moment of inertia (the conditions of H. B. Khenous, P. Laborde,
 // Y. Renard, European Journal of Mechanics A 27 (2008)), and leaves a mass matrix that is definite
 // elsewhere; the first force of an impact then no longer grows like m v / step, for any scheme.
@@ -33,7 +33,7 @@ namespace
            "  set To = wire @ 1.3\n  set Direction = " +
            (components == "bar" ? "1, 0" : "0, 1") +
            "\n  set Gap = 1\n end\nend\nsubsection Time\n set Scheme = BDF2\n set Step = 1e-3\n"
-           " set End = 1e-3\n set Massless contact = " +
+           " set End = 1e-3\n set Mass redistribution = " +
            massless + "\nend\n";
   }
 
@@ -55,13 +55,13 @@ namespace
     // Displacement 1 and s: the values of all DoFs from the shape functions at many points would
     // need a solve; the DoFs of these two are known.
     std::vector<double> one(n, 0.), s(n, 0.);
-    taut::SparseVector row;
+    taut::LinearForm constraint;
     std::vector<char> at_stop(n, 0);
     for (const double stop : {0., 1.3})
     {
-      body.value_at(stop, row);
-      for (std::size_t i = 0; i < row.index.size(); ++i)
-        at_stop[row.index[i]] |= std::fabs(row.value[i]) > .5;
+      body.value_at(stop, constraint);
+      for (std::size_t i = 0; i < constraint.index.size(); ++i)
+        at_stop[constraint.index[i]] |= std::fabs(constraint.value[i]) > .5;
     }
     // Nodes: 0 .. 1.3 in 5 elements, 1.3 .. 3 in 6.
     const unsigned int per_node = beam ? 2 : degree;
@@ -181,8 +181,8 @@ TEST(MasslessContact, an_impact_makes_no_peak_that_grows_as_the_step_falls)
       more.insert(more.end(), common.begin(), common.end());
       return bar_on_wall(more);
     };
-    const Impact coarse = with({"Time.Step=1e-4", "Time.Massless contact=mass"}),
-                 fine = with({"Time.Step=1e-5", "Time.Massless contact=mass"});
+    const Impact coarse = with({"Time.Step=1e-4", "Time.Mass redistribution=mass"}),
+                 fine = with({"Time.Step=1e-5", "Time.Mass redistribution=mass"});
     figure("bar on wall without mass at the node, largest force, 1e-5 s, " + scheme,
            fine.largest_force, "N");
     EXPECT_LT(fine.largest_force, 1.05 * coarse.largest_force) << scheme;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: in long steps, where the inertia of a floating body is lost in the rounding of its
-// stiffness, its free motions are unknowns of the rows, and the answer is that of the equations of
-// motion; ordinary scenes never need it.
-// Source: the bar in one step of backward Euler, EA u" = rho/step^2 u, by hyperbolic functions;
-// rigid bodies by Newton's law.
+// stiffness, its rigid body modes are unknowns of the constraints, and the answer is that of the
+// equations of motion; ordinary scenes never need it. Source: the bar in one step of backward
+// Euler, EA u" = rho/step^2 u, by hyperbolic functions; rigid bodies by Newton's law.
 #include "run.h"
 
 #include <taut/base/exceptions.h>
@@ -71,11 +70,11 @@ namespace
     return out.str();
   }
 
-  bool has_free_motions(const taut::Structure &structure, const taut::StepCoefficients &c)
+  bool has_rigid_body_modes(const taut::Structure &structure, const taut::StepCoefficients &c)
   {
     taut::FactoredStructure solvers(structure, "block tridiagonal");
     solvers.factor(c.mass_factor(), c.velocity);
-    return solvers.has_free_motions();
+    return solvers.has_rigid_body_modes();
   }
 
   void expect_near(const double value, const double expected, const double relative)
@@ -84,7 +83,7 @@ namespace
   }
 } // namespace
 
-TEST(FreeMotions, a_step_of_a_free_bar_is_that_of_its_differential_equation)
+TEST(RigidBodyModes, a_step_of_a_free_bar_is_that_of_its_differential_equation)
 {
   double worst = 0.;
   for (const double step : {20., 1e3, 1e6})
@@ -99,7 +98,8 @@ TEST(FreeMotions, a_step_of_a_free_bar_is_that_of_its_differential_equation)
         (way == "energy-ordered" ? bar.method : bar.form) = way;
         SCOPED_TRACE(text(bar));
         Session session(text(bar));
-        EXPECT_TRUE(has_free_motions(session.simulation().structure(), taut::backward_euler(step)));
+        EXPECT_TRUE(
+            has_rigid_body_modes(session.simulation().structure(), taut::backward_euler(step)));
         session.run(
             [&](const taut::StepView &view)
             {
@@ -118,7 +118,7 @@ TEST(FreeMotions, a_step_of_a_free_bar_is_that_of_its_differential_equation)
   figure("free bar in one step, largest relative error of motion and contact force", worst);
 }
 
-TEST(FreeMotions, a_bar_flies_stops_and_is_pressed_as_momentum_says)
+TEST(RigidBodyModes, a_bar_flies_stops_and_is_pressed_as_momentum_says)
 {
   // 3e-6 N move 1 kg by 3 m in the first step of 1000 s and by 6 m in the second, of which 2 are
   // left: the stop takes the velocity of one step after the other.
@@ -138,7 +138,8 @@ TEST(FreeMotions, a_bar_flies_stops_and_is_pressed_as_momentum_says)
     if (n_parts == 2)
       overrides = {"Partition/Method=given", "Partition/Cuts=bar @ 0.5"};
     Session session(text(bar), overrides);
-    EXPECT_TRUE(has_free_motions(session.simulation().structure(), taut::backward_euler(bar.step)));
+    EXPECT_TRUE(
+        has_rigid_body_modes(session.simulation().structure(), taut::backward_euler(bar.step)));
     std::size_t i = 0;
     session.run(
         [&](const taut::StepView &view)
@@ -157,7 +158,7 @@ TEST(FreeMotions, a_bar_flies_stops_and_is_pressed_as_momentum_says)
   }
 }
 
-TEST(FreeMotions, a_beam_turns_about_the_stop_at_its_end)
+TEST(RigidBodyModes, a_beam_turns_about_the_stop_at_its_end)
 {
   // m = 3, L = 2: a force at x moves y by step^2 (1/m + (x - 1)(y - 1)/J), J = 1.
   const double step = 1e3, unit = step * step, load = 3e-6;
@@ -168,7 +169,8 @@ TEST(FreeMotions, a_beam_turns_about_the_stop_at_its_end)
     {
       SCOPED_TRACE(beam(load, gap, step, n_parts));
       Session session(beam(load, gap, step, n_parts));
-      EXPECT_TRUE(has_free_motions(session.simulation().structure(), taut::backward_euler(step)));
+      EXPECT_TRUE(
+          has_rigid_body_modes(session.simulation().structure(), taut::backward_euler(step)));
       double left = 0., right = 0., left_before = 0., right_before = 0.;
       session.run(
           [&](const taut::StepView &view)
@@ -193,7 +195,7 @@ TEST(FreeMotions, a_beam_turns_about_the_stop_at_its_end)
     }
 }
 
-TEST(FreeMotions, the_matrix_free_form_names_those_that_have_them)
+TEST(RigidBodyModes, the_matrix_free_form_names_those_that_have_them)
 {
   Bar bar;
   bar.step = 1e6;
@@ -211,7 +213,7 @@ TEST(FreeMotions, the_matrix_free_form_names_those_that_have_them)
   }
 }
 
-TEST(FreeMotions, scenes_of_the_folder_prm_need_them_in_no_step)
+TEST(RigidBodyModes, scenes_of_the_folder_prm_need_them_in_no_step)
 {
   unsigned int n_scenes = 0;
   for (const auto &file : std::filesystem::directory_iterator(TAUT_PRM_FOLDER))
@@ -220,8 +222,8 @@ TEST(FreeMotions, scenes_of_the_folder_prm_need_them_in_no_step)
       ++n_scenes;
       Session session(file.path().string());
       // Four times the step of the file.
-      EXPECT_FALSE(has_free_motions(session.simulation().structure(),
-                                    taut::backward_euler(4. * session.parameters().step)))
+      EXPECT_FALSE(has_rigid_body_modes(session.simulation().structure(),
+                                        taut::backward_euler(4. * session.parameters().step)))
           << file.path();
     }
   EXPECT_GE(n_scenes, 13u);

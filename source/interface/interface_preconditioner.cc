@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "row_preconditioner.h"
+#include "interface_preconditioner.h"
 
 #include <taut/base/exceptions.h>
 #include <taut/base/gather_entries.h>
@@ -22,7 +22,7 @@ namespace taut
 
     /// Relative shift of T, which is singular if a group of bodies floats in statics. Springs
     /// within the group do not feel that motion, so that it is not excited.
-    constexpr double kernel_shift = 1e-9;
+    constexpr double null_space_shift = 1e-9;
 
     constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
 
@@ -36,20 +36,21 @@ namespace taut
     }
   } // namespace
 
-  RowPreconditioner::RowPreconditioner(const std::string &name, const FactoredStructure &solvers,
-                                       const BodyRows &body_rows)
-      : solvers(solvers), body_rows(body_rows), is_diagonal(name == "diagonal"),
-        is_dirichlet(name == "Dirichlet"), blocks(body_rows.size())
+  InterfacePreconditioner::InterfacePreconditioner(const std::string &name,
+                                                   const FactoredStructure &solvers,
+                                                   const BodyConstraints &body_constraints)
+      : solvers(solvers), body_constraints(body_constraints), is_diagonal(name == "diagonal"),
+        is_dirichlet(name == "Dirichlet"), blocks(body_constraints.size())
   {
     if (!is_diagonal && !is_dirichlet && name != "lumped")
       throw UserError("unknown preconditioner '" + name +
                       "'; known are: diagonal, lumped, Dirichlet. Correct the name");
   }
 
-  void RowPreconditioner::setup(const std::vector<char> &active,
-                                const std::vector<char> &is_changed,
-                                const std::vector<double> &compliance,
-                                const std::vector<double> &diagonal)
+  void InterfacePreconditioner::setup(const std::vector<char> &active,
+                                      const std::vector<char> &is_changed,
+                                      const std::vector<double> &compliance,
+                                      const std::vector<double> &diagonal)
   {
     own.assign(active.size(), 0.);
     for (std::size_t i = 0; is_diagonal && i < active.size(); ++i)
@@ -59,7 +60,7 @@ namespace taut
     solvers.structure().communicator().agree(
         [&]
         {
-          for (std::size_t k = 0; k < body_rows.size(); ++k)
+          for (std::size_t k = 0; k < body_constraints.size(); ++k)
             if (is_changed[k])
               compute_block(k, active);
         });
@@ -68,12 +69,12 @@ namespace taut
     set_scaling(active, diagonal);
   }
 
-  void RowPreconditioner::compute_block(const std::size_t k, const std::vector<char> &active)
+  void InterfacePreconditioner::compute_block(const std::size_t k, const std::vector<char> &active)
   {
     const std::vector<unsigned int> constrained = solvers.structure()[k].constrained_dofs();
     Block block;
-    for (const BodyRows::Entry &entry : body_rows[k])
-      if (active[entry.row])
+    for (const BodyConstraints::Entry &entry : body_constraints[k])
+      if (active[entry.constraint])
         for (const unsigned int dof : entry.form.index)
           if (!std::binary_search(constrained.begin(), constrained.end(), dof))
             block.dofs.push_back(dof);
@@ -107,14 +108,14 @@ namespace taut
   }
 
   /// Subtracts A_bi A_ii^-1 A_ib, column by column: each lives near its DoF.
-  void RowPreconditioner::condense(const std::size_t k, Block &block) const
+  void InterfacePreconditioner::condense(const std::size_t k, Block &block) const
   {
     const std::size_t n = block.dofs.size();
     const auto position = positions(block.dofs, solvers.structure()[k].n_dofs());
     std::vector<char> is_constrained(solvers.structure()[k].n_dofs(), 0);
     for (const unsigned int dof : solvers.structure()[k].constrained_dofs())
       is_constrained[dof] = 1;
-    std::vector<SparseVector> couplings(n); // columns of A_ib
+    std::vector<LinearForm> couplings(n); // columns of A_ib
     solvers.visit(k,
                   [&](unsigned int i, unsigned int j, double value)
                   {
@@ -135,14 +136,14 @@ namespace taut
     for (std::size_t p = 0; p < n; ++p)
     {
       // A column's right-hand side lives on one element: one for each side of the node.
-      SparseVector sides[2];
+      LinearForm sides[2];
       for (std::size_t e = 0; e < couplings[p].index.size(); ++e)
       {
         const unsigned int i = couplings[p].index[e];
         const bool is_right = block_size > 0 && i / block_size > block.dofs[p] / block_size;
         sides[is_right].add(i, couplings[p].value[e]);
       }
-      for (const SparseVector &side : sides)
+      for (const LinearForm &side : sides)
       {
         if (side.index.empty())
           continue;
@@ -162,7 +163,7 @@ namespace taut
   }
 
   /// T without springs, and B, of all ranks.
-  void RowPreconditioner::gather_blocks(const std::vector<char> &active)
+  void InterfacePreconditioner::gather_blocks(const std::vector<char> &active)
   {
     const Communicator &processes = solvers.structure().communicator();
     std::size_t n_own = 0;
@@ -181,13 +182,13 @@ namespace taut
       for (std::size_t e = 0; e < block.entries.size(); ++e)
         T.add(first + block.entries.row[e], first + block.entries.column[e],
               block.entries.value[e]);
-      for (const BodyRows::Entry &entry : body_rows[k])
-        for (std::size_t e = 0; active[entry.row] && e < entry.form.index.size(); ++e)
+      for (const BodyConstraints::Entry &entry : body_constraints[k])
+        for (std::size_t e = 0; active[entry.constraint] && e < entry.form.index.size(); ++e)
         {
           const auto at =
               std::lower_bound(block.dofs.begin(), block.dofs.end(), entry.form.index[e]);
           if (at != block.dofs.end() && *at == entry.form.index[e])
-            B.add(entry.row, first + (at - block.dofs.begin()), entry.form.value[e]);
+            B.add(entry.constraint, first + (at - block.dofs.begin()), entry.form.value[e]);
         }
       first += block.dofs.size();
     }
@@ -197,9 +198,9 @@ namespace taut
   }
 
   /// The elastic rows as springs between the DoFs, and the factor of T with them.
-  void RowPreconditioner::add_springs(const std::vector<char> &active,
-                                      const std::vector<double> &diagonal,
-                                      const std::vector<double> &compliance)
+  void InterfacePreconditioner::add_springs(const std::vector<char> &active,
+                                            const std::vector<double> &diagonal,
+                                            const std::vector<double> &compliance)
   {
     has_springs = false;
     stiffness.assign(active.size(), 0.);
@@ -226,7 +227,7 @@ namespace taut
     for (std::size_t e = 0; e < shifted.size(); ++e)
       if (shifted.row[e] == shifted.column[e] && shifted.value[e] > 0.)
       {
-        shifted.value[e] *= 1. + kernel_shift;
+        shifted.value[e] *= 1. + null_space_shift;
         has_diagonal[shifted.row[e]] = 1;
       }
     for (std::size_t p = 0; p < n_dofs; ++p)
@@ -236,8 +237,8 @@ namespace taut
   }
 
   /// D^-1 B_r Q^-1.
-  void RowPreconditioner::set_scaling(const std::vector<char> &active,
-                                      const std::vector<double> &diagonal)
+  void InterfacePreconditioner::set_scaling(const std::vector<char> &active,
+                                            const std::vector<double> &diagonal)
   {
     std::vector<double> D(n_dofs, 0.), Q(active.size(), 0.);
     for (std::size_t e = 0; e < T.size(); ++e)
@@ -258,7 +259,7 @@ namespace taut
         own[i] = 1. / diagonal[i];
   }
 
-  void RowPreconditioner::apply(const std::vector<double> &r, std::vector<double> &z) const
+  void InterfacePreconditioner::apply(const std::vector<double> &r, std::vector<double> &z) const
   {
     z.resize(r.size());
     for (std::size_t i = 0; i < r.size(); ++i)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef taut_row_motions_h
-#define taut_row_motions_h
+#ifndef taut_constraint_motions_h
+#define taut_constraint_motions_h
 
 #include <taut/complementarity/problem.h>
 #include <taut/interface/schur_complement.h>
@@ -13,24 +13,26 @@
 namespace taut
 {
   /**
-   * The rows through a step: gaps, springs of elastic links, and what complementarity is about.
+   * The constraints through a step: gaps, springs of elastic links, and what complementarity is
+   * about.
    *
-   * A row at position level asks for 0 <= D at the end of the step. Gaps of fixed rows are carried
-   * as increments, because the gap rounds at eps times its size and F^-1 = O(1/step^2) makes force
-   * noise of that. With a scheme at velocity level (Moreau 1988, Jean 1999) the rigid rows ask for
-   * 0 <= D' + e D'_0 instead, if they were closed or if D_0 + step D'_0 / 2 <= 0, and take no part
-   * otherwise. The rate of a moving row has its convective part,
+   * A constraint at position level asks for 0 <= D at the end of the step. Gaps of fixed
+   * constraints are carried as increments, because the gap rounds at eps times its size and F^-1 =
+   * O(1/step^2) makes force noise of that. With a scheme at velocity level (Moreau 1988, Jean 1999)
+   * the rigid constraints ask for 0 <= D' + e D'_0 instead, if they were closed or if D_0 + step
+   * D'_0 / 2 <= 0, and take no part otherwise. The rate of a moving constraint has its convective
+   * part,
    *
    *     D' = B^T V + ((B - B_0)^T U_0 + D0 - D0_0) / step.
    *
    * Times (1 - alpha_f) step, it is B^T dU plus something known: the same F as at position level.
    *
-   * At either level the force of a rigid row may be a mean over the step: it acts in this step only
-   * and with all its weight. Bilateral rows of such schemes ask for D' = 0: D = 0 would let their
-   * velocities alternate for ever at theta = 1/2.
+   * At either level the force of a rigid constraint may be a mean over the step: it acts in this
+   * step only and with all its weight. Bilateral constraints of such schemes ask for D' = 0: D = 0
+   * would let their velocities alternate for ever at theta = 1/2.
    *
-   * A scheme with a velocity projection asks for gaps of all rows, and its elastic one-sided rows
-   * have mean forces, too: with u the compression of their springs,
+   * A scheme with a velocity projection asks for gaps of all constraints, and its elastic
+   * unilateral constraints have mean forces, too: with u the compression of their springs,
    *
    *     0 <= N  _|_  D + S N + h >= 0,    h = -((1 - theta) k - c / step) / (theta k + c / step)
    * u_0,
@@ -38,12 +40,13 @@ namespace taut
    * S = 1 / (k + c / (theta step)) and u = max(0, S N + h). Rows on DoFs without mass and damping
    * keep forces at the ends of steps, where they hold these DoFs in equilibrium.
    */
-  class RowMotions
+  class ConstraintMotions
   {
   public:
-    /// The arguments but @p start are kept by reference; @p rows are where they are at the start.
-    RowMotions(const Structure &structure, const ContactRows &rows, const Reference &origin,
-               const State &start);
+    /// The arguments but @p start are kept by reference; @p constraints are where they are at the
+    /// start.
+    ConstraintMotions(const Structure &structure, const Constraints &constraints,
+                      const Reference &origin, const State &start);
 
     /// For steps with these coefficients from now on.
     void prepare(const StepCoefficients &c, double step);
@@ -51,26 +54,27 @@ namespace taut
     /// S with the dampers of the links [m/N, rad/(N m)].
     const std::vector<double> &compliance() const { return S; }
 
-    /// Sets the problem of the step from the state before it. @p rows are at its end, @p P is P^.
-    void set_problem(const State &before, const SchurComplement &schur, const BlockVector &P,
-                     const BlockVector &lift);
+    /// Sets the problem of the step from the state before it. @p constraints are at its end, @p P
+    /// is P^.
+    void set_problem(const State &before, const SchurComplement &schur, const BodyVectors &P,
+                     const BodyVectors &lift);
     const MixedComplementarityProblem &problem() const { return conditions; }
 
-    /// The free motions of bodies as unknowns of the problem, with loads from P^ = @p P. Called by
-    /// all ranks together, after set_problem().
-    void set_free_motions(const FactoredStructure &solvers, const BlockVector &P);
+    /// The rigid body modes of bodies as unknowns of the problem, with loads from P^ = @p P. Called
+    /// by all ranks together, after set_problem().
+    void set_rigid_body_modes(const FactoredStructure &solvers, const BodyVectors &P);
 
     /// Adds those of the solution to the increments of the bodies.
-    void add_free_motions(const FactoredStructure &solvers, std::size_t k,
-                          std::vector<double> &dU) const
+    void add_rigid_body_modes(const FactoredStructure &solvers, std::size_t k,
+                              std::vector<double> &dU) const
     {
-      add_free_motions(solvers, k, amplitude, dU);
+      add_rigid_body_modes(solvers, k, amplitude, dU);
     }
     /// The same of the correction.
     void add_corrected_motions(const FactoredStructure &solvers, std::size_t k,
                                std::vector<double> &dU) const
     {
-      add_free_motions(solvers, k, correction.kernel_amplitude, dU);
+      add_rigid_body_modes(solvers, k, correction.mode_amplitude, dU);
     }
 
     /**
@@ -86,11 +90,11 @@ namespace taut
     const std::vector<double> &in_balance() const { return balanced; }
     const std::vector<double> &impulsive() const { return c.mean_force ? impulses : none; }
 
-    /// Forces of moving rows with a mean force, which the step counts half in their old place:
-    /// minus their part in the new place. Empty without such rows. [N, N m]
+    /// Forces of moving constraints with a mean force, which the step counts half in their old
+    /// place: minus their part in the new place. Empty without such constraints. [N, N m]
     const std::vector<double> &old_place(const State &before);
 
-    /// True if the force of the row is a mean over the step.
+    /// True if the force of the constraint is a mean over the step.
     bool mean_force(std::size_t i) const { return mean[i]; }
 
     /// With mean forces: B^T V at the end of the step, the sums of its absolute terms, and D' at
@@ -109,12 +113,12 @@ namespace taut
     void update(State &state);
 
     /**
-     * After update(), with schemes without mean forces: what the rows answer to forces @p left that
-     * the balance of the bodies lacks, so that their conditions hold again. False if no answer is
-     * found. Called by all ranks together.
+     * After update(), with schemes without mean forces: what the constraints answer to forces @p
+     * left that the balance of the bodies lacks, so that their conditions hold again. False if no
+     * answer is found. Called by all ranks together.
      */
     bool correct(const State &state, SchurComplement &schur, const FactoredStructure &solvers,
-                 const BlockVector &left);
+                 const BodyVectors &left);
 
     /// The answer: changes of the multipliers [N, N m]. Those of the amplitudes are for
     /// add_corrected_motions().
@@ -122,38 +126,39 @@ namespace taut
 
     /// Adds these changes, and the motions @p dU that they are a part of, to gaps, springs and
     /// multipliers.
-    void add_correction(const BlockVector &dU, State &state);
+    void add_correction(const BodyVectors &dU, State &state);
 
-    /// Largest residual of a row, with D or D' recomputed from the displacements; and its index.
+    /// Largest residual of a constraint, with D or D' recomputed from the displacements; and its
+    /// index.
     double residual(const State &state, const ComplementarityOperator &F, std::size_t &worst);
 
-    /// Largest gap of a bilateral rigid row at velocity level [m, rad].
+    /// Largest gap of a bilateral rigid constraint at velocity level [m, rad].
     double drift(const State &state) const;
 
   private:
-    void set_free_motions(const FactoredStructure &solvers, const BlockVector &P,
-                          MixedComplementarityProblem &problem);
-    void add_free_motions(const FactoredStructure &solvers, std::size_t k,
-                          const std::vector<double> &amplitudes, std::vector<double> &dU) const;
+    void set_rigid_body_modes(const FactoredStructure &solvers, const BodyVectors &P,
+                              MixedComplementarityProblem &problem);
+    void add_rigid_body_modes(const FactoredStructure &solvers, std::size_t k,
+                              const std::vector<double> &amplitudes, std::vector<double> &dU) const;
     double moving_gap(std::size_t i) const;
     void add_inertial_terms(const State &state, const ComplementarityOperator &F);
     double largest_stray(const State &state, std::size_t &worst);
-    void add_body_terms(const BlockVector &U);
+    void add_body_terms(const BodyVectors &U);
     bool elastic_mean(std::size_t i) const { return mean[i] && S[i] > 0.; }
     bool velocity_level(std::size_t i) const
     {
-      return mean[i] && !c.velocity_projection && (c.velocity_level || !rows[i].unilateral);
+      return mean[i] && !c.velocity_projection && (c.velocity_level || !constraints[i].unilateral);
     }
     double spring_history(std::size_t i, const State &before) const;
     void share_convection(const State &state);
     void set_velocity_condition(std::size_t i, const State &before);
-    void share_free_motion(const State &before, const SchurComplement &schur, const BlockVector &P,
-                           const BlockVector &lift);
+    void share_contact_free_predictor(const State &before, const SchurComplement &schur,
+                                      const BodyVectors &P, const BodyVectors &lift);
     void share_motions(const State &state);
     void share(std::initializer_list<std::vector<double> *> vectors);
 
     const Structure &structure;
-    const ContactRows &rows;
+    const Constraints &constraints;
     const Reference &origin;
     StepCoefficients c;
     double step = 0.;
@@ -162,30 +167,31 @@ namespace taut
     MixedComplementarityProblem conditions;
     std::vector<double> S;
     std::vector<char> mean;                 ///< see mean_force()
-    std::vector<char> quasi_static;         ///< fixed rows on DoFs without mass and damping
-    std::vector<double> amplitude;          ///< of the free motions, of all ranks
-    std::vector<std::size_t> first_of_body; ///< free motion of each body here
+    std::vector<char> quasi_static;         ///< fixed constraints on DoFs without mass and damping
+    std::vector<double> amplitude;          ///< of the rigid body modes, of all ranks
+    std::vector<std::size_t> first_of_body; ///< rigid body mode of each body here
     std::vector<double> applied_multiplier, balanced, impulses;
     const std::vector<double> none; ///< empty
     std::vector<double>
         link_history; ///< part of a link spring's compression that does not depend on N
-    std::vector<double> reference_gap; ///< gap of the fixed rows at the reference
+    std::vector<double> reference_gap; ///< gap of the fixed constraints at the reference
     std::vector<double>
-        largest_scale;             ///< of each row's gap so far: what came to rest rounds with it
-    std::vector<double> gap_terms; ///< largest terms of the gaps of the fixed rows so far
-    /// Of the moving rows: gap of the start minus the one of its displacements, rounding that would
-    /// be a force over a small compliance.
+        largest_scale; ///< of each constraint's gap so far: what came to rest rounds with it
+    std::vector<double> gap_terms; ///< largest terms of the gaps of the fixed constraints so far
+    /// Of the moving constraints: gap of the start minus the one of its displacements, rounding
+    /// that would be a force over a small compliance.
     std::vector<double> gap_correction;
     std::vector<double> motion;        ///< B^T dU
-    std::vector<double> position;      ///< B^T U, with the reference's of a moving row
+    std::vector<double> position;      ///< B^T U, with the reference's of a moving constraint
     std::vector<double> terms_size;    ///< sum of the absolute terms of these
     std::vector<double> velocity;      ///< B^T V
     std::vector<double> velocity_size; ///< sum of the absolute terms of it
-    std::vector<double> rate_of_place; ///< D' of a row besides B^T V, with a velocity projection
-    std::vector<double> shifted;       ///< of old_place()
-    std::vector<double> motion_size;   ///< what B^T dU rounds with
-    std::vector<double> convection;    ///< (B - B_0)^T U_0 + D0 - D0_0
-    std::vector<double> rates_before;  ///< D'_0
+    std::vector<double>
+        rate_of_place;           ///< D' of a constraint besides B^T V, with a velocity projection
+    std::vector<double> shifted; ///< of old_place()
+    std::vector<double> motion_size;         ///< what B^T dU rounds with
+    std::vector<double> convection;          ///< (B - B_0)^T U_0 + D0 - D0_0
+    std::vector<double> rates_before;        ///< D'_0
     MixedComplementaritySolution correction; ///< of correct()
     MixedComplementaritySolution recomputed; ///< of residual()
     ComplementarityResidual found;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef taut_contact_rows_h
-#define taut_contact_rows_h
+#ifndef taut_constraints_h
+#define taut_constraints_h
 
 #include <taut/substructure/structure.h>
 
@@ -12,7 +12,7 @@
 
 namespace taut
 {
-  /// A row without a source in a scene, for example a cut of a wire.
+  /// A constraint without a source in a scene, for example a cut of a wire.
   constexpr std::size_t no_link = std::numeric_limits<std::size_t>::max();
 
   /// Where a constraint is that moves: its linear form at each time.
@@ -36,7 +36,7 @@ namespace taut
   };
 
   /// One scalar condition with its multiplier, as a linear form B_i on the displacements.
-  struct Row
+  struct ConstraintData
   {
     std::string name;
     std::string origin = {};    ///< path of its section in the parameter file, for messages
@@ -46,73 +46,74 @@ namespace taut
     double stiffness = std::numeric_limits<double>::infinity(); ///< [N/m, N m/rad]
     double damping = 0.;                                        ///< [N s/m, N m s/rad]
     double gap = 0.;                                            ///< D at U = 0, N = 0 [m, rad]
-    std::vector<Term> terms = {};                  ///< B_i: D = terms . U + gap + N / stiffness
-    std::shared_ptr<const MovingPlace> place = {}; ///< of a row that moves; sets terms and gap
-    bool moving = false;                           ///< has a place
+    std::vector<Term> terms = {}; ///< B_i: D = terms . U + gap + N / stiffness
+    std::shared_ptr<const MovingPlace> place =
+        {};              ///< of a constraint that moves; sets terms and gap
+    bool moving = false; ///< has a place
 
     bool is_cut() const { return link == no_link; }
   };
 
-  /// The rows of a system: the fixed ones in their order, then the moving ones.
-  class ContactRows
+  /// The constraints of a system: the fixed ones in their order, then the moving ones.
+  class Constraints
   {
   public:
     /// @p structure is kept by reference.
-    ContactRows(const Structure &structure, std::vector<Row> rows);
+    Constraints(const Structure &structure, std::vector<ConstraintData> constraints);
 
-    std::size_t size() const { return rows.size(); }
+    std::size_t size() const { return constraints.size(); }
     std::size_t n_fixed() const { return fixed; }
-    const Row &operator[](std::size_t i) const { return rows[i]; }
+    const ConstraintData &operator[](std::size_t i) const { return constraints[i]; }
 
-    /// Puts the moving rows where they are at time t [s]. Throws UserError when one leaves its
-    /// wire.
+    /// Puts the moving constraints where they are at time t [s]. Throws UserError when one leaves
+    /// its wire.
     void update(double t);
 
-    /// Position on its wire of a moving row at time t [m].
-    double position(std::size_t i, double t) const { return rows[i].place->position(t); }
+    /// Position on its wire of a moving constraint at time t [m].
+    double position(std::size_t i, double t) const { return constraints[i].place->position(t); }
 
-    /// B^T U of each row: the motion of the rows, summed over all ranks [m, rad].
-    std::vector<double> motions(const BlockVector &U) const;
+    /// B^T U of each constraint: the motion of the constraints, summed over all ranks [m, rad].
+    std::vector<double> motions(const BodyVectors &U) const;
 
     /// The share of this rank's bodies in it, into @p motion of length size().
-    void share_of_motions(const BlockVector &U, std::vector<double> &motion) const;
+    void share_of_motions(const BodyVectors &U, std::vector<double> &motion) const;
 
     /// The same, and the sums of the absolute terms, which it rounds with, into @p terms_size.
-    void share_of_motions(const BlockVector &U, std::vector<double> &motion,
+    void share_of_motions(const BodyVectors &U, std::vector<double> &motion,
                           std::vector<double> &terms_size) const;
 
     /**
-     * Rate at which a moving row's place changes its gap at time @p t [s], in D' = B^T V + this:
-     * its speed times the slope of the displacements, this rank's share of it [m/s].
+     * Rate at which a moving constraint's place changes its gap at time @p t [s], in D' = B^T V +
+     * this: its speed times the slope of the displacements, this rank's share of it [m/s].
      */
-    double share_of_convection(std::size_t i, double t, const BlockVector &reference,
-                               const BlockVector &U) const;
+    double share_of_convection(std::size_t i, double t, const BodyVectors &reference,
+                               const BodyVectors &U) const;
 
-    /// The same of the height profile under a moving row, from differences within a part of a step
-    /// [s]; the same on all ranks [m/s].
+    /// The same of the height profile under a moving constraint, from differences within a part of
+    /// a step [s]; the same on all ranks [m/s].
     double profile_rate(std::size_t i, double t, double step) const;
 
-    /// Of each row: not 0 where it is fixed and acts on a DoF without mass.
+    /// Of each constraint: not 0 where it is fixed and acts on a DoF without mass.
     std::vector<char> without_mass() const { return acts_on(&Substructure::dofs_without_mass); }
 
     /// The same of DoFs without mass and without damping.
     std::vector<char> quasi_static() const { return acts_on(&Substructure::quasi_static_dofs); }
 
     /// P += B N.
-    void add_forces(const std::vector<double> &N, BlockVector &P) const;
+    void add_forces(const std::vector<double> &N, BodyVectors &P) const;
 
-    /// Largest force [N] and moment [N m] of a single row on each body, |B_i| |N_i|: their sum may
-    /// cancel.
+    /// Largest force [N] and moment [N m] of a single constraint on each body, |B_i| |N_i|: their
+    /// sum may cancel.
     void largest_forces(const std::vector<double> &N,
                         std::vector<std::array<double, 2>> &result) const;
 
-    /// Index of the row of a link of the scene.
-    std::size_t row_of_link(std::size_t link) const { return row_index[link]; }
+    /// Index of the constraint of a link of the scene.
+    std::size_t index_of_link(std::size_t link) const { return row_index[link]; }
 
-    /// Path in the parameter file of a row, for messages; may be empty.
-    const std::string &origin(std::size_t i) const { return rows[i].origin; }
+    /// Path in the parameter file of a constraint, for messages; may be empty.
+    const std::string &origin(std::size_t i) const { return constraints[i].origin; }
 
-    /// Names of rows for a message: "a, b and 3 more".
+    /// Names of constraints for a message: "a, b and 3 more".
     std::string names(const std::vector<std::size_t> &indices) const;
 
   private:
@@ -127,20 +128,20 @@ namespace taut
     void append(std::size_t i);
 
     const Structure &structure;
-    std::vector<Row> rows;
+    std::vector<ConstraintData> constraints;
     std::vector<std::size_t> row_index;
     std::size_t fixed = 0;
 
-    std::vector<Entry> entries;     ///< of all rows, one row after the other
-    std::vector<std::size_t> begin; ///< of each row; one number more
+    std::vector<Entry> entries;     ///< of all constraints, one constraint after the other
+    std::vector<std::size_t> begin; ///< of each constraint; one number more
 
-    /// The largest |B_i| of a row on a body, of one kind.
+    /// The largest |B_i| of a constraint on a body, of one kind.
     struct Size
     {
       double value;
-      unsigned int body, kind, row;
+      unsigned int body, kind, constraint;
     };
-    std::vector<Size> sizes; ///< of the fixed rows by body and kind, then of the moving ones
+    std::vector<Size> sizes; ///< of the fixed constraints by body and kind, then of the moving ones
     std::size_t n_fixed_sizes = 0;
   };
 } // namespace taut

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef taut_kernel_penalty_h
-#define taut_kernel_penalty_h
+#ifndef taut_null_space_penalty_h
+#define taut_null_space_penalty_h
 
 #include <taut/complementarity/dense_operator.h>
 #include <taut/complementarity/problem.h>
@@ -10,7 +10,7 @@ namespace taut
   /**
    * The penalty 1/2 (G N + e)^T R (G N + e) on the unbalanced loads of floating bodies, with R = (G
    * W G^T)^-1 and W_i = 1 / F_ii. With multipliers scaled by sqrt(F_ii), G^T R G is the projector
-   * on the kernel: it does not depend on the units or the choice of the kernel vectors.
+   * on the null space: it does not depend on the units or the choice of the null space vectors.
    */
   class KernelPenalty
   {
@@ -30,11 +30,11 @@ namespace taut
     /// vanish.
     std::vector<double> balance_terms(const std::vector<double> &multiplier) const;
 
-    /// The kernel vectors k with |G N + e|_k larger than @p tolerance times its terms.
+    /// The null space vectors k with |G N + e|_k larger than @p tolerance times its terms.
     std::vector<std::size_t> unbalanced(const std::vector<double> &multiplier,
                                         double tolerance) const;
 
-    /// R g. Zero for kernel vectors that the rows cannot tell from those before them.
+    /// R g. Zero for null space vectors that the rows cannot tell from those before them.
     std::vector<double> weigh(const std::vector<double> &g);
 
     /// The amplitude x with the least sum of W_i (D + G^T x)_i^2: the motion that closes the gaps
@@ -48,18 +48,18 @@ namespace taut
     /// matrix += factor G^T R G.
     void add_to(DenseOperator &matrix, double factor);
 
-    /// The problem without kernel whose gaps are @p free_gap + G^T amplitude, known to @p
+    /// The problem without null space whose gaps are @p free_gap + G^T amplitude, known to @p
     /// gap_scale.
-    MixedComplementarityProblem without_kernel(const std::vector<double> &free_gap,
-                                               const std::vector<double> &gap_scale,
-                                               const std::vector<double> &amplitude) const;
+    MixedComplementarityProblem without_null_space(const std::vector<double> &free_gap,
+                                                   const std::vector<double> &gap_scale,
+                                                   const std::vector<double> &amplitude) const;
 
   private:
-    double entry(std::size_t k, std::size_t i) const { return kernel[k * problem.size() + i]; }
+    double entry(std::size_t k, std::size_t i) const { return null_space[k * problem.size() + i]; }
 
     const MixedComplementarityProblem &problem;
-    std::vector<double> kernel;           ///< G, dense, row-major
-    std::vector<std::size_t> all;         ///< kernel indices
+    std::vector<double> null_space;       ///< G, dense, row-major
+    std::vector<std::size_t> all;         ///< null space indices
     std::vector<std::size_t> independent; ///< those whose rows of G W are independent
     std::vector<double> row_weights;      ///< W_i
     DenseOperator weights;                ///< G W G^T

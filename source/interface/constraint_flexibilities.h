@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef taut_row_flexibilities_h
-#define taut_row_flexibilities_h
+#ifndef taut_constraint_flexibilities_h
+#define taut_constraint_flexibilities_h
 
-#include <taut/interface/body_rows.h>
+#include <taut/interface/body_constraints.h>
 #include <taut/substructure/factored_structure.h>
 
 #include <vector>
@@ -10,39 +10,39 @@
 namespace taut
 {
   /**
-   * What each row moves under its own unit force, B_ik^T A_k^-1 B_ik, by body and by DoFs of a body
-   * that nothing couples: a deflection and a rotation of a mass may share no entry of A_k. They
-   * bound F where no entry of it is known.
+   * What each constraint moves under its own unit force, B_ik^T A_k^-1 B_ik, by body and by DoFs of
+   * a body that nothing couples: a deflection and a rotation of a mass may share no entry of A_k.
+   * They bound F where no entry of it is known.
    */
   class RowFlexibilities
   {
   public:
     /// The arguments are kept by reference.
-    RowFlexibilities(const FactoredStructure &solvers, const BodyRows &rows);
+    RowFlexibilities(const FactoredStructure &solvers, const BodyConstraints &constraints);
 
     /// After factoring: of body k.
     void find_coupling(std::size_t k);
 
-    /// Of the rows of body k, after they or its factor have changed.
+    /// Of the constraints of body k, after they or its factor have changed.
     void compute(std::size_t k);
 
     /// Adds the share of this rank to the diagonal of B^T A^-1 B.
     void add_to_diagonal(std::vector<double> &diagonal) const;
 
     /// Adds the share of this rank to a bound of sum_j |(B^T A^-1 B)_ij| |x_j|, |F_ij| <= sqrt(f_i
-    /// f_j) over what both rows act on.
+    /// f_j) over what both constraints act on.
     void add_bound(const std::vector<double> &x, std::vector<double> &y) const;
 
   private:
     struct Part
     {
-      std::size_t row;
+      std::size_t constraint;
       unsigned int group;
       double flexibility;
     };
 
     const FactoredStructure &solvers;
-    const BodyRows &rows;
+    const BodyConstraints &constraints;
     std::vector<std::vector<Part>> parts;            ///< by body
     std::vector<std::vector<unsigned int>> group_of; ///< of the DoFs; empty if there is one
     std::vector<unsigned int> n_groups;

@@ -1,49 +1,49 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
 #include <taut/base/nearest_name.h>
-#include <taut/study/figure_recorder.h>
+#include <taut/study/quantity_recorder.h>
 
 #include <algorithm>
 #include <cmath>
 
 namespace taut
 {
-  double distance(const StudyFigure &figure, const StudyFigure &reference)
+  double distance(const StudyQuantity &quantity, const StudyQuantity &reference)
   {
-    if (!figure.is_history())
-      return std::fabs(figure.value - reference.value);
+    if (!quantity.is_history())
+      return std::fabs(quantity.value - reference.value);
     double sum = 0.;
     std::size_t k = 0;
     const std::vector<double> &t = reference.time, &u = reference.history;
-    for (std::size_t i = 0; i < figure.time.size(); ++i)
+    for (std::size_t i = 0; i < quantity.time.size(); ++i)
     {
-      while (k + 2 < t.size() && t[k + 1] < figure.time[i])
+      while (k + 2 < t.size() && t[k + 1] < quantity.time[i])
         ++k;
       double there = u[k];
       if (k + 1 < t.size() && t[k + 1] > t[k])
       {
-        const double weight = std::clamp((figure.time[i] - t[k]) / (t[k + 1] - t[k]), 0., 1.);
+        const double weight = std::clamp((quantity.time[i] - t[k]) / (t[k + 1] - t[k]), 0., 1.);
         there += weight * (u[k + 1] - u[k]);
       }
-      sum += (figure.history[i] - there) * (figure.history[i] - there);
+      sum += (quantity.history[i] - there) * (quantity.history[i] - there);
     }
-    return std::sqrt(sum / figure.time.size());
+    return std::sqrt(sum / quantity.time.size());
   }
 
-  FigureRecorder::FigureRecorder(const StudyParameters &study,
-                                 const StatisticsParameters &statistics, const Scene &scene,
-                                 const ContactRows &rows)
+  QuantityRecorder::QuantityRecorder(const StudyParameters &study,
+                                     const StatisticsParameters &statistics, const Scene &scene,
+                                     const Constraints &rows)
       : statistics(statistics, scene, rows)
   {
-    for (std::size_t i = 0; i < study.figures.items.size(); ++i)
-      sources.push_back(find(study.figures.items[i], study.figures.title(i), scene, rows));
+    for (std::size_t i = 0; i < study.quantities.items.size(); ++i)
+      sources.push_back(find(study.quantities.items[i], study.quantities.title(i), scene, rows));
   }
 
-  FigureRecorder::Source FigureRecorder::find(const StudyParameters::FigureItem &item,
-                                              const std::string &title, const Scene &scene,
-                                              const ContactRows &rows) const
+  QuantityRecorder::Source QuantityRecorder::find(const StudyParameters::QuantityItem &item,
+                                                  const std::string &title, const Scene &scene,
+                                                  const Constraints &rows) const
   {
-    const std::vector<Statistics::NamedFigure> known = statistics.named_figures();
+    const std::vector<Statistics::NamedQuantity> known = statistics.named_quantities();
     std::vector<std::string> items, quantities;
     for (std::size_t i = 0; i < known.size(); ++i)
     {
@@ -72,7 +72,7 @@ namespace taut
     return {Source::Kind::force_of_row, row, {}};
   }
 
-  void FigureRecorder::record(const StepView &step)
+  void QuantityRecorder::record(const StepView &step)
   {
     statistics.record(step);
     times.push_back(step.state.time);
@@ -83,25 +83,25 @@ namespace taut
         source.history.push_back(step.state.multiplier[source.index]);
   }
 
-  std::vector<StudyFigure> FigureRecorder::figures() const
+  std::vector<StudyQuantity> QuantityRecorder::quantities() const
   {
-    const std::vector<Statistics::NamedFigure> numbers = statistics.named_figures();
-    std::vector<StudyFigure> list;
+    const std::vector<Statistics::NamedQuantity> numbers = statistics.named_quantities();
+    std::vector<StudyQuantity> list;
     for (const Source &source : sources)
     {
-      StudyFigure figure;
+      StudyQuantity quantity;
       if (source.kind == Source::Kind::number)
-        figure.value = numbers[source.index].value;
+        quantity.value = numbers[source.index].value;
       else
       {
-        figure.time = times;
-        figure.history = source.history;
+        quantity.time = times;
+        quantity.history = source.history;
         double sum = 0.;
         for (const double x : source.history)
           sum += x * x;
-        figure.value = std::sqrt(sum / times.size());
+        quantity.value = std::sqrt(sum / times.size());
       }
-      list.push_back(std::move(figure));
+      list.push_back(std::move(quantity));
     }
     return list;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
-#include <taut/model/scene_rows.h>
+#include <taut/model/scene_constraints.h>
 
 #include <sstream>
 
@@ -68,31 +68,31 @@ namespace taut
     };
   } // namespace
 
-  ContactRows scene_rows(const Scene &scene, const SceneBodies &bodies)
+  Constraints scene_constraints(const Scene &scene, const SceneBodies &bodies)
   {
-    std::vector<Row> rows;
+    std::vector<ConstraintData> constraints;
     for (std::size_t i = 0; i < scene.links.size(); ++i)
     {
       const Link &link = scene.links[i];
-      Row row{link.name, link.origin, i};
-      row.unilateral = link.unilateral();
-      row.rotational = link.rotational;
-      row.stiffness = link.stiffness;
-      row.damping = link.damping;
-      row.gap = link.gap;
+      ConstraintData constraint{link.name, link.origin, i};
+      constraint.unilateral = link.unilateral();
+      constraint.rotational = link.rotational;
+      constraint.stiffness = link.stiffness;
+      constraint.damping = link.damping;
+      constraint.gap = link.gap;
       if (link.moving())
-        row.place = std::make_shared<SlidingPlace>(scene, bodies, link);
+        constraint.place = std::make_shared<SlidingPlace>(scene, bodies, link);
       else
-        row.terms = link_terms(bodies, link, link.to);
-      rows.push_back(std::move(row));
+        constraint.terms = link_terms(bodies, link, link.to);
+      constraints.push_back(std::move(constraint));
     }
-    for (const CutRow &cut : bodies.cut_rows())
+    for (const CutConstraint &cut : bodies.cut_constraints())
     {
-      Row row{cut.name};
-      row.rotational = cut.rotational;
-      row.terms = cut.terms;
-      rows.push_back(std::move(row));
+      ConstraintData constraint{cut.name};
+      constraint.rotational = cut.rotational;
+      constraint.terms = cut.terms;
+      constraints.push_back(std::move(constraint));
     }
-    return ContactRows(bodies, std::move(rows));
+    return Constraints(bodies, std::move(constraints));
   }
 } // namespace taut

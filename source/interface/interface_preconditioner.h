@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef taut_row_preconditioner_h
-#define taut_row_preconditioner_h
+#ifndef taut_interface_preconditioner_h
+#define taut_interface_preconditioner_h
 
 #include <taut/base/sparse_cholesky.h>
-#include <taut/interface/body_rows.h>
+#include <taut/interface/body_constraints.h>
 #include <taut/substructure/factored_structure.h>
 
 #include <string>
@@ -13,41 +13,41 @@ namespace taut
 {
   /**
    * A cheap approximation of F^-1 on an active set, by name. With b the DoFs of body k that active
-   * rows act on,
+   * constraints act on,
    *
    *     "diagonal"   1 / F_ii
    *     "lumped"     A_k on b in place of the body
    *     "Dirichlet"  the Schur complement of A_k on b: what b feels of the body when the rest of it
    *                  follows
    *
-   * The last two make one sparse matrix T over all DoFs b, with the elastic rows c as springs in
-   * it: T = sum_k T_k + B_c S_c^-1 B_c^T. Of
+   * The last two make one sparse matrix T over all DoFs b, with the elastic constraints c as
+   * springs in it: T = sum_k T_k + B_c S_c^-1 B_c^T. Of
    *
    *     [F_cc F_cr]         F = B^T (sum_k T_k)^-1 B + S
    *     [F_rc F_rr],
    *
-   * the elastic part is so inverted exactly, with a factor of T. What is left for the rigid rows r,
-   * B_r^T T^-1 B_r, is approximated by the preconditioner of FETI, which splits a jump between the
-   * two sides by their stiffness D = diag(T) (Rixen and Farhat 1999):
+   * the elastic part is so inverted exactly, with a factor of T. What is left for the rigid
+   * constraints r, B_r^T T^-1 B_r, is approximated by the preconditioner of FETI, which splits a
+   * jump between the two sides by their stiffness D = diag(T) (Rixen and Farhat 1999):
    *
    *     Q^-1 B_r^T D^-1 T D^-1 B_r Q^-1,    Q = diag(B_r^T D^-1 B_r),
    *
-   * the (B^T B)^-1 scaling where D is the same on both sides and no two rows share a DoF. Moving
-   * rows are rows like the others.
+   * the (B^T B)^-1 scaling where D is the same on both sides and no two constraints share a DoF.
+   * Moving constraints are constraints like the others.
    */
-  class RowPreconditioner
+  class InterfacePreconditioner
   {
   public:
     /// The references are kept. Throws UserError for an unknown name.
-    RowPreconditioner(const std::string &name, const FactoredStructure &solvers,
-                      const BodyRows &body_rows);
+    InterfacePreconditioner(const std::string &name, const FactoredStructure &solvers,
+                            const BodyConstraints &body_constraints);
 
-    /// For the active rows. The bodies marked in @p is_changed have another A_k or other rows than
-    /// at the last call. @p diagonal is that of F.
+    /// For the active constraints. The bodies marked in @p is_changed have another A_k or other
+    /// constraints than at the last call. @p diagonal is that of F.
     void setup(const std::vector<char> &active, const std::vector<char> &is_changed,
                const std::vector<double> &compliance, const std::vector<double> &diagonal);
 
-    /// z = M^-1 r; zero on rows that are not active.
+    /// z = M^-1 r; zero on constraints that are not active.
     void apply(const std::vector<double> &r, std::vector<double> &z) const;
 
     /// Bodies factored for a Schur complement so far.
@@ -69,7 +69,7 @@ namespace taut
     void set_scaling(const std::vector<char> &active, const std::vector<double> &diagonal);
 
     const FactoredStructure &solvers;
-    const BodyRows &body_rows;
+    const BodyConstraints &body_constraints;
     bool is_diagonal, is_dirichlet;
     std::vector<Block> blocks;
     long factorisations = 0;
@@ -80,8 +80,8 @@ namespace taut
     SparseCholesky inverse_T;
     MatrixEntries B;               ///< row of F, DoF
     MatrixEntries scaled_B;        ///< D^-1 B_r Q^-1, in the same order
-    std::vector<double> own;       ///< 1 / F_ii of rows that nothing else is done for
-    std::vector<double> stiffness; ///< 1 / S_i of elastic rows, 0 of others
+    std::vector<double> own;       ///< 1 / F_ii of constraints that nothing else is done for
+    std::vector<double> stiffness; ///< 1 / S_i of elastic constraints, 0 of others
     bool has_springs = false;
     mutable std::vector<double> motion, force, jump;
   };

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_scene_constraints_h
+#define taut_scene_constraints_h
+
+#include <taut/interface/constraints.h>
+#include <taut/model/scene_bodies.h>
+
+namespace taut
+{
+  /// The constraints of a scene: links in their order, and the cuts of wires. Both are kept by
+  /// reference;
+  /// @p bodies were made from @p scene, or from one with more links.
+  Constraints scene_constraints(const Scene &scene, const SceneBodies &bodies);
+} // namespace taut
+
+#endif

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_quantity_recorder_h
+#define taut_quantity_recorder_h
+
+#include <taut/output/statistics.h>
+#include <taut/simulation/study_parameters.h>
+
+#include <vector>
+
+namespace taut
+{
+  /// One quantity of a study from one run: a number, or a record over time and its root mean
+  /// square.
+  struct StudyQuantity
+  {
+    double value = 0.;
+    std::vector<double> time, history; ///< empty for a number
+
+    bool is_history() const { return !time.empty(); }
+  };
+
+  /**
+   * Difference of a quantity to that of a finer run: of numbers its size; of histories the root
+   * mean square of the difference at the times of @p quantity, where @p reference is interpolated
+   * linearly.
+   */
+  double distance(const StudyQuantity &quantity, const StudyQuantity &reference);
+
+  /// Records the quantities of a study in a run, and how long the run took with its output.
+  class QuantityRecorder : public Observer
+  {
+  public:
+    /// Throws EntryError if the scene has no such item or the item no such quantity.
+    QuantityRecorder(const StudyParameters &study, const StatisticsParameters &statistics,
+                     const Scene &scene, const Constraints &rows);
+
+    void record(const StepView &step) override;
+
+    /// In the order of the study.
+    std::vector<StudyQuantity> quantities() const;
+
+    const Certificate &worst_certificate() const { return statistics.worst_certificate(); }
+
+  private:
+    /// Where a quantity comes from.
+    struct Source
+    {
+      enum class Kind
+      {
+        number,       ///< `index` in Statistics::named_quantities()
+        force_of_row, ///< history of the force of row `index`
+        probe         ///< history of probe `index`
+      } kind = Kind::number;
+      std::size_t index = 0;
+      std::vector<double> history;
+    };
+    Source find(const StudyParameters::QuantityItem &item, const std::string &title,
+                const Scene &scene, const Constraints &rows) const;
+
+    Statistics statistics;
+    std::vector<Source> sources;
+    std::vector<double> times;
+  };
+} // namespace taut
+
+#endif
