@@ -44,7 +44,7 @@ namespace taut
           << result.end_time / setting.seconds_with_output << " |\n"
           << std::defaultfloat;
     }
-    /// The values on the parameter_lists that are not refined, "BDF2, string": what settings are
+    /// The values on the parameter lists that are not refined, "BDF2, string": what settings are
     /// compared by.
     std::string kind(const StudyResult &result, const StudySetting &setting)
     {
