@@ -37,7 +37,7 @@ namespace taut
   struct StudyResult
   {
     std::vector<ParameterList> parameter_lists;
-    std::vector<std::string> figure_names;
+    std::vector<std::string> quantity_names;
     std::vector<QuantityReference> references;
     std::vector<StudySetting> settings;
     double end_time = 0.;    ///< [s]
