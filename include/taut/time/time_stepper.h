@@ -21,8 +21,7 @@ namespace taut
   /**
    * Advances the bodies and the multipliers by steps:
    *
-   *     moving constraints -> history P^_k -> rigid body mode of the constraints -> N -> U_k ->
-   * certificate
+   *     moving constraints -> history P^_k -> contact-free predictor -> N -> U_k -> certificate
    *     -> velocities, with schemes that project them.
    *
    * Everything is in increments, A dU = P^ + B N; ConstraintMotions says what the constraints ask
@@ -33,8 +32,8 @@ namespace taut
   public:
     /**
      * @p structure and @p constraints are kept by reference. @p at_rest says that the start is an
-     * equilibrium, so that accelerations are zero; otherwise the first step is the source's, unless
-     * the scheme needs no initial acceleration either.
+     * equilibrium, so that accelerations are zero; otherwise the first step is backward Euler,
+     * unless the scheme needs no initial acceleration either.
      */
     TimeStepper(const Structure &structure, Constraints &constraints,
                 const SolverParameters &parameters, const TimeIntegrator &integrator, double step,
