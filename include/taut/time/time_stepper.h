@@ -22,8 +22,7 @@ namespace taut
   /**
    * Advances the bodies and the multipliers by steps:
    *
-   *     moving constraints -> history P^_k -> rigid body mode of the constraints -> N -> U_k ->
-   * certificate
+   *     moving constraints -> history P^_k -> contact-free predictor -> N -> U_k -> certificate
    *     -> velocities, with schemes that project them.
    *
    * Everything is in increments, A dU = P^ + B N; ConstraintMotions says what the constraints ask
