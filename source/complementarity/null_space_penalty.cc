@@ -30,7 +30,7 @@ namespace taut
   } // namespace
 
   NullSpacePenalty::NullSpacePenalty(const MixedComplementarityProblem &problem,
-                               const DenseOperator &matrix, const std::vector<char> &rows)
+                                     const DenseOperator &matrix, const std::vector<char> &rows)
       : problem(problem), null_space(problem.n_null_space() * problem.size(), 0.),
         all(problem.n_null_space()), row_weights(inverse_diagonal(matrix, rows)),
         weights(problem.n_null_space())
@@ -81,7 +81,7 @@ namespace taut
   }
 
   std::vector<std::size_t> NullSpacePenalty::unbalanced(const std::vector<double> &multiplier,
-                                                     double tolerance) const
+                                                        double tolerance) const
   {
     const std::vector<double> sums = unbalance(multiplier), terms = balance_terms(multiplier);
     std::vector<std::size_t> indices;
@@ -142,8 +142,8 @@ namespace taut
 
   MixedComplementarityProblem
   NullSpacePenalty::without_null_space(const std::vector<double> &free_gap,
-                                    const std::vector<double> &gap_scale,
-                                    const std::vector<double> &amplitude) const
+                                       const std::vector<double> &gap_scale,
+                                       const std::vector<double> &amplitude) const
   {
     MixedComplementarityProblem result;
     result.unilateral = problem.unilateral;

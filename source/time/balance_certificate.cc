@@ -17,7 +17,8 @@ namespace taut
     /// A block-tridiagonal matrix reaches so many DoFs further at most.
     constexpr std::size_t reach = 8;
 
-    /// Part of way and terms that their rounding may be; what is more is an error.
+    /// Part of |K||dU| and of the other terms that their rounding may be; what is more is an
+    /// error.
     constexpr double rounding_of_increment = 1e-10;
   } // namespace
 
@@ -168,16 +169,16 @@ namespace taut
     const PerKind by_mass = norms[k][0].times(inertial),
                   by_damping = norms[k][1].times(sizes.velocity),
                   by_stiffness = norms[k][2].times(sizes.displacement),
-                  way = norms[k][2].times(sizes.increment);
+                  of_increment = norms[k][2].times(sizes.increment);
     double result = 0.;
     for (int kind = 0; kind < 2; ++kind)
     {
       double size = force[kind] + by_mass[kind] + by_damping[kind] + by_stiffness[kind];
-      if (sizes.residual[kind] > rounding_of_increment * (size + way[kind]))
+      if (sizes.residual[kind] > rounding_of_increment * (size + of_increment[kind]))
         may_be_cancellation = false;
       // With mean forces nothing is refined.
       if (c.mean_force)
-        size += way[kind];
+        size += of_increment[kind];
       // Numbers that are about to underflow have few digits.
       const double relative =
           sizes.residual[kind] <= 1. / largest_number / largest_number / largest_number

@@ -29,9 +29,9 @@ namespace taut
     }
 
     /**
-     * K U = P + B N from the undeformed state, with U = A^-1 (P + B N) + lift + R alpha: A is K with
-     * springs on the DoFs that fix the null space R of bodies that only constraints hold, lift the
-     * given displacements of supports.
+     * K U = P + B N from the undeformed state, with U = A^-1 (P + B N) + lift + R alpha: A is K
+     * with springs on the DoFs that fix the null space R of bodies that only constraints hold, lift
+     * the given displacements of supports.
      */
     class StaticStep
     {
@@ -145,8 +145,7 @@ namespace taut
             [&]
             {
               ComplementaritySolver complementarity(parameters.complementarity);
-              const ComplementarityResult &result =
-                  complementarity.solve(problem, schur->matrix());
+              const ComplementarityResult &result = complementarity.solve(problem, schur->matrix());
               solution = result.solution;
               certificate.iterations = result.iterations;
               certificate.fallback = result.used_fallback;

@@ -67,8 +67,7 @@ namespace taut
             return;
           const Substructure &body = structure[certificate.worst_body];
           std::ostringstream out;
-          out << "body '" << body.name()
-              << "' misses the contact tolerance in its equation of "
+          out << "body '" << body.name() << "' misses the contact tolerance in its equation of "
               << (time ? "motion" : "equilibrium") << ": residual " << certificate.balance << " > "
               << tolerance << ". " << remedy();
           fail(out.str(), body.origin());

@@ -430,7 +430,8 @@ namespace taut
           });
       last.balance = processes.max(own_balance);
       if (!(last.balance > refined_balance) || refinements == most_refinements ||
-          coefficients.mean_force || processes.max(balance.is_cancellation() ? 0. : 1.) > 0. || !refine())
+          coefficients.mean_force || processes.max(balance.is_cancellation() ? 0. : 1.) > 0. ||
+          !refine())
         break;
     }
     last.worst_body = balance.worst_body();

@@ -247,8 +247,8 @@ TEST_F(StudyTest, errors_are_the_real_ones)
 
 TEST_F(StudyTest, a_setting_that_fails_is_a_row_with_its_reason)
 {
-  const taut::StudyResult result = study({"Study/Parameter step/Values=2, 0.01",
-                                          "Study/Parameter scheme/Values=Newmark, Euler"});
+  const taut::StudyResult result = study(
+      {"Study/Parameter step/Values=2, 0.01", "Study/Parameter scheme/Values=Newmark, Euler"});
   int n_failed = 0;
   for (const taut::StudySetting &setting : result.settings)
   {
@@ -267,8 +267,8 @@ TEST_F(StudyTest, a_setting_that_fails_is_a_row_with_its_reason)
 
 TEST_F(StudyTest, a_step_that_does_not_divide_the_run_is_measured_to_its_last_step)
 {
-  const taut::StudyResult odd = study({"Study/Parameter step/Values=0.017, 0.0005",
-                                       "Study/Parameter scheme/Values=Newmark"});
+  const taut::StudyResult odd =
+      study({"Study/Parameter step/Values=0.017, 0.0005", "Study/Parameter scheme/Values=Newmark"});
   EXPECT_EQ(odd.settings[0].n_steps, 76);
   EXPECT_GT(odd.settings[0].least_seconds(), .002 * odd.settings[1].least_seconds());
 }

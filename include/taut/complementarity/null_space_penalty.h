@@ -21,7 +21,7 @@ namespace taut
      * 0.
      */
     NullSpacePenalty(const MixedComplementarityProblem &problem, const DenseOperator &matrix,
-                  const std::vector<char> &rows);
+                     const std::vector<char> &rows);
 
     /// G N + e.
     std::vector<double> unbalance(const std::vector<double> &multiplier) const;

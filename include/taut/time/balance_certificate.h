@@ -53,7 +53,7 @@ namespace taut
     std::size_t worst_body() const { return worst; }
 
     /// True if no residual of this rank's bodies is more than 1e-10 of its terms and of |K||dU|,
-    /// the way that the step took to where it ends: what may be its rounding.
+    /// which cancels where an increment is large against the displacement that it ends with.
     bool is_cancellation() const { return may_be_cancellation; }
 
   private:
