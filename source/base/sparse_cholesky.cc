@@ -170,7 +170,10 @@ namespace taut
     std::copy(solution, solution + x.size(), x.begin());
   }
 
-  bool SparseCholesky::is_supernodal() const { return work->factors && work->factors->is_super; }
+  bool SparseCholesky::is_supernodal() const
+  {
+    return work->factors && work->factors->is_super;
+  }
 
   double SparseCholesky::flops_per_entry() const
   {
