@@ -245,22 +245,25 @@ namespace
 
   void print(const std::string &name, const Matrix &matrix, const int runs)
   {
-    const auto print_row =
-        [&](const char *solver, const Costs &costs, const double flops, const Costs &first)
-    {
-      std::printf(
-          "| %s | %zu | %.0f | %s | %.2g | %.2g (%.2f) | %.2g (%.2f) | %.2g | %.1f | %.0e |\n",
-          name.c_str(), matrix.n, flops, solver, costs.set_up, costs.factor,
-          costs.factor / first.factor, costs.solve, costs.solve / first.solve,
-          static_cast<double>(costs.n_entries), costs.bytes / 1048576., costs.residual);
-      std::fflush(stdout);
-    };
     double flops = 0.;
-    const Costs simplicial = cholmod(matrix, taut::CholeskyMethod::simplicial, runs, flops);
-    print_row("simplicial", simplicial, flops, simplicial);
-    print_row("supernodal", cholmod(matrix, taut::CholeskyMethod::supernodal, runs, flops), flops,
-              simplicial);
-    print_row("UMFPACK", umfpack(matrix, runs), flops, simplicial);
+    const Costs costs[] = {cholmod(matrix, taut::CholeskyMethod::simplicial, runs, flops),
+                           cholmod(matrix, taut::CholeskyMethod::supernodal, runs, flops),
+                           umfpack(matrix, runs)};
+    std::printf("| %s | %zu | %.0f", name.c_str(), matrix.n, flops);
+    const auto print_costs = [&](const auto &value)
+    {
+      std::printf(" | ");
+      for (const Costs &c : costs)
+        std::printf("%s%.2g", &c == costs ? "" : " / ", static_cast<double>(value(c)));
+    };
+    print_costs([](const Costs &c) { return c.set_up; });
+    print_costs([](const Costs &c) { return c.factor; });
+    print_costs([](const Costs &c) { return c.solve; });
+    print_costs([](const Costs &c) { return c.n_entries; });
+    print_costs([](const Costs &c) { return c.bytes / 1048576.; });
+    print_costs([](const Costs &c) { return c.residual; });
+    std::printf(" |\n");
+    std::fflush(stdout);
   }
 } // namespace
 
@@ -269,8 +272,10 @@ int main(int argc, char **argv)
   const int runs = argc > 1 ? std::atoi(argv[1]) : 5;
   const double largest = argc > 2 ? std::atof(argv[2]) : 1.1e5;
   const std::string only = argc > 3 ? argv[3] : "";
-  std::printf("| body | DoFs | flops per entry | solver | set-up s | factor s (ratio) | solve s "
-              "(ratio) | entries | MiB | residual |\n|---|---|---|---|---|---|---|---|---|---|\n");
+  std::printf(
+      "Each cell: CHOLMOD simplicial / CHOLMOD supernodal / UMFPACK\n\n"
+      "| body | DoFs | flops per entry | set-up [s] | factor [s] | solve [s] | entries | MiB "
+      "| residual |\n|---|---|---|---|---|---|---|---|---|\n");
   for (const unsigned int degree : {1u, 2u})
   {
     const std::string element = degree == 1 ? " Q1" : " Q2";

@@ -56,7 +56,11 @@ namespace taut
   class SparseCholesky
   {
   public:
-    static constexpr double least_supernodal_flops = 40.;
+    /// Operations per entry of the factor from which `automatic` is supernodal. With the reference
+    /// BLAS, which Debian installs, supernodal factors and solves are slower below; CHOLMOD's own
+    /// 40 would make the solves of small bodies take twice as long
+    /// (doc/results/local_solvers.md).
+    static constexpr double least_supernodal_flops = 300.;
 
     explicit SparseCholesky(CholeskyMethod method = CholeskyMethod::simplicial);
     SparseCholesky(SparseCholesky &&) noexcept;
