@@ -39,10 +39,13 @@ namespace taut
 
   struct SparseCholesky::Workspace
   {
-    Workspace()
+    explicit Workspace(const CholeskyMethod method)
     {
       cholmod_start(&common);
-      common.supernodal = CHOLMOD_SIMPLICIAL;
+      common.supernodal = method == CholeskyMethod::simplicial   ? CHOLMOD_SIMPLICIAL
+                          : method == CholeskyMethod::supernodal ? CHOLMOD_SUPERNODAL
+                                                                 : CHOLMOD_AUTO;
+      common.supernodal_switch = least_supernodal_flops;
       common.final_ll = 0;
       common.print = 0;
     }
@@ -72,11 +75,29 @@ namespace taut
     std::size_t first_bad_pivot(const double smallest_pivot) const
     {
       const auto *permutation = static_cast<const int *>(factors->Perm);
-      const auto *start = static_cast<const int *>(factors->p);
+      std::size_t k = 0;
+      const auto is_bad = [&](const double pivot)
+      { return k >= factors->minor || !(pivot > smallest_pivot * diagonal[permutation[k]]); };
       const auto *value = static_cast<const double *>(factors->x);
-      for (std::size_t k = 0; k < factors->n; ++k)
-        // The first entry of a column of a simplicial LDL^T is D.
-        if (k >= factors->minor || !(value[start[k]] > smallest_pivot * diagonal[permutation[k]]))
+      if (factors->is_super)
+      {
+        // Each block has its columns one after another, with L on its diagonal; pivots are squares.
+        const auto *first = static_cast<const int *>(factors->super);
+        const auto *row = static_cast<const int *>(factors->pi);
+        const auto *start = static_cast<const int *>(factors->px);
+        for (std::size_t s = 0; s < factors->nsuper; ++s)
+        {
+          const std::size_t n_rows = row[s + 1] - row[s];
+          const double *entry = value + start[s];
+          for (; k < static_cast<std::size_t>(first[s + 1]); ++k, entry += n_rows + 1)
+            if (is_bad(*entry * *entry))
+              return permutation[k];
+        }
+        return factors->n;
+      }
+      const auto *start = static_cast<const int *>(factors->p);
+      for (; k < factors->n; ++k)
+        if (is_bad(value[start[k]])) // D is the first entry of a column
           return permutation[k];
       return factors->n;
     }
@@ -88,7 +109,11 @@ namespace taut
     std::vector<double> diagonal;
   };
 
-  SparseCholesky::SparseCholesky() : work(std::make_unique<Workspace>()) {}
+  SparseCholesky::SparseCholesky(const CholeskyMethod method)
+      : work(std::make_unique<Workspace>(method))
+  {
+  }
+
   SparseCholesky::SparseCholesky(SparseCholesky &&) noexcept = default;
   SparseCholesky &SparseCholesky::operator=(SparseCholesky &&) noexcept = default;
   SparseCholesky::~SparseCholesky() = default;
@@ -145,8 +170,30 @@ namespace taut
     std::copy(solution, solution + x.size(), x.begin());
   }
 
+  bool SparseCholesky::is_supernodal() const
+  {
+    return work->factors && work->factors->is_super;
+  }
+
+  double SparseCholesky::flops_per_entry() const
+  {
+    return work->factors ? work->common.fl / work->common.lnz : 0.;
+  }
+
   std::size_t SparseCholesky::n_entries() const
   {
-    return work->factors ? static_cast<std::size_t>(work->common.lnz) : 0;
+    if (!work->factors)
+      return 0;
+    return work->factors->is_super ? work->factors->xsize : work->factors->nzmax;
+  }
+
+  std::size_t SparseCholesky::memory_consumption() const
+  {
+    if (!work->factors)
+      return 0;
+    const cholmod_factor &f = *work->factors;
+    if (f.is_super)
+      return f.xsize * sizeof(double) + (f.ssize + 2 * f.n + 3 * (f.nsuper + 1)) * sizeof(int);
+    return f.nzmax * (sizeof(double) + sizeof(int)) + 6 * f.n * sizeof(int);
   }
 } // namespace taut

@@ -21,7 +21,7 @@ namespace taut
     private:
       std::size_t n = 0;
       std::vector<unsigned int> constrained;
-      SparseCholesky factors;
+      SparseCholesky factors{CholeskyMethod::automatic};
     };
 
     void SparseDirectSolver::factor(const std::vector<ScaledMatrix> &summands,

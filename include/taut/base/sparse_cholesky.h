@@ -40,15 +40,29 @@ namespace taut
     void vmult_add(const std::vector<double> &x, std::vector<double> &y) const;
   };
 
+  /// How a sparse Cholesky factor is computed and stored.
+  enum class CholeskyMethod
+  {
+    simplicial, ///< LDL^T, entry by entry
+    supernodal, ///< LL^T, dense blocks of columns by the BLAS
+    automatic   ///< supernodal from SparseCholesky::least_supernodal_flops on
+  };
+
   /**
-   * LDL^T of a sparse symmetric positive definite matrix by CHOLMOD's simplicial method with a
-   * fill-reducing order. The order and the pattern of the factor are kept as long as the pattern of
-   * the matrix stays the same, explicit zeros included.
+   * Factor of a sparse symmetric positive definite matrix by CHOLMOD with a fill-reducing order.
+   * The order and the pattern of the factor are kept as long as the pattern of the matrix stays the
+   * same, explicit zeros included.
    */
   class SparseCholesky
   {
   public:
-    SparseCholesky();
+    /// Operations per entry of the factor from which `automatic` is supernodal. With the reference
+    /// BLAS, which Debian installs, supernodal factors and solves are slower below; CHOLMOD's own
+    /// 40 would make the solves of small bodies take twice as long
+    /// (doc/results/local_solvers.md).
+    static constexpr double least_supernodal_flops = 300.;
+
+    explicit SparseCholesky(CholeskyMethod method = CholeskyMethod::simplicial);
     SparseCholesky(SparseCholesky &&) noexcept;
     SparseCholesky &operator=(SparseCholesky &&) noexcept;
     ~SparseCholesky();
@@ -63,8 +77,18 @@ namespace taut
     /// x = A^-1 x of the matrix factored last.
     void solve(std::vector<double> &x) const;
 
-    /// Entries of the factor.
+    /// Of the matrix factored last: true if its factor is supernodal.
+    bool is_supernodal() const;
+
+    /// Operations of the factorisation over entries of the factor: the mean length of its columns,
+    /// long ones counted more. 0: nothing is factored.
+    double flops_per_entry() const;
+
+    /// Numbers stored in the factor, the zeros in dense blocks included.
     std::size_t n_entries() const;
+
+    /// Bytes of the factor.
+    std::size_t memory_consumption() const;
 
   private:
     struct Workspace; ///< CHOLMOD's

@@ -57,7 +57,7 @@ namespace taut
    */
   std::unique_ptr<LocalSolver> make_block_tridiagonal_solver(unsigned int block_size);
 
-  /// CHOLMOD's simplicial LDL^T, for any pattern.
+  /// CHOLMOD, for any pattern: entry by entry, or in dense blocks where that pays.
   std::unique_ptr<LocalSolver> make_sparse_direct_solver();
 
   /**
