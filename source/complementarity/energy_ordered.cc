@@ -49,14 +49,14 @@ namespace taut
      * tell it better; where they do not, an amplitude that is nothing but this rounding is zero.
      */
     void settle_amplitude(const MixedComplementarityProblem &problem, const DenseOperator &matrix,
-                          KernelPenalty &penalty, double factor,
+                          NullSpacePenalty &penalty, double factor,
                           MixedComplementaritySolution &solution)
     {
       std::vector<char> closed(problem.size());
       for (std::size_t i = 0; i < problem.size(); ++i)
         closed[i] = !problem.unilateral[i] || solution.multiplier[i] > 0.;
       gaps(problem, matrix, solution.multiplier, solution.mode_amplitude, solution.gap);
-      KernelPenalty closed_rows(problem, matrix, closed);
+      NullSpacePenalty closed_rows(problem, matrix, closed);
       add(solution.mode_amplitude, 1., closed_rows.closing_amplitude(solution.gap));
 
       const std::vector<double> terms = penalty.amplitude_terms(solution.multiplier);
@@ -70,7 +70,7 @@ namespace taut
      * holds the bodies; kept if it is better. @p held has the same solutions with d + c G^T R e.
      */
     void polish(const MixedComplementarityProblem &problem, const DenseOperator &matrix,
-                KernelPenalty &penalty, double factor, DenseOperator &held,
+                NullSpacePenalty &penalty, double factor, DenseOperator &held,
                 const std::vector<std::size_t> &set, const ComplementarityOptions &options,
                 MixedComplementaritySolution &solution)
     {
@@ -223,7 +223,7 @@ namespace taut
     ComplementarityOptions null_space_options = options;
     null_space_options.dead_band /= null_space_factor;
     EnergyDescent descent(null_space_options);
-    KernelPenalty penalty(problem, matrix, std::vector<char>(problem.size(), 1));
+    NullSpacePenalty penalty(problem, matrix, std::vector<char>(problem.size(), 1));
 
     // N >= 0 with the least unbalance: the same descent with G^T R G and G^T R e alone.
     DenseOperator projector(problem.size());
@@ -246,7 +246,7 @@ namespace taut
   }
 
   bool EnergyOrderedActiveSet::hold(const MixedComplementarityProblem &problem,
-                                    const DenseOperator &matrix, KernelPenalty &penalty,
+                                    const DenseOperator &matrix, NullSpacePenalty &penalty,
                                     double factor, EnergyDescent &descent,
                                     MixedComplementaritySolution &solution) const
   {

@@ -29,8 +29,8 @@ namespace taut
     }
   } // namespace
 
-  KernelPenalty::KernelPenalty(const MixedComplementarityProblem &problem,
-                               const DenseOperator &matrix, const std::vector<char> &rows)
+  NullSpacePenalty::NullSpacePenalty(const MixedComplementarityProblem &problem,
+                                     const DenseOperator &matrix, const std::vector<char> &rows)
       : problem(problem), null_space(problem.n_null_space() * problem.size(), 0.),
         all(problem.n_null_space()), row_weights(inverse_diagonal(matrix, rows)),
         weights(problem.n_null_space())
@@ -56,7 +56,7 @@ namespace taut
     }
   }
 
-  std::vector<double> KernelPenalty::unbalance(const std::vector<double> &multiplier) const
+  std::vector<double> NullSpacePenalty::unbalance(const std::vector<double> &multiplier) const
   {
     std::vector<double> sums = problem.null_space_load;
     for (const std::size_t k : all)
@@ -65,7 +65,7 @@ namespace taut
     return sums;
   }
 
-  std::vector<double> KernelPenalty::balance_terms(const std::vector<double> &multiplier) const
+  std::vector<double> NullSpacePenalty::balance_terms(const std::vector<double> &multiplier) const
   {
     double largest = 0.;
     for (const double value : multiplier)
@@ -80,8 +80,8 @@ namespace taut
     return terms;
   }
 
-  std::vector<std::size_t> KernelPenalty::unbalanced(const std::vector<double> &multiplier,
-                                                     double tolerance) const
+  std::vector<std::size_t> NullSpacePenalty::unbalanced(const std::vector<double> &multiplier,
+                                                        double tolerance) const
   {
     const std::vector<double> sums = unbalance(multiplier), terms = balance_terms(multiplier);
     std::vector<std::size_t> indices;
@@ -91,14 +91,14 @@ namespace taut
     return indices;
   }
 
-  std::vector<double> KernelPenalty::weigh(const std::vector<double> &g)
+  std::vector<double> NullSpacePenalty::weigh(const std::vector<double> &g)
   {
     std::vector<double> result;
     weights.solve(independent, g, 0., result);
     return result;
   }
 
-  std::vector<double> KernelPenalty::closing_amplitude(const std::vector<double> &gap)
+  std::vector<double> NullSpacePenalty::closing_amplitude(const std::vector<double> &gap)
   {
     std::vector<double> sums(all.size(), 0.);
     for (const std::size_t k : all)
@@ -107,7 +107,7 @@ namespace taut
     return weigh(sums);
   }
 
-  std::vector<double> KernelPenalty::amplitude_terms(const std::vector<double> &multiplier)
+  std::vector<double> NullSpacePenalty::amplitude_terms(const std::vector<double> &multiplier)
   {
     const std::vector<double> terms = balance_terms(multiplier);
     std::vector<double> sums(all.size(), 0.);
@@ -122,7 +122,7 @@ namespace taut
     return sums;
   }
 
-  void KernelPenalty::add_to(DenseOperator &matrix, double factor)
+  void NullSpacePenalty::add_to(DenseOperator &matrix, double factor)
   {
     std::vector<double> column(all.size());
     for (std::size_t j = 0; j < problem.size(); ++j)
@@ -141,9 +141,9 @@ namespace taut
   }
 
   MixedComplementarityProblem
-  KernelPenalty::without_null_space(const std::vector<double> &free_gap,
-                                    const std::vector<double> &gap_scale,
-                                    const std::vector<double> &amplitude) const
+  NullSpacePenalty::without_null_space(const std::vector<double> &free_gap,
+                                       const std::vector<double> &gap_scale,
+                                       const std::vector<double> &amplitude) const
   {
     MixedComplementarityProblem result;
     result.unilateral = problem.unilateral;

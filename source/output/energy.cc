@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/dot.h>
 #include <taut/output/energy.h>
 
 #include <cmath>
@@ -7,14 +8,6 @@ namespace taut
 {
   namespace
   {
-    double dot(const std::vector<double> &x, const std::vector<double> &y)
-    {
-      double sum = 0.;
-      for (std::size_t i = 0; i < x.size(); ++i)
-        sum += x[i] * y[i];
-      return sum;
-    }
-
     /// True for a constraint whose force is a mean over the step.
     bool is_mean(const StepView &step, const std::size_t i)
     {

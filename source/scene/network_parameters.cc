@@ -53,7 +53,7 @@ namespace taut
   void Network::WireItem::declare(dealii::ParameterHandler &prm)
   {
     prm.add_parameter("From", from, "First end 'x, y' or 'x, y, z' [m]", coordinates());
-    prm.add_parameter("To", to, "Last end; positions on the wire count from the first [m]",
+    prm.add_parameter("To", to, "Last end; positions on the wire are counted from the first [m]",
                       coordinates());
     prm.add_parameter("Components", components,
                       "What the wire resists: 'bar' (along it), and 'string' (tension) or 'beam' "

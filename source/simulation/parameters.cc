@@ -112,7 +112,7 @@ namespace taut
     prm.add_parameter(
         "Additional shared libraries", shared_libraries,
         "Paths of libraries that are loaded before anything else; what they register, "
-        "generators and schemes, has its entries here",
+        "generators, schemes, bodies and observers, has its entries here",
         List(Anything()));
     prm.add_parameter("Generator", generator_name,
                       "What fills the scene. " +

@@ -144,8 +144,7 @@ namespace taut
                                                    "how it is solved; take another entry");
         if (!taken.insert(entry).second)
           throw EntryError(title + "/Entries",
-                           "'" + entry +
-                               "' is varied twice; remove it from one of the parameter_lists");
+                           "'" + entry + "' is varied twice; remove it from one of the parameters");
       }
       if (parameter_list.values.empty() ||
           std::count(parameter_list.values.begin(), parameter_list.values.end(), std::string()) > 0)

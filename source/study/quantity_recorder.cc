@@ -69,7 +69,7 @@ namespace taut
     std::size_t row = 0;
     while (rows[row].is_cut() || rows[row].name != item.of)
       ++row;
-    return {Source::Kind::force_of_row, row, {}};
+    return {Source::Kind::force_of_constraint, row, {}};
   }
 
   void QuantityRecorder::record(const StepView &step)
@@ -79,7 +79,7 @@ namespace taut
     for (Source &source : sources)
       if (source.kind == Source::Kind::probe)
         source.history.push_back(step.probes[source.index]);
-      else if (source.kind == Source::Kind::force_of_row)
+      else if (source.kind == Source::Kind::force_of_constraint)
         source.history.push_back(step.state.multiplier[source.index]);
   }
 

@@ -80,7 +80,7 @@ namespace taut
     if (!(parameters.end_time > 0.))
       refuse("Time/End", "a study measures runs in time; take a later end");
     result.parameter_lists = study.parameter_lists(parameters.values());
-    result.figure_names = study.quantities.names;
+    result.quantity_names = study.quantities.names;
     result.end_time = parameters.end_time;
   }
 

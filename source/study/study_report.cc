@@ -44,7 +44,7 @@ namespace taut
           << result.end_time / setting.seconds_with_output << " |\n"
           << std::defaultfloat;
     }
-    /// The values on the parameter_lists that are not refined, "BDF2, string": what settings are
+    /// The values on the parameter lists that are not refined, "BDF2, string": what settings are
     /// compared by.
     std::string kind(const StudyResult &result, const StudySetting &setting)
     {
@@ -147,9 +147,9 @@ namespace taut
       out << "Cheapest for an error of " << std::setprecision(6) << 100. * accuracy
           << " %, its own, that of all finer settings and that of the reference:\n";
       name_cheapest("all quantities", cheapest(result.settings, accuracy));
-      if (result.figure_names.size() > 1)
-        for (std::size_t i = 0; i < result.figure_names.size(); ++i)
-          name_cheapest(result.figure_names[i], cheapest(result, i, accuracy));
+      if (result.quantity_names.size() > 1)
+        for (std::size_t i = 0; i < result.quantity_names.size(); ++i)
+          name_cheapest(result.quantity_names[i], cheapest(result, i, accuracy));
     }
     if (n_failed > 0)
       out << n_failed << " settings failed; the reasons are in work_precision.csv\n";
@@ -167,7 +167,7 @@ namespace taut
           "median seconds", "seconds with output", "steps", "us a step", "x real time",
           "certificate [1]", "front"})
       columns.push_back(name);
-    for (const std::string &name : result.figure_names)
+    for (const std::string &name : result.quantity_names)
     {
       columns.push_back(name);
       columns.push_back(name + " error [1]");
@@ -218,10 +218,10 @@ namespace taut
                                     {"entries", parameter_list.entries},
                                     {"values", parameter_list.values}});
     root["quantities"] = json::array();
-    for (std::size_t i = 0; i < result.figure_names.size(); ++i)
+    for (std::size_t i = 0; i < result.quantity_names.size(); ++i)
     {
       const QuantityReference &reference = result.references[i];
-      root["quantities"].push_back({{"name", result.figure_names[i]},
+      root["quantities"].push_back({{"name", result.quantity_names[i]},
                                     {"reference", reference.quantity.value},
                                     {"error of the reference", reference.error},
                                     {"observed order", reference.order},

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/dot.h>
 #include <taut/base/exceptions.h>
 #include <taut/substructure/factored_structure.h>
 
@@ -58,11 +59,6 @@ namespace taut
           vectors[i][dof] /= after;
       }
       return true;
-    }
-
-    double dot(const std::vector<double> &x, const std::vector<double> &y)
-    {
-      return std::inner_product(x.begin(), x.end(), y.begin(), 0.);
     }
 
     void add(std::vector<double> &y, const double factor, const std::vector<double> &x)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/dot.h>
 #include <taut/base/exceptions.h>
 #include <taut/substructure/fe_body.h>
 
@@ -20,14 +21,6 @@ namespace taut
 {
   namespace
   {
-    double dot(const std::vector<double> &x, const std::vector<double> &y)
-    {
-      double sum = 0.;
-      for (std::size_t i = 0; i < x.size(); ++i)
-        sum += x[i] * y[i];
-      return sum;
-    }
-
     /// Part of itself below which a vector is a combination of others.
     constexpr double dependent = 1e-10;
   } // namespace

@@ -17,8 +17,9 @@ namespace taut
     /// A block-tridiagonal matrix reaches so many DoFs further at most.
     constexpr std::size_t reach = 8;
 
-    /// Part of way and terms that their rounding may be; what is more is an error.
-    constexpr double rounding_of_way = 1e-10;
+    /// Part of |K||dU| and of the other terms that their rounding may be; what is more is an
+    /// error.
+    constexpr double rounding_of_increment = 1e-10;
   } // namespace
 
   BalanceCertificate::BalanceCertificate(const Structure &structure, const Constraints &constraints,
@@ -39,23 +40,24 @@ namespace taut
   }
 
   double BalanceCertificate::measure(const StepCoefficients &c, const StepForces &forces,
-                                     const ConstraintMotions &constraint_motions, State &state)
+                                     const std::vector<double> &in_balance,
+                                     const std::vector<double> &impulsive, State &state)
   {
     for (std::size_t k = 0; k < structure.size(); ++k)
       std::copy(forces.P[k].begin(), forces.P[k].end(), state.balance[k].begin());
-    constraints.add_forces(constraint_motions.in_balance(), state.balance);
-    const bool has_impulses = !constraint_motions.impulsive().empty();
+    constraints.add_forces(in_balance, state.balance);
+    const bool has_impulses = !impulsive.empty();
     if (has_impulses)
     {
       for (std::vector<double> &f : impulses)
         std::fill(f.begin(), f.end(), 0.);
-      constraints.add_forces(constraint_motions.impulsive(), impulses);
+      constraints.add_forces(impulsive, impulses);
     }
     constraints.largest_forces(state.multiplier, contact_force);
 
     double result = 0.;
     work_of_balance = 0.;
-    may_be_way = true;
+    may_be_cancellation = true;
     worst = 0;
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
@@ -167,16 +169,16 @@ namespace taut
     const PerKind by_mass = norms[k][0].times(inertial),
                   by_damping = norms[k][1].times(sizes.velocity),
                   by_stiffness = norms[k][2].times(sizes.displacement),
-                  way = norms[k][2].times(sizes.increment);
+                  of_increment = norms[k][2].times(sizes.increment);
     double result = 0.;
     for (int kind = 0; kind < 2; ++kind)
     {
       double size = force[kind] + by_mass[kind] + by_damping[kind] + by_stiffness[kind];
-      if (sizes.residual[kind] > rounding_of_way * (size + way[kind]))
-        may_be_way = false;
+      if (sizes.residual[kind] > rounding_of_increment * (size + of_increment[kind]))
+        may_be_cancellation = false;
       // With mean forces nothing is refined.
       if (c.mean_force)
-        size += way[kind];
+        size += of_increment[kind];
       // Numbers that are about to underflow have few digits.
       const double relative =
           sizes.residual[kind] <= 1. / largest_number / largest_number / largest_number

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/dot.h>
 #include <taut/time/contact_measures.h>
 
 #include <algorithm>
@@ -22,14 +23,6 @@ namespace taut
 
     /// Part of the terms of a gap that its carried value may be off by.
     constexpr double rounding_of_gaps = 1e-12;
-
-    double dot(const std::vector<double> &x, const std::vector<double> &y)
-    {
-      double sum = 0.;
-      for (std::size_t i = 0; i < x.size(); ++i)
-        sum += x[i] * y[i];
-      return sum;
-    }
 
     /// Bound of the highest angular frequency at each DoF from the diagonals, 2 sqrt(K_jj / M_jj);
     /// 0 where there is no mass or no stiffness [rad/s].

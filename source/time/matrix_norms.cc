@@ -87,20 +87,20 @@ namespace taut
 
   KindNorm::KindNorm(const Substructure &body, const SymmetricMatrix &matrix)
   {
-    std::vector<PerKind> constraints(body.n_dofs(), PerKind{0., 0.});
+    std::vector<PerKind> rows(body.n_dofs(), PerKind{0., 0.});
     matrix.visit(
         [&](unsigned int i, unsigned int j, double value)
         {
-          constraints[i][body.kind(j)] += std::fabs(value);
+          rows[i][body.kind(j)] += std::fabs(value);
           if (i != j)
-            constraints[j][body.kind(i)] += std::fabs(value);
+            rows[j][body.kind(i)] += std::fabs(value);
         });
     for (const ConstrainedDof &constraint : body.constraints())
-      constraints[constraint.dof] = {0., 0.};
+      rows[constraint.dof] = {0., 0.};
     sums = {};
-    for (unsigned int i = 0; i < constraints.size(); ++i)
+    for (unsigned int i = 0; i < rows.size(); ++i)
       for (int c = 0; c < 2; ++c)
-        sums[body.kind(i)][c] = std::max(sums[body.kind(i)][c], constraints[i][c]);
+        sums[body.kind(i)][c] = std::max(sums[body.kind(i)][c], rows[i][c]);
   }
 
   PerKind KindNorm::times(const PerKind &x) const

@@ -3,31 +3,105 @@
 #include <taut/complementarity/active_set_system.h>
 #include <taut/complementarity/solver.h>
 #include <taut/interface/schur_complement.h>
-#include <taut/time/matrix_norms.h>
+#include <taut/time/balance_certificate.h>
 #include <taut/time/mode_equations.h>
 #include <taut/time/static_equilibrium.h>
+#include <taut/time/step_check.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <sstream>
-#include <stdexcept>
 
 namespace taut
 {
   namespace
   {
+    /// Iterative refinement ends where the error of the closed constraints is rounding, or here.
+    constexpr double rounding = 1e-15;
+    constexpr int most_refinements = 3;
+
+    /// Part of the largest multiplier by which refinement may make one negative.
+    constexpr double admissible = 1e-12;
+
     /// |x| over size; 0 if x is.
     double relative(const double x, const double size)
     {
       return x == 0. ? 0. : std::fabs(x) / size;
     }
 
-    /// P - K (given displacements of supports), and those displacements.
-    void set_loads(const Structure &structure, const double t, BodyVectors &P, BodyVectors &lift)
+    /**
+     * K U = P + B N from the undeformed state, with U = A^-1 (P + B N) + lift + R alpha: A is K
+     * with springs on the DoFs that fix the null space R of bodies that only constraints hold, lift
+     * the given displacements of supports.
+     */
+    class StaticStep
     {
-      P = structure.zero();
-      lift = structure.zero();
+    public:
+      StaticStep(const Structure &structure, const Constraints &constraints,
+                 const SolverParameters &parameters, double t);
+      StaticState solve();
+
+    private:
+      void set_loads(double t);
+      void set_problem();
+      std::size_t set_modes(const BodyVectors &forces, MixedComplementarityProblem &target) const;
+      void find_multipliers();
+      void fail_not_held(const BodyNotHeld &e) const;
+      StaticState displaced(const MixedComplementaritySolution &by) const;
+      double find_remainder(const StaticState &state, const std::vector<std::size_t> &set,
+                            MixedComplementarityProblem &left) const;
+      bool correct(const MixedComplementarityProblem &left, const StaticState &state,
+                   std::vector<std::size_t> &set, MixedComplementaritySolution &refined) const;
+      void refine(StaticState &state);
+      void certify(StaticState &state) const;
+
+      const Structure &structure;
+      const Constraints &constraints;
+      const SolverParameters &parameters;
+      const Communicator &processes;
+      const double time;
+      StepCheck check;
+      std::vector<Substructure::NullSpace> null_spaces;
+      FactoredStructure solvers;
+      std::unique_ptr<SchurComplement> schur;
+      std::vector<double> compliance;
+      BodyVectors P, lift;
+      MixedComplementarityProblem problem;
+      std::size_t first_mode = 0; ///< of this rank, among the amplitudes of all
+      MixedComplementaritySolution solution;
+      Certificate certificate;
+    };
+
+    StaticStep::StaticStep(const Structure &structure, const Constraints &constraints,
+                           const SolverParameters &parameters, const double t)
+        : structure(structure), constraints(constraints), parameters(parameters),
+          processes(structure.communicator()), time(t),
+          check(structure, constraints, parameters.contact_tolerance),
+          solvers(structure, parameters.local_solver)
+    {
+      for (std::size_t k = 0; k < structure.size(); ++k)
+        null_spaces.push_back(structure[k].null_space());
+      processes.agree([&] { solvers.factor_stiffness(null_spaces); });
+      for (std::size_t i = 0; i < constraints.size(); ++i)
+        compliance.push_back(1. / constraints[i].stiffness);
+      schur = make_schur_complement(parameters.interface, solvers, constraints);
+      schur->setup(compliance);
+      processes.agree([&] { set_loads(t); });
+      set_problem();
+    }
+
+    StaticState StaticStep::solve()
+    {
+      find_multipliers();
+      StaticState state = displaced(solution);
+      refine(state);
+      certify(state);
+      return state;
+    }
+
+    /// P - K lift, and lift.
+    void StaticStep::set_loads(const double t)
+    {
+      P = lift = structure.zero();
       for (std::size_t k = 0; k < structure.size(); ++k)
       {
         structure[k].external_force(t, P[k]);
@@ -39,44 +113,75 @@ namespace taut
       }
     }
 
-    std::size_t set_null_space(const std::vector<Substructure::NullSpace> &null_spaces,
-                               const Communicator &processes, const Constraints &constraints,
-                               const BodyVectors &P, MixedComplementarityProblem &problem)
+    void StaticStep::set_problem()
+    {
+      schur->contact_free_predictor(P, problem.free_gap, problem.gap_scale);
+      processes.sum(problem.free_gap);
+      processes.sum(problem.gap_scale);
+      const std::vector<double> lifted = constraints.motions(lift);
+      for (std::size_t i = 0; i < constraints.size(); ++i)
+      {
+        problem.unilateral.push_back(constraints[i].unilateral);
+        problem.gap_scale[i] += std::fabs(lifted[i]) + std::fabs(constraints[i].gap);
+        problem.free_gap[i] += lifted[i] + constraints[i].gap;
+      }
+      first_mode = set_modes(P, problem);
+    }
+
+    std::size_t StaticStep::set_modes(const BodyVectors &forces,
+                                      MixedComplementarityProblem &target) const
     {
       ModeVectors vectors;
       for (const Substructure::NullSpace &null_space : null_spaces)
         vectors.push_back(&null_space.vectors);
-      return set_mode_equations(vectors, processes, constraints, P, problem);
+      return set_mode_equations(vectors, processes, constraints, forces, target);
     }
 
-    /// The body that null space vector @p index belongs to; null if it is on another rank, whose
-    /// first vector is not @p first.
-    const Substructure *body_of_null_space(const std::vector<Substructure::NullSpace> &null_spaces,
-                                           const Structure &structure, const std::size_t first,
-                                           const std::size_t index)
+    void StaticStep::find_multipliers()
     {
-      std::size_t end = first;
-      for (std::size_t k = 0; k < null_spaces.size(); ++k)
+      try
+      {
+        check.solve(
+            [&]
+            {
+              ComplementaritySolver complementarity(parameters.complementarity);
+              const ComplementarityResult &result = complementarity.solve(problem, schur->matrix());
+              solution = result.solution;
+              certificate.iterations = result.iterations;
+              certificate.fallback = result.used_fallback;
+            });
+      }
+      catch (const BodyNotHeld &e)
+      {
+        processes.agree([&] { fail_not_held(e); });
+        throw;
+      }
+    }
+
+    /// Names the body that the first null space vector belongs to, on its rank.
+    void StaticStep::fail_not_held(const BodyNotHeld &e) const
+    {
+      std::size_t end = first_mode;
+      const std::size_t mode = e.null_space().front();
+      for (std::size_t k = 0; k < null_spaces.size() && mode >= first_mode; ++k)
       {
         end += null_spaces[k].vectors.size();
-        if (index >= first && index < end)
-          return &structure[k];
+        if (mode < end)
+          throw BodyNotHeld(check.when() + "body '" + structure[k].name() +
+                                "' is not held: no admissible contact force balances its loads. "
+                                "Add a support or a link, or start with 'Start = undeformed'.",
+                            {}, structure[k].origin());
       }
-      return nullptr;
     }
 
-    /// U = A^-1 (P + B N) + given displacements + R alpha, and the gaps that follow from it.
-    void displace(const FactoredStructure &solvers, const Constraints &constraints,
-                  const std::vector<Substructure::NullSpace> &null_spaces,
-                  const std::size_t first_null_space, const BodyVectors &P, const BodyVectors &lift,
-                  const std::vector<double> &compliance,
-                  const MixedComplementaritySolution &solution, StaticState &state)
+    StaticState StaticStep::displaced(const MixedComplementaritySolution &by) const
     {
-      state.multiplier = solution.multiplier;
+      StaticState state;
+      state.multiplier = by.multiplier;
       state.displacement = P;
       constraints.add_forces(state.multiplier, state.displacement);
       solvers.solve(state.displacement);
-      std::size_t amplitude = first_null_space;
+      std::size_t mode = first_mode;
       for (std::size_t k = 0; k < null_spaces.size(); ++k)
       {
         std::vector<double> &U = state.displacement[k];
@@ -85,8 +190,8 @@ namespace taut
         for (const std::vector<double> &R : null_spaces[k].vectors)
         {
           for (std::size_t i = 0; i < U.size(); ++i)
-            U[i] += solution.mode_amplitude[amplitude] * R[i];
-          ++amplitude;
+            U[i] += by.mode_amplitude[mode] * R[i];
+          ++mode;
         }
       }
       state.geometric_gap = constraints.motions(state.displacement);
@@ -96,6 +201,75 @@ namespace taut
         state.geometric_gap[i] += constraints[i].gap;
         state.gap[i] = state.geometric_gap[i] + compliance[i] * state.multiplier[i];
       }
+      return state;
+    }
+
+    /// What gaps and loads of the null space lack: the problem of a correction. Returns the largest
+    /// gap of the set over the motions that it is summed from, or load over the forces.
+    double StaticStep::find_remainder(const StaticState &state, const std::vector<std::size_t> &set,
+                                      MixedComplementarityProblem &left) const
+    {
+      const std::size_t n = constraints.size();
+      BodyVectors forces = P;
+      constraints.add_forces(state.multiplier, forces);
+      set_modes(forces, left);
+      left.free_gap = state.gap;
+      std::vector<double> size(n, 0.);
+      for (std::size_t i = 0; i < n; ++i)
+        size[i] = magnitude(constraints[i].terms, state.displacement);
+      processes.sum(size);
+      double largest = 0.;
+      for (const std::size_t i : set)
+        largest =
+            std::max(largest, relative(state.gap[i], size[i] + std::fabs(constraints[i].gap)));
+      for (std::size_t m = 0; m < left.n_null_space(); ++m)
+      {
+        const LinearForm &G = left.null_space[m];
+        double terms = 0.;
+        for (std::size_t e = 0; e < G.index.size(); ++e)
+          terms += std::fabs(G.value[e] * state.multiplier[G.index[e]]);
+        largest = std::max(largest, relative(left.null_space_load[m], terms));
+      }
+      return largest;
+    }
+
+    /// The solution with what removes the remainder on the set; false if there is nothing
+    /// admissible. Constraints that touch without a force come into the set where they may be what
+    /// holds a body.
+    bool StaticStep::correct(const MixedComplementarityProblem &left, const StaticState &state,
+                             std::vector<std::size_t> &set,
+                             MixedComplementaritySolution &refined) const
+    {
+      const ComplementarityOptions options;
+      ActiveSetSystem system(options);
+      MixedComplementaritySolution correction;
+      std::vector<double> terms;
+      const auto is_solved = [&]
+      {
+        return system.solve(left, schur->matrix(), set, options.linear_tolerance, correction,
+                            terms) != ActiveSetSystem::Outcome::inadmissible;
+      };
+      if (!is_solved())
+      {
+        set.clear();
+        for (std::size_t i = 0; i < constraints.size(); ++i)
+          if (solution.closed[i] || state.gap[i] <= 0.)
+            set.push_back(i);
+        if (!is_solved())
+          return false;
+      }
+      refined = solution;
+      double largest = 0., smallest = 0.;
+      for (const std::size_t i : set)
+      {
+        refined.multiplier[i] += correction.multiplier[i];
+        largest = std::max(largest, std::fabs(refined.multiplier[i]));
+        if (constraints[i].unilateral)
+          smallest = std::min(smallest, refined.multiplier[i]);
+      }
+      for (std::size_t m = 0; m < left.n_null_space(); ++m)
+        refined.mode_amplitude[m] += correction.mode_amplitude[m];
+      return smallest >= -admissible * largest;
     }
 
     /**
@@ -104,249 +278,78 @@ namespace taut
      * contacts that hold a body, the two are large and cancel; A^-1 (P + B N) does not. What is
      * left of gaps and balance there is solved for once more, and kept if it becomes less.
      */
-    void refine(const FactoredStructure &solvers, const Constraints &constraints,
-                ComplementarityOperator &matrix,
-                const std::vector<Substructure::NullSpace> &null_spaces, const BodyVectors &P,
-                const BodyVectors &lift, const std::vector<double> &compliance,
-                MixedComplementaritySolution &solution, StaticState &state)
+    void StaticStep::refine(StaticState &state)
     {
-      const std::size_t n = constraints.size();
-      const Communicator &processes = solvers.structure().communicator();
       std::vector<std::size_t> set;
-      for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t i = 0; i < constraints.size(); ++i)
         if (solution.closed[i])
           set.push_back(i);
       if (set.empty())
         return;
-
       MixedComplementarityProblem left;
-      std::size_t first_null_space = 0;
-      // Largest gap of the set over the motions it is summed from, and what is not balanced.
-      const auto error = [&]
+      left.unilateral.assign(constraints.size(), 0);
+      double error = find_remainder(state, set, left);
+      for (int refinement = 0; refinement < most_refinements && error > rounding; ++refinement)
       {
-        BodyVectors forces = P;
-        constraints.add_forces(state.multiplier, forces);
-        first_null_space = set_null_space(null_spaces, processes, constraints, forces, left);
-        left.free_gap = state.gap;
-        std::vector<double> size(n, 0.);
-        for (std::size_t i = 0; i < n; ++i)
-          size[i] = magnitude(constraints[i].terms, state.displacement);
-        processes.sum(size);
-        double largest = 0.;
-        for (const std::size_t i : set)
-          largest =
-              std::max(largest, relative(state.gap[i], size[i] + std::fabs(constraints[i].gap)));
-        for (std::size_t k = 0; k < left.n_null_space(); ++k)
-        {
-          double terms = 0.;
-          for (std::size_t e = 0; e < left.null_space[k].index.size(); ++e)
-            terms += std::fabs(left.null_space[k].value[e] *
-                               state.multiplier[left.null_space[k].index[e]]);
-          largest = std::max(largest, relative(left.null_space_load[k], terms));
-        }
-        return largest;
-      };
-
-      left.unilateral.assign(n, 0);
-      double last_error = error();
-      for (int refinement = 0; refinement < 3 && last_error > 1e-15; ++refinement)
-      {
-        MixedComplementaritySolution correction;
-        std::vector<double> terms;
-        const ComplementarityOptions options;
-        ActiveSetSystem system(options);
-        if (system.solve(left, matrix, set, options.linear_tolerance, correction, terms) ==
-            ActiveSetSystem::Outcome::inadmissible)
-        {
-          // Rows that touch without a force may be what holds a body.
-          set.clear();
-          for (std::size_t i = 0; i < n; ++i)
-            if (solution.closed[i] || state.gap[i] <= 0.)
-              set.push_back(i);
-          if (system.solve(left, matrix, set, options.linear_tolerance, correction, terms) ==
-              ActiveSetSystem::Outcome::inadmissible)
-            return;
-        }
-        MixedComplementaritySolution refined = solution;
-        double largest = 0., smallest = 0.;
-        for (const std::size_t i : set)
-        {
-          refined.multiplier[i] += correction.multiplier[i];
-          largest = std::max(largest, std::fabs(refined.multiplier[i]));
-          if (constraints[i].unilateral)
-            smallest = std::min(smallest, refined.multiplier[i]);
-        }
-        const bool admissible = smallest >= -1e-12 * largest;
-        for (std::size_t k = 0; k < left.n_null_space(); ++k)
-          refined.mode_amplitude[k] += correction.mode_amplitude[k];
-        StaticState refined_state = state;
-        displace(solvers, constraints, null_spaces, first_null_space, P, lift, compliance, refined,
-                 refined_state);
-        std::swap(state, refined_state);
-        const double new_error = error();
-        if (!admissible || !(new_error < last_error))
-        {
-          std::swap(state, refined_state);
+        MixedComplementaritySolution refined;
+        if (!correct(left, state, set, refined))
           return;
-        }
-        last_error = new_error;
-        solution = refined;
+        StaticState refined_state = displaced(refined);
+        const double refined_error = find_remainder(refined_state, set, left);
+        if (!(refined_error < error))
+          return;
+        error = refined_error;
+        solution = std::move(refined);
+        state = std::move(refined_state);
       }
     }
 
-    /// Recomputes the balance K U = P + B N of each body, relative to the terms of each kind of
-    /// DoF.
-    void certify_balance(const Structure &structure, const Constraints &constraints, const double t,
-                         StaticState &state)
+    /// The same certificate as of a step in time, with nothing that moves.
+    void StaticStep::certify(StaticState &state) const
     {
-      BodyVectors r = structure.zero();
-      for (std::size_t k = 0; k < structure.size(); ++k)
-        structure[k].external_force(t, r[k]);
-      constraints.add_forces(state.multiplier, r);
-      std::vector<PerKind> contact;
-      constraints.largest_forces(state.multiplier, contact);
-      for (std::size_t k = 0; k < structure.size(); ++k)
+      Certificate found = certificate;
+      if (constraints.size() > 0)
       {
-        const Substructure &body = structure[k];
-        PerKind force = largest(body, r[k]);
-        for (int kind = 0; kind < 2; ++kind)
-          force[kind] += contact[k][kind];
-        const PerKind displacement = largest(body, state.displacement[k]);
-        check_size(body, force, displacement, {0., 0.}, "static equilibrium: ");
-        const PerKind stiffness = KindNorm(body, body.stiffness()).times(displacement);
-        body.stiffness().vmult_add(-1., state.displacement[k].data(), r[k].data());
-        for (const ConstrainedDof &constraint : body.constraints())
-          r[k][constraint.dof] = 0.;
-        const PerKind error = largest(body, r[k]);
-        for (int kind = 0; kind < 2; ++kind)
-        {
-          const double relative =
-              error[kind] == 0. ? 0. : error[kind] / (force[kind] + stiffness[kind]);
-          if (!(relative <= state.certificate.balance) && !std::isnan(state.certificate.balance))
+        MixedComplementaritySolution certified = solution;
+        certified.gap = state.gap;
+        const ComplementarityResidual result = residual(problem, schur->matrix(), certified);
+        found.complementarity = result.max;
+        found.worst_constraint =
+            std::max_element(result.rows.begin(), result.rows.end()) - result.rows.begin();
+      }
+      Reference undeformed;
+      State at_rest;
+      at_rest.time = time;
+      at_rest.U = at_rest.dU = state.displacement;
+      at_rest.multiplier = state.multiplier;
+      StepForces forces;
+      for (BodyVectors *v : {&undeformed.force, &at_rest.V, &at_rest.A, &at_rest.KU,
+                             &at_rest.balance, &forces.P, &forces.old_A, &forces.old_balance})
+        *v = structure.zero();
+      double own_balance = 0.;
+      processes.agree(
+          [&]
           {
-            state.certificate.balance = relative;
-            state.certificate.worst_body = k;
-          }
-        }
-      }
-    }
-
-    /// Throws if the tolerance is missed, on all ranks what the rank of the worst body says.
-    void check_certificate(const Structure &structure, const Constraints &constraints,
-                           const SolverParameters &parameters, const Certificate &certificate,
-                           const double own_balance)
-    {
-      if (certificate.max() <= parameters.contact_tolerance)
-        return;
-      const auto fail = [&]
-      {
-        if (own_balance < certificate.balance || structure.size() == 0)
-          return;
-        std::ostringstream out;
-        out << "static equilibrium misses the contact tolerance: residual of the links "
-            << certificate.complementarity;
-        if (constraints.size() > 0)
-          out << " (worst: '" << constraints[certificate.worst_constraint].name << "')";
-        out << ", of the force balance " << certificate.balance << " (worst: '"
-            << structure[certificate.worst_body].name() << "'), allowed "
-            << parameters.contact_tolerance << ". Check stiffnesses for extreme ratios.";
-        const bool rows_are_worse = constraints.size() > 0 &&
-                                    !(certificate.complementarity <= parameters.contact_tolerance);
-        throw EntryError(rows_are_worse ? constraints.origin(certificate.worst_constraint)
-                                        : structure[certificate.worst_body].origin(),
-                         out.str());
-      };
-      structure.communicator().agree(fail);
+            for (std::size_t k = 0; k < structure.size(); ++k)
+            {
+              structure[k].external_force(time, forces.P[k]);
+              forces.external_size.push_back(largest(structure[k], forces.P[k]));
+            }
+            BalanceCertificate balance(structure, constraints, undeformed);
+            own_balance =
+                balance.measure(StepCoefficients(), forces, state.multiplier, {}, at_rest);
+            found.worst_body = balance.worst_body();
+          });
+      found.balance = processes.max(own_balance);
+      check.check_constraints(found);
+      check.check_balance(found, own_balance);
+      state.certificate = found;
     }
   } // namespace
 
   StaticState static_equilibrium(const Structure &structure, const Constraints &constraints,
                                  const SolverParameters &parameters, const double t)
   {
-    std::vector<Substructure::NullSpace> null_spaces;
-    for (std::size_t k = 0; k < structure.size(); ++k)
-      null_spaces.push_back(structure[k].null_space());
-    const Communicator &processes = structure.communicator();
-    FactoredStructure solvers(structure, parameters.local_solver);
-    processes.agree([&] { solvers.factor_stiffness(null_spaces); });
-
-    const std::size_t n = constraints.size();
-    std::vector<double> compliance(n);
-    for (std::size_t i = 0; i < n; ++i)
-      compliance[i] = 1. / constraints[i].stiffness;
-    const auto schur = make_schur_complement(parameters.interface, solvers, constraints);
-    schur->setup(compliance);
-
-    BodyVectors P, lift;
-    processes.agree([&] { set_loads(structure, t, P, lift); });
-
-    MixedComplementarityProblem problem;
-    schur->contact_free_predictor(P, problem.free_gap, problem.gap_scale);
-    processes.sum(problem.free_gap);
-    processes.sum(problem.gap_scale);
-    const std::vector<double> lifted = constraints.motions(lift);
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      problem.unilateral.push_back(constraints[i].unilateral);
-      problem.gap_scale[i] += std::fabs(lifted[i]) + std::fabs(constraints[i].gap);
-      problem.free_gap[i] += lifted[i] + constraints[i].gap;
-    }
-    const std::size_t first_null_space =
-        set_null_space(null_spaces, processes, constraints, P, problem);
-
-    StaticState state;
-    state.multiplier.assign(n, 0.);
-    MixedComplementaritySolution solution;
-    try
-    {
-      ComplementaritySolver complementarity(parameters.complementarity);
-      const ComplementarityResult &result = complementarity.solve(problem, schur->matrix());
-      solution = result.solution;
-      state.certificate.iterations = result.iterations;
-      state.certificate.fallback = result.used_fallback;
-    }
-    catch (const ContradictoryRows &e)
-    {
-      throw EntryError(e.rows().empty() ? "" : constraints.origin(e.rows().front()),
-                       "static equilibrium: the links " + constraints.names(e.rows()) +
-                           " contradict each other. Remove one of them, give one a finite "
-                           "stiffness, or check the gaps.");
-    }
-    catch (const NotSolved &e)
-    {
-      throw UserError(std::string("static equilibrium: ") + e.what());
-    }
-    catch (const BodyNotHeld &e)
-    {
-      processes.agree(
-          [&]
-          {
-            if (const Substructure *body = body_of_null_space(
-                    null_spaces, structure, first_null_space, e.null_space().front()))
-              throw BodyNotHeld("static equilibrium: body '" + body->name() +
-                                    "' is not held: no admissible contact force balances its "
-                                    "loads. Add a support or a link, or start with 'Start = "
-                                    "undeformed'.",
-                                {}, body->origin());
-          });
-      throw;
-    }
-    displace(solvers, constraints, null_spaces, first_null_space, P, lift, compliance, solution,
-             state);
-    refine(solvers, constraints, schur->matrix(), null_spaces, P, lift, compliance, solution,
-           state);
-    solution.gap = state.gap;
-    if (n > 0)
-    {
-      const ComplementarityResidual result = residual(problem, schur->matrix(), solution);
-      state.certificate.complementarity = result.max;
-      state.certificate.worst_constraint =
-          std::max_element(result.rows.begin(), result.rows.end()) - result.rows.begin();
-    }
-    processes.agree([&] { certify_balance(structure, constraints, t, state); });
-    const double own_balance = state.certificate.balance;
-    state.certificate.balance = processes.max(own_balance);
-    check_certificate(structure, constraints, parameters, state.certificate, own_balance);
-    return state;
+    return StaticStep(structure, constraints, parameters, t).solve();
   }
 } // namespace taut

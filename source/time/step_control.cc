@@ -51,7 +51,7 @@ namespace taut
       stepper.set_step(shortest * length());
       stepper.advance();
       error = stepper.local_error() / parameters.tolerance;
-      has_changed = stepper.rigid_row_changed(before);
+      has_changed = stepper.rigid_constraint_changed(before);
       if (level == 0 || has_changed || had_changed || !(error > 1.))
         break;
       stepper.restore(before);

@@ -4,9 +4,9 @@
 namespace taut
 {
   /**
-   * Iterative refinement of an accepted step. A step that brings a body back from afar ends with
-   * the rounding of its way; what the balance at its end lacks is solved for. False, and nothing
-   * changes, if the constraints have no answer to it.
+   * Iterative refinement of an accepted step. A step whose increment is large against the
+   * displacement that it ends with loses digits by cancellation; what the balance at its end lacks
+   * is solved for. False, and nothing changes, if the constraints have no answer to it.
    */
   bool TimeStepper::refine()
   {

@@ -64,12 +64,13 @@ namespace taut
                            const double step, Reference reference, State start, const bool at_rest)
       : structure(structure), constraints(constraints), parameters(parameters),
         integrator(integrator), step(step), origin(std::move(reference)), current(std::move(start)),
-        first_step_by_source(!at_rest), segment_start(current.time),
+        first_step_is_backward_euler(!at_rest), segment_start(current.time),
         solvers(structure, parameters.local_solver),
         schur(make_schur_complement(parameters.interface, solvers, constraints)),
         complementarity(parameters.complementarity),
         constraint_motions(structure, at_time(constraints, current.time), origin, current),
-        balance(structure, constraints, origin)
+        balance(structure, constraints, origin),
+        check(structure, constraints, this->parameters.contact_tolerance)
   {
     for (BodyVectors *v : {&forces.P, &right_hand_side, &lift, &forces.old_A, &forces.old_balance})
       *v = structure.zero();
@@ -82,7 +83,7 @@ namespace taut
         v->resize(std::max<std::size_t>(v->size(), body.n_dofs()));
     }
     const StepCoefficients c = integrator.coefficients(step);
-    first_step_by_source = first_step_by_source && !c.starts_itself();
+    first_step_is_backward_euler = first_step_is_backward_euler && !c.starts_itself();
     double moving_supports = 0.;
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
@@ -96,7 +97,7 @@ namespace taut
     structure.communicator().sum(sums, 2);
     supports_move = sums[0] > 0.;
     current.kinetic_energy = sums[1];
-    prepare(first_step_by_source ? backward_euler(step) : c);
+    prepare(first_step_is_backward_euler ? backward_euler(step) : c);
     if (c.starts_itself())
     {
       structure.communicator().agree([&] { start_balance(); });
@@ -153,13 +154,14 @@ namespace taut
   {
     ++n_steps;
     const bool is_first = current.last_step == 0.;
-    const StepCoefficients c = is_first && first_step_by_source ? backward_euler(step)
+    const StepCoefficients c = is_first && first_step_is_backward_euler ? backward_euler(step)
                                : is_first || current.last_step == step
                                    ? integrator.coefficients(step)
                                    : integrator.after_change(step, current.last_step);
     if (c != coefficients)
       prepare(c);
     current.time = segment_start + ++n_in_segment * step;
+    check.set_time(current.time);
     step_before = current.last_step;
     current.last_step = step;
     constraints.update(current.time);
@@ -176,7 +178,7 @@ namespace taut
     constraint_motions.set_problem(current, *schur, right_hand_side, lift);
     if (has_rigid_body_modes)
       constraint_motions.set_rigid_body_modes(solvers, right_hand_side);
-    solve_rows();
+    find_multipliers();
     constraints.add_forces(constraint_motions.applied(), right_hand_side);
     solvers.solve(right_hand_side);
     for (std::size_t k = 0; k < structure.size(); ++k)
@@ -338,7 +340,7 @@ namespace taut
     return result;
   }
 
-  bool TimeStepper::rigid_row_changed(const State &before)
+  bool TimeStepper::rigid_constraint_changed(const State &before)
   {
     const std::vector<double> &S = constraint_motions.compliance();
     for (std::size_t i = 0; i < constraints.size(); ++i)
@@ -348,11 +350,11 @@ namespace taut
     return false;
   }
 
-  void TimeStepper::solve_rows()
+  void TimeStepper::find_multipliers()
   {
     if (constraints.size() == 0 && !has_rigid_body_modes)
       return;
-    solve_or_fail(
+    check.solve(
         [&]
         {
           const ComplementarityResult &result =
@@ -367,13 +369,13 @@ namespace taut
   /// at.
   void TimeStepper::project_velocities()
   {
-    solve_or_fail([&] { projection->project(constraint_motions, current); });
+    check.solve([&] { projection->project(constraint_motions, current); });
     if (!(projection->residual() <= last.complementarity))
     {
       last.complementarity = projection->residual();
       last.worst_constraint = projection->worst_constraint();
     }
-    check_rows();
+    check.check_constraints(last);
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       current.constraint_work[i] += projection->work()[i];
@@ -387,28 +389,6 @@ namespace taut
         moving[i] = 0.;
     constraints.add_forces(moving, current.balance);
     hold_quasi_static_dofs();
-  }
-
-  template <typename Solve>
-  void TimeStepper::solve_or_fail(const Solve &solve) const
-  {
-    try
-    {
-      solve();
-    }
-    catch (const NotSolved &e)
-    {
-      fail(e.what());
-    }
-    catch (const ContradictoryRows &e)
-    {
-      fail("the links " + constraints.names(e.rows()) +
-               " contradict each other: no contact forces satisfy them all. Remove one of them, "
-               "give "
-               "one a finite "
-               "stiffness, or check the initial gaps",
-           e.rows().empty() ? "" : constraints.origin(e.rows().front()));
-    }
   }
 
   /// New displacement, velocity and acceleration of a body, from its increment.
@@ -444,21 +424,19 @@ namespace taut
     {
       processes.agree(
           [&]
-          { own_balance = balance.measure(coefficients, forces, constraint_motions, current); });
+          {
+            own_balance = balance.measure(coefficients, forces, constraint_motions.in_balance(),
+                                          constraint_motions.impulsive(), current);
+          });
       last.balance = processes.max(own_balance);
       if (!(last.balance > refined_balance) || refinements == most_refinements ||
-          coefficients.mean_force || processes.max(balance.is_way() ? 0. : 1.) > 0. || !refine())
+          coefficients.mean_force || processes.max(balance.is_cancellation() ? 0. : 1.) > 0. ||
+          !refine())
         break;
     }
     last.worst_body = balance.worst_body();
     certify_rows();
-    if (!(last.balance <= parameters.contact_tolerance))
-      processes.agree(
-          [&]
-          {
-            if (!(own_balance < last.balance))
-              fail_balance();
-          });
+    check.check_balance(last, own_balance);
   }
 
   void TimeStepper::certify_rows()
@@ -466,35 +444,6 @@ namespace taut
     last.complementarity =
         constraint_motions.residual(current, schur->matrix(), last.worst_constraint);
     last.drift = constraint_motions.drift(current);
-    check_rows();
-  }
-
-  void TimeStepper::check_rows() const
-  {
-    if (!(last.complementarity <= parameters.contact_tolerance))
-    {
-      std::ostringstream out;
-      out << "link '" << constraints[last.worst_constraint].name
-          << "' misses the contact tolerance: residual " << last.complementarity << " > "
-          << parameters.contact_tolerance << ". Take a smaller step or raise 'Contact tolerance'";
-      fail(out.str(), constraints.origin(last.worst_constraint));
-    }
-  }
-
-  void TimeStepper::fail_balance() const
-  {
-    std::ostringstream out;
-    out << "body '" << structure[last.worst_body].name()
-        << "' misses the contact tolerance in its equation of motion: residual " << last.balance
-        << " > " << parameters.contact_tolerance
-        << ". Check stiffness and mass for extreme ratios, or raise 'Contact tolerance'";
-    fail(out.str(), structure[last.worst_body].origin());
-  }
-
-  void TimeStepper::fail(const std::string &what, const std::string &entry) const
-  {
-    std::ostringstream out;
-    out << "at t = " << current.time << " s: " << what << ".";
-    throw EntryError(entry, out.str());
+    check.check_constraints(last);
   }
 } // namespace taut

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/dot.h>
 #include <taut/time/velocity_projection.h>
 
 #include <algorithm>
@@ -30,13 +31,6 @@ namespace taut
       return parameters;
     }
 
-    double dot(const std::vector<double> &x, const std::vector<double> &y)
-    {
-      double sum = 0.;
-      for (std::size_t i = 0; i < x.size(); ++i)
-        sum += x[i] * y[i];
-      return sum;
-    }
   } // namespace
 
   VelocityProjection::VelocityProjection(const Structure &structure, const Constraints &constraints,

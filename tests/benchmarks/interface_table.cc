@@ -49,7 +49,7 @@ int main(int argc, char **argv)
     for (std::size_t i = 0; i < numbers.size(); ++i)
       std::printf("---|");
     std::printf("\n");
-    for (const char *coarse_space : {"none", "null spaces"})
+    for (const char *coarse_space : {"none", "rigid body modes"})
       for (const char *preconditioner : {"diagonal", "lumped", "Dirichlet"})
       {
         std::printf("| %s, %s |", preconditioner, coarse_space);

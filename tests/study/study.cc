@@ -247,8 +247,8 @@ TEST_F(StudyTest, errors_are_the_real_ones)
 
 TEST_F(StudyTest, a_setting_that_fails_is_a_row_with_its_reason)
 {
-  const taut::StudyResult result = study({"Study/ParameterList step/Values=2, 0.01",
-                                          "Study/ParameterList scheme/Values=Newmark, Euler"});
+  const taut::StudyResult result = study(
+      {"Study/Parameter step/Values=2, 0.01", "Study/Parameter scheme/Values=Newmark, Euler"});
   int n_failed = 0;
   for (const taut::StudySetting &setting : result.settings)
   {
@@ -267,8 +267,8 @@ TEST_F(StudyTest, a_setting_that_fails_is_a_row_with_its_reason)
 
 TEST_F(StudyTest, a_step_that_does_not_divide_the_run_is_measured_to_its_last_step)
 {
-  const taut::StudyResult odd = study({"Study/ParameterList step/Values=0.017, 0.0005",
-                                       "Study/ParameterList scheme/Values=Newmark"});
+  const taut::StudyResult odd =
+      study({"Study/Parameter step/Values=0.017, 0.0005", "Study/Parameter scheme/Values=Newmark"});
   EXPECT_EQ(odd.settings[0].n_steps, 76);
   EXPECT_GT(odd.settings[0].least_seconds(), .002 * odd.settings[1].least_seconds());
 }
@@ -321,7 +321,7 @@ TEST(Bounds, hold_for_all_finer_settings)
 
 TEST_F(StudyTest, accuracy_takes_the_cheapest_setting_that_has_it)
 {
-  study({"Study/ParameterList step/Values=0.05, 0.005, 0.00005", "Study/Quantity end/Exact=cos(13)",
+  study({"Study/Parameter step/Values=0.05, 0.005, 0.00005", "Study/Quantity end/Exact=cos(13)",
          "Study/Quantity motion/Exact=cos(10*t)"});
   taut::Parameters parameters;
   parameters.read("scene.prm", {"Study/Accuracy=0.02"});
@@ -382,8 +382,8 @@ TEST_F(StudyTest, mistakes_are_named_before_anything_runs)
       {{"Study/Quantity end/Of=palce"}, {"Quantity end/Of = 'palce'", "did you mean 'place'"}},
       {{"Study/Quantity end/Quantity=lost"}, {"Quantity end/Quantity = 'lost'", "mean 'last'"}},
       {{"Time/End=0"}, {"Time/End", "later end"}},
-      {{"Study/ParameterList step/Values=1:2"},
-       {"ParameterList step/Values", "'1:2' is no positive number"}},
+      {{"Study/Parameter step/Values=1:2"},
+       {"Parameter step/Values", "'1:2' is no positive number"}},
       {{"Study/Quantity end/Exact=cos("}, {"Quantity end/Exact"}},
       {{"Study/Quantity end/Exact=0"}, {"Quantity end/Scale", "reference is 0"}},
   };

@@ -862,52 +862,52 @@ end
            "subsection Study\nset Parameters = step\nsubsection Parameter step\nset Entries = "
            "Time/Stop "
            "# here\nset Values = 1, 2\nend\nend\nsubsection Statistics\n"}},
-         {"Study/ParameterList step/Entries", "no entry 'Time/Stop'", "did you mean 'Time/Step'"}},
+         {"Study/Parameter step/Entries", "no entry 'Time/Stop'", "did you mean 'Time/Step'"}},
         {"parameter_without_entries",
          network,
          {{"subsection Statistics\n",
            "subsection Study\nset Parameters = step\nsubsection Parameter step\nset Entries =  # "
            "here\nset Values = 1, 2\nend\nend\nsubsection Statistics\n"}},
-         {"Study/ParameterList step/Entries", "name the entries"}},
+         {"Study/Parameter step/Entries", "name the entries"}},
         {"parameter_of_the_results",
          network,
          {{"subsection Statistics\n",
            "subsection Study\nset Parameters = step\nsubsection Parameter step\nset Entries = "
            "Output/Folder # here\nset Values = a, b\nend\nend\nsubsection Statistics\n"}},
-         {"Study/ParameterList step/Entries", "not part of the scene"}},
+         {"Study/Parameter step/Entries", "not part of the scene"}},
         {"parameter_of_an_entry_twice",
          network,
          {{"subsection Statistics\n",
            "subsection Study\nset Parameters = step\nsubsection Parameter step\nset Entries = "
            "Time/Step, "
            "Time/Step # here\nset Values = 1, 2\nend\nend\nsubsection Statistics\n"}},
-         {"Study/ParameterList step/Entries", "varied twice"}},
+         {"Study/Parameter step/Entries", "varied twice"}},
         {"parameter_with_an_empty_value",
          network,
          {{"subsection Statistics\n",
            "subsection Study\nset Parameters = step\nsubsection Parameter step\nset Entries = "
            "Time/Step\nset Values = 1, , 2 # here\nend\nend\nsubsection Statistics\n"}},
-         {"Study/ParameterList step/Values", "none of them empty"}},
+         {"Study/Parameter step/Values", "none of them empty"}},
         {"parameter_without_values",
          network,
          {{"subsection Statistics\n",
            "subsection Study\nset Parameters = step\nsubsection Parameter step\nset Entries = "
            "Time/Step\nset Values =  # here\nend\nend\nsubsection Statistics\n"}},
-         {"Study/ParameterList step/Values", "one or more values"}},
+         {"Study/Parameter step/Values", "one or more values"}},
         {"refined_ladder_of_names",
          network,
          {{"subsection Statistics\n",
            "subsection Study\nset Parameters = step\nsubsection Parameter step\nset Entries = "
            "Time/Scheme\nset Values = BDF2 # here\nset Refined = true\nend\nend\nsubsection "
            "Statistics\n"}},
-         {"Study/ParameterList step/Values = 'BDF2'", "cannot be halved", "Refined = false"}},
+         {"Study/Parameter step/Values = 'BDF2'", "cannot be halved", "Refined = false"}},
         {"refined_ladder_of_zero",
          network,
          {{"subsection Statistics\n",
            "subsection Study\nset Parameters = step\nsubsection Parameter step\nset Entries = "
            "Time/Step\nset Values = 0.1, 0 # here\nset Refined = true\nend\nend\nsubsection "
            "Statistics\n"}},
-         {"Study/ParameterList step/Values", "'0' is no positive number"}},
+         {"Study/Parameter step/Values", "'0' is no positive number"}},
         {"figure_without_a_name",
          network,
          {{"subsection Statistics\n",

@@ -88,7 +88,7 @@ TEST(Interface, every_option_gives_the_multipliers_of_the_dense_form)
     };
     EXPECT_EQ(compare({"assembled sparse"}).statistics.n_iterations, 0);
     for (const char *preconditioner : {"diagonal", "lumped", "Dirichlet"})
-      for (const char *coarse_space : {"null spaces", "none"})
+      for (const char *coarse_space : {"rigid body modes", "none"})
         EXPECT_GT(compare({"matrix-free", preconditioner, coarse_space}).statistics.n_iterations,
                   0);
   }
@@ -109,11 +109,11 @@ TEST(Interface, dirichlet_does_not_feel_the_elements_and_lumped_does)
   };
   const InterfaceProblem coarse(line("1.5"), cuts), fine(line("0.1"), cuts);
   ASSERT_EQ(coarse.structure.size(), fine.structure.size());
-  const long dirichlet = iterations(coarse, statics, "Dirichlet", "null spaces"),
-             dirichlet_fine = iterations(fine, statics, "Dirichlet", "null spaces"),
-             lumped = iterations(coarse, statics, "lumped", "null spaces"),
-             lumped_fine = iterations(fine, statics, "lumped", "null spaces"),
-             diagonal = iterations(coarse, statics, "diagonal", "null spaces");
+  const long dirichlet = iterations(coarse, statics, "Dirichlet", "rigid body modes"),
+             dirichlet_fine = iterations(fine, statics, "Dirichlet", "rigid body modes"),
+             lumped = iterations(coarse, statics, "lumped", "rigid body modes"),
+             lumped_fine = iterations(fine, statics, "lumped", "rigid body modes"),
+             diagonal = iterations(coarse, statics, "diagonal", "rigid body modes");
   EXPECT_LE(dirichlet_fine, dirichlet + 2);
   EXPECT_GE(lumped_fine, 1.6 * lumped);
   EXPECT_LT(2 * dirichlet, lumped);
@@ -129,11 +129,11 @@ TEST(Interface, the_coarse_space_bounds_the_iterations)
   for (const char *preconditioner : {"diagonal", "lumped", "Dirichlet"})
   {
     SCOPED_TRACE(preconditioner);
-    const long with_few = iterations(few, 100., preconditioner, "null spaces"),
-               with_many = iterations(many, 100., preconditioner, "null spaces"),
+    const long with_few = iterations(few, 100., preconditioner, "rigid body modes"),
+               with_many = iterations(many, 100., preconditioner, "rigid body modes"),
                without_few = iterations(few, 100., preconditioner, "none"),
                without_many = iterations(many, 100., preconditioner, "none"),
-               with_short_step = iterations(many, 1e-2, preconditioner, "null spaces"),
+               with_short_step = iterations(many, 1e-2, preconditioner, "rigid body modes"),
                without_short_step = iterations(many, 1e-2, preconditioner, "none");
     EXPECT_LE(with_many, with_few + 5);
     EXPECT_LE(with_many, 20);
@@ -152,7 +152,7 @@ TEST(Interface, a_line_takes_forty_iterations_at_most)
   {
     const InterfaceProblem problem(catenary("10"), n);
     for (const double step : {1e-3, 1e-1, 10., statics})
-      EXPECT_LE(iterations(problem, step, "Dirichlet", "null spaces"), 40);
+      EXPECT_LE(iterations(problem, step, "Dirichlet", "rigid body modes"), 40);
     EXPECT_GT(iterations(problem, 10., "diagonal", "none"), 200);
   }
 }

@@ -47,7 +47,7 @@ namespace taut
     Outcome minimize_with_null_space(const MixedComplementarityProblem &problem,
                                      DenseOperator &matrix, MixedComplementaritySolution &solution);
     bool hold(const MixedComplementarityProblem &problem, const DenseOperator &matrix,
-              KernelPenalty &penalty, double factor, EnergyDescent &descent,
+              NullSpacePenalty &penalty, double factor, EnergyDescent &descent,
               MixedComplementaritySolution &solution) const;
 
     ComplementarityOptions options;

@@ -12,7 +12,7 @@ namespace taut
    * W G^T)^-1 and W_i = 1 / F_ii. With multipliers scaled by sqrt(F_ii), G^T R G is the projector
    * on the null space: it does not depend on the units or the choice of the null space vectors.
    */
-  class KernelPenalty
+  class NullSpacePenalty
   {
   public:
     /**
@@ -20,8 +20,8 @@ namespace taut
      * serves for it, or 1 if that is nothing, too. Rows that are 0 in @p rows are left out: W_i =
      * 0.
      */
-    KernelPenalty(const MixedComplementarityProblem &problem, const DenseOperator &matrix,
-                  const std::vector<char> &rows);
+    NullSpacePenalty(const MixedComplementarityProblem &problem, const DenseOperator &matrix,
+                     const std::vector<char> &rows);
 
     /// G N + e.
     std::vector<double> unbalance(const std::vector<double> &multiplier) const;

@@ -49,8 +49,8 @@ namespace taut
      *     F_aa x_a + G_a^T alpha = rhs_a,    G_a x_a = load
      *
      * with one vector of @p null space a row of G, otherwise like solve(); false, too, if the rows
-     * of the set do not hold a body. Only called where has_kernel_solver() is true; elsewhere one
-     * solve() a null space vector has to do.
+     * of the set do not hold a body. Only called where has_null_space_solver() is true; elsewhere
+     * one solve() per null space vector has to do.
      */
     virtual bool solve_with_null_space(const std::vector<std::size_t> & /*set*/,
                                        const std::vector<double> & /*rhs*/,

@@ -37,15 +37,15 @@ namespace taut
      */
     std::vector<double> gap_scale;
 
-    /// G, n_kernel vectors over the rows: the motions of the rows with the null space vectors of
-    /// floating bodies. Empty otherwise.
+    /// G, n_null_space() vectors over the rows: the motions of the rows with the null space vectors
+    /// of floating bodies. Empty otherwise.
     std::vector<LinearForm> null_space;
 
-    /// e, n_kernel: load on each null space vector, which G N has to balance [N, N m].
+    /// e, n_null_space(): load on each null space vector, which G N has to balance [N, N m].
     std::vector<double> null_space_load;
 
-    /// Diagonal of E, n_kernel or empty for zeros: what resists each null space vector, the inertia
-    /// of the body in a step [N/m, N m/rad].
+    /// Diagonal of E, n_null_space() or empty for zeros: what resists each null space vector, the
+    /// inertia of the body in a step [N/m, N m/rad].
     std::vector<double> null_space_resistance;
 
     double resistance(std::size_t k) const
@@ -74,7 +74,7 @@ namespace taut
   {
     std::vector<double> multiplier;     ///< N [N, N m]
     std::vector<double> gap;            ///< D [m, rad]
-    std::vector<double> mode_amplitude; ///< alpha, n_kernel
+    std::vector<double> mode_amplitude; ///< alpha, n_null_space()
 
     /// n rows: not 0 where N_i was solved for and D_i = 0; 0 where N_i = 0.
     std::vector<char> closed;

@@ -81,8 +81,8 @@ namespace taut
     const Communicator &communicator() const { return bodies.communicator(); }
     const Structure &structure() const { return bodies; }
 
-    /// The constraints of the constraints; that of constraint i is index_of_link(i). They keep a
-    /// reference to the system.
+    /// The constraints for a Stepper, the moving ones last: number i of add() is index_of_link(i)
+    /// there. They keep a reference to the system.
     Constraints constraints() const;
 
   private:

@@ -12,8 +12,8 @@ namespace taut
   bool is_massless(const Link &link);
 
   /**
-   * Takes the mass from the nodes of wires at rigid stops, as Mass redistribution = mass does (mass
-   * redistribution), if the elements beside them then are a spring that the step [s] resolves
+   * Takes the mass from the nodes of wires at rigid stops, as Mass redistribution = mass does, if
+   * the elements beside them then are a spring that the step [s] resolves
    * (doc/accuracy.md): if the rigid unilateral links of the scene are such stops, on bars or
    * strings, at least two elements apart, whose fastest waves cross at most four elements a step,
    * and no other link acts as rigid. Throws an EntryError if a body cannot be factored.

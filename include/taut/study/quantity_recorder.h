@@ -47,9 +47,9 @@ namespace taut
     {
       enum class Kind
       {
-        number,       ///< `index` in Statistics::named_quantities()
-        force_of_row, ///< history of the force of row `index`
-        probe         ///< history of probe `index`
+        number,              ///< `index` in Statistics::named_quantities()
+        force_of_constraint, ///< history of the force of row `index`
+        probe                ///< history of probe `index`
       } kind = Kind::number;
       std::size_t index = 0;
       std::vector<double> history;

@@ -12,7 +12,7 @@
 
 namespace taut
 {
-  /// One setting of a study: a value for each parameter_list, and what the runs with it gave.
+  /// One setting of a study: a value for each parameter list, and what the runs with it gave.
   struct StudySetting
   {
     std::vector<std::string> values;
@@ -37,7 +37,7 @@ namespace taut
   struct StudyResult
   {
     std::vector<ParameterList> parameter_lists;
-    std::vector<std::string> figure_names;
+    std::vector<std::string> quantity_names;
     std::vector<QuantityReference> references;
     std::vector<StudySetting> settings;
     double end_time = 0.;    ///< [s]
@@ -45,7 +45,7 @@ namespace taut
   };
 
   /**
-   * Runs a scene with every combination of the values of the parameter_lists in its section Study,
+   * Runs a scene with every combination of the values of the parameter lists in its section Study,
    * and measures what each costs and how far its quantities are from their references. Cost is
    * processor time: other work on the machine then matters less.
    */
@@ -92,7 +92,7 @@ namespace taut
 
   /**
    * Sets StudySetting::bounds and bound. A setting is finer than another if its values on the
-   * refined parameter_lists are at most those of the other, and equal elsewhere. Errors of step and
+   * refined parameter lists are at most those of the other, and equal elsewhere. Errors of step and
    * mesh can cancel by chance, and a scheme can fail at small steps: an error counts once all finer
    * settings that ran have it too.
    */

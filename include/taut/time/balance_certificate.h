@@ -3,7 +3,6 @@
 #define taut_balance_certificate_h
 
 #include <taut/interface/constraints.h>
-#include <taut/time/constraint_motions.h>
 #include <taut/time/integrator.h>
 #include <taut/time/matrix_norms.h>
 #include <taut/time/state.h>
@@ -37,11 +36,14 @@ namespace taut
 
     /**
      * Forms K U and r = P + B N - C V - K U of the state of a step and returns the largest relative
-     * residual of this rank's bodies; not-a-number if one is. Throws an EntryError on the section
-     * of a body whose numbers are beyond largest_number.
+     * residual of this rank's bodies; not-a-number if one is. @p in_balance are the multipliers in
+     * r, @p impulsive those that are forces of this step only, empty: none. Coefficients of zero
+     * are those of an equilibrium at rest. Throws an EntryError on the section of a body whose
+     * numbers are beyond largest_number.
      */
     double measure(const StepCoefficients &c, const StepForces &forces,
-                   const ConstraintMotions &constraint_motions, State &state);
+                   const std::vector<double> &in_balance, const std::vector<double> &impulsive,
+                   State &state);
 
     /// dU . [(1 - alpha_f) r + alpha_f r0] of this rank's bodies after measure(), with mean forces:
     /// the work of all forces but the means of this step [J].
@@ -51,8 +53,8 @@ namespace taut
     std::size_t worst_body() const { return worst; }
 
     /// True if no residual of this rank's bodies is more than 1e-10 of its terms and of |K||dU|,
-    /// the way that the step took to where it ends: what may be its rounding.
-    bool is_way() const { return may_be_way; }
+    /// which cancels where an increment is large against the displacement that it ends with.
+    bool is_cancellation() const { return may_be_cancellation; }
 
   private:
     /// Largest entries of a body, of what the residual is a difference of.
@@ -77,7 +79,7 @@ namespace taut
     std::vector<double> inertia, damping;       ///< forces of a few constraints
     double work_of_balance = 0.;
     std::size_t worst = 0;
-    bool may_be_way = true;
+    bool may_be_cancellation = true;
   };
 } // namespace taut
 

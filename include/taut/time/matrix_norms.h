@@ -54,7 +54,7 @@ namespace taut
                   const PerKind &velocity, const std::string &when);
 
   /**
-   * Largest absolute constraint sums of a matrix by kind of constraint and column, free DoFs only:
+   * Largest absolute row sums of a matrix by kind of row and column, free DoFs only:
    * bounds |A| |x| from the largest entries of x.
    */
   class KindNorm
@@ -62,7 +62,7 @@ namespace taut
   public:
     KindNorm(const Substructure &body, const SymmetricMatrix &matrix);
 
-    /// Upper bound of (|A| |x|) for each kind of constraint.
+    /// Upper bound of (|A| |x|) for each kind of row.
     PerKind times(const PerKind &x) const;
 
   private:

@@ -11,6 +11,7 @@
 #include <taut/time/matrix_norms.h>
 #include <taut/time/solver_parameters.h>
 #include <taut/time/state.h>
+#include <taut/time/step_check.h>
 #include <taut/time/velocity_projection.h>
 
 #include <memory>
@@ -21,8 +22,7 @@ namespace taut
   /**
    * Advances the bodies and the multipliers by steps:
    *
-   *     moving constraints -> history P^_k -> rigid body mode of the constraints -> N -> U_k ->
-   * certificate
+   *     moving constraints -> history P^_k -> contact-free predictor -> N -> U_k -> certificate
    *     -> velocities, with schemes that project them.
    *
    * Everything is in increments, A dU = P^ + B N; ConstraintMotions says what the constraints ask
@@ -33,8 +33,8 @@ namespace taut
   public:
     /**
      * @p structure and @p constraints are kept by reference. @p at_rest says that the start is an
-     * equilibrium, so that accelerations are zero; otherwise the first step is the source's, unless
-     * the scheme needs no initial acceleration either.
+     * equilibrium, so that accelerations are zero; otherwise the first step is backward Euler,
+     * unless the scheme needs no initial acceleration either.
      */
     TimeStepper(const Structure &structure, Constraints &constraints,
                 const SolverParameters &parameters, const TimeIntegrator &integrator, double step,
@@ -61,7 +61,7 @@ namespace taut
     double local_error();
 
     /// True if a unilateral constraint that acts as rigid opened or closed since @p before.
-    bool rigid_row_changed(const State &before);
+    bool rigid_constraint_changed(const State &before);
 
     const State &state() const { return current; }
     const Reference &reference() const { return origin; }
@@ -79,9 +79,7 @@ namespace taut
     void prepare(const StepCoefficients &c);
     void set_external_force(std::size_t k);
     void set_history(std::size_t k);
-    template <typename Solve>
-    void solve_or_fail(const Solve &solve) const;
-    void solve_rows();
+    void find_multipliers();
     void project_velocities();
     void measure_energy();
     void accept(std::size_t k);
@@ -90,9 +88,6 @@ namespace taut
     void certify();
     bool refine();
     void certify_rows();
-    void check_rows() const;
-    void fail_balance() const;
-    void fail(const std::string &what, const std::string &entry = "") const;
 
     const Structure &structure;
     Constraints &constraints;
@@ -104,7 +99,7 @@ namespace taut
     Certificate last;
 
     StepCoefficients coefficients;
-    bool first_step_by_source;
+    bool first_step_is_backward_euler;
     long n_steps = 0;
     double segment_start; ///< time since which steps have this length
     long n_in_segment = 0;
@@ -117,6 +112,7 @@ namespace taut
     bool has_rigid_body_modes = false; ///< a body of some rank
     bool supports_move = false;        ///< of a body of some rank
     BalanceCertificate balance;
+    StepCheck check;
     std::unique_ptr<VelocityProjection> projection; ///< of schemes with one
 
     StepForces forces;

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
+#include <taut/time/step_check.h>
+
+#include <sstream>
+
+namespace taut
+{
+  std::string StepCheck::when() const
+  {
+    if (!time)
+      return "static equilibrium: ";
+    std::ostringstream out;
+    out << "at t = " << *time << " s: ";
+    return out.str();
+  }
+
+  std::string StepCheck::remedy() const
+  {
+    return std::string(time ? "Take a smaller step, check" : "Check") +
+           " stiffness and mass for extreme ratios, or raise 'Contact tolerance'";
+  }
+
+  void StepCheck::fail(const std::string &what, const std::string &entry) const
+  {
+    throw EntryError(entry, when() + what + ".");
+  }
+
+  void StepCheck::solve(const std::function<void()> &work) const
+  {
+    try
+    {
+      work();
+    }
+    catch (const NotSolved &e)
+    {
+      fail(e.what());
+    }
+    catch (const ContradictoryRows &e)
+    {
+      fail("the links " + constraints.names(e.rows()) +
+               " contradict each other: no contact forces satisfy them all. Remove one of them, "
+               "give one a finite stiffness, or check the initial gaps",
+           e.rows().empty() ? "" : constraints.origin(e.rows().front()));
+    }
+  }
+
+  void StepCheck::check_constraints(const Certificate &certificate) const
+  {
+    if (certificate.complementarity <= tolerance)
+      return;
+    std::ostringstream out;
+    out << "link '" << constraints[certificate.worst_constraint].name
+        << "' misses the contact tolerance: residual " << certificate.complementarity << " > "
+        << tolerance << ". " << remedy();
+    fail(out.str(), constraints.origin(certificate.worst_constraint));
+  }
+
+  void StepCheck::check_balance(const Certificate &certificate, const double own_balance) const
+  {
+    if (certificate.balance <= tolerance)
+      return;
+    structure.communicator().agree(
+        [&]
+        {
+          if (own_balance < certificate.balance || structure.size() == 0)
+            return;
+          const Substructure &body = structure[certificate.worst_body];
+          std::ostringstream out;
+          out << "body '" << body.name() << "' misses the contact tolerance in its equation of "
+              << (time ? "motion" : "equilibrium") << ": residual " << certificate.balance << " > "
+              << tolerance << ". " << remedy();
+          fail(out.str(), body.origin());
+        });
+  }
+} // namespace taut
