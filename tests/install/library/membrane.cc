@@ -63,8 +63,8 @@ int main(int argc, char **argv)
           taut::Constraint::unilateral("node " + std::to_string(i),
                                        {{system.index_here(membrane), body.displacement_of_dof(i)}})
               .gap(-obstacle(points[i])));
-  const taut::Constraints constraints = system.constraints();
-  const taut::StaticState state = taut::static_equilibrium(system.structure(), constraints, {}, 0.);
+  const taut::Constraints contacts = system.constraints();
+  const taut::StaticState state = taut::static_equilibrium(system.structure(), contacts, {}, 0.);
 
   Vector<double> u(dofs.n_dofs()); // projected Gauss-Seidel
   for (double change = 1.; change > 1e-13;)
@@ -89,7 +89,7 @@ int main(int argc, char **argv)
     error = std::fmax(error, std::fabs(u[i] - state.displacement[0][i]));
     if (constraints.is_constrained(i))
       continue;
-    const bool closed = state.multiplier[constraints.index_of_link(constraint[i])] > 0.;
+    const bool closed = state.multiplier[contacts.index_of_link(constraint[i])] > 0.;
     n_closed += closed;
     double r = -load[i];
     for (auto e = K.begin(i); e != K.end(i); ++e)
