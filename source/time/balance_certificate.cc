@@ -159,7 +159,10 @@ namespace taut
           std::isnan(sizes.velocity[kind]) || std::isnan(sizes.displacement[kind]))
       {
         std::ostringstream when;
-        when << "at t = " << time << " s: ";
+        if (c.acceleration == 0.)
+          when << "static equilibrium: ";
+        else
+          when << "at t = " << time << " s: ";
         check_size(structure[k], force, sizes.displacement, sizes.velocity, when.str());
       }
 
