@@ -56,6 +56,8 @@ def expect(what, is_true, found=""):
     if not is_true:
         errors.append(f"{what}: {found}")
 
+PATIENCE = 400.  # [s]; ranks that share a busy core wait for each other at every step
+
 
 class Program:
     """A program that runs; its two outputs go to files."""
@@ -69,7 +71,7 @@ class Program:
             self.process = subprocess.Popen(command, stdout=out, stderr=err)
 
     def wait_for(self, condition):
-        end = time.monotonic() + 120.
+        end = time.monotonic() + PATIENCE
         while not condition():
             if self.process.poll() is not None or time.monotonic() > end:
                 self.process.kill()
@@ -88,7 +90,7 @@ class Program:
     def end(self):
         """Exit code, after which outputs are complete."""
         try:
-            return self.process.wait(120)
+            return self.process.wait(PATIENCE)
         except subprocess.TimeoutExpired:
             self.process.kill()
             return "no end"
