@@ -56,6 +56,7 @@ def expect(what, is_true, found=""):
     if not is_true:
         errors.append(f"{what}: {found}")
 
+
 PATIENCE = 400.  # [s]; ranks that share a busy core wait for each other at every step
 
 
