@@ -48,6 +48,11 @@ namespace
     const std::vector<std::string> overrides = arguments.count("set")
                                                    ? arguments["set"].as<std::vector<std::string>>()
                                                    : std::vector<std::string>();
+    if (arguments.count("resume"))
+      for (const char *other : {"study", "check", "overwrite"})
+        if (arguments.count(other))
+          throw taut::UserError(std::string("--resume and --") + other +
+                                " exclude each other; choose one");
     if (arguments.count("study"))
     {
       if (processes.size() > 1)
@@ -64,6 +69,7 @@ namespace
     taut::Parameters parameters;
     parameters.read(file, overrides, processes);
     parameters.output.overwrite = arguments.count("overwrite") > 0;
+    parameters.output.resume = arguments.count("resume") > 0;
     try
     {
       if (!arguments.count("check"))
@@ -78,7 +84,9 @@ namespace
         simulation.check();
         return;
       }
-      taut::Progress progress(std::cout, isatty(STDOUT_FILENO), parameters.end_time);
+      // mpirun passes on whole lines only, though its ranks may have a terminal of their own.
+      const bool has_terminal = processes.size() == 1 && isatty(STDOUT_FILENO);
+      taut::Progress progress(std::cout, has_terminal, parameters.end_time);
       if (parameters.end_time > 0.)
         simulation.observe(progress);
       simulation.run();
@@ -120,7 +128,9 @@ int main(int argc, char **argv)
       "set,s", po::value<std::vector<std::string>>()->composing()->value_name("ENTRY=VALUE"),
       "change an entry of the file: Section.Entry=value (or Section/Entry=value); may be repeated")(
       "overwrite", "replace the results of an earlier run in the same folder")(
-      "version", "print the version")("help,h", "print this text");
+      "resume",
+      "go on with a run that was ended early, from its last checkpoint "
+      "(Output/Checkpoint interval)")("version", "print the version")("help,h", "print this text");
   po::options_description all;
   all.add(options).add_options()("file", po::value<std::string>());
   po::positional_options_description positional;

@@ -145,6 +145,15 @@ namespace taut
     return {all.begin(), all.end()};
   }
 
+  std::vector<std::string> Communicator::gather(const std::string &text) const
+  {
+    std::vector<std::string> all(n_ranks);
+    all[own_rank] = text;
+    for (unsigned int rank = 0; rank < n_ranks && n_ranks > 1; ++rank)
+      broadcast_from(static_cast<int>(rank), processes, all[rank]);
+    return all;
+  }
+
   void Communicator::broadcast(std::string &text) const
   {
     if (n_ranks > 1)

@@ -37,6 +37,13 @@ namespace taut
       return largest;
     }
 
+    /// Of one correction.
+    struct Sizes
+    {
+      double gap;  ///< see largest_gap()
+      double step; ///< see largest_step(); 0 without a shift
+    };
+
     /// Not amplitudes that something resists: an operator knows G N = -e only.
     bool solves_with_null_space(const MixedComplementarityProblem &problem,
                                 const ComplementarityOperator &matrix)
@@ -56,50 +63,43 @@ namespace taut
     rhs.resize(problem.size());
     shift = 0.;
     null_space_is_ready = false;
-    double last_gap = 0., last_step = 0.;
+    const bool is_exact = tolerance <= options.linear_tolerance;
+    const double part = is_exact ? exact_part : rough_part;
+    Sizes now = {matrix.is_iterative() ? largest_gap(set, solution.gap, terms) : 1., 0.};
     bool is_solved = false;
-    MixedComplementaritySolution best; // of the corrections of one that is solved
-    std::vector<double> best_terms;
-    double now = matrix.is_iterative() ? largest_gap(set, solution.gap, terms) : 1.;
     for (unsigned int correction = 0; correction <= options.max_corrections; ++correction)
     {
-      const double part = tolerance > options.linear_tolerance ? rough_part : exact_part;
-      matrix.set_tolerance(part * tolerance / std::max(now, tolerance));
-      if (is_solved)
-      {
-        best = solution;
-        best_terms = terms;
-      }
+      matrix.set_tolerance(part * tolerance / std::max(now.gap, tolerance));
+      const MixedComplementaritySolution before =
+          is_solved ? solution : MixedComplementaritySolution();
+      const std::vector<double> terms_before = is_solved ? terms : std::vector<double>();
       if (!correct(problem, matrix, set, solution))
       {
-        if (is_solved)
-          break;
-        return Outcome::inadmissible;
+        if (!is_solved)
+          return Outcome::inadmissible;
+        break;
       }
       gaps(problem, matrix, solution.multiplier, solution.mode_amplitude, solution.gap);
       gap_terms(problem, matrix, solution.multiplier, solution.mode_amplitude, terms);
-
-      // Contradictory rows grow by the same step in each correction, and so do the terms that gaps
-      // are measured with: with a shift, gaps are small only if the steps are getting small, too.
-      const double gap = now = largest_gap(set, solution.gap, terms);
-      if (is_solved && !(gap < last_gap))
+      const Sizes last = now;
+      now = {largest_gap(set, solution.gap, terms),
+             shift == 0. ? 0. : largest_step(set, matrix, step)};
+      if (is_solved && !(now.gap < last.gap))
       {
-        solution = best;
-        terms = best_terms;
+        solution = before;
+        terms = terms_before;
         break;
       }
-      const double size = shift == 0. ? 0. : largest_step(set, matrix, step);
-      const bool shrinks = shift == 0. || (correction > 0 && size <= 0.5 * last_step);
-      if ((gap <= tolerance && shrinks) || tolerance > options.linear_tolerance)
-        is_solved = true;
+      // Contradictory rows grow by the same step in each correction, and so do the terms that gaps
+      // are measured with: with a shift, gaps are small only if the steps are getting small, too.
+      const bool steps_shrink = shift == 0. || (correction > 0 && now.step <= .5 * last.step);
+      is_solved = is_solved || !is_exact || (now.gap <= tolerance && steps_shrink);
       // A shift leaves more in the gaps than rounding does, and rows that nearly depend on each
       // other make much of it.
-      if (is_solved && (shift == 0. || gap <= rounding || tolerance > options.linear_tolerance))
+      if (is_solved && (!is_exact || shift == 0. || now.gap <= rounding))
         break;
-      if (correction > 0 && !(gap < 0.5 * last_gap && shrinks))
+      if (correction > 0 && !(now.gap < .5 * last.gap && steps_shrink))
         break;
-      last_gap = gap;
-      last_step = size;
     }
     if (is_solved && problem.n_null_space() > 0 && !solves_with_null_space(problem, matrix))
       balance(problem, matrix, set, solution);

@@ -33,9 +33,8 @@ namespace taut
       // Without a coarse problem statics stores the response of all constraints to each rigid body
       // mode.
       std::size_t n_null_space = 0;
-      for (std::size_t k = 0; solvers.is_generalised_inverse() && k < solvers.structure().size();
-           ++k)
-        n_null_space += solvers.structure()[k].null_space().vectors.size();
+      for (const FactoredStructure::RigidBodyModes &modes : solvers.rigid_body_modes())
+        n_null_space += modes.vectors.size();
       std::vector<double> totals = {(n > 0 ? sum / n : 0.) * constraints.size() +
                                         static_cast<double>(n_null_space) * constraints.size(),
                                     static_cast<double>(solvers.structure().n_dofs())};
@@ -74,7 +73,7 @@ namespace taut
       {
         if (constraints.size() <= most_dense_rows)
           return "assembled dense";
-        if (solvers.has_rigid_body_modes())
+        if (!solvers.is_generalised_inverse() && solvers.has_rigid_body_modes())
           return "assembled sparse";
         return stored_numbers_per_dof(solvers, constraints) <= most_stored_numbers
                    ? "assembled sparse"
@@ -87,6 +86,17 @@ namespace taut
       std::unique_ptr<SchurComplement> chosen;
     };
   } // namespace
+
+  InterfaceStatistics &InterfaceStatistics::operator+=(const InterfaceStatistics &other)
+  {
+    n_systems += other.n_systems;
+    n_iterations += other.n_iterations;
+    n_applications += other.n_applications;
+    n_local_solves += other.n_local_solves;
+    n_coarse_solves += other.n_coarse_solves;
+    n_factorisations += other.n_factorisations;
+    return *this;
+  }
 
   std::unique_ptr<SchurComplement> make_schur_complement(const InterfaceParameters &parameters,
                                                          const FactoredStructure &solvers,

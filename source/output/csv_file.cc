@@ -2,7 +2,11 @@
 #include <taut/base/exceptions.h>
 #include <taut/output/csv_file.h>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <charconv>
+#include <filesystem>
 
 namespace taut
 {
@@ -31,9 +35,13 @@ namespace taut
     return std::string(digits, result.ptr);
   }
 
-  CsvFile::CsvFile(const std::string &path, const std::vector<std::string> &columns)
-      : path(path), file(path)
+  CsvFile::CsvFile(const std::string &path, const std::vector<std::string> &columns,
+                   const bool goes_on)
+      : path(path)
   {
+    if (goes_on)
+      return;
+    file.open(path);
     if (!file)
       throw UserError("cannot write '" + path + "': check that its folder exists and is writable");
     for (const std::string &column : columns)
@@ -82,6 +90,34 @@ namespace taut
     buffer.clear();
     if (!file)
       throw UserError("cannot write to '" + path + "': the disk may be full");
+  }
+
+  std::size_t CsvFile::save()
+  {
+    write();
+    file.flush();
+    if (!file)
+      throw UserError("cannot write to '" + path + "': the disk may be full");
+    const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    const bool is_on_disk = descriptor >= 0 && fsync(descriptor) == 0;
+    if (descriptor >= 0)
+      ::close(descriptor);
+    if (!is_on_disk)
+      throw UserError("cannot write to '" + path + "': the disk may be full");
+    return file.tellp();
+  }
+
+  void CsvFile::resume(const std::size_t length)
+  {
+    std::error_code error;
+    if (!(std::filesystem::file_size(path, error) >= length) || error)
+      throw UserError("'" + path +
+                      "' is shorter than when the checkpoint was written, or gone: a "
+                      "run resumes in the folder with its results as they were");
+    std::filesystem::resize_file(path, length, error);
+    file.open(path, std::ios::in | std::ios::out | std::ios::ate);
+    if (error || !file)
+      throw UserError("cannot write '" + path + "': check that it is writable");
   }
 
   void CsvFile::close()

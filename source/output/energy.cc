@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/archive.h>
 #include <taut/base/dot.h>
 #include <taut/output/energy.h>
 
@@ -30,7 +31,27 @@ namespace taut
           run.folder + "/energy.csv",
           std::vector<std::string>{"time [s]", "kinetic [J]", "strain [J]", "links [J]",
                                    "loads [J]", "supports [J]", "contacts [J]", "damping [J]",
-                                   "link dampers [J]", "algorithmic [J]", "error [J]"});
+                                   "link dampers [J]", "algorithmic [J]", "error [J]"},
+          run.resumes);
+  }
+
+  void Energy::save(OutputArchive &archive)
+  {
+    const std::size_t length = file ? file->save() : 0;
+    archive << next << start_energy << total << length;
+  }
+
+  /// What is kept of the last step follows from its state.
+  void Energy::resume(InputArchive &archive, const StepView &step)
+  {
+    std::size_t length = 0;
+    archive >> next >> start_energy >> total >> length;
+    if (file)
+      file->resume(length);
+    P = CV = balance = impulses = step.structure.zero();
+    set_forces(step);
+    keep(step);
+    has_begun = true;
   }
 
   void Energy::begin_balance(const StepView &start)

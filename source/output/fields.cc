@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/archive.h>
 #include <taut/base/exceptions.h>
 #include <taut/output/fields.h>
 #include <taut/scene/entries.h>
@@ -220,6 +221,42 @@ namespace taut
         write(step, "links", *link_file, link_collection);
     };
     step.structure.communicator().agree(write_files);
+  }
+
+  void Fields::save(OutputArchive &archive)
+  {
+    archive << next;
+    const auto save_collection = [&](PvdFile &collection)
+    {
+      const std::size_t n = collection.size(), length = collection.length();
+      archive << n << length;
+    };
+    save_collection(wire_collection);
+    save_collection(link_collection);
+    for (BodyFiles &body : bodies)
+    {
+      archive << body.n_frames;
+      save_collection(body.collection);
+    }
+  }
+
+  void Fields::resume(InputArchive &archive, const StepView &step)
+  {
+    archive >> next;
+    const auto load_collection = [&](PvdFile &collection)
+    {
+      std::size_t n = 0, length = 0;
+      archive >> n >> length;
+      if (step.structure.communicator().is_root())
+        collection.resume(n, length);
+    };
+    load_collection(wire_collection);
+    load_collection(link_collection);
+    for (BodyFiles &body : bodies)
+    {
+      archive >> body.n_frames;
+      load_collection(body.collection);
+    }
   }
 
   void Fields::move_ends(const StepView &step)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/archive.h>
 #include <taut/output/interval_table.h>
 
 #include <algorithm>
@@ -20,7 +21,7 @@ namespace taut
     columns.push_back({name, "1", Kind::state});
   }
 
-  void IntervalTable::open(const std::string &path)
+  void IntervalTable::open(const std::string &path, const bool goes_on)
   {
     std::vector<std::string> header = {"time [s]"};
     for (const Column &column : columns)
@@ -36,7 +37,7 @@ namespace taut
         header.push_back(column.name + " largest" + unit);
       }
     }
-    file = std::make_unique<CsvFile>(path, header);
+    file = std::make_unique<CsvFile>(path, header, goes_on);
   }
 
   void IntervalTable::record(const double now, const std::vector<double> &values)
@@ -74,6 +75,29 @@ namespace taut
     file->end_line();
     next = time + interval;
     is_pending = false;
+  }
+
+  void IntervalTable::save(OutputArchive &archive)
+  {
+    if (!file)
+      return;
+    archive << time << next << has_started << is_pending;
+    for (const Column &column : columns)
+      archive << column.last << column.least << column.largest << column.n_changes;
+    const std::size_t length = file->save();
+    archive << length;
+  }
+
+  void IntervalTable::load(InputArchive &archive)
+  {
+    if (!file)
+      return;
+    archive >> time >> next >> has_started >> is_pending;
+    for (Column &column : columns)
+      archive >> column.last >> column.least >> column.largest >> column.n_changes;
+    std::size_t length = 0;
+    archive >> length;
+    file->resume(length);
   }
 
   void IntervalTable::close()

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/archive.h>
 #include <taut/output/model_limits.h>
 
 #include <algorithm>
@@ -198,6 +199,25 @@ namespace taut
           keep(slope, std::fabs(u[i + 1] - u[i]) / (line.positions[i + 1] - line.positions[i]),
                largest_slope, .5 * (line.positions[i] + line.positions[i + 1]), l);
     }
+  }
+
+  template <typename Archive>
+  void ModelLimits::store(Archive &archive)
+  {
+    archive &n_calls;
+    for (Extreme *extreme : {&slope, &distance})
+      archive & extreme->excess & extreme->value & extreme->limit & extreme->position &
+          extreme->time & extreme->line;
+  }
+
+  void ModelLimits::save(OutputArchive &archive)
+  {
+    store(archive);
+  }
+
+  void ModelLimits::load(InputArchive &archive)
+  {
+    store(archive);
   }
 
   std::vector<ModelWarning> ModelLimits::warnings() const

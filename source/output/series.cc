@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/archive.h>
 #include <taut/output/reactions.h>
 #include <taut/output/series.h>
 
 namespace taut
 {
   Series::Series(const std::string &folder, const Scene &scene, const Constraints &constraints,
-                 const double interval, const double link_interval)
+                 const double interval, const double link_interval, const bool resumes)
       : interval(interval), sliding(interval), links(link_interval), supports(link_interval),
         probes(interval)
   {
@@ -23,7 +24,7 @@ namespace taut
                                                                {&probes, "/probes.csv"}};
     for (const auto &[table, name] : tables)
       if (!table->is_empty())
-        table->open(folder + name);
+        table->open(folder + name, resumes);
     const std::vector<std::string> columns = {"time [s]",
                                               "complementarity [1]",
                                               "balance [1]",
@@ -32,7 +33,7 @@ namespace taut
                                               "contact energy [J]",
                                               "contact gap [m or rad]",
                                               "peak over mean [1]"};
-    certificate = std::make_unique<CsvFile>(folder + "/certificate.csv", columns);
+    certificate = std::make_unique<CsvFile>(folder + "/certificate.csv", columns, resumes);
   }
 
   void Series::add_link(const ConstraintData &constraint)
@@ -90,6 +91,23 @@ namespace taut
     const ContactMeasures::Summary contacts = step.measures.summary();
     *certificate << contacts.contact_energy << contacts.gap << contacts.resolution;
     certificate->end_line();
+  }
+
+  void Series::save(OutputArchive &archive)
+  {
+    for (IntervalTable *table : {&sliding, &links, &supports, &probes})
+      table->save(archive);
+    const std::size_t length = certificate->save();
+    archive << next << length;
+  }
+
+  void Series::resume(InputArchive &archive, const StepView &)
+  {
+    for (IntervalTable *table : {&sliding, &links, &supports, &probes})
+      table->load(archive);
+    std::size_t length = 0;
+    archive >> next >> length;
+    certificate->resume(length);
   }
 
   void Series::finish()

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/archive.h>
 #include <taut/output/low_pass.h>
 #include <taut/output/reactions.h>
 #include <taut/output/statistics.h>
@@ -220,6 +221,35 @@ namespace taut
       worst_balance_time = state.time;
     }
     worst.drift = std::max(worst.drift, step.certificate.drift);
+  }
+
+  template <typename Archive>
+  void Statistics::store(Archive &archive)
+  {
+    archive &times &uplift &lowering &last;
+    archive &n_steps &n_iterations &n_fallbacks;
+    archive &worst.complementarity &worst.balance &worst.drift;
+    archive &worst_complementarity_time &worst_balance_time;
+    for (Contact &contact : contacts)
+      archive &contact.position &contact.force &contact.mean_force;
+    for (LinkQuantities &link : link_quantities)
+      archive &link.open_time &link.closed_time &link.largest_force &link.impulse &link
+          .largest_impulse;
+    support_quantities.resize(support_names.size());
+    for (SupportQuantities &support : support_quantities)
+      archive &support.start &support.largest &support.smallest;
+  }
+
+  void Statistics::save(OutputArchive &archive)
+  {
+    store(archive);
+  }
+
+  void Statistics::resume(InputArchive &archive, const StepView &step)
+  {
+    store(archive);
+    measures = &step.measures;
+    rows = &step.constraints;
   }
 
   Statistics::ContactQuantities Statistics::quantities(const Contact &recorded) const

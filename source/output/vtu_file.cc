@@ -4,6 +4,7 @@
 #include <taut/output/vtu_file.h>
 
 #include <cstring>
+#include <filesystem>
 #include <sstream>
 
 namespace taut
@@ -32,6 +33,8 @@ namespace taut
     {
       return location == VtuFile::Location::points ? "PointData" : "CellData";
     }
+
+    const std::string tail = "</Collection>\n</VTKFile>\n"; ///< of a collection
 
     constexpr std::uint8_t vertex = 1, poly_line = 4; ///< types of cells in VTK
   }                                                   // namespace
@@ -136,9 +139,31 @@ namespace taut
       throw UserError("cannot write '" + path + "': the disk may be full");
   }
 
+  std::size_t PvdFile::length()
+  {
+    return n_entries == 0 ? 0 : static_cast<std::size_t>(stream.seekp(0, std::ios::end).tellp());
+  }
+
+  void PvdFile::resume(const std::size_t n, const std::size_t length)
+  {
+    n_entries = n;
+    if (n == 0)
+      return;
+    std::error_code error;
+    if (!(std::filesystem::file_size(path, error) >= length) || error)
+      throw UserError("'" + path +
+                      "' is shorter than when the checkpoint was written, or gone: a "
+                      "run resumes in the folder with its results as they were");
+    std::filesystem::resize_file(path, length, error);
+    stream.open(path, std::ios::binary | std::ios::in | std::ios::out);
+    stream.seekp(-static_cast<std::streamoff>(tail.size()), std::ios::end);
+    stream << tail << std::flush;
+    if (error || !stream)
+      throw UserError("cannot write '" + path + "': check that it is writable");
+  }
+
   void PvdFile::add(const double time, const std::string &file)
   {
-    static const std::string tail = "</Collection>\n</VTKFile>\n";
     std::string text;
     if (n_entries == 0)
     {

@@ -2,6 +2,7 @@
 #ifndef taut_observer_list_h
 #define taut_observer_list_h
 
+#include <taut/base/archive.h>
 #include <taut/output/observer.h>
 
 #include <memory>
@@ -34,6 +35,35 @@ namespace taut
       for (Observer *observer : observers)
         processes.agree([&] { observer ? observer->record(step) : void(); });
     }
+
+    /// What each of them stores in a checkpoint, complete on the root.
+    std::vector<std::string> save() const
+    {
+      std::vector<std::string> stored;
+      for (Observer *observer : observers)
+        processes.agree(
+            [&]
+            {
+              stored.push_back(
+                  observer ? archived([&](OutputArchive &archive) { observer->save(archive); })
+                           : "");
+            });
+      return stored;
+    }
+
+    /// @p stored is what the root saved of as many observers.
+    void resume(const std::vector<std::string> &stored, const StepView &step) const
+    {
+      for (std::size_t i = 0; i < observers.size(); ++i)
+        processes.agree(
+            [&]
+            {
+              if (observers[i])
+                unarchive(stored[i],
+                          [&](InputArchive &archive) { observers[i]->resume(archive, step); });
+            });
+    }
+    std::size_t size() const { return observers.size(); }
 
     /// Of this rank alone: others may have ended.
     void finish() const

@@ -97,6 +97,11 @@ namespace taut
         "Least time between two files of the motion of all wires for ParaView; 0: none "
         "[s]",
         not_negative());
+    prm.add_parameter(
+        "Checkpoint interval", checkpoint_interval,
+        "Time between two checkpoints, from the last of which --resume goes on with a run that was "
+        "ended early, with the same results to the last bit; 0: none [s]",
+        not_negative());
     const auto &known = Registry<Observer>::instance();
     prm.add_parameter("Observers", observers,
                       "What else records the steps. " + known.descriptions(),

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "results_folder.h"
+#include "checkpoint.h"
 
 #include <taut/base/exceptions.h>
 #include <taut/base/version.h>
+#include <taut/base/write_file.h>
 #include <taut/output/observer.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <sstream>
 
 namespace taut
 {
@@ -23,6 +26,8 @@ namespace taut
       std::set<std::string> names = {
           "used.prm",     "start.csv", "sliding.csv",     "links.csv",       "probes.csv",
           "supports.csv", "wires.pvd", "certificate.csv", "statistics.json", "links.pvd"};
+      for (const char *const name : checkpoint_names)
+        names.insert(name);
       for (const std::string &observer : Registry<Observer>::instance().list())
         for (const std::string &name : Registry<Observer>::instance().create(observer)->files())
           names.insert(name);
@@ -50,42 +55,90 @@ namespace taut
       }
       return results;
     }
+
+    /// The entries of a used.prm, but for the folder, which may have been moved.
+    std::vector<std::string> entries_in(std::istream &used)
+    {
+      std::vector<std::string> entries;
+      for (std::string line; std::getline(used, line);)
+      {
+        const std::size_t begin = line.find_first_not_of(' ');
+        if (begin != std::string::npos && line[begin] != '#' &&
+            line.compare(begin, 11, "set Folder ") != 0)
+          entries.push_back(line);
+      }
+      return entries;
+    }
+
+    /// True if the results in the folder are those of a run with the same entries.
+    bool is_of_this_run(const Parameters &parameters)
+    {
+      std::ifstream file(fs::path(parameters.output.folder) / "used.prm");
+      std::stringstream own;
+      parameters.print(own);
+      return file && entries_in(file) == entries_in(own);
+    }
+
+    void check_resumed_folder(const Parameters &parameters)
+    {
+      const OutputParameters &output = parameters.output;
+      for (const char *const name : checkpoint_names)
+        if (fs::exists(fs::path(output.folder) / name))
+          return;
+      if (!results_in(output.folder).empty() && !is_of_this_run(parameters))
+        throw EntryError("Output/Folder", "'" + output.folder +
+                                              "' has no checkpoint, and its results are of a run "
+                                              "with other entries: nothing to resume there. Name "
+                                              "the folder of the run, or run with --overwrite");
+    }
   } // namespace
 
-  void check_folder(const OutputParameters &output)
+  void check_folder(const Parameters &parameters)
   {
+    const OutputParameters &output = parameters.output;
     std::error_code error;
     if (fs::exists(output.folder, error) && !fs::is_directory(output.folder, error))
       throw EntryError("Output/Folder", "it is a file; name a folder");
-    if (!output.overwrite && !results_in(output.folder).empty())
+    if (output.resume)
+      check_resumed_folder(parameters);
+    else if (!output.overwrite && !results_in(output.folder).empty())
       throw EntryError(
           "Output/Folder",
           "'" + output.folder +
-              "' holds the results of a run; name another folder, or run with --overwrite");
+              "' holds the results of a run; name another folder, or run with --overwrite" +
+              (output.checkpoint_interval > 0. ? ", or go on with it with --resume" : ""));
   }
 
   void prepare_folder(const Parameters &parameters, const std::vector<std::string> &comments)
   {
     const fs::path folder = parameters.output.folder;
     std::error_code error;
-    check_folder(parameters.output);
-    // Files of a longer run would mix with those of this one.
+    check_folder(parameters);
+    // Files of a longer run would mix with those of this one. used.prm goes last: until then it
+    // says whose they are.
+    const fs::path used_file = folder / "used.prm";
     for (const fs::path &file : results_in(folder))
-      fs::remove(file, error);
+      if (file != used_file)
+        fs::remove(file, error);
     fs::create_directories(folder, error);
     if (error)
       throw EntryError("Output/Folder",
                        "cannot make '" + folder.string() + "': " + error.message());
-    std::ofstream used(folder / "used.prm");
+    std::ostringstream used;
     used << "# Written by taut " << version()
          << "; the entries of the run whose results are beside this file.\n";
     for (const std::string &comment : comments)
       used << "# " << comment << '\n';
     parameters.print(used);
-    used.close();
-    if (!used)
+    try
+    {
+      replace_file(used_file, used.str());
+    }
+    catch (const UserError &)
+    {
       throw EntryError("Output/Folder", "cannot write into '" + folder.string() +
                                             "': no permission, or the disk is full");
+    }
   }
 
   void check_results_folder(const Parameters &parameters, const Communicator &processes)
@@ -94,7 +147,7 @@ namespace taut
         [&]
         {
           if (processes.is_root())
-            check_folder(parameters.output);
+            check_folder(parameters);
         });
   }
 } // namespace taut

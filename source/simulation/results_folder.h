@@ -9,8 +9,8 @@
 namespace taut
 {
   /// Throws an EntryError on Output/Folder if it is a file or holds the results of another run that
-  /// may not be replaced.
-  void check_folder(const OutputParameters &output);
+  /// may neither be replaced nor resumed.
+  void check_folder(const Parameters &parameters);
 
   /// Makes the folder, takes the results of an earlier run out of it, and writes used.prm with
   /// @p comments, lines without '#', before the entries. Throws an EntryError.

@@ -57,6 +57,7 @@ namespace taut
   void Simulation::run()
   {
     check_results_folder(parameters, processes);
+    find_checkpoint();
     describe();
     find_start();
     find_rest_of_probes();
@@ -79,6 +80,8 @@ namespace taut
     on_root(
         [&]
         {
+          if (checkpoint)
+            return;
           std::vector<std::string> comments;
           if (!scheme.empty())
             comments.push_back("The scheme was " + scheme + ".");
@@ -94,13 +97,15 @@ namespace taut
     Fields fields(parameters.output.folder, model, bodies, parameters.output.field_interval,
                   parameters.output.subdivisions);
     ObserverList observers(processes);
-    const RunView run_view = {parameters.output.folder, parameters.output.interval, processes};
+    const RunView run_view = {parameters.output.folder, parameters.output.interval, processes,
+                              checkpoint != nullptr};
     if (!integrator)
     {
       add_guests(observers);
+      observers.add(&fields);
       observers.begin(run_view);
       update_probes(start);
-      show(observers, fields, start, start_certificate);
+      show(observers, start, start_certificate);
       processes.agree([&] { observers.finish(); });
       limits->print(log);
       log << "Results in " << parameters.output.folder << '\n';
@@ -112,14 +117,15 @@ namespace taut
     on_root(
         [&]
         {
-          series =
-              std::make_unique<Series>(parameters.output.folder, model, links,
-                                       parameters.output.interval, parameters.output.link_interval);
+          series = std::make_unique<Series>(parameters.output.folder, model, links,
+                                            parameters.output.interval,
+                                            parameters.output.link_interval, checkpoint != nullptr);
         });
     Statistics statistics(parameters.statistics, model, links);
     observers.add(&statistics);
     observers.add(series.get());
     add_guests(observers);
+    observers.add(&fields);
     observers.begin(run_view);
 
     const auto close = [&](const bool is_partial)
@@ -135,7 +141,7 @@ namespace taut
     const auto begin = std::chrono::steady_clock::now();
     try
     {
-      advance(stepper, observers, fields);
+      advance(stepper, observers);
     }
     catch (...)
     {
@@ -229,21 +235,23 @@ namespace taut
       observers.add(parameters.make_observer(name));
   }
 
-  void Simulation::show(const ObserverList &observers, Fields &fields, const State &state,
+  void Simulation::show(const ObserverList &observers, const State &state,
                         const Certificate &certificate)
   {
     update_probes(state);
     if (&state != &start)
       reactions.update(reference, state);
     observers.record(view(state, certificate));
-    fields.record(view(state, certificate));
     limits->record(view(state, certificate));
   }
 
-  void Simulation::advance(TimeStepper &stepper, const ObserverList &observers, Fields &fields)
+  void Simulation::advance(TimeStepper &stepper, const ObserverList &observers)
   {
-    show(observers, fields, start, start_certificate);
     StepControl control(parameters.step_parameters, parameters.step, n_steps());
+    if (checkpoint)
+      resume(stepper, control, observers);
+    else
+      show(observers, start, start_certificate);
     while (!control.is_finished() && stop_signal == 0)
     {
       const auto before = std::chrono::steady_clock::now();
@@ -251,7 +259,8 @@ namespace taut
       coefficients = stepper.scheme();
       measures->record(stepper.state(), coefficients, stepper.certificate());
       seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
-      show(observers, fields, stepper.state(), stepper.certificate());
+      show(observers, stepper.state(), stepper.certificate());
+      save_checkpoint(stepper, control, observers);
     }
     if (control.is_finished())
       stop_signal = 0; // it came too late to matter

@@ -3,6 +3,9 @@
 #include <taut/base/exceptions.h>
 #include <taut/substructure/factored_structure.h>
 
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/lapack_full_matrix.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -31,34 +34,44 @@ namespace taut
       return held;
     }
 
+    /// Smallest singular value, of columns of length 1, from which vectors are independent.
+    constexpr double independent = 1e-8;
+
     /// True if no combination of the vectors is zero, to working precision, on all of the DoFs.
-    bool are_held(std::vector<std::vector<double>> vectors, const std::vector<unsigned int> &dofs)
+    bool are_held(const std::vector<std::vector<double>> &vectors,
+                  const std::vector<unsigned int> &dofs)
     {
-      const auto norm = [&](const std::vector<double> &v)
+      if (vectors.size() > dofs.size())
+        return false;
+      dealii::LAPACKFullMatrix<double> restricted(dofs.size(), vectors.size());
+      for (std::size_t j = 0; j < vectors.size(); ++j)
       {
-        double sum = 0.;
+        double size = 0.;
         for (const unsigned int dof : dofs)
-          sum += v[dof] * v[dof];
-        return std::sqrt(sum);
-      };
-      for (std::size_t i = 0; i < vectors.size(); ++i)
-      {
-        const double before = norm(vectors[i]);
-        for (std::size_t j = 0; j < i; ++j)
-        {
-          double product = 0.;
-          for (const unsigned int dof : dofs)
-            product += vectors[i][dof] * vectors[j][dof];
-          for (const unsigned int dof : dofs)
-            vectors[i][dof] -= product * vectors[j][dof];
-        }
-        const double after = norm(vectors[i]);
-        if (!(after > 1e-8 * before))
-          return false;
-        for (const unsigned int dof : dofs)
-          vectors[i][dof] /= after;
+          size += vectors[j][dof] * vectors[j][dof];
+        for (std::size_t i = 0; i < dofs.size(); ++i)
+          restricted(i, j) = size == 0. ? 0. : vectors[j][dofs[i]] / std::sqrt(size);
       }
-      return true;
+      if (vectors.empty())
+        return true;
+      restricted.compute_svd();
+      return restricted.singular_value(vectors.size() - 1) > independent;
+    }
+
+    /// Rows of the inverse of the matrix of the vectors' values on the DoFs, a row for each vector.
+    std::vector<std::vector<double>> inverse_on(const std::vector<unsigned int> &dofs,
+                                                const std::vector<std::vector<double>> &vectors)
+    {
+      const std::size_t n = vectors.size();
+      dealii::FullMatrix<double> matrix(n, n);
+      for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j < n; ++j)
+          matrix(i, j) = vectors[i][dofs[j]];
+      matrix.gauss_jordan();
+      std::vector<std::vector<double>> rows(n, std::vector<double>(n));
+      for (std::size_t i = 0; i < n; ++i)
+        std::copy(matrix.begin(i), matrix.end(i), rows[i].begin());
+      return rows;
     }
 
     void add(std::vector<double> &y, const double factor, const std::vector<double> &x)
@@ -251,6 +264,7 @@ namespace taut
       own.rigid.push_back(std::move(R));
     }
     check_digits(k, lost_digits(k, *solver, A));
+    own.fixing_forces = inverse_on(own.fixing_dofs, own.rigid);
     solvers[k] = std::move(solver);
     motions[k] = std::move(own);
     return true;
@@ -271,44 +285,29 @@ namespace taut
     const std::size_t n = own.rigid.size();
     if (n == 0)
       return;
-    // Forces f on the fixing DoFs with R^T f = R^T K U, by Gaussian elimination with pivoting.
-    std::vector<std::vector<double>> rows(n, std::vector<double>(n + 1));
+    // Forces f on the fixing DoFs with R^T f = R^T K U.
+    std::vector<double> load(n);
     for (std::size_t i = 0; i < n; ++i)
-    {
-      for (std::size_t j = 0; j < n; ++j)
-        rows[i][j] = own.rigid[i][own.fixing_dofs[j]];
-      rows[i][n] = dot(own.rigid[i], KU);
-    }
+      load[i] = dot(own.rigid[i], KU);
     for (std::size_t j = 0; j < n; ++j)
     {
-      std::size_t pivot = j;
-      for (std::size_t i = j + 1; i < n; ++i)
-        if (std::fabs(rows[i][j]) > std::fabs(rows[pivot][j]))
-          pivot = i;
-      std::swap(rows[j], rows[pivot]);
-      for (std::size_t i = 0; i < n; ++i)
-        if (i != j)
-        {
-          const double quotient = rows[i][j] / rows[j][j];
-          for (std::size_t c = j; c <= n; ++c)
-            rows[i][c] -= quotient * rows[j][c];
-        }
-    }
-    for (std::size_t j = 0; j < n; ++j)
-    {
-      const double f = rows[j][n] / rows[j][j];
+      const double f = dot(own.fixing_forces[j], load);
       KU[own.fixing_dofs[j]] -= f;
       balance[own.fixing_dofs[j]] += f;
     }
   }
 
-  void FactoredStructure::factor_stiffness(const std::vector<Substructure::NullSpace> &null_spaces)
+  void FactoredStructure::factor_stiffness()
   {
     kind = Kind::stiffness;
     motions.assign(solvers.size(), {});
     for (std::size_t k = 0; k < solvers.size(); ++k)
     {
-      const auto held = with_springs(bodies[k].stiffness(), null_spaces[k].fixing_dofs);
+      Substructure::NullSpace null_space = bodies[k].null_space();
+      const auto held = with_springs(bodies[k].stiffness(), null_space.fixing_dofs);
+      motions[k].resistance.assign(null_space.vectors.size(), 0.);
+      motions[k].vectors = std::move(null_space.vectors);
+      motions[k].fixing_dofs = std::move(null_space.fixing_dofs);
       factor(k, *solvers[k], {{1., held.get()}}, bodies[k].constrained_dofs());
       check_digits(k, lost_digits(k, *solvers[k], {{1., held.get()}}));
     }

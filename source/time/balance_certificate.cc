@@ -14,16 +14,13 @@ namespace taut
     /// multiple of all block sizes and of the widths of vector registers.
     constexpr std::size_t tile = 480;
 
-    /// A block-tridiagonal matrix reaches so many DoFs further at most.
-    constexpr std::size_t reach = 8;
-
     /// Part of |K||dU| and of the other terms that their rounding may be; what is more is an
     /// error.
     constexpr double rounding_of_increment = 1e-10;
   } // namespace
 
   BalanceCertificate::BalanceCertificate(const Structure &structure, const Constraints &constraints,
-                                         const Reference &origin)
+                                         const Reference &reference)
       : structure(structure), constraints(constraints), impulses(structure.zero())
   {
     for (std::size_t k = 0; k < structure.size(); ++k)
@@ -31,7 +28,7 @@ namespace taut
       const Substructure &body = structure[k];
       norms.push_back({KindNorm(body, body.mass()), KindNorm(body, body.damping()),
                        KindNorm(body, body.stiffness())});
-      reference_force.push_back(largest(body, origin.force[k]));
+      reference_force.push_back(largest(body, reference.force[k]));
       mean_A.resize(std::max<std::size_t>(mean_A.size(), body.n_dofs()));
       const std::size_t at_once = body.mass().block_size() == 0 ? body.n_dofs() : tile;
       inertia.resize(std::max(inertia.size(), at_once));
@@ -96,6 +93,7 @@ namespace taut
       else
       {
         double *a = mean_A.data();
+        const std::size_t reach = 2 * body.mass().block_size(); // of a block-tridiagonal row
         const std::size_t last = std::min(n, end + reach);
         const std::size_t first = begin - std::min(begin, reach);
         vectorised(
@@ -159,7 +157,7 @@ namespace taut
           std::isnan(sizes.velocity[kind]) || std::isnan(sizes.displacement[kind]))
       {
         std::ostringstream when;
-        if (c.acceleration == 0.)
+        if (c.is_at_rest())
           when << "static equilibrium: ";
         else
           when << "at t = " << time << " s: ";

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/time/constraint_motions.h>
 #include <taut/time/matrix_norms.h>
-#include <taut/time/mode_equations.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,18 +16,18 @@ namespace taut
   } // namespace
 
   ConstraintMotions::ConstraintMotions(const Structure &structure, const Constraints &constraints,
-                                       const Reference &origin, const State &start)
-      : structure(structure), constraints(constraints), origin(origin)
+                                       const Reference &reference, const State &start)
+      : structure(structure), constraints(constraints), reference(reference)
   {
     const std::size_t n = constraints.size();
-    for (auto *v : {&S, &applied_multiplier, &balanced, &impulses, &link_history, &gap_terms,
+    for (auto *v : {&S, &solved.multiplier, &balanced, &impulses, &link_history, &gap_terms,
                     &gap_correction, &motion, &position, &terms_size, &velocity, &velocity_size,
                     &rate_of_place, &motion_size, &convection, &rates_before, &largest_scale})
       v->assign(n, 0.);
     conditions.unilateral.resize(n);
     conditions.free_gap.resize(n);
     conditions.gap_scale.resize(n);
-    reference_gap = constraints.motions(origin.displacement);
+    reference_gap = constraints.motions(reference.displacement);
     const std::vector<double> motions = constraints.motions(start.U);
     for (std::size_t i = 0; i < n; ++i)
     {
@@ -36,12 +35,12 @@ namespace taut
       reference_gap[i] += constraints[i].gap;
       if (constraints[i].moving)
         gap_correction[i] = start.geometric_gap[i] - reference_gap[i] - motions[i];
-      else if (!origin.gap.empty())
-        reference_gap[i] = origin.gap[i];
+      else if (!reference.gap.empty())
+        reference_gap[i] = reference.gap[i];
     }
     mean.assign(n, 0);
     quasi_static = constraints.quasi_static();
-    add_body_terms(origin.displacement);
+    add_body_terms(reference.displacement);
     for (std::size_t k = 0; k < structure.size(); ++k)
       supports_move = supports_move || structure[k].has_moving_constraints();
   }
@@ -53,7 +52,7 @@ namespace taut
     conditions.null_space.clear();
     conditions.null_space_load.clear();
     conditions.null_space_resistance.clear();
-    amplitude.clear();
+    solved.mode_amplitude.clear();
     conditions.held_open.assign(c.velocity_level ? constraints.size() : 0, 0);
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
@@ -64,12 +63,14 @@ namespace taut
     }
   }
 
-  void ConstraintMotions::set_problem(const State &before, const SchurComplement &schur,
+  void ConstraintMotions::set_problem(const State &before, const StepSystem &system,
                                       const BodyVectors &P, const BodyVectors &lift)
   {
+    if (system.has_modes())
+      system.set_modes(P, conditions);
     if (constraints.size() == 0)
       return;
-    share_contact_free_predictor(before, schur, P, lift);
+    share_contact_free_predictor(before, system, P, lift);
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       const ConstraintData &constraint = constraints[i];
@@ -122,49 +123,13 @@ namespace taut
     conditions.held_open[i] = !is_near && !(before.multiplier[i] > 0.);
   }
 
-  void ConstraintMotions::set_rigid_body_modes(const FactoredStructure &solvers,
-                                               const BodyVectors &P)
-  {
-    set_rigid_body_modes(solvers, P, conditions);
-  }
-
-  void ConstraintMotions::set_rigid_body_modes(const FactoredStructure &solvers,
-                                               const BodyVectors &P,
-                                               MixedComplementarityProblem &problem)
-  {
-    ModeVectors vectors;
-    for (const FactoredStructure::RigidBodyModes &motions : solvers.rigid_body_modes())
-      vectors.push_back(&motions.vectors);
-    const Communicator &processes = structure.communicator();
-    std::size_t next = set_mode_equations(vectors, processes, constraints, P, problem);
-    problem.null_space_resistance.assign(problem.n_null_space(), 0.);
-    first_of_body.clear();
-    for (const FactoredStructure::RigidBodyModes &motions : solvers.rigid_body_modes())
-    {
-      first_of_body.push_back(next);
-      for (const double resistance : motions.resistance)
-        problem.null_space_resistance[next++] = resistance;
-    }
-    processes.sum(problem.null_space_resistance);
-  }
-
-  void ConstraintMotions::add_rigid_body_modes(const FactoredStructure &solvers,
-                                               const std::size_t k,
-                                               const std::vector<double> &amplitudes,
-                                               std::vector<double> &dU) const
-  {
-    const auto &vectors = solvers.rigid_body_modes()[k].vectors;
-    for (std::size_t v = 0; v < vectors.size(); ++v)
-      for (std::size_t i = 0; i < dU.size(); ++i)
-        dU[i] += amplitudes[first_of_body[k] + v] * vectors[v][i];
-  }
-
   void ConstraintMotions::set_multipliers(const MixedComplementaritySolution &solution,
                                           State &state)
   {
     const std::vector<double> &L = solution.multiplier;
-    amplitude = solution.mode_amplitude;
-    applied_multiplier = balanced = state.multiplier = L;
+    solved.multiplier = balanced = state.multiplier = L;
+    solved.mode_amplitude = solution.mode_amplitude;
+    solved.closed = solution.closed;
     if (!c.mean_force)
       return;
     for (std::size_t i = 0; i < constraints.size(); ++i)
@@ -197,19 +162,19 @@ namespace taut
   /// Before the contact forces are known: how the constraints would move without them, where the
   /// moving ones are, and what these numbers round with.
   void ConstraintMotions::share_contact_free_predictor(const State &before,
-                                                       const SchurComplement &schur,
+                                                       const StepSystem &system,
                                                        const BodyVectors &P,
                                                        const BodyVectors &lift)
   {
-    schur.contact_free_predictor(P, motion, motion_size);
+    system.interface().contact_free_predictor(P, motion, motion_size);
     if (supports_move)
       for (std::size_t i = 0; i < constraints.size(); ++i)
         motion[i] += evaluate(constraints[i].terms, lift);
     for (std::size_t i = constraints.n_fixed(); i < constraints.size(); ++i)
     {
       const std::vector<Term> &terms = constraints[i].terms;
-      position[i] = evaluate(terms, origin.displacement) + evaluate(terms, before.U);
-      terms_size[i] = magnitude(terms, origin.displacement) + magnitude(terms, before.U);
+      position[i] = evaluate(terms, reference.displacement) + evaluate(terms, before.U);
+      terms_size[i] = magnitude(terms, reference.displacement) + magnitude(terms, before.U);
     }
     if (c.mean_force)
       constraints.share_of_motions(before.V, velocity);
@@ -224,7 +189,7 @@ namespace taut
     constraints.share_of_motions(state.dU, motion);
     constraints.share_of_motions(state.U, position, terms_size);
     for (std::size_t i = constraints.n_fixed(); i < constraints.size(); ++i)
-      position[i] += evaluate(constraints[i].terms, origin.displacement);
+      position[i] += evaluate(constraints[i].terms, reference.displacement);
     share({&motion, &position, &terms_size});
     if (c.mean_force)
     {
@@ -238,7 +203,7 @@ namespace taut
   {
     for (std::size_t i = constraints.n_fixed(); i < constraints.size(); ++i)
       rate_of_place[i] =
-          constraints.share_of_convection(i, state.time, origin.displacement, state.U);
+          constraints.share_of_convection(i, state.time, reference.displacement, state.U);
     if (constraints.n_fixed() < constraints.size())
       share({&rate_of_place});
     for (std::size_t i = constraints.n_fixed(); i < constraints.size(); ++i)
@@ -297,9 +262,8 @@ namespace taut
       State::LinkSpring &spring = state.link_springs[i];
       const double known_v = c.v_V * spring.v + c.v_A * spring.a + c.v_dU * spring.du;
       const double known_a = c.a_V * spring.v + c.a_A * spring.a + c.a_dU * spring.du;
-      const double u = elastic_mean(i)
-                           ? std::max(0., S[i] * applied_multiplier[i] + link_history[i])
-                           : S[i] * balanced[i] + link_history[i];
+      const double u = elastic_mean(i) ? std::max(0., S[i] * solved.multiplier[i] + link_history[i])
+                                       : S[i] * balanced[i] + link_history[i];
       spring.du = u - spring.u;
       spring.u = u;
       spring.v = c.velocity * spring.du + known_v;
@@ -321,12 +285,12 @@ namespace taut
       return 0.;
     // Gaps from the increments of the displacements, not from F N + d; and gaps so carried must not
     // drift away from the displacements, measured by the terms that these are summed from.
-    recomputed.multiplier = applied_multiplier;
-    recomputed.mode_amplitude = amplitude;
+    recomputed.multiplier = solved.multiplier;
+    recomputed.mode_amplitude = solved.mode_amplitude;
     recomputed.gap = state.gap;
     for (std::size_t i = 0; i < constraints.size(); ++i)
       if (elastic_mean(i))
-        recomputed.gap[i] = state.geometric_gap[i] + S[i] * applied_multiplier[i] + link_history[i];
+        recomputed.gap[i] = state.geometric_gap[i] + S[i] * solved.multiplier[i] + link_history[i];
       else if (velocity_level(i))
       {
         const double rebound = constraints[i].unilateral ? c.restitution * rates_before[i] : 0.;
@@ -339,13 +303,13 @@ namespace taut
     for (std::size_t i = 0; i < constraints.size(); ++i)
       most[constraints[i].rotational] =
           std::max(most[constraints[i].rotational],
-                   std::fabs(motion[i]) + F.diagonal(i) * std::fabs(applied_multiplier[i]));
+                   std::fabs(motion[i]) + F.diagonal(i) * std::fabs(solved.multiplier[i]));
     for (std::size_t i = 0; i < constraints.size(); ++i)
       conditions.gap_scale[i] += decayed * most[constraints[i].rotational];
     const auto measure = [&]
     {
-      taut::gap_terms(conditions, F, applied_multiplier, recomputed.mode_amplitude, work);
-      multiplier_weights(conditions, F, applied_multiplier, work, weights);
+      taut::gap_terms(conditions, F, solved.multiplier, recomputed.mode_amplitude, work);
+      multiplier_weights(conditions, F, solved.multiplier, work, weights);
       taut::residual(conditions, recomputed, work, weights, found);
     };
     measure();

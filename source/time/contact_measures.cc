@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/archive.h>
 #include <taut/base/dot.h>
 #include <taut/time/contact_measures.h>
 
@@ -123,6 +124,31 @@ namespace taut
     if (n_steps < steps_between_scales || n_steps % steps_between_scales == 0)
       measure_scale(state, certificate);
     kinetic = std::max(kinetic, certificate.kinetic_energy);
+  }
+
+  template <typename Archive>
+  void ContactMeasures::store(Archive &archive)
+  {
+    for (Force &f : forces)
+    {
+      archive &f.impulses &f.impulse &f.mean &f.peak &f.mean_peak &f.event_impulse;
+      archive &f.largest_impulse &f.event_energy &f.event_begin &f.gap &f.motion;
+    }
+    archive &multiplier0 &gap0 &worst_event &kinetic &strain &loads &n_steps;
+    archive &found.contact_energy &found.scale &found.relative_energy &found.energy_constraint;
+    archive &found.energy_begin &found.energy_end &found.gap &found.gap_constraint;
+    archive &found.gap_drifts &found.resolution &found.resolution_row &found.peak;
+    archive &found.mean_peak &found.mean_time;
+  }
+
+  void ContactMeasures::save(OutputArchive &archive)
+  {
+    store(archive);
+  }
+
+  void ContactMeasures::load(InputArchive &archive)
+  {
+    store(archive);
   }
 
   void ContactMeasures::add_energy(const std::size_t i, const State &state,

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
-#include <taut/complementarity/active_set_system.h>
-#include <taut/complementarity/solver.h>
-#include <taut/interface/schur_complement.h>
 #include <taut/time/balance_certificate.h>
-#include <taut/time/mode_equations.h>
 #include <taut/time/static_equilibrium.h>
-#include <taut/time/step_check.h>
+#include <taut/time/step_system.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,20 +15,13 @@ namespace taut
     constexpr double rounding = 1e-15;
     constexpr int most_refinements = 3;
 
-    /// Part of the largest multiplier by which refinement may make one negative.
-    constexpr double admissible = 1e-12;
-
     /// |x| over size; 0 if x is.
     double relative(const double x, const double size)
     {
       return x == 0. ? 0. : std::fabs(x) / size;
     }
 
-    /**
-     * K U = P + B N from the undeformed state, with U = A^-1 (P + B N) + lift + R alpha: A is K
-     * with springs on the DoFs that fix the null space R of bodies that only constraints hold, lift
-     * the given displacements of supports.
-     */
+    /// The step from the undeformed state to K U = P + B N.
     class StaticStep
     {
     public:
@@ -41,51 +30,38 @@ namespace taut
       StaticState solve();
 
     private:
-      void set_loads(double t);
+      void set_loads();
       void set_problem();
-      std::size_t set_modes(const BodyVectors &forces, MixedComplementarityProblem &target) const;
       void find_multipliers();
       void fail_not_held(const BodyNotHeld &e) const;
       StaticState displaced(const MixedComplementaritySolution &by) const;
-      double find_remainder(const StaticState &state, const std::vector<std::size_t> &set,
-                            MixedComplementarityProblem &left) const;
-      bool correct(const MixedComplementarityProblem &left, const StaticState &state,
-                   std::vector<std::size_t> &set, MixedComplementaritySolution &refined) const;
+      double find_remainder(const StaticState &state, MixedComplementarityProblem &remainder) const;
       void refine(StaticState &state);
-      void certify(StaticState &state) const;
+      void certify(StaticState &state);
 
       const Structure &structure;
       const Constraints &constraints;
-      const SolverParameters &parameters;
       const Communicator &processes;
       const double time;
       StepCheck check;
-      std::vector<Substructure::NullSpace> null_spaces;
-      FactoredStructure solvers;
-      std::unique_ptr<SchurComplement> schur;
+      StepSystem system;
       std::vector<double> compliance;
       BodyVectors P, lift;
       MixedComplementarityProblem problem;
-      std::size_t first_mode = 0; ///< of this rank, among the amplitudes of all
       MixedComplementaritySolution solution;
       Certificate certificate;
     };
 
     StaticStep::StaticStep(const Structure &structure, const Constraints &constraints,
                            const SolverParameters &parameters, const double t)
-        : structure(structure), constraints(constraints), parameters(parameters),
-          processes(structure.communicator()), time(t),
-          check(structure, constraints, parameters.contact_tolerance),
-          solvers(structure, parameters.local_solver)
+        : structure(structure), constraints(constraints), processes(structure.communicator()),
+          time(t), check(structure, constraints, parameters.contact_tolerance),
+          system(structure, constraints, parameters)
     {
-      for (std::size_t k = 0; k < structure.size(); ++k)
-        null_spaces.push_back(structure[k].null_space());
-      processes.agree([&] { solvers.factor_stiffness(null_spaces); });
       for (std::size_t i = 0; i < constraints.size(); ++i)
         compliance.push_back(1. / constraints[i].stiffness);
-      schur = make_schur_complement(parameters.interface, solvers, constraints);
-      schur->setup(compliance);
-      processes.agree([&] { set_loads(t); });
+      system.prepare(StepCoefficients(), compliance);
+      processes.agree([&] { set_loads(); });
       set_problem();
     }
 
@@ -98,16 +74,16 @@ namespace taut
       return state;
     }
 
-    /// P - K lift, and lift.
-    void StaticStep::set_loads(const double t)
+    /// P - K lift, and lift: the given displacements of supports.
+    void StaticStep::set_loads()
     {
       P = lift = structure.zero();
       for (std::size_t k = 0; k < structure.size(); ++k)
       {
-        structure[k].external_force(t, P[k]);
+        structure[k].external_force(time, P[k]);
         for (const ConstrainedDof &constraint : structure[k].constraints())
-          lift[k][constraint.dof] = constraint.at(t);
-        structure[k].stiffness().vmult_add(-1., lift[k].data(), P[k].data());
+          lift[k][constraint.dof] = constraint.at(time);
+        system.lift(k, lift[k], P[k]);
         for (const ConstrainedDof &constraint : structure[k].constraints())
           P[k][constraint.dof] = 0.;
       }
@@ -115,7 +91,7 @@ namespace taut
 
     void StaticStep::set_problem()
     {
-      schur->contact_free_predictor(P, problem.free_gap, problem.gap_scale);
+      system.interface().contact_free_predictor(P, problem.free_gap, problem.gap_scale);
       processes.sum(problem.free_gap);
       processes.sum(problem.gap_scale);
       const std::vector<double> lifted = constraints.motions(lift);
@@ -125,31 +101,14 @@ namespace taut
         problem.gap_scale[i] += std::fabs(lifted[i]) + std::fabs(constraints[i].gap);
         problem.free_gap[i] += lifted[i] + constraints[i].gap;
       }
-      first_mode = set_modes(P, problem);
-    }
-
-    std::size_t StaticStep::set_modes(const BodyVectors &forces,
-                                      MixedComplementarityProblem &target) const
-    {
-      ModeVectors vectors;
-      for (const Substructure::NullSpace &null_space : null_spaces)
-        vectors.push_back(&null_space.vectors);
-      return set_mode_equations(vectors, processes, constraints, forces, target);
+      system.set_modes(P, problem);
     }
 
     void StaticStep::find_multipliers()
     {
       try
       {
-        check.solve(
-            [&]
-            {
-              ComplementaritySolver complementarity(parameters.complementarity);
-              const ComplementarityResult &result = complementarity.solve(problem, schur->matrix());
-              solution = result.solution;
-              certificate.iterations = result.iterations;
-              certificate.fallback = result.used_fallback;
-            });
+        solution = system.find_multipliers(problem, check, certificate);
       }
       catch (const BodyNotHeld &e)
       {
@@ -161,17 +120,12 @@ namespace taut
     /// Names the body that the first null space vector belongs to, on its rank.
     void StaticStep::fail_not_held(const BodyNotHeld &e) const
     {
-      std::size_t end = first_mode;
-      const std::size_t mode = e.null_space().front();
-      for (std::size_t k = 0; k < null_spaces.size() && mode >= first_mode; ++k)
-      {
-        end += null_spaces[k].vectors.size();
-        if (mode < end)
-          throw BodyNotHeld(check.when() + "body '" + structure[k].name() +
-                                "' is not held: no admissible contact force balances its loads. "
-                                "Add a support or a link, or start with 'Start = undeformed'.",
-                            {}, structure[k].origin());
-      }
+      const std::size_t k = system.body_of_mode(e.null_space().front());
+      if (k != Structure::elsewhere)
+        throw BodyNotHeld(check.when() + "body '" + structure[k].name() +
+                              "' is not held: no admissible contact force balances its loads. "
+                              "Add a support or a link, or start with 'Start = undeformed'.",
+                          {}, structure[k].origin());
     }
 
     StaticState StaticStep::displaced(const MixedComplementaritySolution &by) const
@@ -179,21 +133,10 @@ namespace taut
       StaticState state;
       state.multiplier = by.multiplier;
       state.displacement = P;
-      constraints.add_forces(state.multiplier, state.displacement);
-      solvers.solve(state.displacement);
-      std::size_t mode = first_mode;
-      for (std::size_t k = 0; k < null_spaces.size(); ++k)
-      {
-        std::vector<double> &U = state.displacement[k];
-        for (std::size_t i = 0; i < U.size(); ++i)
-          U[i] += lift[k][i];
-        for (const std::vector<double> &R : null_spaces[k].vectors)
-        {
-          for (std::size_t i = 0; i < U.size(); ++i)
-            U[i] += by.mode_amplitude[mode] * R[i];
-          ++mode;
-        }
-      }
+      system.find_increments(by.multiplier, by.mode_amplitude, state.displacement);
+      for (std::size_t k = 0; k < structure.size(); ++k)
+        for (std::size_t i = 0; i < lift[k].size(); ++i)
+          state.displacement[k][i] += lift[k][i];
       state.geometric_gap = constraints.motions(state.displacement);
       state.gap.resize(constraints.size());
       for (std::size_t i = 0; i < constraints.size(); ++i)
@@ -204,98 +147,61 @@ namespace taut
       return state;
     }
 
-    /// What gaps and loads of the null space lack: the problem of a correction. Returns the largest
-    /// gap of the set over the motions that it is summed from, or load over the forces.
-    double StaticStep::find_remainder(const StaticState &state, const std::vector<std::size_t> &set,
-                                      MixedComplementarityProblem &left) const
+    /// What gaps and loads of the null space lack. Returns the largest gap of the closed
+    /// constraints over the motions that it is summed from, or load over the forces.
+    double StaticStep::find_remainder(const StaticState &state,
+                                      MixedComplementarityProblem &remainder) const
     {
       const std::size_t n = constraints.size();
       BodyVectors forces = P;
       constraints.add_forces(state.multiplier, forces);
-      set_modes(forces, left);
-      left.free_gap = state.gap;
+      system.set_modes(forces, remainder);
+      remainder.free_gap = state.gap;
       std::vector<double> size(n, 0.);
       for (std::size_t i = 0; i < n; ++i)
         size[i] = magnitude(constraints[i].terms, state.displacement);
       processes.sum(size);
       double largest = 0.;
-      for (const std::size_t i : set)
-        largest =
-            std::max(largest, relative(state.gap[i], size[i] + std::fabs(constraints[i].gap)));
-      for (std::size_t m = 0; m < left.n_null_space(); ++m)
+      for (std::size_t i = 0; i < n; ++i)
+        if (solution.closed[i])
+          largest =
+              std::max(largest, relative(state.gap[i], size[i] + std::fabs(constraints[i].gap)));
+      for (std::size_t m = 0; m < remainder.n_null_space(); ++m)
       {
-        const LinearForm &G = left.null_space[m];
+        const LinearForm &G = remainder.null_space[m];
         double terms = 0.;
         for (std::size_t e = 0; e < G.index.size(); ++e)
           terms += std::fabs(G.value[e] * state.multiplier[G.index[e]]);
-        largest = std::max(largest, relative(left.null_space_load[m], terms));
+        largest = std::max(largest, relative(remainder.null_space_load[m], terms));
       }
       return largest;
     }
 
-    /// The solution with what removes the remainder on the set; false if there is nothing
-    /// admissible. Constraints that touch without a force come into the set where they may be what
-    /// holds a body.
-    bool StaticStep::correct(const MixedComplementarityProblem &left, const StaticState &state,
-                             std::vector<std::size_t> &set,
-                             MixedComplementaritySolution &refined) const
-    {
-      const ComplementarityOptions options;
-      ActiveSetSystem system(options);
-      MixedComplementaritySolution correction;
-      std::vector<double> terms;
-      const auto is_solved = [&]
-      {
-        return system.solve(left, schur->matrix(), set, options.linear_tolerance, correction,
-                            terms) != ActiveSetSystem::Outcome::inadmissible;
-      };
-      if (!is_solved())
-      {
-        set.clear();
-        for (std::size_t i = 0; i < constraints.size(); ++i)
-          if (solution.closed[i] || state.gap[i] <= 0.)
-            set.push_back(i);
-        if (!is_solved())
-          return false;
-      }
-      refined = solution;
-      double largest = 0., smallest = 0.;
-      for (const std::size_t i : set)
-      {
-        refined.multiplier[i] += correction.multiplier[i];
-        largest = std::max(largest, std::fabs(refined.multiplier[i]));
-        if (constraints[i].unilateral)
-          smallest = std::min(smallest, refined.multiplier[i]);
-      }
-      for (std::size_t m = 0; m < left.n_null_space(); ++m)
-        refined.mode_amplitude[m] += correction.mode_amplitude[m];
-      return smallest >= -admissible * largest;
-    }
-
     /**
-     * Iterative refinement on the constraints that are closed. F N + d adds what A^-1 makes of
-     * loads and of contact forces apart from each other, and where springs stand in for the
-     * contacts that hold a body, the two are large and cancel; A^-1 (P + B N) does not. What is
-     * left of gaps and balance there is solved for once more, and kept if it becomes less.
+     * Iterative refinement. F N + d adds what A^-1 makes of loads and of contact forces apart from
+     * each other, and where springs stand in for the contacts that hold a body, the two are large
+     * and cancel; A^-1 (P + B N) does not. What is left of gaps and balance there is solved for
+     * once more, and kept if it becomes less.
      */
     void StaticStep::refine(StaticState &state)
     {
-      std::vector<std::size_t> set;
-      for (std::size_t i = 0; i < constraints.size(); ++i)
-        if (solution.closed[i])
-          set.push_back(i);
-      if (set.empty())
+      if (std::count(solution.closed.begin(), solution.closed.end(), 0) ==
+          static_cast<std::ptrdiff_t>(constraints.size()))
         return;
-      MixedComplementarityProblem left;
-      left.unilateral.assign(constraints.size(), 0);
-      double error = find_remainder(state, set, left);
+      MixedComplementarityProblem remainder;
+      remainder.unilateral = problem.unilateral;
+      double error = find_remainder(state, remainder);
       for (int refinement = 0; refinement < most_refinements && error > rounding; ++refinement)
       {
-        MixedComplementaritySolution refined;
-        if (!correct(left, state, set, refined))
+        MixedComplementaritySolution refined = solution, correction;
+        if (!system.correct(remainder, solution, correction))
           return;
+        for (std::size_t i = 0; i < constraints.size(); ++i)
+          refined.multiplier[i] += correction.multiplier[i];
+        for (std::size_t m = 0; m < remainder.n_null_space(); ++m)
+          refined.mode_amplitude[m] += correction.mode_amplitude[m];
         StaticState refined_state = displaced(refined);
-        const double refined_error = find_remainder(refined_state, set, left);
+        const double refined_error = find_remainder(refined_state, remainder);
         if (!(refined_error < error))
           return;
         error = refined_error;
@@ -305,14 +211,15 @@ namespace taut
     }
 
     /// The same certificate as of a step in time, with nothing that moves.
-    void StaticStep::certify(StaticState &state) const
+    void StaticStep::certify(StaticState &state)
     {
       Certificate found = certificate;
       if (constraints.size() > 0)
       {
         MixedComplementaritySolution certified = solution;
         certified.gap = state.gap;
-        const ComplementarityResidual result = residual(problem, schur->matrix(), certified);
+        const ComplementarityResidual result =
+            residual(problem, system.interface().matrix(), certified);
         found.complementarity = result.max;
         found.worst_constraint =
             std::max_element(result.rows.begin(), result.rows.end()) - result.rows.begin();

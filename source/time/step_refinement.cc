@@ -16,7 +16,7 @@ namespace taut
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       const Substructure &body = structure[k];
-      solvers.remove_rounding(k, current.KU[k], current.balance[k]);
+      system->bodies().remove_rounding(k, current.KU[k], current.balance[k]);
       std::vector<double> &left = right_hand_side[k];
       for (std::size_t i = 0; i < left.size(); ++i)
       {
@@ -27,14 +27,13 @@ namespace taut
       for (const ConstrainedDof &constraint : body.constraints())
         left[constraint.dof] = 0.;
     }
-    if (!constraint_motions.correct(current, *schur, solvers, right_hand_side))
+    if (!constraint_motions.correct(current, *system, right_hand_side))
       return false;
-    constraints.add_forces(constraint_motions.corrections(), right_hand_side);
-    solvers.solve(right_hand_side);
+    system->find_increments(constraint_motions.corrections().multiplier,
+                            constraint_motions.corrections().mode_amplitude, right_hand_side);
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       std::vector<double> &dU = right_hand_side[k];
-      constraint_motions.add_corrected_motions(solvers, k, dU);
       for (const ConstrainedDof &constraint : structure[k].constraints())
         dU[constraint.dof] = 0.;
       for (std::size_t i = 0; i < dU.size(); ++i)

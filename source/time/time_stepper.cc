@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/archive.h>
 #include <taut/base/exceptions.h>
 #include <taut/base/instruction_set.h>
 #include <taut/time/time_stepper.h>
@@ -63,13 +64,12 @@ namespace taut
                            const SolverParameters &parameters, const TimeIntegrator &integrator,
                            const double step, Reference reference, State start, const bool at_rest)
       : structure(structure), constraints(constraints), parameters(parameters),
-        integrator(integrator), step(step), origin(std::move(reference)), current(std::move(start)),
-        first_step_is_backward_euler(!at_rest), segment_start(current.time),
-        solvers(structure, parameters.local_solver),
-        schur(make_schur_complement(parameters.interface, solvers, constraints)),
-        complementarity(parameters.complementarity),
-        constraint_motions(structure, at_time(constraints, current.time), origin, current),
-        balance(structure, constraints, origin),
+        integrator(integrator), step(step), reference_state(std::move(reference)),
+        current(std::move(start)), first_step_is_backward_euler(!at_rest),
+        segment_start(current.time),
+        system(std::make_unique<StepSystem>(structure, constraints, this->parameters)),
+        constraint_motions(structure, at_time(constraints, current.time), reference_state, current),
+        balance(structure, constraints, reference_state),
         check(structure, constraints, this->parameters.contact_tolerance)
   {
     for (BodyVectors *v : {&forces.P, &right_hand_side, &lift, &forces.old_A, &forces.old_balance})
@@ -137,17 +137,13 @@ namespace taut
   void TimeStepper::prepare(const StepCoefficients &c)
   {
     coefficients = c;
-    const bool is_assembled = parameters.interface.form != "matrix-free";
-    structure.communicator().agree([&]
-                                   { solvers.factor(c.mass_factor(), c.velocity, is_assembled); });
-    has_rigid_body_modes = solvers.has_rigid_body_modes();
     constraint_motions.prepare(c, step);
-    schur->setup(constraint_motions.compliance());
+    system->prepare(c, constraint_motions.compliance());
     if (!c.velocity_projection)
       return;
     if (!projection)
       projection = std::make_unique<VelocityProjection>(structure, constraints, parameters);
-    projection->prepare(c, step, constraint_motions.compliance(), schur->matrix());
+    projection->prepare(c, step, constraint_motions.compliance(), system->interface().matrix());
   }
 
   void TimeStepper::advance()
@@ -165,7 +161,7 @@ namespace taut
     step_before = current.last_step;
     current.last_step = step;
     constraints.update(current.time);
-    schur->update_moving();
+    system->interface().update_moving();
 
     structure.communicator().agree(
         [&]
@@ -175,17 +171,14 @@ namespace taut
         });
     if (const std::vector<double> &old = constraint_motions.old_place(current); !old.empty())
       constraints.add_forces(old, right_hand_side);
-    constraint_motions.set_problem(current, *schur, right_hand_side, lift);
-    if (has_rigid_body_modes)
-      constraint_motions.set_rigid_body_modes(solvers, right_hand_side);
-    find_multipliers();
-    constraints.add_forces(constraint_motions.applied(), right_hand_side);
-    solvers.solve(right_hand_side);
+    constraint_motions.set_problem(current, *system, right_hand_side, lift);
+    if (constraints.size() > 0 || system->has_modes())
+      constraint_motions.set_multipliers(
+          system->find_multipliers(constraint_motions.problem(), check, last), current);
+    system->find_increments(constraint_motions.applied().multiplier,
+                            constraint_motions.applied().mode_amplitude, right_hand_side);
     for (std::size_t k = 0; k < structure.size(); ++k)
-    {
-      constraint_motions.add_rigid_body_modes(solvers, k, right_hand_side[k]);
       accept(k);
-    }
     constraint_motions.update(current);
     certify();
     if (c.velocity_projection)
@@ -234,7 +227,7 @@ namespace taut
     const Substructure &body = structure[k];
     std::vector<double> &P = forces.P[k];
     body.external_force(current.time, P);
-    const double *f = origin.force[k].data();
+    const double *f = reference_state.force[k].data();
     for (std::size_t i = 0; i < P.size(); ++i)
       P[i] -= f[i];
     forces.external_size[k] = largest(body, P);
@@ -248,7 +241,7 @@ namespace taut
     const StepCoefficients &c = coefficients;
     if (body.external_force_varies())
       set_external_force(k);
-    solvers.remove_rounding(k, current.KU[k], current.balance[k]);
+    system->bodies().remove_rounding(k, current.KU[k], current.balance[k]);
 
     const double kappa = c.old_balance();
     const double old = c.old_inertia(), now = c.new_inertia();
@@ -282,11 +275,10 @@ namespace taut
     {
       std::vector<double> &L = lift[k];
       for (const ConstrainedDof &constraint : body.constraints())
-        L[constraint.dof] = constraint.at(current.time) -
-                            (origin.displacement[k][constraint.dof] + current.U[k][constraint.dof]);
-      body.mass().vmult_add(-c.mass_factor(), L.data(), R);
-      body.damping().vmult_add(-c.velocity, L.data(), R);
-      body.stiffness().vmult_add(-1., L.data(), R);
+        L[constraint.dof] =
+            constraint.at(current.time) -
+            (reference_state.displacement[k][constraint.dof] + current.U[k][constraint.dof]);
+      system->lift(k, L, right_hand_side[k]);
     }
   }
 
@@ -297,6 +289,50 @@ namespace taut
     step = length;
     segment_start = current.time;
     n_in_segment = 0;
+  }
+
+  template <typename Archive>
+  void TimeStepper::store(Archive &archive)
+  {
+    archive &current &last &coefficients &constraint_motions;
+    archive &step &step_before &segment_start &n_in_segment &n_steps;
+    for (double &size : motion_size)
+      archive &size;
+  }
+
+  void TimeStepper::save(OutputArchive &archive)
+  {
+    store(archive);
+    const std::vector<double> largest_rates =
+        projection ? projection->largest_rates() : std::vector<double>();
+    archive << largest_rates;
+    begin_anew(largest_rates);
+  }
+
+  void TimeStepper::load(InputArchive &archive, State state)
+  {
+    current = std::move(state);
+    store(archive);
+    std::vector<double> largest_rates;
+    archive >> largest_rates;
+    constraints.update(current.time);
+    begin_anew(largest_rates);
+  }
+
+  void TimeStepper::begin_anew(const std::vector<double> &largest_rates)
+  {
+    earlier_systems = interface_statistics();
+    system = std::make_unique<StepSystem>(structure, constraints, parameters);
+    projection.reset();
+    prepare(coefficients);
+    if (projection && !largest_rates.empty())
+      projection->set_largest_rates(largest_rates);
+  }
+
+  InterfaceStatistics TimeStepper::interface_statistics() const
+  {
+    InterfaceStatistics result = earlier_systems;
+    return result += system->interface().statistics();
   }
 
   void TimeStepper::restore(const State &before)
@@ -321,7 +357,7 @@ namespace taut
                         : dU[i] - step * (V[i] + step * (A0[i] / 3. + A[i] / 6.));
       const PerKind e = largest(structure[k], work_v), v = largest(structure[k], V);
       for (std::size_t i = 0; i < dU.size(); ++i)
-        work_v[i] = origin.displacement[k][i] + current.U[k][i];
+        work_v[i] = reference_state.displacement[k][i] + current.U[k][i];
       const PerKind u = largest(structure[k], work_v);
       for (int kind = 0; kind < 2; ++kind)
       {
@@ -344,25 +380,10 @@ namespace taut
   {
     const std::vector<double> &S = constraint_motions.compliance();
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      if (constraints[i].unilateral && 2. * S[i] < schur->matrix().diagonal(i) &&
+      if (constraints[i].unilateral && 2. * S[i] < system->interface().matrix().diagonal(i) &&
           (before.multiplier[i] > 0.) != (current.multiplier[i] > 0.))
         return true;
     return false;
-  }
-
-  void TimeStepper::find_multipliers()
-  {
-    if (constraints.size() == 0 && !has_rigid_body_modes)
-      return;
-    check.solve(
-        [&]
-        {
-          const ComplementarityResult &result =
-              complementarity.solve(constraint_motions.problem(), schur->matrix());
-          constraint_motions.set_multipliers(result.solution, current);
-          last.iterations = result.iterations;
-          last.fallback = result.used_fallback;
-        });
   }
 
   /// Velocities and forces that the step ends with, and the balance that the next one looks back
@@ -442,7 +463,7 @@ namespace taut
   void TimeStepper::certify_rows()
   {
     last.complementarity =
-        constraint_motions.residual(current, schur->matrix(), last.worst_constraint);
+        constraint_motions.residual(current, system->interface().matrix(), last.worst_constraint);
     last.drift = constraint_motions.drift(current);
     check.check_constraints(last);
   }

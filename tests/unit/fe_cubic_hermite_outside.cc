@@ -3,6 +3,7 @@
 // exception in Release as well. Expected values are those of a cubic, which the element holds.
 #include <taut/wire/fe_cubic_hermite.h>
 
+#include <deal.II/base/config.h>
 #include <deal.II/base/function.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_handler.h>
@@ -69,24 +70,25 @@ namespace
     }
   };
 
-  /// In Debug an assertion of deal.II may come first, as an exception of its own.
+  /// In Debug, and since 9.6 in Release, deal.II may refuse first what one of its elements does not
+  /// know, with an exception of its own.
   template <typename Work>
   void expect_refused(const std::string &what, const Work &work)
   {
-#ifdef DEBUG
     deal_II_exceptions::disable_abort_on_exception();
-    EXPECT_THROW(work(), ExceptionBase) << what;
-#else
     try
     {
       work();
       ADD_FAILURE() << what << ": no exception";
     }
-    catch (const ExcMessage &error)
+    catch (const ExceptionBase &error)
     {
+#if defined(DEBUG) || DEAL_II_VERSION_GTE(9, 6, 0)
+      (void)error;
+#else
       EXPECT_NE(std::string(error.what()).find("FE_CubicHermite: "), std::string::npos) << what;
-    }
 #endif
+    }
   }
 
   template <typename Dimension>

@@ -52,7 +52,7 @@ namespace verification
       if (step > 0.)
         solvers.factor(1. / (step * step), 1. / step);
       else
-        solvers.factor_stiffness(null_spaces);
+        solvers.factor_stiffness();
       std::vector<double> S(constraints.size());
       for (std::size_t i = 0; i < S.size(); ++i)
         S[i] = 1. / (constraints[i].stiffness + (step > 0. ? constraints[i].damping / step : 0.));

@@ -57,12 +57,7 @@ namespace
     if (step > 0.)
       solvers.factor(1. / (step * step), 1. / step);
     else
-    {
-      std::vector<taut::Substructure::NullSpace> null_spaces;
-      for (std::size_t k = 0; k < structure.size(); ++k)
-        null_spaces.push_back(structure[k].null_space());
-      solvers.factor_stiffness(null_spaces);
-    }
+      solvers.factor_stiffness();
     std::vector<double> S(constraints.size());
     for (std::size_t i = 0; i < constraints.size(); ++i)
       S[i] = 1. / (constraints[i].stiffness + (step > 0. ? constraints[i].damping / step : 0.));

@@ -47,6 +47,9 @@ namespace taut
     /// The value of each rank, in order.
     std::vector<std::size_t> gather(std::size_t value) const;
 
+    /// The texts of all ranks, in order, on all of them.
+    std::vector<std::string> gather(const std::string &text) const;
+
     /// The text of the root on all ranks.
     void broadcast(std::string &text) const;
 

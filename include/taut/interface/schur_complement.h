@@ -35,6 +35,8 @@ namespace taut
     long n_local_solves = 0;   ///< systems of one A_k for these products, on this rank
     long n_coarse_solves = 0;  ///< systems of one A_k for the coarse space, on this rank
     long n_factorisations = 0; ///< of one A_k for the preconditioner, on this rank
+
+    InterfaceStatistics &operator+=(const InterfaceStatistics &other);
   };
 
   /**

@@ -15,8 +15,9 @@ namespace taut
   class CsvFile
   {
   public:
-    /// Creates the file. Throws UserError if it cannot.
-    CsvFile(const std::string &path, const std::vector<std::string> &columns);
+    /// Creates the file; one that @p goes_on is left as it is until resume(). Throws UserError if
+    /// it cannot.
+    CsvFile(const std::string &path, const std::vector<std::string> &columns, bool goes_on = false);
 
     /// Adds a cell to the current line.
     CsvFile &operator<<(double value);
@@ -30,6 +31,13 @@ namespace taut
 
     /// Writes what is buffered and closes. Throws UserError when the disk is full.
     void close();
+
+    /// Brings what is buffered to the disk and returns the length of the file. Throws UserError
+    /// when the disk is full.
+    std::size_t save();
+
+    /// Goes on after this length and drops what follows. Throws UserError if the file is shorter.
+    void resume(std::size_t length);
 
   private:
     void write();

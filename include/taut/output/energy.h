@@ -38,6 +38,8 @@ namespace taut
 
     /// Throws UserError when the disk is full.
     void finish() override;
+    void save(OutputArchive &archive) override;
+    void resume(InputArchive &archive, const StepView &step) override;
 
   private:
     /// Of a state or, added up, of a run [J].
@@ -46,6 +48,14 @@ namespace taut
       double kinetic = 0., strain = 0., links = 0.;
       double loads = 0., supports = 0., contacts = 0.;
       double damping = 0., link_dampers = 0., algorithmic = 0.;
+
+      template <typename Archive>
+      void serialize(Archive &archive, unsigned int)
+      {
+        for (double *value : {&kinetic, &strain, &links, &loads, &supports, &contacts, &damping,
+                              &link_dampers, &algorithmic})
+          archive &*value;
+      }
     };
 
     void begin_balance(const StepView &start);

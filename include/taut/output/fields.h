@@ -32,6 +32,8 @@ namespace taut
     /// Called by all ranks together; the root writes. Throws UserError when a file cannot be
     /// written.
     void record(const StepView &step) override;
+    void save(OutputArchive &archive) override;
+    void resume(InputArchive &archive, const StepView &step) override;
 
   private:
     /// A place with the linear forms of its motion along x, y and z.

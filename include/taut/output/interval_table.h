@@ -2,6 +2,7 @@
 #ifndef taut_interval_table_h
 #define taut_interval_table_h
 
+#include <taut/base/archive_forward.h>
 #include <taut/output/csv_file.h>
 
 #include <limits>
@@ -33,8 +34,8 @@ namespace taut
 
     bool is_empty() const { return columns.empty(); }
 
-    /// Creates the file. Throws UserError if it cannot.
-    void open(const std::string &path);
+    /// Creates the file, or leaves one that @p goes_on for load(). Throws UserError if it cannot.
+    void open(const std::string &path, bool goes_on = false);
 
     /// One step at a time [s]: a value for each column in the order in which they were added, of a
     /// state a number that changes with it. Throws UserError when the disk is full.
@@ -42,6 +43,10 @@ namespace taut
 
     /// Writes the steps since the last line, too. Throws UserError when the disk is full.
     void close();
+
+    /// Where it is, for a checkpoint; what was recorded is on the disk then.
+    void save(OutputArchive &archive);
+    void load(InputArchive &archive);
 
   private:
     enum class Kind

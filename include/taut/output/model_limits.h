@@ -44,6 +44,10 @@ namespace taut
     /// Each step, the start first. Called by all ranks together.
     void record(const StepView &step);
 
+    /// For checkpoints: the worst so far.
+    void save(OutputArchive &archive);
+    void load(InputArchive &archive);
+
     /// At most one of each kind.
     std::vector<ModelWarning> warnings() const;
 
@@ -82,6 +86,8 @@ namespace taut
       std::size_t line = 0;
     };
 
+    template <typename Archive>
+    void store(Archive &archive);
     void add_slopes(const Scene &scene, const SceneBodies &structure);
     void add_distances(const Scene &scene, const SceneBodies &structure);
     void compare_speeds(const Scene &scene);

@@ -2,6 +2,7 @@
 #ifndef taut_observer_h
 #define taut_observer_h
 
+#include <taut/base/archive_forward.h>
 #include <taut/base/registry.h>
 #include <taut/interface/constraints.h>
 #include <taut/model/scene_bodies.h>
@@ -48,6 +49,7 @@ namespace taut
     const std::string &folder; ///< of the results, made
     double interval;           ///< Output/Interval: least time between two lines of a table [s]
     const Communicator &communicator;
+    bool resumes = false; ///< its files go on where the checkpoint says, see Observer::resume()
   };
 
   /**
@@ -70,8 +72,19 @@ namespace taut
     /// are results, too.
     virtual std::vector<std::string> files() const { return {}; }
 
-    /// Called once, before the first record.
+    /// Called once, before the first record or resume().
     virtual void begin(const RunView &) {}
+
+    /**
+     * Stores in a checkpoint what it needs to go on after the last step that was recorded; files
+     * are to be on the disk until there. What the root stores is kept; what other ranks know that
+     * it does not has to be sent to it first.
+     */
+    virtual void save(OutputArchive &) {}
+
+    /// Instead of the first record of a run that goes on from a checkpoint: reads on each rank what
+    /// the root stored at this step, in the same order.
+    virtual void resume(InputArchive &, const StepView &) {}
 
     virtual void record(const StepView &step) = 0;
 

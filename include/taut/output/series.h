@@ -22,13 +22,16 @@ namespace taut
   {
   public:
     /// @p interval and @p link_interval: least time between two lines [s]; 0: every step.
+    /// @p resumes: the files go on, see resume().
     Series(const std::string &folder, const Scene &scene, const Constraints &constraints,
-           double interval, double link_interval);
+           double interval, double link_interval, bool resumes = false);
 
     void record(const StepView &step) override;
 
     /// Writes the rest. Throws UserError when the disk is full.
     void finish() override;
+    void save(OutputArchive &archive) override;
+    void resume(InputArchive &archive, const StepView &step) override;
 
   private:
     void add_link(const ConstraintData &constraint);

@@ -62,6 +62,8 @@ namespace taut
     Statistics(const StatisticsParameters &parameters, const Scene &scene, const Constraints &rows);
 
     void record(const StepView &step) override;
+    void save(OutputArchive &archive) override;
+    void resume(InputArchive &archive, const StepView &step) override;
 
     /// Contact force of one sliding contact in the window.
     struct ContactQuantities
@@ -132,6 +134,8 @@ namespace taut
       double start = 0., largest = 0., smallest = 0.;
     };
 
+    template <typename Archive>
+    void store(Archive &archive);
     ContactQuantities quantities(const Contact &contact) const;
 
     /// A row of a table.

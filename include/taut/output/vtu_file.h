@@ -71,6 +71,11 @@ namespace taut
 
     std::size_t size() const { return n_entries; }
 
+    /// Length of the file with @p n entries; resume() goes on there and drops what follows. Throws
+    /// UserError if the file is shorter.
+    std::size_t length();
+    void resume(std::size_t n, std::size_t length);
+
   private:
     std::string path;
     std::ofstream stream;

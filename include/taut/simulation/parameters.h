@@ -27,9 +27,11 @@ namespace taut
   {
     std::string folder = "results";
     double interval = 0., link_interval = 0.01, field_interval = 0.1;
+    double checkpoint_interval = 0.;
     unsigned int subdivisions = 1;
     std::vector<std::string> observers; ///< registered names
     bool overwrite = false;             ///< from the command line, not from the file
+    bool resume = false;                ///< from the command line
 
     /// A probe by name.
     struct ProbeItem

@@ -15,8 +15,9 @@
 
 namespace taut
 {
-  class Fields;
   class ObserverList;
+  class StepControl;
+  struct Checkpoint;
 
   /**
    * Throws an EntryError on Output/Folder if a run could not write its results there, because it is
@@ -78,9 +79,13 @@ namespace taut
     void update_probes(const State &state);
     void stop_before_start();
     void print_cost(const TimeStepper &stepper, double until, double all) const;
-    void advance(TimeStepper &stepper, const ObserverList &observers, Fields &fields);
-    void show(const ObserverList &observers, Fields &fields, const State &state,
-              const Certificate &certificate);
+    void advance(TimeStepper &stepper, const ObserverList &observers);
+    void find_checkpoint();
+    void check_origin(const Checkpoint &checkpoint) const;
+    void save_checkpoint(TimeStepper &stepper, StepControl &control, const ObserverList &observers);
+    void resume(TimeStepper &stepper, StepControl &control, const ObserverList &observers);
+    State restored_state();
+    void show(const ObserverList &observers, const State &state, const Certificate &certificate);
     void add_guests(ObserverList &observers) const;
     void on_root(const std::function<void()> &work) const;
 
@@ -88,7 +93,7 @@ namespace taut
     std::ostream &log;
     const Communicator processes;
     const Scene model;
-    const SceneBodies bodies;
+    SceneBodies bodies;
     Constraints links;
 
     Reference reference;
@@ -105,6 +110,9 @@ namespace taut
     std::string scheme;                      ///< with its parameters
     std::vector<std::string> unused_entries; ///< of other schemes, with their values
     double seconds = 0.;
+    std::shared_ptr<const Checkpoint>
+        checkpoint;              ///< that the run goes on from; none: from the start
+    double next_checkpoint = 0.; ///< [s]
     std::function<int()> stop_asked;
     int stop_signal = 0; ///< the same on all ranks; 0: go on
   };

@@ -40,12 +40,16 @@ namespace taut
     struct RigidBodyModes
     {
       std::vector<std::vector<double>> vectors; ///< R'
-      std::vector<double> resistance;           ///< diagonal of E [N/m, N m/rad]
-      std::vector<std::vector<double>> rigid;   ///< R
+      std::vector<double> resistance;           ///< diagonal of E [N/m, N m/rad]; 0 without inertia
+      std::vector<std::vector<double>> rigid;   ///< R; empty without inertia
       std::vector<unsigned int> fixing_dofs;
+      /// Force on each fixing DoF that balances a load of 1 on each vector of R, a row for each
+      /// DoF.
+      std::vector<std::vector<double>> fixing_forces;
     };
 
-    /// Of each body; without vectors where A_k is factored as it is.
+    /// Of each body; without vectors where A_k is factored as it is. After factor_stiffness(), the
+    /// null space of K_k.
     const std::vector<RigidBodyModes> &rigid_body_modes() const { return motions; }
 
     /// True if a body of some rank has them. Called by all ranks together.
@@ -60,11 +64,11 @@ namespace taut
                          std::vector<double> &balance) const;
 
     /**
-     * A_k = K_k, with a spring as stiff as the diagonal on each DoF that holds a null space vector:
-     * its inverse is a generalised inverse of K_k, exact for forces that are balanced on the null
+     * A_k = K_k, with a spring as stiff as the diagonal on each DoF that fixes the null space: its
+     * inverse is a generalised inverse of K_k, exact for forces that are balanced on the null
      * space (the springs then carry nothing).
      */
-    void factor_stiffness(const std::vector<Substructure::NullSpace> &null_spaces);
+    void factor_stiffness();
 
     const LocalSolver &operator[](std::size_t k) const { return *solvers[k]; }
 

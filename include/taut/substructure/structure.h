@@ -50,6 +50,9 @@ namespace taut
     const Substructure &operator[](std::size_t k) const { return *substructures[k]; }
     std::size_t n_dofs() const;
 
+    /// Substructure::load() of one of this rank.
+    void load(std::size_t k, InputArchive &archive) { substructures[k]->load(archive); }
+
     /// A substructure of any rank.
     struct Body
     {

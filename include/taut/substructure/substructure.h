@@ -2,6 +2,7 @@
 #ifndef taut_substructure_h
 #define taut_substructure_h
 
+#include <taut/base/archive_forward.h>
 #include <taut/base/coordinates.h>
 #include <taut/base/linear_form.h>
 #include <taut/substructure/symmetric_matrix.h>
@@ -133,6 +134,11 @@ namespace taut
       std::vector<unsigned int> fixing_dofs;
     };
     virtual NullSpace null_space() const { return {}; }
+
+    /// Stores in a checkpoint what the body keeps from step to step beside displacements,
+    /// velocities and accelerations, and reads it again: nothing, unless a body says otherwise.
+    virtual void save(OutputArchive &) const {}
+    virtual void load(InputArchive &) {}
 
     /// Where its elements are so unequal that the stiffness of the smallest hides the others, and
     /// what to do, as a part of a message; empty if nowhere.

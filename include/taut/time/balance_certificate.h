@@ -32,7 +32,7 @@ namespace taut
   public:
     /// The arguments are kept by reference.
     BalanceCertificate(const Structure &structure, const Constraints &constraints,
-                       const Reference &origin);
+                       const Reference &reference);
 
     /**
      * Forms K U and r = P + B N - C V - K U of the state of a step and returns the largest relative

@@ -38,6 +38,13 @@ namespace taut
     unsigned int iterations = 0; ///< of the complementarity solver
     bool fallback = false;       ///< the method that was not chosen finished the step
 
+    template <typename Archive>
+    void serialize(Archive &archive, unsigned int)
+    {
+      archive &complementarity &worst_constraint &balance &worst_body &drift;
+      archive &kinetic_energy &energy_gain &iterations &fallback;
+    }
+
     /// The larger of both; not-a-number if one is.
     double max() const
     {

@@ -3,9 +3,9 @@
 #define taut_constraint_motions_h
 
 #include <taut/complementarity/problem.h>
-#include <taut/interface/schur_complement.h>
 #include <taut/time/integrator.h>
 #include <taut/time/state.h>
+#include <taut/time/step_system.h>
 
 #include <initializer_list>
 #include <vector>
@@ -46,7 +46,7 @@ namespace taut
     /// The arguments but @p start are kept by reference; @p constraints are where they are at the
     /// start.
     ConstraintMotions(const Structure &structure, const Constraints &constraints,
-                      const Reference &origin, const State &start);
+                      const Reference &reference, const State &start);
 
     /// For steps with these coefficients from now on.
     void prepare(const StepCoefficients &c, double step);
@@ -56,26 +56,9 @@ namespace taut
 
     /// Sets the problem of the step from the state before it. @p constraints are at its end, @p P
     /// is P^.
-    void set_problem(const State &before, const SchurComplement &schur, const BodyVectors &P,
+    void set_problem(const State &before, const StepSystem &system, const BodyVectors &P,
                      const BodyVectors &lift);
     const MixedComplementarityProblem &problem() const { return conditions; }
-
-    /// The rigid body modes of bodies as unknowns of the problem, with loads from P^ = @p P. Called
-    /// by all ranks together, after set_problem().
-    void set_rigid_body_modes(const FactoredStructure &solvers, const BodyVectors &P);
-
-    /// Adds those of the solution to the increments of the bodies.
-    void add_rigid_body_modes(const FactoredStructure &solvers, std::size_t k,
-                              std::vector<double> &dU) const
-    {
-      add_rigid_body_modes(solvers, k, amplitude, dU);
-    }
-    /// The same of the correction.
-    void add_corrected_motions(const FactoredStructure &solvers, std::size_t k,
-                               std::vector<double> &dU) const
-    {
-      add_rigid_body_modes(solvers, k, correction.mode_amplitude, dU);
-    }
 
     /**
      * Takes the solution of the problem, multipliers L with A dU = P^ + B L. state.multiplier
@@ -83,8 +66,8 @@ namespace taut
      */
     void set_multipliers(const MixedComplementaritySolution &solution, State &state);
 
-    /// L.
-    const std::vector<double> &applied() const { return applied_multiplier; }
+    /// L and the amplitudes of rigid body modes.
+    const MixedComplementaritySolution &applied() const { return solved; }
 
     /// The part of L that the balance of forces at the end of the step has, and the rest of it.
     const std::vector<double> &in_balance() const { return balanced; }
@@ -117,12 +100,10 @@ namespace taut
      * left that the balance of the bodies lacks, so that their conditions hold again. False if no
      * answer is found. Called by all ranks together.
      */
-    bool correct(const State &state, SchurComplement &schur, const FactoredStructure &solvers,
-                 const BodyVectors &left);
+    bool correct(const State &state, StepSystem &system, const BodyVectors &left);
 
-    /// The answer: changes of the multipliers [N, N m]. Those of the amplitudes are for
-    /// add_corrected_motions().
-    const std::vector<double> &corrections() const { return correction.multiplier; }
+    /// The answer: changes of multipliers [N, N m] and amplitudes.
+    const MixedComplementaritySolution &corrections() const { return correction; }
 
     /// Adds these changes, and the motions @p dU that they are a part of, to gaps, springs and
     /// multipliers.
@@ -132,14 +113,17 @@ namespace taut
     /// index.
     double residual(const State &state, const ComplementarityOperator &F, std::size_t &worst);
 
+    /// What is kept from step to step beside the state: the sizes of gaps so far.
+    template <typename Archive>
+    void serialize(Archive &archive, unsigned int)
+    {
+      archive &largest_scale &gap_terms;
+    }
+
     /// Largest gap of a bilateral rigid constraint at velocity level [m, rad].
     double drift(const State &state) const;
 
   private:
-    void set_rigid_body_modes(const FactoredStructure &solvers, const BodyVectors &P,
-                              MixedComplementarityProblem &problem);
-    void add_rigid_body_modes(const FactoredStructure &solvers, std::size_t k,
-                              const std::vector<double> &amplitudes, std::vector<double> &dU) const;
     double moving_gap(std::size_t i) const;
     void add_inertial_terms(const State &state, const ComplementarityOperator &F);
     double largest_stray(const State &state, std::size_t &worst);
@@ -152,25 +136,24 @@ namespace taut
     double spring_history(std::size_t i, const State &before) const;
     void share_convection(const State &state);
     void set_velocity_condition(std::size_t i, const State &before);
-    void share_contact_free_predictor(const State &before, const SchurComplement &schur,
+    void share_contact_free_predictor(const State &before, const StepSystem &system,
                                       const BodyVectors &P, const BodyVectors &lift);
     void share_motions(const State &state);
     void share(std::initializer_list<std::vector<double> *> vectors);
 
     const Structure &structure;
     const Constraints &constraints;
-    const Reference &origin;
+    const Reference &reference;
     StepCoefficients c;
     double step = 0.;
     bool supports_move = false; ///< of a body of this rank
 
     MixedComplementarityProblem conditions;
     std::vector<double> S;
-    std::vector<char> mean;                 ///< see mean_force()
-    std::vector<char> quasi_static;         ///< fixed constraints on DoFs without mass and damping
-    std::vector<double> amplitude;          ///< of the rigid body modes, of all ranks
-    std::vector<std::size_t> first_of_body; ///< rigid body mode of each body here
-    std::vector<double> applied_multiplier, balanced, impulses;
+    std::vector<char> mean;         ///< see mean_force()
+    std::vector<char> quasi_static; ///< fixed constraints on DoFs without mass and damping
+    MixedComplementaritySolution solved;
+    std::vector<double> balanced, impulses;
     const std::vector<double> none; ///< empty
     std::vector<double>
         link_history; ///< part of a link spring's compression that does not depend on N

@@ -2,6 +2,7 @@
 #ifndef taut_contact_measures_h
 #define taut_contact_measures_h
 
+#include <taut/base/archive_forward.h>
 #include <taut/interface/constraints.h>
 #include <taut/time/certificate.h>
 #include <taut/time/integrator.h>
@@ -40,6 +41,10 @@ namespace taut
 
     /// An accepted step, made with these coefficients. Called by all ranks together.
     void record(const State &state, const StepCoefficients &c, const Certificate &certificate);
+
+    /// For checkpoints: what was measured so far.
+    void save(OutputArchive &archive);
+    void load(InputArchive &archive);
 
     /// Mean of the force of a constraint over the time that its element resolves [N, N m].
     double mean_force(std::size_t i) const { return forces[i].mean; }
@@ -101,6 +106,8 @@ namespace taut
       double gap = 0., motion = 0.; ///< largest, and of a step [m, rad]
     };
 
+    template <typename Archive>
+    void store(Archive &archive);
     void add_force(Force &force, double t, double dt, double value);
     void add_energy(std::size_t i, const State &state, const StepCoefficients &c);
     void add_gap(std::size_t i, const State &state, const StepCoefficients &c);

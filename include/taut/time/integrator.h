@@ -52,6 +52,9 @@ namespace taut
     /// Factor of M in A, after that division [1/s^2]; C has `velocity`, K has 1.
     double mass_factor() const { return new_inertia() * acceleration; }
 
+    /// True if A = K: the step is a static equilibrium.
+    bool is_at_rest() const { return acceleration == 0. && velocity == 0.; }
+
     /// True if velocity or acceleration need more of the past than V0 and A0.
     bool looks_back() const { return v_dU != 0. || a_dU != 0. || a_V_old != 0.; }
 
@@ -64,6 +67,13 @@ namespace taut
     /// Part of itself that an error of the force of a rigid constraint keeps from step to step
     /// without mean forces, where U is held: the spectral radius of what is left of the scheme [1].
     double ringing() const;
+
+    template <typename Archive>
+    void serialize(Archive &archive, unsigned int)
+    {
+      archive &velocity &acceleration &v_V &v_A &v_dU &a_V &a_A &a_dU &a_V_old;
+      archive &alpha_m &alpha_f &mean_force &velocity_level &velocity_projection &restitution;
+    }
 
     bool operator==(const StepCoefficients &other) const;
     bool operator!=(const StepCoefficients &other) const { return !(*this == other); }

@@ -4,6 +4,7 @@
 
 #include <taut/substructure/structure.h>
 
+#include <array>
 #include <vector>
 
 namespace taut
@@ -61,8 +62,25 @@ namespace taut
     struct LinkSpring
     {
       double u = 0., v = 0., a = 0., du = 0.;
+
+      template <typename Archive>
+      void serialize(Archive &archive, unsigned int)
+      {
+        archive &u &v &a &du;
+      }
     };
     std::vector<LinkSpring> link_springs;
+
+    /// Everything but the vectors of the bodies, the same on all ranks.
+    template <typename Archive>
+    void serialize(Archive &archive, unsigned int)
+    {
+      archive &time &last_step &multiplier &gap &geometric_gap &gap_rate &kinetic_energy;
+      archive &is_mean &constraint_work &impulse_work &link_springs;
+    }
+
+    /// The vectors of the bodies of this rank.
+    std::array<BodyVectors *, 7> of_bodies() { return {&U, &V, &A, &dU, &V_old, &KU, &balance}; }
   };
 } // namespace taut
 

@@ -53,6 +53,13 @@ namespace taut
 
     long n_repeated() const { return repeated; }
 
+    /// Where it is, for a checkpoint.
+    template <typename Archive>
+    void serialize(Archive &archive, unsigned int)
+    {
+      archive &position &repeated &level &n_calm &had_changed;
+    }
+
   private:
     long length() const { return 1L << level; }
 

@@ -2,8 +2,7 @@
 #ifndef taut_time_stepper_h
 #define taut_time_stepper_h
 
-#include <taut/complementarity/solver.h>
-#include <taut/interface/schur_complement.h>
+#include <taut/base/archive_forward.h>
 #include <taut/time/balance_certificate.h>
 #include <taut/time/certificate.h>
 #include <taut/time/constraint_motions.h>
@@ -12,6 +11,7 @@
 #include <taut/time/solver_parameters.h>
 #include <taut/time/state.h>
 #include <taut/time/step_check.h>
+#include <taut/time/step_system.h>
 #include <taut/time/velocity_projection.h>
 
 #include <memory>
@@ -47,6 +47,17 @@ namespace taut
     /// Length of the steps to come [s].
     void set_step(double length);
 
+    /**
+     * Stores all that later steps read beside the vectors of the bodies, the same on all ranks;
+     * then begins anew with factors, F and search, whose rounding depends on the steps before. So
+     * does load(): a run that stores and one that goes on from there have the same bits. Called by
+     * all ranks together.
+     */
+    void save(OutputArchive &archive);
+
+    /// @p state has the vectors of the bodies.
+    void load(InputArchive &archive, State state);
+
     /// Back to a state of before, as if nothing had happened since.
     void restore(const State &before);
 
@@ -64,7 +75,7 @@ namespace taut
     bool rigid_constraint_changed(const State &before);
 
     const State &state() const { return current; }
-    const Reference &reference() const { return origin; }
+    const Reference &reference() const { return reference_state; }
     const Certificate &certificate() const { return last; }
 
     /// Of the last step.
@@ -72,14 +83,16 @@ namespace taut
     long n_steps_done() const { return n_steps; }
 
     /// Form and size of the interface operator, for the log.
-    std::string interface_description() const { return schur->description(); }
-    InterfaceStatistics interface_statistics() const { return schur->statistics(); }
+    std::string interface_description() const { return system->interface().description(); }
+    InterfaceStatistics interface_statistics() const;
 
   private:
     void prepare(const StepCoefficients &c);
+    template <typename Archive>
+    void store(Archive &archive);
+    void begin_anew(const std::vector<double> &largest_rates);
     void set_external_force(std::size_t k);
     void set_history(std::size_t k);
-    void find_multipliers();
     void project_velocities();
     void measure_energy();
     void accept(std::size_t k);
@@ -94,7 +107,7 @@ namespace taut
     const SolverParameters parameters;
     const TimeIntegrator &integrator;
     double step, step_before = 0.;
-    const Reference origin;
+    const Reference reference_state;
     State current;
     Certificate last;
 
@@ -105,12 +118,10 @@ namespace taut
     long n_in_segment = 0;
     PerKind motion_size = {0., 0.}; ///< largest displacements so far
 
-    FactoredStructure solvers;
-    std::unique_ptr<SchurComplement> schur;
-    ComplementaritySolver complementarity;
+    std::unique_ptr<StepSystem> system;
+    InterfaceStatistics earlier_systems; ///< of those before
     ConstraintMotions constraint_motions;
-    bool has_rigid_body_modes = false; ///< a body of some rank
-    bool supports_move = false;        ///< of a body of some rank
+    bool supports_move = false; ///< of a body of some rank
     BalanceCertificate balance;
     StepCheck check;
     std::unique_ptr<VelocityProjection> projection; ///< of schemes with one

@@ -53,6 +53,11 @@ namespace taut
     /// Of each body: DoFs without mass and damping, where the step ends in equilibrium.
     const std::vector<std::vector<unsigned int>> &quasi_static_dofs() const { return quasi_static; }
 
+    /// Largest size of each constraint's rate so far, what came to rest rounds with it: of another
+    /// projection of the same constraints [m/s, rad/s].
+    const std::vector<double> &largest_rates() const { return largest_scale; }
+    void set_largest_rates(const std::vector<double> &sizes) { largest_scale = sizes; }
+
     /// Work of the impulses P - p on the bodies in the last step, of each constraint [J].
     const std::vector<double> &work() const { return work_of_rows; }
 

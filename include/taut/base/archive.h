@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_archive_h
+#define taut_archive_h
+
+// What checkpoints are made of: Boost's binary archives. Headers name them as OutputArchive and
+// InputArchive of archive_forward.h; sources that write or read one include this file.
+
+#include <taut/base/archive_forward.h>
+
+#include <boost/archive/binary_iarchive.hpp>
+#include <boost/archive/binary_oarchive.hpp>
+#include <boost/serialization/deque.hpp>
+#include <boost/serialization/map.hpp>
+#include <boost/serialization/string.hpp>
+#include <boost/serialization/utility.hpp>
+#include <boost/serialization/vector.hpp>
+
+#include <sstream>
+#include <string>
+
+namespace taut
+{
+  /// What @p write stores in an archive, as text.
+  template <typename Write>
+  std::string archived(const Write &write)
+  {
+    std::ostringstream out(std::ios::binary);
+    {
+      OutputArchive archive(out);
+      write(archive);
+    }
+    return out.str();
+  }
+
+  /// Calls @p read with an archive of this text. Throws boost::archive::archive_exception if it is
+  /// too short.
+  template <typename Read>
+  void unarchive(const std::string &text, const Read &read)
+  {
+    std::istringstream in(text, std::ios::binary);
+    InputArchive archive(in);
+    read(archive);
+  }
+} // namespace taut
+
+#endif

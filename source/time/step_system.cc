@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
+#include <taut/base/gather_entries.h>
+#include <taut/complementarity/active_set_system.h>
+#include <taut/time/step_system.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace taut
+{
+  namespace
+  {
+    /// Part of the largest multiplier by which refinement may make one negative, and of the terms
+    /// of a gap by which it may close an open one.
+    constexpr double admissible = 1e-12;
+  } // namespace
+
+  StepSystem::StepSystem(const Structure &structure, const Constraints &constraints,
+                         const SolverParameters &parameters)
+      : structure(structure), constraints(constraints), parameters(parameters),
+        solvers(structure, parameters.local_solver),
+        schur(make_schur_complement(parameters.interface, solvers, constraints)),
+        complementarity(parameters.complementarity)
+  {
+  }
+
+  void StepSystem::prepare(const StepCoefficients &coefficients, const std::vector<double> &S)
+  {
+    c = coefficients;
+    structure.communicator().agree(
+        [&]
+        {
+          if (c.is_at_rest())
+            solvers.factor_stiffness();
+          else
+            solvers.factor(c.mass_factor(), c.velocity, parameters.interface.form != "matrix-free");
+        });
+    number_modes();
+    schur->setup(S);
+  }
+
+  /// Rank after rank, and body after body.
+  void StepSystem::number_modes()
+  {
+    std::size_t n_own = 0;
+    for (const FactoredStructure::RigidBodyModes &modes : solvers.rigid_body_modes())
+      n_own += modes.vectors.size();
+    const Communicator &processes = structure.communicator();
+    const std::vector<std::size_t> n = processes.gather(n_own);
+    n_modes = std::accumulate(n.begin(), n.end(), std::size_t(0));
+    first_of_body.assign(1,
+                         std::accumulate(n.begin(), n.begin() + processes.rank(), std::size_t(0)));
+    for (const FactoredStructure::RigidBodyModes &modes : solvers.rigid_body_modes())
+      first_of_body.push_back(first_of_body.back() + modes.vectors.size());
+  }
+
+  std::size_t StepSystem::body_of_mode(const std::size_t amplitude) const
+  {
+    const auto end = std::upper_bound(first_of_body.begin(), first_of_body.end(), amplitude);
+    return end == first_of_body.begin() || end == first_of_body.end()
+               ? Structure::elsewhere
+               : end - first_of_body.begin() - 1;
+  }
+
+  void StepSystem::lift(const std::size_t k, const std::vector<double> &L,
+                        std::vector<double> &P) const
+  {
+    if (!c.is_at_rest())
+    {
+      structure[k].mass().vmult_add(-c.mass_factor(), L.data(), P.data());
+      structure[k].damping().vmult_add(-c.velocity, L.data(), P.data());
+    }
+    structure[k].stiffness().vmult_add(-1., L.data(), P.data());
+  }
+
+  void StepSystem::set_modes(const BodyVectors &P, MixedComplementarityProblem &problem) const
+  {
+    const Communicator &processes = structure.communicator();
+    const auto &modes = solvers.rigid_body_modes();
+    problem.null_space.assign(n_modes, {});
+    problem.null_space_load.assign(n_modes, 0.);
+    problem.null_space_resistance.assign(c.is_at_rest() ? 0 : n_modes, 0.);
+    for (std::size_t k = 0; k < modes.size(); ++k)
+      for (std::size_t v = 0; v < modes[k].vectors.size(); ++v)
+      {
+        const std::vector<double> &R = modes[k].vectors[v];
+        problem.null_space_load[first_of_body[k] + v] =
+            std::inner_product(R.begin(), R.end(), P[k].begin(), 0.);
+        if (!c.is_at_rest())
+          problem.null_space_resistance[first_of_body[k] + v] = modes[k].resistance[v];
+      }
+    MatrixEntries G;
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      for (const auto &[k, form] : constraints[i].terms)
+        for (std::size_t v = 0; v < modes[k].vectors.size(); ++v)
+          G.add(first_of_body[k] + v, i, form.dot(modes[k].vectors[v]));
+    gather(processes, G);
+    G.compress();
+    for (std::size_t e = 0; e < G.size(); ++e)
+      if (G.value[e] != 0.)
+        problem.null_space[G.row[e]].add(G.column[e], G.value[e]);
+    processes.sum(problem.null_space_load);
+    processes.sum(problem.null_space_resistance);
+  }
+
+  const MixedComplementaritySolution &
+  StepSystem::find_multipliers(const MixedComplementarityProblem &problem, const StepCheck &check,
+                               Certificate &certificate)
+  {
+    const MixedComplementaritySolution *solution = nullptr;
+    check.solve(
+        [&]
+        {
+          const ComplementarityResult &result = complementarity.solve(problem, schur->matrix());
+          certificate.iterations = result.iterations;
+          certificate.fallback = result.used_fallback;
+          solution = &result.solution;
+        });
+    return *solution;
+  }
+
+  void StepSystem::find_increments(const std::vector<double> &N, const std::vector<double> &alpha,
+                                   BodyVectors &P) const
+  {
+    constraints.add_forces(N, P);
+    solvers.solve(P);
+    if (!has_modes())
+      return;
+    for (std::size_t k = 0; k < P.size(); ++k)
+    {
+      const auto &vectors = solvers.rigid_body_modes()[k].vectors;
+      for (std::size_t v = 0; v < vectors.size(); ++v)
+        for (std::size_t i = 0; i < P[k].size(); ++i)
+          P[k][i] += alpha[first_of_body[k] + v] * vectors[v][i];
+    }
+  }
+
+  bool StepSystem::correct(const MixedComplementarityProblem &remainder,
+                           const MixedComplementaritySolution &applied,
+                           MixedComplementaritySolution &correction)
+  {
+    correction.reset(remainder);
+    if (constraints.size() == 0 && !has_modes())
+      return true;
+    if (correct_on_closed_set(remainder, applied, correction))
+      return true;
+    // The unknowns are the multipliers as they become and not their changes, so that conditions and
+    // search are those of a step.
+    MixedComplementarityProblem problem = remainder;
+    std::vector<double> before(constraints.size());
+    std::vector<char> closed = applied.closed;
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+    {
+      before[i] = -applied.multiplier[i];
+      closed[i] = closed[i] || remainder.free_gap[i] < 0.;
+    }
+    gaps(remainder, schur->matrix(), before, std::vector<double>(n_modes, 0.), problem.free_gap);
+    for (std::size_t k = 0; k < n_modes; ++k)
+      problem.null_space_load[k] += problem.null_space[k].dot(before);
+    try
+    {
+      ComplementaritySolver search(parameters.complementarity);
+      search.start_from(closed);
+      correction = search.solve(problem, schur->matrix()).solution;
+    }
+    catch (const UserError &)
+    {
+      return false;
+    }
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      correction.multiplier[i] += before[i];
+    return true;
+  }
+
+  bool StepSystem::correct_on_closed_set(const MixedComplementarityProblem &remainder,
+                                         const MixedComplementaritySolution &applied,
+                                         MixedComplementaritySolution &correction)
+  {
+    std::vector<std::size_t> set;
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      if (applied.closed[i])
+        set.push_back(i);
+    const ComplementarityOptions options;
+    ActiveSetSystem system(options);
+    std::vector<double> terms;
+    if (system.solve(remainder, schur->matrix(), set, options.linear_tolerance, correction,
+                     terms) == ActiveSetSystem::Outcome::inadmissible)
+      return false;
+    double largest = 0., smallest = 0.;
+    bool is_admissible = true;
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+    {
+      const double N = applied.multiplier[i] + correction.multiplier[i];
+      largest = std::max(largest, std::fabs(N));
+      if (!remainder.unilateral[i])
+        continue;
+      smallest = std::min(smallest, N);
+      if (!applied.closed[i] && !remainder.is_held_open(i) &&
+          !(correction.gap[i] >= -admissible * terms[i]))
+        is_admissible = false;
+    }
+    return is_admissible && smallest >= -admissible * largest;
+  }
+} // namespace taut
