@@ -7,6 +7,7 @@
 
 #include <boost/crc.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -30,23 +31,31 @@ namespace taut
       return text;
     }
 
-    /// Throws UserError, saying what is wrong with the bytes.
-    Checkpoint parse(const std::string &bytes)
+    /// Reads a file; what is wrong with it, or nothing.
+    std::string problem_of(const std::string &path, Checkpoint &checkpoint)
     {
+      std::ifstream file(path, std::ios::binary);
+      const std::string bytes(std::istreambuf_iterator<char>(file), {});
+      if (!file)
+        return "cannot be read";
       if (bytes.compare(0, any_first_line.size(), any_first_line) != 0)
-        throw UserError("it is no checkpoint of Taut");
+        return "is no checkpoint of Taut";
       if (bytes.compare(0, first_line.size(), first_line) != 0)
-        throw UserError("it was written by another version of Taut");
+        return "was written by another version of Taut";
       const std::size_t n_sum = checksum("").size();
-      if (bytes.size() < first_line.size() + n_sum)
-        throw UserError("it is incomplete");
       const std::string sum = bytes.substr(first_line.size(), n_sum),
-                        content = bytes.substr(first_line.size() + n_sum);
+                        content = bytes.substr(std::min(bytes.size(), first_line.size() + n_sum));
       if (sum != checksum(content))
-        throw UserError("it is damaged: its checksum is wrong");
-      Checkpoint checkpoint;
-      unarchive(content, [&](InputArchive &archive) { archive >> checkpoint; });
-      return checkpoint;
+        return "is damaged: its checksum is wrong";
+      try
+      {
+        unarchive(content, [&](InputArchive &archive) { archive >> checkpoint; });
+      }
+      catch (const boost::archive::archive_exception &e)
+      {
+        return std::string("cannot be read by this build: ") + e.what();
+      }
+      return "";
     }
   } // namespace
 
@@ -54,8 +63,11 @@ namespace taut
   {
     const std::string content = archived([&](OutputArchive &archive) { archive << checkpoint; });
     const std::string path = folder + "/" + checkpoint_names[0];
-    // Between the two renames there is the old one only, which is enough.
-    std::rename(path.c_str(), (folder + "/" + checkpoint_names[1]).c_str());
+    // Between the two renames there is the old one only, which is enough; one that is damaged must
+    // not take the place of a good one.
+    Checkpoint last;
+    if (problem_of(path, last).empty())
+      std::rename(path.c_str(), (folder + "/" + checkpoint_names[1]).c_str());
     replace_file(path, first_line + checksum(content) + content);
   }
 
@@ -67,21 +79,15 @@ namespace taut
       const std::string path = folder + "/" + name;
       if (!std::filesystem::exists(path))
         continue;
-      try
+      Checkpoint checkpoint;
+      const std::string problem = problem_of(path, checkpoint);
+      if (problem.empty())
       {
-        std::ifstream file(path, std::ios::binary);
-        const std::string bytes(std::istreambuf_iterator<char>(file), {});
-        if (!file)
-          throw UserError("it cannot be read");
-        Checkpoint checkpoint = parse(bytes);
         if (!problems.empty())
           log << "Warning: " << problems << "; the one before it is used\n";
         return checkpoint;
       }
-      catch (const std::exception &e)
-      {
-        problems += (problems.empty() ? "" : "; ") + ("'" + path + "': ") + e.what();
-      }
+      problems += (problems.empty() ? "'" : "; '") + path + "' " + problem;
     }
     if (problems.empty())
       return {};

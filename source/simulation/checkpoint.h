@@ -18,7 +18,7 @@ namespace taut
     unsigned int n_ranks = 1;                   ///< that wrote it
     std::map<std::string, std::string> entries; ///< of the parameter file, by path
     std::string run;                            ///< what all ranks have alike
-    std::map<std::string, std::string> bodies;  ///< vectors of each body, by its name
+    std::vector<std::string> bodies;            ///< of each body of the system
     std::vector<std::string> observers;         ///< what each of them stored
 
     template <typename Archive>
@@ -31,7 +31,8 @@ namespace taut
   /// The names of the files in the folder of the results: the last checkpoint, and the one before.
   constexpr const char *const checkpoint_names[] = {"checkpoint", "checkpoint.old"};
 
-  /// Puts it into the folder; what was the last one there becomes the one before. Throws UserError
+  /// Puts it into the folder; what was the last one there becomes the one before, unless it is
+  /// damaged. Throws UserError
   /// if it cannot be written; the one before is still there then.
   void write_checkpoint(const Checkpoint &checkpoint, const std::string &folder);
 

@@ -24,7 +24,8 @@ namespace taut
       return version() + ", " + instruction_set_in_use();
     }
 
-    using BodiesByName = std::map<std::string, std::string>;
+    /// What bodies stored, by their number in the system.
+    using StoredBodies = std::map<std::size_t, std::string>;
   } // namespace
 
   /// The checkpoint of the folder on all ranks, if the run is to resume.
@@ -106,9 +107,9 @@ namespace taut
           limits->save(archive);
         });
     State state = stepper.state();
-    BodiesByName own;
+    StoredBodies own;
     for (std::size_t k = 0; k < bodies.size(); ++k)
-      own[bodies[k].name()] = archived(
+      own[bodies.number(k)] = archived(
           [&](OutputArchive &archive)
           {
             for (const BodyVectors *vectors : state.of_bodies())
@@ -118,9 +119,11 @@ namespace taut
     for (const std::string &text :
          processes.gather(archived([&](OutputArchive &archive) { archive << own; })))
     {
-      BodiesByName of_rank;
+      StoredBodies of_rank;
       unarchive(text, [&](InputArchive &archive) { archive >> of_rank; });
-      stored.bodies.insert(of_rank.begin(), of_rank.end());
+      stored.bodies.resize(bodies.all_bodies().size());
+      for (const auto &[number, body] : of_rank)
+        stored.bodies[number] = body;
     }
     on_root([&] { write_checkpoint(stored, parameters.output.folder); });
   }
@@ -158,11 +161,12 @@ namespace taut
     State state = start;
     for (std::size_t k = 0; k < bodies.size(); ++k)
     {
-      const auto stored = checkpoint->bodies.find(bodies[k].name());
-      if (stored == checkpoint->bodies.end())
-        throw UserError("the checkpoint has no body '" + bodies[k].name() +
-                        "': its run cut the wires in other places");
-      unarchive(stored->second,
+      if (checkpoint->bodies.size() != bodies.all_bodies().size())
+        throw UserError("the run of the checkpoint had " +
+                        std::to_string(checkpoint->bodies.size()) + " bodies and this one has " +
+                        std::to_string(bodies.all_bodies().size()) +
+                        ": resume it with the same program and the same plugins");
+      unarchive(checkpoint->bodies[bodies.number(k)],
                 [&](InputArchive &archive)
                 {
                   for (BodyVectors *vectors : state.of_bodies())

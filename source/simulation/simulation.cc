@@ -127,6 +127,8 @@ namespace taut
     add_guests(observers);
     observers.add(&fields);
     observers.begin(run_view);
+    if (parameters.output.checkpoint_interval > 0. && !checkpoint)
+      observers.save(); // one that cannot says so before the first step
 
     const auto close = [&](const bool is_partial)
     {
@@ -172,6 +174,8 @@ namespace taut
       message << "ended by " << signal_name(stop_signal)
               << " after the step at t = " << statistics.until() << " s of " << parameters.end_time
               << " s; the results until then are in " << parameters.output.folder;
+      if (parameters.output.checkpoint_interval > 0.)
+        message << "; go on with --resume";
       throw Interrupted(stop_signal, message.str());
     }
     const std::string error = measures->error();

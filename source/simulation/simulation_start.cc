@@ -101,9 +101,7 @@ namespace taut
     const std::vector<Structure::Body> &all = bodies.all_bodies();
     std::vector<double> flags(all.size(), 0.);
     for (std::size_t k = 0; k < bodies.size(); ++k)
-      for (std::size_t i = 0; i < all.size(); ++i)
-        if (free[k] && all[i].name == bodies[k].name())
-          flags[i] = 1.;
+      flags[bodies.number(k)] = free[k];
     processes.sum(flags);
     std::string names;
     std::size_t n = 0;

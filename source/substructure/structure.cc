@@ -19,6 +19,8 @@ namespace taut
           n_dofs = substructures.back()->n_dofs();
         });
     processes.sum(&n_dofs, 1);
+    if (index != elsewhere)
+      numbers.push_back(bodies.size());
     bodies.push_back({name, static_cast<std::size_t>(n_dofs)});
     return index;
   }

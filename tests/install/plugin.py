@@ -85,6 +85,18 @@ for part in ("elastic plate", "plate @ 2, 1", "The scene is consistent"):
     expect(part in check.stdout, f"--check does not say '{part}': {check.stdout} {check.stderr}")
 expect(not (arguments.build / "nowhere").exists(), "--check writes")
 
+# From a checkpoint in the middle on, all files become what they were, also those of the plugin.
+checkpoints = ("--set", "Output/Folder=resumed", "--set", "Output/Checkpoint interval=0.15")
+for ranks in (1, 2):
+    shutil.rmtree(arguments.build / "resumed", ignore_errors=True)
+    run(*checkpoints, ranks=ranks)
+    before = {path.name: path.read_bytes() for path in (arguments.build / "resumed").iterdir()}
+    done = run(*checkpoints, "--resume", ranks=ranks)
+    after = {path.name: path.read_bytes() for path in (arguments.build / "resumed").iterdir()}
+    different = [name for name in before.keys() | after.keys() if before.get(name) != after.get(name)]
+    expect(done.returncode == 0 and "Resumed after t = " in done.stdout and not different and "largest.csv" in after,
+           f"resumed on {ranks} ranks: {different} {done.stdout} {done.stderr}")
+
 # Results of observers and bodies are results: not overwritten, and replaced as a whole.
 done = run("--set", "Output/Folder=plugin_1")
 expect(done.returncode == 1 and "holds the results of a run" in done.stderr, f"overwrites: {done.stderr}")

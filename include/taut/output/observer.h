@@ -3,6 +3,7 @@
 #define taut_observer_h
 
 #include <taut/base/archive_forward.h>
+#include <taut/base/exceptions.h>
 #include <taut/base/registry.h>
 #include <taut/interface/constraints.h>
 #include <taut/model/scene_bodies.h>
@@ -78,9 +79,16 @@ namespace taut
     /**
      * Stores in a checkpoint what it needs to go on after the last step that was recorded; files
      * are to be on the disk until there. What the root stores is kept; what other ranks know that
-     * it does not has to be sent to it first.
+     * it does not has to be sent to it first. An observer with files that does not know how throws
+     * a UserError, before the first step of a run with checkpoints.
      */
-    virtual void save(OutputArchive &) {}
+    virtual void save(OutputArchive &)
+    {
+      if (!files().empty())
+        throw UserError("the observer that writes '" + files().front() +
+                        "' stores no checkpoints: set Output/Checkpoint interval = 0, or give it "
+                        "save() and resume()");
+    }
 
     /// Instead of the first record of a run that goes on from a checkpoint: reads on each rank what
     /// the root stored at this step, in the same order.

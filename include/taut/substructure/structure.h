@@ -63,6 +63,9 @@ namespace taut
     /// The substructures of all ranks, in the order of their addition.
     const std::vector<Body> &all_bodies() const { return bodies; }
 
+    /// Which of all_bodies() a substructure of this rank is.
+    std::size_t number(std::size_t k) const { return numbers[k]; }
+
     /// Zero vectors of the right sizes.
     BodyVectors zero() const;
 
@@ -70,6 +73,7 @@ namespace taut
     Communicator processes;
     std::vector<std::unique_ptr<Substructure>> substructures;
     std::vector<Body> bodies;
+    std::vector<std::size_t> numbers; ///< of the substructures here
   };
 
   /// Sum of the absolute values of the terms applied to U: what a sum that cancels rounds against.

@@ -3,6 +3,7 @@
 // displacement, both in a library that the program taut loads.
 #include "plate.h"
 
+#include <taut/base/archive.h>
 #include <taut/base/registry.h>
 #include <taut/output/csv_file.h>
 #include <taut/output/observer.h>
@@ -58,7 +59,22 @@ namespace
     {
       if (run.communicator.is_root())
         file = std::make_unique<taut::CsvFile>(run.folder + "/largest.csv",
-                                               std::vector<std::string>{"time [s]", "largest [m]"});
+                                               std::vector<std::string>{"time [s]", "largest [m]"},
+                                               run.resumes);
+    }
+
+    void save(taut::OutputArchive &archive) override
+    {
+      const std::size_t length = file ? file->save() : 0;
+      archive << length;
+    }
+
+    void resume(taut::InputArchive &archive, const taut::StepView &) override
+    {
+      std::size_t length = 0;
+      archive >> length;
+      if (file)
+        file->resume(length);
     }
 
     void record(const taut::StepView &step) override

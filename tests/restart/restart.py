@@ -1,0 +1,264 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Runs that end by kill -9 at a random moment and are resumed, again and again until one gets to its end, have the files
+of a run that nobody touched, byte for byte; on another number of ranks to 1e-9. A checkpoint that cannot be used is one
+clear error, and what is in the folder stays."""
+import argparse
+import csv
+import os
+import pathlib
+import random
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+parser = argparse.ArgumentParser(description=__doc__)
+parser.add_argument("--program", required=True)
+parser.add_argument("--mpiexec", required=True)
+parser.add_argument("--prm", type=pathlib.Path, required=True)
+parser.add_argument("--serial", type=int, default=0, help="runs of one process that are killed")
+parser.add_argument("--parallel", type=int, default=0, help="runs of two ranks that are killed")
+parser.add_argument("--bad", action="store_true", help="checkpoints that cannot be used")
+parser.add_argument("--seed", type=int, default=1)
+arguments = parser.parse_args()
+
+
+def entries(**values):
+    return [item for path, value in values.items() for item in ("--set", f"{path.replace('__', '/').replace('_', ' ')}={value}")]
+
+
+LINE = "en50318_2002_250.prm"
+CONTACT = "Catenary/Pantograph pantograph/Contact stiffness"
+PATIENCE = 600.  # [s]
+# Between them they have all that is kept from step to step: schemes with and without mean forces, impulses, adaptive
+# steps, extremes in tables, fields, energies, all forms of the interface operator, moving contacts and supports.
+SCENES = [
+    [LINE, *entries(Time__End=1.5, Statistics__Window="", Output__Observers="energy", Output__Checkpoint_interval=0.2)],
+    [LINE, *entries(Time__End=0.6, Time__Step=2e-4, Statistics__Window="", Output__Checkpoint_interval=0.1,
+                    Output__Interval=0.01, Time__Step_control="adaptive"), "--set", f"{CONTACT}=rigid"],
+    [LINE, *entries(Time__End=0.4, Statistics__Window="", Output__Checkpoint_interval=0.05,
+                    Solver__Interface_operator="matrix-free", Partition__Number_of_substructures=8)],
+    ["bouncing_bar.prm", *entries(Time__End=5, Output__Checkpoint_interval=0.5, Output__Observers="energy")],
+    ["beam_over_supports.prm", *entries(Output__Checkpoint_interval=0.1, Output__Observers="energy")],
+    ["en50318_2002_250_two.prm", *entries(Time__End=0.8, Statistics__Window="", Time__Scheme="BDF2",
+                                          Output__Checkpoint_interval=0.15, Solver__Interface_operator="assembled sparse")],
+    ["oscillator_with_stop.prm", *entries(Output__Checkpoint_interval=0.1, Time__Scheme="Moreau-Jean")],
+]
+errors = []
+
+
+def expect(what, is_true, found=""):
+    if not is_true:
+        errors.append(f"{what}: {str(found)[:1500]}")
+
+
+def command(options, ranks):
+    own = [arguments.program, str(arguments.prm / options[0]), *options[1:], "--set", "Output/Folder=results"]
+    return own if ranks == 1 else [arguments.mpiexec, "-np", str(ranks), *own]
+
+
+def run(folder, options, ranks=1):
+    folder.mkdir(exist_ok=True)
+    return subprocess.run(command(options, ranks), cwd=folder, capture_output=True, text=True, timeout=PATIENCE)
+
+
+def descendants(pid):
+    """All processes below this one, and itself."""
+    found = [pid]
+    for task in pathlib.Path(f"/proc/{pid}/task").glob("*/children"):
+        try:
+            for child in task.read_text().split():
+                found += descendants(int(child))
+        except OSError:
+            pass
+    return found
+
+
+def kill_at(folder, options, ranks, seconds):
+    """Starts a run and kills it after so many seconds. True if it was still alive."""
+    folder.mkdir(exist_ok=True)
+    process = subprocess.Popen(command(options, ranks), cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    try:
+        code = process.wait(seconds)
+        expect(f"{options}: the run that was to be killed", code == 0, code)
+        return False
+    except subprocess.TimeoutExpired:
+        for pid in descendants(process.pid):
+            try:
+                os.kill(pid, signal.SIGKILL)
+            except OSError:
+                pass
+        process.wait()
+        return True
+
+
+def contents(folder):
+    return {file.name: file.read_bytes() for file in sorted((folder / "results").iterdir())}
+
+
+def expect_same(what, folder, reference):
+    found, wanted = contents(folder), contents(reference)
+    expect(f"{what}: same files", found.keys() == wanted.keys(), set(found) ^ set(wanted))
+    different = [name for name in wanted if found.get(name) != wanted[name]]
+    expect(f"{what}: same bytes", not different, different)
+
+
+def check_killed(folder, n, ranks, scenes, rng):
+    """n runs, scene after scene; each is killed up to three times."""
+    n_kills = n_resumed = 0
+    for i in range(n):
+        scene = scenes[i % len(scenes)]
+        reference = folder / f"reference_{i % len(scenes)}"
+        if not reference.exists():
+            begin = time.monotonic()
+            result = run(reference, scene, ranks)
+            expect(f"{scene}: the reference runs", result.returncode == 0, result.stderr)
+            (reference / "seconds").write_text(str(time.monotonic() - begin))
+        seconds = float((reference / "seconds").read_text())
+        own = folder / f"killed_{i}"
+        options = list(scene)
+        for _ in range(3):
+            if not kill_at(own, options, ranks, rng.uniform(0.2 * seconds, 1.1 * seconds)):
+                break
+            n_kills += 1
+            options = [*scene, "--resume"]
+        result = run(own, [*scene, "--resume"], ranks)
+        what = f"{scene[0]} on {ranks} ranks, run {i}"
+        expect(f"{what}: resumes", result.returncode == 0, result.stderr)
+        n_resumed += "Resumed after t = " in result.stdout
+        expect_same(what, own, reference)
+        shutil.rmtree(own)
+    print(f"figure | {n} runs on {ranks} ranks, {n_kills} kills | {n_resumed} of the last starts from a checkpoint")
+    expect("checkpoints are used", n_resumed >= n / 3, n_resumed)
+
+
+def numbers(path):
+    with open(path) as file:
+        return [[float(x) for x in line] for line in list(csv.reader(file))[1:]]
+
+
+def check_other_ranks(folder, scene):
+    """Killed on two ranks, resumed on one, and the other way round."""
+    pieces = [*scene, "--set", "Partition/Number of substructures=4"]
+    reference = folder / "reference_other"
+    begin = time.monotonic()
+    run(reference, pieces)
+    seconds = time.monotonic() - begin
+    for first, second in ((2, 1), (1, 2)):
+        own = folder / f"other_{first}"
+        for attempt in range(20):
+            if kill_at(own, pieces + (["--overwrite"] if attempt else []), first, (0.5 + 0.1 * attempt) * seconds) and \
+                    (own / "results" / "checkpoint").exists():
+                break
+        result = run(own, [*pieces, "--resume"], second)
+        what = f"{first} ranks, resumed on {second}"
+        expect(f"{what}: resumes", result.returncode == 0 and "Resumed after" in result.stdout, result.stderr + result.stdout)
+        expect(f"{what}: says so", f"written by {first} ranks" in result.stdout, result.stdout)
+        for table in ("sliding.csv", "links.csv", "probes.csv"):
+            found, wanted = numbers(own / "results" / table), numbers(reference / "results" / table)
+            sizes = [max(abs(line[j]) for line in wanted) or 1. for j in range(len(wanted[0]))]
+            worst = max(abs(a - b) / size for p, q in zip(found, wanted) for a, b, size in zip(p, q, sizes))
+            expect(f"{what}: {table}", len(found) == len(wanted) and worst <= 1e-9, worst)
+
+
+def check_bad(folder):
+    """Each change of the folder with its error; the folder is as before."""
+    scene = [LINE, *entries(Time__End=0.5, Statistics__Window="", Output__Checkpoint_interval=0.1, Output__Field_interval=0)]
+    complete = folder / "complete"
+    result = run(complete, scene)
+    expect("the run", result.returncode == 0, result.stderr)
+
+    def changed(name):
+        own = folder / name
+        shutil.copytree(complete, own)
+        return own, own / "results"
+
+    def flip(path):
+        data = bytearray(path.read_bytes())
+        data[len(data) // 2] ^= 1
+        path.write_bytes(bytes(data))
+
+    def cut(path):
+        path.write_bytes(path.read_bytes()[:-100])
+
+    for name, damage, message in (("flipped", flip, "damaged: its checksum is wrong"), ("cut", cut, "damaged"),
+                                  ("empty", lambda p: p.write_bytes(b""), "is no checkpoint of Taut"),
+                                  ("foreign", lambda p: p.write_text("something else\n"), "is no checkpoint of Taut"),
+                                  ("older", lambda p: p.write_text("Taut checkpoint, version 0\nx"), "another version")):
+        own, results = changed(name)
+        damage(results / "checkpoint")
+        result = run(own, [*scene, "--resume"])
+        expect(f"{name}: the one before is used", result.returncode == 0 and "the one before it is used" in result.stdout and
+               message in result.stdout and "Resumed after t = 0.4 s" in result.stdout, result.stdout + result.stderr)
+        for file in ("checkpoint", "checkpoint.old"):
+            damage(results / file)
+        before = contents(own)
+        result = run(own, [*scene, "--resume"])
+        expect(f"{name}, both: one error", result.returncode == 1 and len(result.stderr.splitlines()) == 1 and
+               result.stderr.count(message) == 2 and "--overwrite" in result.stderr, result.stderr)
+        expect(f"{name}, both: nothing is lost", contents(own) == before)
+
+    own, results = changed("entry")
+    before = contents(own)
+    result = run(own, [*scene, "--set", "Time/Step=5e-4", "--resume"])
+    expect("another step: one error", result.returncode == 1 and "'1e-3'" in result.stderr and "Time/Step" in result.stderr
+           and "--overwrite" in result.stderr, result.stderr)
+    expect("another step: nothing is lost", contents(own) == before)
+
+    own, results = changed("table")
+    (results / "sliding.csv").write_text("")
+    result = run(own, [*scene, "--resume"])
+    expect("a shorter table: one error", result.returncode == 1 and "sliding.csv' is shorter" in result.stderr, result.stderr)
+
+    own, results = changed("gone")
+    for file in ("checkpoint", "checkpoint.old"):
+        (results / file).unlink()
+    result = run(own, [*scene, "--set", "Time/Step=5e-4", "--resume"])
+    expect("other results: one error", result.returncode == 1 and "nothing to resume there" in result.stderr, result.stderr)
+    result = run(own, [*scene, "--resume"])
+    expect("no checkpoint: from the start", result.returncode == 0 and "begins from the start" in result.stdout,
+           result.stdout + result.stderr)
+    expect_same("no checkpoint", own, complete)
+
+    result = run(complete, scene)
+    expect("a plain start tells of --resume", result.returncode == 1 and "--resume" in result.stderr, result.stderr)
+    for other in ("--overwrite", "--check", "--study"):
+        result = run(complete, [*scene, "--resume", other])
+        expect(f"--resume {other}", result.returncode == 1 and "exclude each other" in result.stderr, result.stderr)
+
+    # A signal ends a run in order; it resumes like one that was killed.
+    own, reference = folder / "signal", folder / "long"
+    longer = [*scene, *entries(Time__End=1.5, Time__Step=2e-4)]
+    run(reference, longer)
+    own.mkdir()
+    process = subprocess.Popen(command(longer, 1), cwd=own, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    while not (own / "results" / "checkpoint").exists() and process.poll() is None:
+        time.sleep(0.01)
+    process.send_signal(signal.SIGTERM)
+    said = process.communicate(timeout=PATIENCE)[1]
+    expect("SIGTERM", process.returncode == 143 and re.search("go on with --resume", said), said)
+    result = run(own, [*longer, "--resume"])
+    expect("SIGTERM: resumes", result.returncode == 0 and "Resumed after" in result.stdout, result.stderr)
+    expect_same("SIGTERM", own, reference)
+
+
+with tempfile.TemporaryDirectory() as name:
+    rng = random.Random(arguments.seed)
+    print(f"seed {arguments.seed}")
+    folder = pathlib.Path(name)
+    if arguments.serial:
+        check_killed(folder, arguments.serial, 1, SCENES, rng)
+    if arguments.parallel:
+        ranks = folder / "ranks"
+        ranks.mkdir()
+        two = [[*SCENES[i], "--set", "Partition/Number of substructures=4"] for i in (0, 1)]
+        check_killed(ranks, arguments.parallel, 2, two, rng)
+        check_other_ranks(ranks, SCENES[0])
+    if arguments.bad:
+        check_bad(folder)
+
+sys.exit("\n".join(errors) or None)
