@@ -6,6 +6,7 @@
 #include <taut/output/scene_report.h>
 #include <taut/simulation/simulation.h>
 #include <taut/study/study.h>
+#include <taut/study/sweep.h>
 
 #include <boost/program_options.hpp>
 
@@ -48,6 +49,23 @@ namespace
     const std::vector<std::string> overrides = arguments.count("set")
                                                    ? arguments["set"].as<std::vector<std::string>>()
                                                    : std::vector<std::string>();
+    if (arguments.count("sweep"))
+    {
+      for (const char *other : {"study", "check", "sketch"})
+        if (arguments.count(other))
+          throw taut::UserError(std::string("--sweep and --") + other +
+                                " exclude each other; choose one");
+      if (arguments.count("resume") && arguments.count("overwrite"))
+        throw taut::UserError("--resume and --overwrite exclude each other; choose one");
+      taut::Sweep sweep(file, overrides, processes, std::cout);
+      sweep.set_overwrite(arguments.count("overwrite") > 0);
+      sweep.set_resume(arguments.count("resume") > 0);
+      sweep.stop_if(taut::interruption);
+      sweep.run();
+      return;
+    }
+    if (arguments.count("jobs"))
+      throw taut::UserError("--jobs are the workers of a --sweep; a run takes 'mpirun -np N taut'");
     if (arguments.count("resume"))
       for (const char *other : {"study", "check", "overwrite"})
         if (arguments.count(other))
@@ -97,6 +115,36 @@ namespace
     }
   }
 
+  /// Becomes 'mpirun -np N' of the same command, without its --jobs. Returns if there is no mpirun.
+  void become_parallel(const int argc, char **argv, const unsigned int n)
+  {
+    const std::string program = std::filesystem::read_symlink("/proc/self/exe");
+    std::vector<std::string> words = {"mpirun", "-np", std::to_string(n), program};
+    for (int i = 1; i < argc; ++i)
+    {
+      const std::string word = argv[i];
+      if (word == "-j" || word == "--jobs")
+        ++i;
+      else if (word.compare(0, 2, "-j") != 0 && word.compare(0, 7, "--jobs=") != 0)
+        words.push_back(word);
+    }
+    std::vector<char *> pointers;
+    for (std::string &word : words)
+      pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    // One core a worker, also of more workers than there are cores, and also of root, with Open MPI
+    // 4 and 5; what the user has set stays.
+    for (const auto &[variable, value] :
+         std::initializer_list<std::pair<const char *, const char *>>{
+             {"OPENBLAS_NUM_THREADS", "1"},
+             {"OMPI_ALLOW_RUN_AS_ROOT", "1"},
+             {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"},
+             {"OMPI_MCA_rmaps_base_oversubscribe", "1"},
+             {"PRTE_MCA_rmaps_default_mapping_policy", ":oversubscribe"}})
+      setenv(variable, value, 0);
+    execvp("mpirun", pointers.data());
+  }
+
   /// Says once what all ranks have to say. Returns the exit code.
   int report(const taut::Communicator &processes, const std::string &message, const int code = 1)
   {
@@ -125,6 +173,10 @@ int main(int argc, char **argv)
       "draw the undeformed scene before the check or the run")(
       "study",
       "run the scene with all settings of its section Study and measure cost and error of each")(
+      "sweep",
+      "run the scene once for each case of its section Sweep and write a table of quantities")(
+      "jobs,j", po::value<unsigned int>()->value_name("N"),
+      "workers of a sweep: starts itself with 'mpirun -np N'")(
       "set,s", po::value<std::vector<std::string>>()->composing()->value_name("ENTRY=VALUE"),
       "change an entry of the file: Section.Entry=value (or Section/Entry=value); may be repeated")(
       "overwrite", "replace the results of an earlier run in the same folder")(
@@ -150,7 +202,16 @@ int main(int argc, char **argv)
     else if (arguments.count("version"))
       std::cout << "taut " << taut::version() << '\n';
     else if (arguments.count("file"))
+    {
+      const unsigned int jobs = arguments.count("jobs") ? arguments["jobs"].as<unsigned int>() : 1;
+      if (arguments.count("sweep") && jobs > 1 && processes.size() == 1)
+      {
+        become_parallel(argc, argv, jobs);
+        throw taut::UserError("cannot start 'mpirun' for --jobs: install Open MPI, or run "
+                              "without --jobs");
+      }
       run(arguments, processes);
+    }
     else if (processes.is_root())
       write_default_file();
     std::cout.flush();

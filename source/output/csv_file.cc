@@ -13,18 +13,23 @@ namespace taut
   namespace
   {
     constexpr std::size_t buffer_size = 1 << 16;
-
-    /// A text cell, quoted if it has to be.
-    std::string quoted(const std::string &text)
-    {
-      if (text.find_first_of(",\"\n") == std::string::npos)
-        return text;
-      std::string result = "\"";
-      for (const char c : text)
-        result += c == '"' ? std::string("\"\"") : std::string(1, c);
-      return result + "\"";
-    }
   } // namespace
+
+  std::string csv_cell(const std::string &text)
+  {
+    if (text.find_first_of(",\"\n") == std::string::npos)
+      return text;
+    std::string result = "\"";
+    for (const char c : text)
+      result += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return result + "\"";
+  }
+
+  std::string csv_number(const double value)
+  {
+    char digits[32];
+    return std::string(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+  }
 
   std::string time_text(const double time)
   {
@@ -65,7 +70,7 @@ namespace taut
     if (!line_begins)
       buffer += ',';
     line_begins = false;
-    buffer += quoted(text);
+    buffer += csv_cell(text);
     return *this;
   }
 

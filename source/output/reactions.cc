@@ -1,33 +1,40 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/output/reactions.h>
 
-#include <algorithm>
-#include <cmath>
 #include <map>
 
 namespace taut
 {
   namespace
   {
-    /// Rows of a symmetric matrix, by number.
-    std::map<unsigned int, LinearForm> rows_of(const SymmetricMatrix &matrix,
-                                               const std::vector<unsigned int> &wanted)
+    /// The forces of a matrix along a form, form . (M x), as a form on x.
+    LinearForm times(const LinearForm &form, const SymmetricMatrix &matrix)
     {
-      std::map<unsigned int, LinearForm> constraints;
-      for (const unsigned int i : wanted)
-        constraints[i];
+      std::map<unsigned int, double> weights, result;
+      for (std::size_t i = 0; i < form.index.size(); ++i)
+        weights[form.index[i]] += form.value[i];
       matrix.visit(
           [&](const unsigned int i, const unsigned int j, const double value)
           {
-            for (const auto &[constraint, column] : {std::make_pair(i, j), std::make_pair(j, i)})
-            {
-              const auto found = constraints.find(constraint);
-              if (found != constraints.end() &&
-                  (i != j || found->second.index.empty() || found->second.index.back() != column))
-                found->second.add(column, value);
-            }
+            if (const auto w = weights.find(i); w != weights.end())
+              result[j] += w->second * value;
+            if (const auto w = weights.find(j); i != j && w != weights.end())
+              result[i] += w->second * value;
           });
-      return constraints;
+      LinearForm product;
+      for (const auto &[dof, value] : result)
+        product.add(dof, value);
+      return product;
+    }
+
+    /// Without the shape functions that are zero at the place: at a node all but one.
+    LinearForm without_zeros(const LinearForm &form)
+    {
+      LinearForm result;
+      for (std::size_t i = 0; i < form.index.size(); ++i)
+        if (form.value[i] != 0.)
+          result.add(form.index[i], form.value[i]);
+      return result;
     }
   } // namespace
 
@@ -47,7 +54,6 @@ namespace taut
 
   Reactions::Reactions(const Scene &scene, const SceneBodies &structure) : structure(structure)
   {
-    std::map<std::size_t, std::vector<unsigned int>> fixed;
     for (const SupportPoint &point : support_points(scene))
     {
       const Support &support = scene.supports[point.support];
@@ -63,24 +69,12 @@ namespace taut
       place.damping = support.damping;
       if (place.is_here)
       {
-        // Supports are at nodes, where one shape function is 1 and all others are 0.
-        const LinearForm &form = terms[0].form;
-        const auto one = std::max_element(form.value.begin(), form.value.end(),
-                                          [](const double a, const double b)
-                                          { return std::fabs(a) < std::fabs(b); });
         place.body = terms[0].substructure;
-        place.dof = form.index[one - form.value.begin()];
+        place.form = without_zeros(terms[0].form);
         if (place.fixed)
-          fixed[place.body].push_back(place.dof);
+          place.mass = times(place.form, structure[place.body].mass());
       }
       places.push_back(std::move(place));
-    }
-    for (const auto &[body, dofs] : fixed)
-    {
-      const auto constraints = rows_of(structure[body].mass(), dofs);
-      for (Place &place : places)
-        if (place.is_here && place.fixed && place.body == body)
-          place.mass = constraints.at(place.dof);
     }
     values.assign(places.size(), 0.);
   }
@@ -94,12 +88,13 @@ namespace taut
       if (!place.is_here)
         continue;
       const std::size_t k = place.body;
-      const unsigned int dof = place.dof;
+      const LinearForm &form = place.form;
       if (place.fixed)
-        values[i] = place.mass.dot(state.A[k]) - state.balance[k][dof];
+        values[i] = place.mass.dot(state.A[k]) - form.dot(state.balance[k]);
       else
-        values[i] = -place.stiffness * (reference.displacement[k][dof] + state.U[k][dof]) -
-                    place.damping * state.V[k][dof];
+        values[i] =
+            -place.stiffness * (form.dot(reference.displacement[k]) + form.dot(state.U[k])) -
+            place.damping * form.dot(state.V[k]);
     }
     structure.communicator().sum(values);
   }

@@ -319,25 +319,30 @@ namespace taut
     {
       const ContactQuantities f = quantities(contact);
       const Moments &m = f.filtered;
-      list.insert(list.end(), {{contact.name, "mean", m.mean},
-                               {contact.name, "standard deviation", m.deviation},
-                               {contact.name, "maximum", m.maximum},
-                               {contact.name, "minimum", m.minimum},
-                               {contact.name, "contact loss", f.loss}});
+      list.insert(list.end(), {{contact.name, "mean", m.mean, "N"},
+                               {contact.name, "standard deviation", m.deviation, "N"},
+                               {contact.name, "maximum", m.maximum, "N"},
+                               {contact.name, "minimum", m.minimum, "N"},
+                               {contact.name, "contact loss", f.loss, "1"}});
     }
     for (std::size_t i = 0; i < link_quantities.size(); ++i)
     {
       const LinkQuantities &f = link_quantities[i];
-      list.insert(list.end(), {{link_names[i], "open time", f.open_time},
-                               {link_names[i], "closed time", f.closed_time},
-                               {link_names[i], "largest force", f.largest_force},
-                               {link_names[i], "impulse", f.impulse},
-                               {link_names[i], "largest impulse", f.largest_impulse}});
+      const std::string force = link_rotates[i] ? "N m" : "N";
+      list.insert(list.end(),
+                  {{link_names[i], "open time", f.open_time, "s"},
+                   {link_names[i], "closed time", f.closed_time, "s"},
+                   {link_names[i], "largest force", f.largest_force, force},
+                   {link_names[i], "impulse", f.impulse, force + " s"},
+                   {link_names[i], "largest impulse", f.largest_impulse, force + " s"}});
     }
     for (std::size_t i = 0; i < probe_names.size(); ++i)
-      list.insert(list.end(), {{probe_names[i], "largest", uplift[i]},
-                               {probe_names[i], "smallest", lowering[i]},
-                               {probe_names[i], "last", last[i]}});
+    {
+      const std::string unit = probe_rotates[i] ? "rad" : "m";
+      list.insert(list.end(), {{probe_names[i], "largest", uplift[i], unit},
+                               {probe_names[i], "smallest", lowering[i], unit},
+                               {probe_names[i], "last", last[i], unit}});
+    }
     return list;
   }
 } // namespace taut

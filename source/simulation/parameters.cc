@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <sstream>
 
@@ -167,8 +168,35 @@ namespace taut
     declare_observers(prm);
     statistics.declare_parameters(prm);
     study.declare_parameters(prm);
+    sweep.declare_parameters(prm);
     bodies.declare_parameters(prm);
     generator->declare_parameters(prm);
+  }
+
+  namespace
+  {
+    /// The entries of a file that print() wrote, but for folders, which may have been moved.
+    std::vector<std::string> entries_in(std::istream &printed)
+    {
+      const std::string folder = "set Folder ";
+      std::vector<std::string> entries;
+      for (std::string line; std::getline(printed, line);)
+      {
+        const std::size_t begin = line.find_first_not_of(' ');
+        if (begin != std::string::npos && line[begin] != '#' &&
+            line.compare(begin, folder.size(), folder) != 0)
+          entries.push_back(line);
+      }
+      return entries;
+    }
+  } // namespace
+
+  bool Parameters::has_entries_of(const std::string &printed) const
+  {
+    std::ifstream in(printed);
+    std::stringstream own;
+    print(own);
+    return in && entries_in(in) == entries_in(own);
   }
 
   void Parameters::read(const std::string &name, const std::vector<std::string> &overrides,
@@ -253,6 +281,7 @@ namespace taut
         generator->declare_names(prm);
         output.declare_names(prm);
         study.declare_names(prm);
+        sweep.declare_names(prm);
         prm.parse_input_from_string(text, "", true);
       }
       {
@@ -279,6 +308,7 @@ namespace taut
       for (const auto &[figure, range] : statistics.expected)
         check_pair(range, "Statistics/Expected ranges/" + figure);
       study.parameter_lists(entry_values);
+      sweep.parameters(entry_values);
     }
     catch (const EntryError &e)
     {

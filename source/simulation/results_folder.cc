@@ -56,36 +56,14 @@ namespace taut
       return results;
     }
 
-    /// The entries of a used.prm, but for the folder, which may have been moved.
-    std::vector<std::string> entries_in(std::istream &used)
-    {
-      std::vector<std::string> entries;
-      for (std::string line; std::getline(used, line);)
-      {
-        const std::size_t begin = line.find_first_not_of(' ');
-        if (begin != std::string::npos && line[begin] != '#' &&
-            line.compare(begin, 11, "set Folder ") != 0)
-          entries.push_back(line);
-      }
-      return entries;
-    }
-
-    /// True if the results in the folder are those of a run with the same entries.
-    bool is_of_this_run(const Parameters &parameters)
-    {
-      std::ifstream file(fs::path(parameters.output.folder) / "used.prm");
-      std::stringstream own;
-      parameters.print(own);
-      return file && entries_in(file) == entries_in(own);
-    }
-
     void check_resumed_folder(const Parameters &parameters)
     {
       const OutputParameters &output = parameters.output;
       for (const char *const name : checkpoint_names)
         if (fs::exists(fs::path(output.folder) / name))
           return;
-      if (!results_in(output.folder).empty() && !is_of_this_run(parameters))
+      if (!results_in(output.folder).empty() &&
+          !parameters.has_entries_of(output.folder + "/used.prm"))
         throw EntryError("Output/Folder", "'" + output.folder +
                                               "' has no checkpoint, and its results are of a run "
                                               "with other entries: nothing to resume there. Name "

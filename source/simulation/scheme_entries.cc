@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <sstream>
 
 namespace taut
@@ -27,6 +28,14 @@ namespace taut
   {
     for (const std::string &name : Registry<TimeIntegrator>::instance().list())
       integrators[name] = Registry<TimeIntegrator>::instance().create(name);
+  }
+
+  double Parameters::restitution() const
+  {
+    double largest = 0.;
+    for (const auto &[name, integrator] : integrators)
+      largest = std::max(largest, integrator->restitution());
+    return largest;
   }
 
   std::unique_ptr<TimeIntegrator>

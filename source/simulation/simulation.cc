@@ -15,8 +15,6 @@
 #include <taut/simulation/simulation.h>
 #include <taut/time/choose_scheme.h>
 
-#include <deal.II/base/utilities.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -283,9 +281,6 @@ namespace taut
   const TimeIntegrator &Simulation::choose_integrator()
   {
     const double step = parameters.step_parameters.shortest(parameters.step);
-    // The entry itself: as part of a scheme that is not taken it need not make sense.
-    const double restitution =
-        dealii::Utilities::string_to_double(parameters.values().at("Time/Moreau-Jean/Restitution"));
     std::vector<std::size_t> massless;
     for (std::size_t i = 0; i < links.size(); ++i)
       if (!links[i].is_cut() && is_massless(model.links[links[i].link]))
@@ -297,7 +292,7 @@ namespace taut
     if (name == "automatic")
     {
       const SchemeChoice choice =
-          choose_scheme(bodies, links, parameters.solver, step, restitution);
+          choose_scheme(bodies, links, parameters.solver, step, parameters.restitution());
       chosen_integrator = parameters.integrator(choice.name, choice.entries);
       log << "Scheme (automatic): " << chosen_integrator->description() << ", because "
           << choice.reason << '\n';

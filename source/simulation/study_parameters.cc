@@ -2,6 +2,7 @@
 #include <taut/base/exceptions.h>
 #include <taut/base/nearest_name.h>
 #include <taut/simulation/study_parameters.h>
+#include <taut/simulation/text_lists.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -15,20 +16,6 @@ namespace taut
   namespace
   {
     using namespace dealii::Patterns;
-
-    /// Parts between separators, without spaces around them.
-    std::vector<std::string> split(const std::string &text, const char separator)
-    {
-      std::vector<std::string> parts;
-      std::istringstream in(text);
-      for (std::string part; std::getline(in, part, separator);)
-      {
-        const std::size_t first = part.find_first_not_of(" \t"),
-                          last = part.find_last_not_of(" \t");
-        parts.push_back(first == std::string::npos ? "" : part.substr(first, last - first + 1));
-      }
-      return parts;
-    }
 
     bool is_positive_number(const std::string &text)
     {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace taut
@@ -125,9 +126,16 @@ namespace taut
                                "' acts as rigid: it is stiffer than the bodies in one step";
     const std::string body = body_without_definite_mass(structure);
     if (body.empty())
+    {
+      std::ostringstream without_loss;
+      without_loss.precision(std::numeric_limits<double>::max_digits10);
+      without_loss << restitution;
       return {"Moreau-Jean",
-              {{"Moreau-Jean/Theta", "0.5"}, {"Moreau-Jean/Conditions", "gaps then velocities"}},
+              {{"Moreau-Jean/Theta", "0.5"},
+               {"Moreau-Jean/Conditions", "gaps then velocities"},
+               {"Moreau-Jean/Restitution", without_loss.str()}},
               reason};
+    }
     if (restitution > 0.)
       throw EntryError("Time/Moreau-Jean/Restitution",
                        "restitution needs a mass matrix that can be inverted, and that of body '" +

@@ -263,7 +263,7 @@ namespace taut
                           "Weight of the new forces and velocities: 1/2 keeps the energy of "
                           "vibrations and is second order, 1 is first order [1]",
                           dealii::Patterns::Double(.5, 1.));
-        prm.add_parameter("Restitution", restitution,
+        prm.add_parameter("Restitution", rebound,
                           "Newton's coefficient: velocity of separation over that of approach at "
                           "rigid unilateral links. An elastic body rebounds by its own waves with "
                           "0; of a rigid one it says how much [1]",
@@ -283,7 +283,7 @@ namespace taut
       StepCoefficients coefficients(const double step) const override
       {
         if (conditions == "velocities")
-          return moreau_jean(step, theta, restitution);
+          return moreau_jean(step, theta, rebound);
         if (conditions == "gaps then velocities")
         {
           if (theta != .5)
@@ -291,26 +291,27 @@ namespace taut
                 "Time/Moreau-Jean/Theta",
                 "conditions on gaps, then velocities, are for Theta 1/2; set it to 0.5, "
                 "or 'Conditions' to 'gaps' or 'velocities'");
-          return gaps_then_velocities(step, restitution);
+          return gaps_then_velocities(step, rebound);
         }
-        if (restitution > 0.)
+        if (rebound > 0.)
           throw EntryError("Time/Moreau-Jean/Restitution",
                            "restitution is a law of velocities; set it to 0, or 'Conditions' to "
                            "'gaps then velocities'");
         return moreau_jean_of_gaps(step, theta);
       }
+      double restitution() const override { return rebound; }
       std::string description() const override
       {
         std::ostringstream out;
         out << "Moreau-Jean (theta " << theta << ", " << conditions;
         if (conditions != "gaps")
-          out << ", restitution " << restitution;
+          out << ", restitution " << rebound;
         out << ')';
         return out.str();
       }
 
     private:
-      double theta = .5, restitution = 0.;
+      double theta = .5, rebound = 0.;
       std::string conditions = "gaps then velocities";
     };
 

@@ -22,9 +22,7 @@ namespace taut
     {
       const SchemeChoice choice =
           choose_scheme(structure, constraints, options.solver, options.step, options.restitution);
-      std::map<std::string, std::string> entries = choice.entries;
-      entries["Moreau-Jean/Restitution"] = std::to_string(options.restitution);
-      integrator = make_integrator(choice.name, entries);
+      integrator = make_integrator(choice.name, choice.entries);
       scheme_description = integrator->description() + ", because " + choice.reason;
       return *integrator;
     }

@@ -11,6 +11,10 @@ namespace taut
   /// A time [s] as short as it was meant: to 14 digits, 0.009 for 9 steps of 0.001.
   std::string time_text(double time);
 
+  /// A number as short as possible without loss, and a text, quoted if it has to be.
+  std::string csv_number(double value);
+  std::string csv_cell(const std::string &text);
+
   /// A table with a header line. Numbers are written as short as possible without loss.
   class CsvFile
   {

@@ -33,7 +33,7 @@ namespace taut
    * The forces with which supports act on their wires [N], or moments [N m]: positive from the
    * wire's first end to its second (axial), to the left of that way (transverse),
    * counterclockwise (slope). Of a support that prescribes the motion u it is what the equation of
-   * motion of its DoF lacks, M u" + C u' + K u - P - B N with the state at the time in question; of
+   * motion lacks along it, M u" + C u' + K u - P - B N with the state at the time in question; of
    * an elastic one -(k u + c u').
    */
   class Reactions
@@ -57,8 +57,8 @@ namespace taut
     {
       bool is_here = false; ///< on this rank
       std::size_t body = 0;
-      unsigned int dof = 0;
-      LinearForm mass; ///< row of M, of a support that prescribes the motion
+      LinearForm form; ///< of the displacement that it holds
+      LinearForm mass; ///< form . M, of a support that prescribes the motion
       double stiffness = 0., damping = 0.;
       bool fixed = false;
     };

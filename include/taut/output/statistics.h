@@ -94,7 +94,8 @@ namespace taut
     struct NamedQuantity
     {
       std::string item, quantity;
-      double value; ///< [N, N m, m, rad, s, N s, N m s]; contact loss [1]
+      double value;
+      std::string unit;
     };
 
     /// All quantities that are one number; of a sliding contact of its filtered force.

@@ -10,6 +10,7 @@
 #include <taut/scene/scene_generator.h>
 #include <taut/simulation/parameter_file.h>
 #include <taut/simulation/study_parameters.h>
+#include <taut/simulation/sweep_parameters.h>
 #include <taut/time/integrator.h>
 #include <taut/time/solver_parameters.h>
 #include <taut/time/step_control.h>
@@ -67,6 +68,9 @@ namespace taut
     /// set_defaults().
     void print(std::ostream &out) const;
 
+    /// True if a file that print() wrote has the same entries, but for folders.
+    bool has_entries_of(const std::string &printed) const;
+
     /// The scene of the generator with gravity, start and probes, checked.
     Scene scene() const;
 
@@ -94,6 +98,7 @@ namespace taut
     OutputParameters output;
     StatisticsParameters statistics;
     StudyParameters study;
+    SweepParameters sweep;
 
     /// Where the stored study is, or goes.
     std::string study_folder() const
@@ -112,6 +117,10 @@ namespace taut
     {
       return *integrators.at(name);
     }
+
+    /// The largest that a scheme has in the file, taken or not: a law of the contacts for whatever
+    /// 'automatic' takes [1].
+    double restitution() const;
 
     /// A scheme with the parameters that the file gives it, but for these entries of its section.
     std::unique_ptr<TimeIntegrator>

@@ -101,6 +101,9 @@ namespace taut
       return coefficients(step);
     }
 
+    /// Newton's restitution that its entries ask for, whether they make a method or not [1].
+    virtual double restitution() const { return 0.; }
+
     /// Name with parameters, for the log.
     virtual std::string description() const = 0;
   };

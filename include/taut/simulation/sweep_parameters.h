@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_sweep_parameters_h
+#define taut_sweep_parameters_h
+
+#include <taut/scene/named_items.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace dealii
+{
+  class ParameterHandler;
+}
+
+namespace taut
+{
+  /// An entry, or several with one value, that a sweep varies.
+  struct SweptParameter
+  {
+    std::string name;
+    std::vector<std::string> entries; ///< their paths
+  };
+
+  /// The cases of a sweep, section "Sweep".
+  struct SweepParameters
+  {
+    std::string folder;
+    std::string combination = "product";
+    unsigned int samples = 0, seed = 1;
+
+    struct Item
+    {
+      std::string entries, values, distribution = "values";
+      std::vector<double> range;
+      void declare(dealii::ParameterHandler &prm);
+    };
+    NamedItems<Item> items{"Sweep", "Parameters", "Parameter", "entries that a sweep varies"};
+
+    void declare_names(dealii::ParameterHandler &prm);
+
+    /// Declares the members in subsection "Sweep".
+    void declare_parameters(dealii::ParameterHandler &prm);
+
+    /// What is varied, checked against all entries of the scene by path; throws EntryError.
+    std::vector<SweptParameter> parameters(const std::map<std::string, std::string> &scene) const;
+
+    /// A value for each of the parameters in each case. The same on every machine; throws
+    /// EntryError.
+    std::vector<std::vector<std::string>> cases() const;
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_sweep_h
+#define taut_sweep_h
+
+#include <taut/base/communicator.h>
+#include <taut/output/statistics.h>
+#include <taut/simulation/parameters.h>
+
+#include <functional>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace taut
+{
+  /**
+   * Runs a scene once for each case of its section Sweep, and writes sweep.csv: a line a case, in
+   * order, with the values of the entries, all quantities that are one number
+   * (Statistics::named_quantities), the largest residuals of the run, and why it failed if it did.
+   *
+   * Ranks are workers: each runs cases of its own, alone, so that the lines are the same for any
+   * number of them. A line is on the disk before the cases after it begin on the same rank.
+   */
+  class Sweep
+  {
+  public:
+    /// @p overrides as for Parameters::read(). Throws UserError. What is said goes to @p log.
+    Sweep(const std::string &file, const std::vector<std::string> &overrides,
+          const Communicator &workers, std::ostream &log);
+
+    /// Replaces an earlier sweep, or goes on after its last complete line.
+    void set_overwrite(bool value) { overwrite = value; }
+    void set_resume(bool value) { resume = value; }
+
+    /// As Simulation::stop_if(), asked after each step of each run.
+    void stop_if(std::function<int()> asked) { stop_asked = std::move(asked); }
+
+    /**
+     * Runs all cases that have no line yet. A case that cannot be run is a line with its error.
+     * Throws UserError, and Interrupted if it was asked to stop: the lines of the cases until then
+     * are written. Called by all ranks together.
+     */
+    void run();
+
+  private:
+    std::string sweep_folder() const;
+    void name_columns();
+    void prepare_folder();
+    void continue_table(const std::string &table);
+    std::string line(std::size_t number) const;
+    std::string run_case(std::size_t number) const;
+    void append(const std::string &lines) const;
+
+    std::string file;
+    std::vector<std::string> overrides;
+    const Communicator workers;
+    std::ostream &log;
+    bool overwrite = false, resume = false;
+    Parameters parameters;
+    std::vector<SweptParameter> swept;
+    std::vector<std::vector<std::string>> cases;
+    std::vector<std::string> names; ///< of the quantities, "item: quantity [unit]"
+    std::string header;
+    std::size_t n_done = 0;
+    std::function<int()> stop_asked;
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
+#include <taut/base/interruption.h>
+#include <taut/base/write_file.h>
+#include <taut/output/csv_file.h>
+#include <taut/simulation/simulation.h>
+#include <taut/study/sweep.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <new>
+#include <ostream>
+#include <sstream>
+
+namespace taut
+{
+  namespace
+  {
+    namespace fs = std::filesystem;
+
+    constexpr const char *table_name = "sweep.csv", *entries_name = "sweep.prm";
+
+    std::string title(const Statistics::NamedQuantity &quantity)
+    {
+      return quantity.item + ": " + quantity.quantity + " [" + quantity.unit + "]";
+    }
+
+    /// The statistics of a run, kept after its end.
+    class Results : public Observer
+    {
+    public:
+      Results(const Parameters &parameters, const Simulation &simulation)
+          : statistics(parameters.statistics, simulation.scene(), simulation.constraints())
+      {
+      }
+      void record(const StepView &step) override { statistics.record(step); }
+      Statistics statistics;
+    };
+  } // namespace
+
+  Sweep::Sweep(const std::string &file, const std::vector<std::string> &overrides,
+               const Communicator &workers, std::ostream &log)
+      : file(file), overrides(overrides), workers(workers), log(log)
+  {
+    parameters.read(file, overrides, workers);
+    try
+    {
+      if (parameters.sweep.items.names.empty())
+        throw EntryError("Sweep/Parameters", "a sweep needs one or more entries to vary");
+      if (!(parameters.end_time > 0.))
+        throw EntryError("Time/End", "a sweep takes quantities of runs in time; take a later end");
+      swept = parameters.sweep.parameters(parameters.values());
+      cases = parameters.sweep.cases();
+    }
+    catch (const EntryError &e)
+    {
+      throw UserError(parameters.explain(e));
+    }
+  }
+
+  std::string Sweep::sweep_folder() const
+  {
+    return parameters.sweep.folder.empty() ? parameters.output.folder + "/sweep"
+                                           : parameters.sweep.folder;
+  }
+
+  /// Of the scene as it is written.
+  void Sweep::name_columns()
+  {
+    std::ostringstream silent;
+    const Simulation simulation(parameters, silent);
+    const Results results(parameters, simulation);
+    header = csv_cell("case");
+    for (const SweptParameter &parameter : swept)
+      header += "," + csv_cell(parameter.name);
+    for (const Statistics::NamedQuantity &quantity : results.statistics.named_quantities())
+    {
+      names.push_back(title(quantity));
+      header += "," + csv_cell(names.back());
+    }
+    header += ",complementarity [1],balance [1],message\n";
+  }
+
+  void Sweep::prepare_folder()
+  {
+    const fs::path folder = sweep_folder();
+    const std::string table = (folder / table_name).string(),
+                      entries = (folder / entries_name).string();
+    std::error_code error;
+    const bool has_table = fs::exists(table, error);
+    if (has_table && !overwrite && !resume)
+      throw EntryError("Sweep/Folder", "'" + folder.string() +
+                                           "' holds a sweep; name another folder, go on with it "
+                                           "with --resume, or run with --overwrite");
+    fs::create_directories(folder, error);
+    if (error)
+      throw EntryError("Sweep/Folder", "cannot make '" + folder.string() + "': " + error.message());
+    if (resume && has_table)
+    {
+      if (!parameters.has_entries_of(entries))
+        throw EntryError("Sweep/Folder", "'" + folder.string() +
+                                             "' holds a sweep with other entries: resume it as it "
+                                             "was, or run with --overwrite");
+      continue_table(table);
+      return;
+    }
+    fs::remove(table, error);
+    std::ostringstream used;
+    parameters.print(used);
+    replace_file(entries, used.str());
+    append(header);
+  }
+
+  /// Counts its complete lines and drops what follows them.
+  void Sweep::continue_table(const std::string &table)
+  {
+    std::ifstream in(table, std::ios::binary);
+    const std::string text(std::istreambuf_iterator<char>(in), {});
+    in.close();
+    if (text.compare(0, header.size(), header) != 0)
+      throw EntryError("Sweep/Folder", "'" + table +
+                                           "' has other columns: resume it as it was, or run with "
+                                           "--overwrite");
+    const std::size_t end = text.rfind('\n') + 1;
+    n_done = std::count(text.begin() + header.size(), text.begin() + end, '\n');
+    fs::resize_file(table, end);
+    log << n_done << " of " << cases.size() << " cases are done\n";
+  }
+
+  void Sweep::run()
+  {
+    try
+    {
+      workers.agree(
+          [&]
+          {
+            if (!workers.is_root())
+              return;
+            name_columns();
+            prepare_folder();
+          });
+    }
+    catch (const EntryError &e)
+    {
+      throw UserError(parameters.explain(e));
+    }
+    std::string shared = std::to_string(n_done);
+    for (const std::string &name : names)
+      shared += '\n' + name;
+    workers.broadcast(shared);
+    std::istringstream lines(shared);
+    std::string first;
+    std::getline(lines, first);
+    n_done = std::stoul(first);
+    names.clear();
+    for (std::string name; std::getline(lines, name);)
+      names.push_back(name);
+
+    const std::size_t n = cases.size();
+    log << n << " cases on " << workers.size() << (workers.size() == 1 ? " worker" : " workers")
+        << ", random numbers from seed " << parameters.sweep.seed << '\n';
+    int signal = 0;
+    while (n_done < n && signal == 0)
+    {
+      // One case a worker; the lines of all of them go to the disk in order.
+      const std::size_t own = n_done + workers.rank();
+      std::string text;
+      if (own < n)
+        text = run_case(own);
+      std::string complete;
+      std::size_t n_complete = 0;
+      for (const std::string &of_worker : workers.gather(text))
+      {
+        if (of_worker.empty())
+          break;
+        complete += of_worker;
+        ++n_complete;
+      }
+      workers.agree(
+          [&]
+          {
+            if (workers.is_root())
+              append(complete);
+          });
+      // A line a hundredth of the sweep.
+      if (100 * (n_done + n_complete) / n > 100 * n_done / n || n_done + n_complete == n)
+        log << "  " << n_done + n_complete << " of " << n << " cases" << std::endl;
+      n_done += n_complete;
+      signal = static_cast<int>(workers.max(stop_asked ? stop_asked() : 0));
+    }
+    std::error_code error;
+    fs::remove_all(sweep_folder() + "/worker_" + std::to_string(workers.rank()), error);
+    if (n_done < n)
+      throw Interrupted(signal, "sweep ended by " + signal_name(signal) + " with " +
+                                    std::to_string(n_done) + " of " + std::to_string(n) +
+                                    " cases done; go on with --sweep --resume");
+    log << "Sweep in " << sweep_folder() << '\n';
+  }
+
+  /// The line of a case; empty if the run was asked to stop.
+  std::string Sweep::run_case(const std::size_t number) const
+  {
+    std::string text = std::to_string(number + 1);
+    for (const std::string &value : cases[number])
+      text += "," + csv_cell(value);
+    std::string message;
+    try
+    {
+      return text + line(number) + ",\n";
+    }
+    catch (const Interrupted &)
+    {
+      return "";
+    }
+    catch (const UserError &e)
+    {
+      message = e.what();
+    }
+    catch (const std::bad_alloc &)
+    {
+      message = "more memory than there is";
+    }
+    std::replace(message.begin(), message.end(), '\n', ' ');
+    return text + std::string(names.size() + 2, ',') + "," + csv_cell(message) + "\n";
+  }
+
+  /// Quantities and residuals of a case.
+  std::string Sweep::line(const std::size_t number) const
+  {
+    std::vector<std::string> all = overrides;
+    for (std::size_t i = 0; i < swept.size(); ++i)
+      for (const std::string &entry : swept[i].entries)
+        all.push_back(entry + "=" + cases[number][i]);
+    all.push_back("Output/Folder=" + sweep_folder() + "/worker_" + std::to_string(workers.rank()));
+    Parameters chosen;
+    chosen.read(file, all);
+    chosen.output.interval = chosen.output.link_interval = 2. * chosen.end_time;
+    chosen.output.field_interval = 0.;
+    chosen.output.checkpoint_interval = 0.;
+    chosen.output.observers.clear();
+    chosen.output.overwrite = true;
+    std::ostringstream silent;
+    try
+    {
+      Simulation simulation(chosen, silent);
+      Results results(chosen, simulation);
+      simulation.stop_if(stop_asked);
+      simulation.observe(results);
+      simulation.run();
+      std::string text;
+      const std::vector<Statistics::NamedQuantity> quantities =
+          results.statistics.named_quantities();
+      bool is_same = quantities.size() == names.size();
+      for (std::size_t i = 0; is_same && i < names.size(); ++i)
+      {
+        is_same = title(quantities[i]) == names[i];
+        text += "," + csv_number(quantities[i].value);
+      }
+      if (!is_same)
+        throw UserError("the scene of this case has other contacts, links or probes than the "
+                        "parameter file: its quantities have no columns");
+      const Certificate &worst = results.statistics.worst_certificate();
+      return text + "," + csv_number(worst.complementarity) + "," + csv_number(worst.balance);
+    }
+    catch (const EntryError &e)
+    {
+      throw UserError(chosen.explain(e));
+    }
+  }
+
+  /// In one write; a sweep that ends within it leaves an incomplete last line.
+  void Sweep::append(const std::string &lines) const
+  {
+    const std::string path = sweep_folder() + "/" + table_name;
+    std::ofstream out(path, std::ios::binary | std::ios::app);
+    out << lines << std::flush;
+    out.close();
+    if (!out)
+      throw UserError("cannot write to '" + path + "': the disk may be full");
+  }
+} // namespace taut

@@ -1,0 +1,179 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Sweeps: each line has the quantities of a run of its own; the table is the same, byte for byte, for 1, 2 and 4 workers,
+and when the sweep is killed and resumed; a case that fails is a line; mistakes are one line of error each."""
+import argparse
+import csv
+import json
+import os
+import pathlib
+import random
+import signal
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+parser = argparse.ArgumentParser(description=__doc__)
+parser.add_argument("--program", required=True)
+parser.add_argument("--mpiexec", required=True)
+parser.add_argument("--prm", type=pathlib.Path, required=True)
+arguments = parser.parse_args()
+errors = []
+SCENE = (arguments.prm / "oscillator_with_stop.prm").read_text()
+MASS, STIFFNESS, STEP = "Network/Mass mass/Mass", "Network/Spring spring/Stiffness", "Time/Step"
+
+
+def expect(what, is_true, found=""):
+    if not is_true:
+        errors.append(f"{what}: {str(found)[:1500]}")
+
+
+def scene(folder, name, parameters, **entries):
+    """The scene with a section Sweep; parameters: name -> entries of its section."""
+    lines = ["subsection Sweep", f"  set Parameters = {', '.join(parameters)}"]
+    lines += [f"  set {key} = {value}" for key, value in entries.items()]
+    for parameter, own in parameters.items():
+        lines += [f"  subsection Parameter {parameter}", *(f"    set {key} = {value}" for key, value in own.items()), "  end"]
+    (folder / name).write_text(SCENE + "\n" + "\n".join(lines) + "\nend\n")
+    return name
+
+
+def taut(folder, *options, ranks=1):
+    command = [arguments.program, *options]
+    if ranks > 1:
+        command = [arguments.mpiexec, "-np", str(ranks), *command]
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=600)
+
+
+def sweep(folder, name, to, *options, ranks=1):
+    result = taut(folder, name, "--sweep", "--set", f"Sweep/Folder={to}", *options, ranks=ranks)
+    expect(f"{name} {options} on {ranks}: runs", result.returncode == 0, result.stderr)
+    table = folder / to / "sweep.csv"
+    return table.read_bytes() if table.exists() else b""
+
+
+def rows(data):
+    return list(csv.DictReader(data.decode().splitlines()))
+
+
+def check_values(folder):
+    mass = {"Entries": MASS, "Values": "1, 2:1:4"}
+    stiffness = {"Entries": STIFFNESS, "Values": "100; 150; 200; 250"}
+    name = scene(folder, "product.prm", {"mass": mass, "k": stiffness})
+    found = [(float(row["mass"]), float(row["k"])) for row in rows(sweep(folder, name, "product"))]
+    expect("product", found == [(m, k) for k in (100, 150, 200, 250) for m in (1, 2, 3, 4)], found)
+    name = scene(folder, "zipped.prm", {"mass": mass, "k": stiffness}, Combination="zipped")
+    table = rows(sweep(folder, name, "zipped"))
+    found = [(float(row["mass"]), float(row["k"])) for row in table]
+    expect("zipped", found == [(1, 100), (2, 150), (3, 200), (4, 250)], found)
+
+    # A run of its own has the same numbers.
+    row = table[2]
+    taut(folder, name, "--set", f"{MASS}={row['mass']}", "--set", f"{STIFFNESS}={row['k']}", "--set", "Output/Folder=alone")
+    alone = json.loads((folder / "alone" / "statistics.json").read_text())
+    text = json.dumps(alone)
+    numbers = [(title, value) for title, value in row.items() if ": largest force" in title or ": largest impulse" in title]
+    expect("quantities are there", len(numbers) >= 2, row)
+    for title, value in numbers:
+        expect(f"{title} of a run of its own", value in text, text)
+
+
+def check_random(folder):
+    name = scene(folder, "random.prm",
+                 {"mass": {"Entries": MASS, "Distribution": "uniform", "Range": "1, 3"},
+                  "k": {"Entries": STIFFNESS, "Distribution": "normal", "Range": "200, 10"},
+                  "step": {"Entries": STEP, "Values": "1e-3, 2e-3"}}, Samples=100)
+    first = sweep(folder, name, "random", ranks=2)
+    table = rows(first)
+    if len(table) != 200:
+        return expect("samples", False, (len(table), errors))
+    mass, k = [float(row["mass"]) for row in table], [float(row["k"]) for row in table]
+    expect("samples", len(table) == 200 and len(set(mass)) == 200, len(table))
+    # Four standard errors.
+    expect("uniform", 1 <= min(mass) and max(mass) <= 3 and abs(statistics.mean(mass) - 2) < 4 * 0.577 / 200**0.5,
+           statistics.mean(mass))
+    expect("normal", abs(statistics.mean(k) - 200) < 4 * 10 / 200**0.5 and abs(statistics.stdev(k) - 10) < 4 * 10 / 400**0.5,
+           (statistics.mean(k), statistics.stdev(k)))
+    expect("the seed is printed", "seed 7" in taut(folder, name, "--sweep", "--set", "Sweep/Folder=seed", "--set", "Sweep/Seed=7",
+                                                  "--set", "Sweep/Samples=2").stdout)
+    other = rows((folder / "seed" / "sweep.csv").read_bytes())
+    expect("another seed, other numbers", other[0]["mass"] != table[0]["mass"])
+    for ranks in (1, 4):
+        expect(f"{ranks} workers", sweep(folder, name, f"random_{ranks}", ranks=ranks) == first)
+    environment = dict(os.environ, PATH=f"{pathlib.Path(arguments.mpiexec).parent}:{os.environ['PATH']}")
+    result = subprocess.run([arguments.program, name, "--sweep", "-j", "2", "--set", "Sweep/Folder=jobs"], cwd=folder,
+                            capture_output=True, text=True, timeout=600, env=environment)
+    expect("--jobs", "on 2 workers" in result.stdout and (folder / "jobs" / "sweep.csv").read_bytes() == first,
+           result.stdout + result.stderr)
+    check_killed(folder, name, first)
+
+
+def check_killed(folder, name, reference):
+    rng = random.Random(1)
+    n_kills = 0
+    for run in range(3):
+        to, options = f"killed_{run}", []
+        for _ in range(4):
+            process = subprocess.Popen([arguments.program, name, "--sweep", "--set", f"Sweep/Folder={to}", *options], cwd=folder,
+                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            time.sleep(rng.uniform(0.4, 1.5))
+            n_kills += process.poll() is None
+            process.kill()
+            process.wait()
+            options = ["--resume"]
+        found = sweep(folder, name, to, "--resume")
+        expect(f"killed and resumed, run {run}", found == reference)
+    expect("sweeps are killed before their end", n_kills > 3, n_kills)
+
+    process = subprocess.Popen([arguments.program, name, "--sweep", "--set", "Sweep/Folder=signal", "--set", "Time/End=50"], cwd=folder, stderr=subprocess.PIPE, text=True,
+                               stdout=subprocess.DEVNULL)
+    while not (folder / "signal" / "sweep.csv").exists() and process.poll() is None:
+        time.sleep(0.01)
+    time.sleep(0.3)
+    process.send_signal(signal.SIGINT)
+    said = process.communicate(timeout=600)[1]
+    expect("SIGINT", process.returncode == 130 and "sweep ended by SIGINT with" in said and "--sweep --resume" in said, said)
+
+
+def check_mistakes(folder):
+    mass = {"Entries": MASS, "Values": "1, -2, 3"}
+    name = scene(folder, "failing.prm", {"mass": mass})
+    table = rows(sweep(folder, name, "failing"))
+    expect("a case that fails is a line", len(table) == 3 and "Network/Mass mass/Mass" in table[1]["message"] and
+           not table[0]["message"] and not table[2]["message"], [row["message"] for row in table])
+    result = taut(folder, name, "--sweep", "--set", "Sweep/Folder=failing")
+    expect("an earlier sweep stays", result.returncode == 1 and "--resume" in result.stderr, result.stderr)
+    result = taut(folder, name, "--sweep", "--resume", "--set", "Sweep/Folder=failing", "--set", "Time/Step=2e-4")
+    expect("other entries", result.returncode == 1 and "other entries" in result.stderr, result.stderr)
+    one = {"Entries": MASS, "Values": "1"}
+    for what, parameters, entries, options, message in (
+            ("no parameter", {}, {}, (), "Sweep/Parameters"),
+            ("unknown entry", {"m": {"Entries": "Network/Mass mass/Mas", "Values": "1"}}, {}, (), "did you mean"),
+            ("no value", {"m": {"Entries": MASS}}, {}, (), "give one or more values"),
+            ("backward range", {"m": {"Entries": MASS, "Values": "3:1:1"}}, {}, (), "first:step:last"),
+            ("no samples", {"m": {"Entries": MASS, "Distribution": "uniform", "Range": "1, 2"}}, {}, (), "Sweep/Samples"),
+            ("no range", {"m": {"Entries": MASS, "Distribution": "normal"}}, {"Samples": 3}, (), "standard deviation"),
+            ("unequal lists", {"m": one, "k": {"Entries": STIFFNESS, "Values": "1, 2"}}, {"Combination": "zipped"}, (),
+             "equally long"),
+            ("varied twice", {"m": one, "k": one}, {}, (), "varied twice"),
+            ("the folder", {"m": {"Entries": "Sweep/Folder", "Values": "1"}}, {}, (), "not part of the scene"),
+            ("--study", {"m": one}, {}, ("--study",), "exclude each other"),
+            ("--check", {"m": one}, {}, ("--check",), "exclude each other"),
+            ("both", {"m": one}, {}, ("--resume", "--overwrite"), "exclude each other")):
+        name = scene(folder, "mistake.prm", parameters, **entries)
+        result = taut(folder, name, "--sweep", *options)
+        expect(what, result.returncode == 1 and message in result.stderr and len(result.stderr.splitlines()) == 1,
+               f"{result.returncode} {result.stderr}")
+    result = taut(folder, scene(folder, "mistake.prm", {"m": one}), "-j", "2")
+    expect("--jobs without --sweep", result.returncode == 1 and "--sweep" in result.stderr, result.stderr)
+
+
+with tempfile.TemporaryDirectory() as name:
+    for check in (check_values, check_random, check_mistakes):
+        folder = pathlib.Path(name) / check.__name__
+        folder.mkdir()
+        check(folder)
+
+sys.exit("\n".join(errors) or None)
