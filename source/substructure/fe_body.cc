@@ -255,6 +255,9 @@ namespace taut
                               ? dealii::DataComponentInterpretation::component_is_part_of_vector
                               : dealii::DataComponentInterpretation::component_is_scalar));
     data.build_patches(mapping, handler.get_fe().degree);
+    dealii::DataOutBase::VtkFlags flags;
+    flags.print_date_and_time = false; // the same bytes from run to run
+    data.set_flags(flags);
     std::ofstream file(path);
     data.write_vtu(file);
     file.close();

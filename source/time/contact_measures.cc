@@ -134,7 +134,7 @@ namespace taut
       archive &f.impulses &f.impulse &f.mean &f.peak &f.mean_peak &f.event_impulse;
       archive &f.largest_impulse &f.event_energy &f.event_begin &f.gap &f.motion;
     }
-    archive &multiplier0 &gap0 &worst_event &kinetic &strain &loads &n_steps;
+    archive &multiplier0 &gap0 &noise &worst_event &kinetic &strain &loads &n_steps;
     archive &found.contact_energy &found.scale &found.relative_energy &found.energy_constraint;
     archive &found.energy_begin &found.energy_end &found.gap &found.gap_constraint;
     archive &found.gap_drifts &found.resolution &found.resolution_row &found.peak;

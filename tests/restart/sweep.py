@@ -19,8 +19,12 @@ parser = argparse.ArgumentParser(description=__doc__)
 parser.add_argument("--program", required=True)
 parser.add_argument("--mpiexec", required=True)
 parser.add_argument("--prm", type=pathlib.Path, required=True)
+parser.add_argument("--plot", required=True, help="taut-plot")
 arguments = parser.parse_args()
 errors = []
+# taut-plot needs matplotlib; there may be another Python before Debian's own.
+PYTHON = next((python for python in (sys.executable, "/usr/bin/python3")
+               if subprocess.run([python, "-c", "import matplotlib"], capture_output=True).returncode == 0), sys.executable)
 SCENE = (arguments.prm / "oscillator_with_stop.prm").read_text()
 MASS, STIFFNESS, STEP = "Network/Mass mass/Mass", "Network/Spring spring/Stiffness", "Time/Step"
 
@@ -137,6 +141,22 @@ def check_killed(folder, name, reference):
     expect("SIGINT", process.returncode == 130 and "sweep ended by SIGINT with" in said and "--sweep --resume" in said, said)
 
 
+def check_pictures(folder):
+    """Curves over one entry, a map over two, percentiles of a sample."""
+    mass = {"Entries": MASS, "Values": "1:0.5:3"}
+    stiffness = {"Entries": STIFFNESS, "Values": "400:200:1000"}
+    sample = {"Entries": STIFFNESS, "Distribution": "uniform", "Range": "400, 1000"}
+    for name, parameters, options in (("curves", {"k": stiffness}, {}), ("map", {"mass": mass, "k": stiffness}, {}),
+                                      ("sample", {"k": sample}, {"Samples": 20})):
+        sweep(folder, scene(folder, f"{name}.prm", parameters, **options), name)
+        result = subprocess.run([PYTHON, arguments.plot, name, "--format", "png"], cwd=folder, capture_output=True, text=True)
+        picture = folder / name / "figures" / "sweep.png"
+        expect(f"picture of the {name}", result.returncode == 0 and picture.exists() and picture.stat().st_size > 10000,
+               result.stdout + result.stderr)
+    result = subprocess.run([PYTHON, arguments.plot, "map", "--quantity", "nothing"], cwd=folder, capture_output=True, text=True)
+    expect("no such quantity", result.returncode == 1 and result.stderr.startswith("taut-plot: --quantity nothing"), result.stderr)
+
+
 def check_mistakes(folder):
     mass = {"Entries": MASS, "Values": "1, -2, 3"}
     name = scene(folder, "failing.prm", {"mass": mass})
@@ -171,7 +191,7 @@ def check_mistakes(folder):
 
 
 with tempfile.TemporaryDirectory() as name:
-    for check in (check_values, check_random, check_mistakes):
+    for check in (check_values, check_random, check_pictures, check_mistakes):
         folder = pathlib.Path(name) / check.__name__
         folder.mkdir()
         check(folder)

@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Pictures of a sweep for taut-plot: quantities over one entry as curves, over two as maps, of random samples as
+distributions with their percentiles."""
+
+import csv
+import os
+import re
+
+import numpy as np
+from matplotlib import pyplot as plt
+from taut_plot_files import UserError, read_entries
+
+BLUE, ORANGE, GREY = "#0072B2", "#E69F00", "#9a9a9a"
+WIDTH = 6.3  # inches: the text width of an A4 page
+MOST_PANELS = 6
+LEAST_CHANGE = 1e-3  # of a quantity that is drawn unasked, over its largest value
+PERCENTILES = (5, 50, 95)
+# What is drawn if nobody asks for more, in this order: of sliding contacts, of probes, of links.
+FIRST = ("mean", "standard deviation", "maximum", "contact loss", "largest", "largest force")
+
+
+class Sweep:
+    """sweep.csv: whole lines only; cases that failed are left out of the numbers."""
+
+    def __init__(self, folder):
+        try:
+            with open(os.path.join(folder, "sweep.csv"), newline="", encoding="utf-8") as file:
+                text = file.read()
+            entries = read_entries(os.path.join(folder, "sweep.prm"))
+        except OSError as error:
+            raise UserError(f"'{folder}' holds no whole sweep: {error}") from error
+        rows = list(csv.reader(text[:text.rfind("\n") + 1].splitlines()))
+        if len(rows) < 2 or any(len(row) != len(rows[0]) for row in rows):
+            raise UserError(f"the sweep in '{folder}' has no cases, or is damaged")
+        self.columns = rows[0]
+        self.failed = sum(1 for row in rows[1:] if row[-1])
+        self.rows = [row for row in rows[1:] if not row[-1]]
+        if not self.rows:
+            raise UserError(f"all cases of the sweep in '{folder}' failed; sweep.csv says why")
+        self.quantities = [name for name in self.columns if re.search(r": .* \[.*\]$", name)]
+        self.parameters = self.columns[1:self.columns.index(self.quantities[0])] if self.quantities else []
+        self.is_random = int(entries.get("Sweep/Samples", "0")) > 0
+
+    def text(self, name):
+        return [row[self.columns.index(name)] for row in self.rows]
+
+    def values(self, name):
+        """Numbers of a column; None if there are others."""
+        try:
+            return np.array([float(value) for value in self.text(name)])
+        except ValueError:
+            return None
+
+    def chosen(self, wanted):
+        """The quantities to draw: those that contain the text, or the first of the usual ones that vary."""
+        if wanted:
+            found = [name for name in self.quantities if wanted in name]
+            if not found:
+                raise UserError(f"--quantity {wanted}: the sweep has none; it has, for instance, {self.quantities[0]}")
+            return found[:MOST_PANELS]
+        usual = [name for kind in FIRST for name in self.quantities if re.search(f": {kind} \\[", name)]
+        usual = [name for name in usual if np.ptp(self.values(name)) > LEAST_CHANGE * np.abs(self.values(name)).max()]
+        of_links = [name for name in usual if ": largest force [" in name]
+        return ([name for name in usual if name not in of_links] or of_links or self.quantities)[:MOST_PANELS]
+
+
+def panels(n, height=2.1):
+    columns = 1 if n == 1 else 2
+    rows = (n + columns - 1) // columns
+    figure, grid = plt.subplots(rows, columns, figsize=(WIDTH, height * rows + 0.3), squeeze=False)
+    for panel in grid.flat[n:]:
+        panel.set_visible(False)
+    return figure, list(grid.flat[:n])
+
+
+def curves(sweep, quantities, parameter):
+    """Over one entry; a curve for each combination of the others."""
+    x = sweep.values(parameter)
+    others = [name for name in sweep.parameters if name != parameter]
+    keys = list(zip(*(sweep.text(name) for name in others))) if others else [()] * len(x)
+    figure, grid = panels(len(quantities))
+    for panel, quantity in zip(grid, quantities):
+        y = sweep.values(quantity)
+        for key in dict.fromkeys(keys):
+            mine = np.array([i for i, k in enumerate(keys) if k == key])
+            mine = mine[np.argsort(x[mine])]
+            panel.plot(x[mine], y[mine], "o-", markersize=3,
+                       label=", ".join(f"{name} {value}" for name, value in zip(others, key)))
+        panel.set_xlabel(parameter)
+        panel.set_ylabel(quantity.replace(": ", ":\n"))
+    if others and len(set(keys)) <= 8:
+        grid[0].legend()
+    return figure
+
+
+def maps(sweep, quantities, first, second):
+    """Over two entries: a field for each pair of values."""
+    x, y = sweep.values(first), sweep.values(second)
+    xs, ys = np.unique(x), np.unique(y)
+    figure, grid = panels(len(quantities), 2.4)
+    for panel, quantity in zip(grid, quantities):
+        field = np.full((len(ys), len(xs)), np.nan)
+        field[np.searchsorted(ys, y), np.searchsorted(xs, x)] = sweep.values(quantity)
+        image = panel.pcolormesh(xs, ys, field, shading="nearest", cmap="viridis")
+        figure.colorbar(image, ax=panel, label=quantity.replace(": ", ":\n"))
+        panel.set_xlabel(first)
+        panel.set_ylabel(second)
+    return figure
+
+
+def distributions(sweep, quantities):
+    """The part of the cases below each value."""
+    figure, grid = panels(len(quantities))
+    for panel, quantity in zip(grid, quantities):
+        values = np.sort(sweep.values(quantity))
+        panel.step(values, 100 * np.arange(1, len(values) + 1) / len(values), where="post", color=BLUE)
+        for percentile in PERCENTILES:
+            at = np.percentile(values, percentile)
+            panel.plot([at, at], [0, percentile], color=ORANGE, linewidth=0.8)
+            panel.annotate(f"{percentile} %: {at:.4g}", (at, percentile), xytext=(-4 if percentile > 50 else 4, -2),
+                           ha="right" if percentile > 50 else "left", textcoords="offset points", fontsize=7)
+        panel.set_ylim(0, 103)
+        panel.set_xlabel(quantity)
+        panel.set_ylabel("cases below [%]")
+    return figure
+
+
+def sweep_picture(folder, wanted):
+    """The figure of a sweep and what is to be said of it."""
+    sweep = Sweep(folder)
+    quantities = sweep.chosen(wanted)
+    varied = [name for name in sweep.parameters if sweep.values(name) is not None and len(set(sweep.text(name))) > 1]
+    pairs = {tuple(pair) for pair in zip(*(sweep.text(name) for name in varied))}
+    if sweep.is_random or not varied:
+        figure = distributions(sweep, quantities)
+    elif len(varied) == 2 and len(sweep.parameters) == 2 and \
+            min(len(set(sweep.text(name))) for name in varied) > 2 and len(pairs) > 8:
+        figure = maps(sweep, quantities, *varied)
+    else:
+        figure = curves(sweep, quantities, max(varied, key=lambda name: len(set(sweep.text(name)))))
+    if sweep.failed:
+        print(f"{sweep.failed} cases failed and are left out; sweep.csv says why")
+    return figure, None
