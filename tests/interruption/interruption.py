@@ -115,13 +115,15 @@ def statistics(folder):
     return json.loads(path.read_text())
 
 
-def check_partial(what, program, results):
+def check_partial(what, program, results, has_log=True):
     """What must be there after an early end; returns until when."""
     found = statistics(results)
     until = found["until"]
     expect(f"{what}: marked as partial", found["partial"] is True, found["partial"])
     said = re.search(r"^Partial results: until t = (\S+) s of", program.out.read_text(), re.MULTILINE)
-    expect(f"{what}: the log says until when", said and math.isclose(float(said[1]), until, rel_tol=1e-5), said)
+    # mpirun of Open MPI 5 that gets a signal itself passes it on, and no output after it.
+    expect(f"{what}: the log says until when",
+           math.isclose(float(said[1]), until, rel_tol=1e-5) if said else not has_log, said)
     lines = (results / "certificate.csv").read_text().splitlines()
     expect(f"{what}: the tables reach the end", math.isclose(float(lines[-1].split(",")[0]), until), lines[-1])
     return until
@@ -177,7 +179,7 @@ def check_ranks(folder, number, rank):
     if rank is not None:
         said = [line for line in program.err.read_text().splitlines() if line.startswith("taut: ended by")]
         expect(f"{what}: one line says so", len(said) == 1 and number.name in said[0], said)
-    check_partial(what, program, results)
+    check_partial(what, program, results, has_log=rank is not None)
     check_same(what, results, options, folder, 1e-7)
 
 
