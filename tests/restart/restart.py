@@ -78,22 +78,38 @@ def descendants(pid):
     return found
 
 
+def kill_all(process):
+    for pid in descendants(process.pid):
+        try:
+            os.kill(pid, signal.SIGKILL)
+        except OSError:
+            pass
+    process.wait()
+
+
+def start(folder, options, ranks):
+    folder.mkdir(exist_ok=True)
+    return subprocess.Popen(command(options, ranks), cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+
 def kill_at(folder, options, ranks, seconds):
     """Starts a run and kills it after so many seconds. True if it was still alive."""
-    folder.mkdir(exist_ok=True)
-    process = subprocess.Popen(command(options, ranks), cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    process = start(folder, options, ranks)
     try:
         code = process.wait(seconds)
         expect(f"{options}: the run that was to be killed", code == 0, code)
         return False
     except subprocess.TimeoutExpired:
-        for pid in descendants(process.pid):
-            try:
-                os.kill(pid, signal.SIGKILL)
-            except OSError:
-                pass
-        process.wait()
+        kill_all(process)
         return True
+
+
+def kill_after_checkpoint(folder, options, ranks):
+    """Kills a run once it has a checkpoint, however long that takes."""
+    process = start(folder, options, ranks)
+    while not (folder / "results" / "checkpoint").exists() and process.poll() is None:
+        time.sleep(0.01)
+    kill_all(process)
 
 
 def contents(folder):
@@ -145,15 +161,10 @@ def check_other_ranks(folder, scene):
     """Killed on two ranks, resumed on one, and the other way round."""
     pieces = [*scene, "--set", "Partition/Number of substructures=4"]
     reference = folder / "reference_other"
-    begin = time.monotonic()
     run(reference, pieces)
-    seconds = time.monotonic() - begin
     for first, second in ((2, 1), (1, 2)):
         own = folder / f"other_{first}"
-        for attempt in range(20):
-            if kill_at(own, pieces + (["--overwrite"] if attempt else []), first, (0.5 + 0.1 * attempt) * seconds) and \
-                    (own / "results" / "checkpoint").exists():
-                break
+        kill_after_checkpoint(own, pieces, first)
         result = run(own, [*pieces, "--resume"], second)
         what = f"{first} ranks, resumed on {second}"
         expect(f"{what}: resumes", result.returncode == 0 and "Resumed after" in result.stdout, result.stderr + result.stdout)
