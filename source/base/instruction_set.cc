@@ -3,6 +3,7 @@
 #include <taut/base/instruction_set.h>
 
 #include <cstdlib>
+#include <vector>
 
 namespace taut
 {
@@ -16,29 +17,49 @@ namespace taut
       return value == nullptr ? "" : value;
     }
 
-    bool has_avx2()
+    struct NamedSet
+    {
+      InstructionSet set;
+      const char *name;
+      bool is_there; ///< this processor has it, and this build
+    };
+
+    /// From the plainest to the best.
+    std::vector<NamedSet> instruction_sets()
     {
 #ifdef TAUT_SEVERAL_INSTRUCTION_SETS
-      return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+      const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+      const bool avx512 = avx2 && __builtin_cpu_supports("avx512f") &&
+                          __builtin_cpu_supports("avx512dq") &&
+                          __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
 #else
-      return false;
+      const bool avx2 = false, avx512 = false;
 #endif
+      return {{InstructionSet::baseline, "baseline", true},
+              {InstructionSet::avx2, "avx2", avx2},
+              {InstructionSet::avx512, "avx512", avx512}};
     }
 
     InstructionSet choose()
     {
       const std::string name = asked_for();
-      if (name == "baseline")
-        return InstructionSet::baseline;
-      if (name == "avx2" && !has_avx2())
-        throw UserError(std::string(variable) +
-                        " = avx2: this processor does not have it, or Taut is compiled without it. "
-                        "Leave the environment variable out, or give it the value baseline");
-      if (name != "" && name != "avx2")
+      InstructionSet best = InstructionSet::baseline;
+      for (const NamedSet &known : instruction_sets())
+      {
+        if (known.is_there)
+          best = known.set;
+        if (name == known.name && !known.is_there)
+          throw UserError(std::string(variable) + " = " + name +
+                          ": this processor does not have it, or Taut is compiled without it. "
+                          "Leave the environment variable out, or give it the value baseline");
+        if (name == known.name)
+          return known.set;
+      }
+      if (!name.empty())
         throw UserError("environment variable " + std::string(variable) + " = '" + name +
-                        "' names no instruction set: give it the value baseline or avx2, or leave "
-                        "it out");
-      return has_avx2() ? InstructionSet::avx2 : InstructionSet::baseline;
+                        "' names no instruction set: give it the value baseline, avx2 or avx512, "
+                        "or leave it out");
+      return best;
     }
   } // namespace
 
@@ -50,7 +71,7 @@ namespace taut
 
   std::string instruction_set_in_use()
   {
-    const std::string name = instruction_set() == InstructionSet::avx2 ? "avx2" : "baseline";
+    const std::string name = instruction_sets()[static_cast<std::size_t>(instruction_set())].name;
     return asked_for().empty() ? name : name + " (" + variable + ")";
   }
 } // namespace taut

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/archive.h>
-#include <taut/base/exceptions.h>
 #include <taut/base/instruction_set.h>
 #include <taut/time/time_stepper.h>
 
@@ -8,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <sstream>
 #include <type_traits>
 
 namespace taut
@@ -280,110 +277,6 @@ namespace taut
             (reference_state.displacement[k][constraint.dof] + current.U[k][constraint.dof]);
       system->lift(k, L, right_hand_side[k]);
     }
-  }
-
-  void TimeStepper::set_step(const double length)
-  {
-    if (length == step)
-      return;
-    step = length;
-    segment_start = current.time;
-    n_in_segment = 0;
-  }
-
-  template <typename Archive>
-  void TimeStepper::store(Archive &archive)
-  {
-    archive &current &last &coefficients &constraint_motions;
-    archive &step &step_before &segment_start &n_in_segment &n_steps;
-    for (double &size : motion_size)
-      archive &size;
-  }
-
-  void TimeStepper::save(OutputArchive &archive)
-  {
-    store(archive);
-    const std::vector<double> largest_rates =
-        projection ? projection->largest_rates() : std::vector<double>();
-    archive << largest_rates;
-    begin_anew(largest_rates);
-  }
-
-  void TimeStepper::load(InputArchive &archive, State state)
-  {
-    current = std::move(state);
-    store(archive);
-    std::vector<double> largest_rates;
-    archive >> largest_rates;
-    constraints.update(current.time);
-    begin_anew(largest_rates);
-  }
-
-  void TimeStepper::begin_anew(const std::vector<double> &largest_rates)
-  {
-    earlier_systems = interface_statistics();
-    system = std::make_unique<StepSystem>(structure, constraints, parameters);
-    projection.reset();
-    prepare(coefficients);
-    if (projection && !largest_rates.empty())
-      projection->set_largest_rates(largest_rates);
-  }
-
-  InterfaceStatistics TimeStepper::interface_statistics() const
-  {
-    InterfaceStatistics result = earlier_systems;
-    return result += system->interface().statistics();
-  }
-
-  void TimeStepper::restore(const State &before)
-  {
-    current = before;
-    --n_steps;
-    segment_start = current.time;
-    n_in_segment = 0;
-  }
-
-  double TimeStepper::local_error()
-  {
-    PerKind error = {0., 0.}, size = {0., 0.};
-    for (std::size_t k = 0; k < structure.size(); ++k)
-    {
-      const std::vector<double> &dU = current.dU[k], &V = current.V_old[k], &A = current.A[k],
-                                &A0 = forces.old_A[k];
-      const double mean = step * step / (6. * (1. + step_before / step));
-      for (std::size_t i = 0; i < dU.size(); ++i)
-        work_v[i] = coefficients.mean_force
-                        ? mean * (A[i] - A0[i])
-                        : dU[i] - step * (V[i] + step * (A0[i] / 3. + A[i] / 6.));
-      const PerKind e = largest(structure[k], work_v), v = largest(structure[k], V);
-      for (std::size_t i = 0; i < dU.size(); ++i)
-        work_v[i] = reference_state.displacement[k][i] + current.U[k][i];
-      const PerKind u = largest(structure[k], work_v);
-      for (int kind = 0; kind < 2; ++kind)
-      {
-        error[kind] = std::max(error[kind], e[kind]);
-        size[kind] = std::max(size[kind], u[kind] + step * v[kind]);
-      }
-    }
-    double result = 0.;
-    for (int kind = 0; kind < 2; ++kind)
-    {
-      motion_size[kind] = std::max(motion_size[kind], structure.communicator().max(size[kind]));
-      const double all = structure.communicator().max(error[kind]);
-      if (all > 0.)
-        result = std::max(result, all / motion_size[kind]);
-    }
-    return result;
-  }
-
-  bool TimeStepper::rigid_constraint_changed(const State &before)
-  {
-    const std::vector<double> &S = constraint_motions.compliance();
-    for (std::size_t i = 0; i < constraints.size(); ++i)
-      if (constraints[i].unilateral && 2. * S[i] < system->interface().matrix().diagonal(i) &&
-          (before.multiplier[i] > 0.) != (current.multiplier[i] > 0.))
-        return true;
-    return false;
   }
 
   /// Velocities and forces that the step ends with, and the balance that the next one looks back

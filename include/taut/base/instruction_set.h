@@ -12,22 +12,23 @@
 
 namespace taut
 {
-  /// What the hot loops run with: the instructions that the whole program is compiled for, or those
-  /// and AVX2 with FMA.
+  /// What the hot loops run with: the instructions that the whole program is compiled for, those
+  /// and AVX2 with FMA, or these and AVX-512 with its long registers.
   enum class InstructionSet
   {
     baseline,
-    avx2
+    avx2,
+    avx512
   };
 
   /**
    * The best set that the processor has, or the one that the environment variable
-   * TAUT_INSTRUCTION_SET names: baseline or avx2. It is the same throughout a run. Throws a
+   * TAUT_INSTRUCTION_SET names: baseline, avx2 or avx512. It is the same throughout a run. Throws a
    * UserError if the variable names no set, or one that this processor or this build does not have.
    */
   InstructionSet instruction_set();
 
-  /// For the log: "avx2", "baseline (TAUT_INSTRUCTION_SET)".
+  /// For the log: "avx512", "baseline (TAUT_INSTRUCTION_SET)".
   std::string instruction_set_in_use();
 
 #ifdef TAUT_SEVERAL_INSTRUCTION_SETS
@@ -39,6 +40,16 @@ namespace taut
   {
     loops();
   }
+
+  /// The same for AVX-512, with registers of eight doubles also where the compiler holds four for
+  /// enough.
+  template <typename Loops>
+  [[gnu::target("avx2,fma,avx512f,avx512dq,avx512bw,avx512vl,prefer-vector-width=512"),
+    gnu::flatten]] void
+  run_with_avx512(const Loops loops)
+  {
+    loops();
+  }
 #endif
 
   /// Calls loops(), compiled for the instruction set in use. A call costs some nanoseconds: wrap a
@@ -47,10 +58,16 @@ namespace taut
   inline void vectorised(const Loops &loops)
   {
 #ifdef TAUT_SEVERAL_INSTRUCTION_SETS
-    if (instruction_set() == InstructionSet::avx2)
+    switch (instruction_set())
     {
+    case InstructionSet::avx512:
+      run_with_avx512(loops);
+      return;
+    case InstructionSet::avx2:
       run_with_avx2(loops);
       return;
+    case InstructionSet::baseline:
+      break;
     }
 #endif
     loops();

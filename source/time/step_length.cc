@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/time/time_stepper.h>
+
+#include <algorithm>
+
+namespace taut
+{
+  void TimeStepper::set_step(const double length)
+  {
+    if (length == step)
+      return;
+    step = length;
+    segment_start = current.time;
+    n_in_segment = 0;
+  }
+
+  void TimeStepper::restore(const State &before)
+  {
+    current = before;
+    --n_steps;
+    segment_start = current.time;
+    n_in_segment = 0;
+  }
+
+  double TimeStepper::local_error()
+  {
+    PerKind error = {0., 0.}, size = {0., 0.};
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      const std::vector<double> &dU = current.dU[k], &V = current.V_old[k], &A = current.A[k],
+                                &A0 = forces.old_A[k];
+      const double mean = step * step / (6. * (1. + step_before / step));
+      for (std::size_t i = 0; i < dU.size(); ++i)
+        work_v[i] = coefficients.mean_force
+                        ? mean * (A[i] - A0[i])
+                        : dU[i] - step * (V[i] + step * (A0[i] / 3. + A[i] / 6.));
+      const PerKind e = largest(structure[k], work_v), v = largest(structure[k], V);
+      for (std::size_t i = 0; i < dU.size(); ++i)
+        work_v[i] = reference_state.displacement[k][i] + current.U[k][i];
+      const PerKind u = largest(structure[k], work_v);
+      for (int kind = 0; kind < 2; ++kind)
+      {
+        error[kind] = std::max(error[kind], e[kind]);
+        size[kind] = std::max(size[kind], u[kind] + step * v[kind]);
+      }
+    }
+    double result = 0.;
+    for (int kind = 0; kind < 2; ++kind)
+    {
+      motion_size[kind] = std::max(motion_size[kind], structure.communicator().max(size[kind]));
+      const double all = structure.communicator().max(error[kind]);
+      if (all > 0.)
+        result = std::max(result, all / motion_size[kind]);
+    }
+    return result;
+  }
+
+  bool TimeStepper::rigid_constraint_changed(const State &before)
+  {
+    const std::vector<double> &S = constraint_motions.compliance();
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      if (constraints[i].unilateral && 2. * S[i] < system->interface().matrix().diagonal(i) &&
+          (before.multiplier[i] > 0.) != (current.multiplier[i] > 0.))
+        return true;
+    return false;
+  }
+} // namespace taut

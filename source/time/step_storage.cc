@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/archive.h>
+#include <taut/time/time_stepper.h>
+
+namespace taut
+{
+  template <typename Archive>
+  void TimeStepper::store(Archive &archive)
+  {
+    archive &current &last &coefficients &constraint_motions;
+    archive &step &step_before &segment_start &n_in_segment &n_steps;
+    for (double &size : motion_size)
+      archive &size;
+  }
+
+  void TimeStepper::save(OutputArchive &archive)
+  {
+    store(archive);
+    const std::vector<double> largest_rates =
+        projection ? projection->largest_rates() : std::vector<double>();
+    archive << largest_rates;
+    begin_anew(largest_rates);
+  }
+
+  void TimeStepper::load(InputArchive &archive, State state)
+  {
+    current = std::move(state);
+    store(archive);
+    std::vector<double> largest_rates;
+    archive >> largest_rates;
+    constraints.update(current.time);
+    begin_anew(largest_rates);
+  }
+
+  void TimeStepper::begin_anew(const std::vector<double> &largest_rates)
+  {
+    earlier_systems = interface_statistics();
+    system = std::make_unique<StepSystem>(structure, constraints, parameters);
+    projection.reset();
+    prepare(coefficients);
+    if (projection && !largest_rates.empty())
+      projection->set_largest_rates(largest_rates);
+  }
+
+  InterfaceStatistics TimeStepper::interface_statistics() const
+  {
+    InterfaceStatistics result = earlier_systems;
+    return result += system->interface().statistics();
+  }
+} // namespace taut
