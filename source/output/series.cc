@@ -11,7 +11,7 @@ namespace taut
         probes(interval)
   {
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      if (!constraints[i].is_cut())
+      if (constraints[i].is_link())
         add_link(constraints[i]);
     for (const SupportPoint &point : support_points(scene))
       supports.add_quantity(point.name + (point.is_moment ? " moment" : " force"),
@@ -60,7 +60,7 @@ namespace taut
     for (std::size_t i = 0; i < step.constraints.size(); ++i)
     {
       const ConstraintData &constraint = step.constraints[i];
-      if (constraint.moving != moving || constraint.is_cut())
+      if (constraint.moving != moving || !constraint.is_link())
         continue;
       if (moving)
         values.push_back(step.constraints.position(i, state.time));

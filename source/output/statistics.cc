@@ -139,7 +139,7 @@ namespace taut
     {
       if (rows[i].moving)
         contacts.push_back({rows[i].name, i, {}, {}, {}});
-      else if (!rows[i].is_cut())
+      else if (rows[i].is_link())
       {
         link_names.push_back(rows[i].name);
         link_unilateral.push_back(rows[i].unilateral);

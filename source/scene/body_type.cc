@@ -2,12 +2,19 @@
 #include <taut/base/exceptions.h>
 #include <taut/base/nearest_name.h>
 #include <taut/scene/body_type.h>
+#include <taut/scene/contact_surface.h>
 #include <taut/scene/named_items.h>
 
 #include <deal.II/base/parameter_handler.h>
 
 namespace taut
 {
+  ContactSurface BodyType::surface(const BodySetting &setting,
+                                   const std::vector<unsigned int> &) const
+  {
+    throw EntryError(setting.origin, "a body of this type shows no surface to contacts");
+  }
+
   void BodyParameters::declare_names(dealii::ParameterHandler &prm)
   {
     check_item_names(names, "Bodies");

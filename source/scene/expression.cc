@@ -58,6 +58,8 @@ namespace taut
         return "Write a formula in " + s + ", e.g. '0.001*sin(2*pi*s/1.2)'.";
       case Expression::Variables::time:
         return "Write a formula in " + t + ", e.g. '0.02*sin(2*pi*t)'.";
+      case Expression::Variables::space:
+        return "Write a formula in x, y, z (a point [m]) and " + t + ", e.g. '1e5*x*sin(2*pi*t)'.";
       default:
         return "Write a formula in " + s + " and " + t + ", e.g. '120*sin(2*pi*t)'.";
       }
@@ -83,9 +85,36 @@ namespace taut
 
   struct Expression::Parser
   {
-    // FunctionParser::value is const but parses lazily, one copy a thread.
-    dealii::FunctionParser<1> function;
+    virtual ~Parser() = default;
+    virtual double value(const Coordinates &x, double t) = 0;
   };
+
+  namespace
+  {
+    /// A formula of dim coordinates and the time, which deal.II keeps as a state of the function.
+    template <int dim>
+    class ParserOf : public Expression::Parser
+    {
+    public:
+      ParserOf(const std::string &variables, const std::string &text)
+      {
+        function.initialize(variables, text, {{"pi", dealii::numbers::PI}}, true);
+        // The formula is compiled at the first evaluation: here, where the mistake is.
+        value({}, 0.);
+      }
+      double value(const Coordinates &x, const double t) override
+      {
+        dealii::Point<dim> point;
+        for (unsigned int d = 0; d < dim; ++d)
+          point[d] = x[d];
+        function.set_time(t);
+        return function.value(point);
+      }
+
+    private:
+      dealii::FunctionParser<dim> function;
+    };
+  } // namespace
 
   Expression::Expression() = default;
 
@@ -118,14 +147,13 @@ namespace taut
     const std::string wrong = objection(text, variables);
     if (!wrong.empty())
       throw bad(wrong);
-    auto fresh = std::make_shared<Parser>();
     const CaughtErrorOutput said;
     try
     {
-      fresh->function.initialize("s,t", text, {{"pi", dealii::numbers::PI}}, true);
-      // The formula is compiled at the first evaluation: do it here, where the mistake is.
-      fresh->function.set_time(0.);
-      fresh->function.value(dealii::Point<1>(0.));
+      if (variables == Variables::space)
+        parser = std::make_shared<ParserOf<3>>("x,y,z,t", text);
+      else
+        parser = std::make_shared<ParserOf<1>>("s,t", text);
     }
     catch (const dealii::ExceptionBase &)
     {
@@ -135,21 +163,31 @@ namespace taut
     {
       throw bad(e.what());
     }
-    parser = fresh;
     time_dependent = mentions(text, "t");
   }
 
   double Expression::operator()(const double s, const double t) const
   {
+    return evaluate({s, 0., 0.}, t, "s");
+  }
+
+  double Expression::operator()(const Coordinates &x, const double t) const
+  {
+    return evaluate(x, t, "x, y, z");
+  }
+
+  double Expression::evaluate(const Coordinates &x, const double t, const char *variables) const
+  {
     if (!parser)
       return constant;
-    // The time is the second variable; deal.II keeps it as a state of the function.
-    const_cast<dealii::FunctionParser<1> &>(parser->function).set_time(t);
-    const double value = parser->function.value(dealii::Point<1>(s));
+    const double value = parser->value(x, t);
     if (!std::isfinite(value))
     {
       std::ostringstream out;
-      out << "'" << text << "' is not finite at s = " << s << " m, t = " << t
+      out << "'" << text << "' is not finite at " << variables << " = " << x.x;
+      if (std::string(variables) != "s")
+        out << ", " << x.y << ", " << x.z;
+      out << " m, t = " << t
           << " s. Restrict the formula to where it is defined, e.g. with if(condition, a, b).";
       throw EntryError(entry, out.str());
     }

@@ -170,6 +170,7 @@ namespace taut
     study.declare_parameters(prm);
     sweep.declare_parameters(prm);
     bodies.declare_parameters(prm);
+    contacts.declare_parameters(prm);
     generator->declare_parameters(prm);
   }
 
@@ -278,6 +279,7 @@ namespace taut
       {
         dealii::ParameterHandler prm;
         bodies.declare_names(prm);
+        contacts.declare_names(prm);
         generator->declare_names(prm);
         output.declare_names(prm);
         study.declare_names(prm);
@@ -366,6 +368,7 @@ namespace taut
   {
     Scene scene;
     scene.bodies = bodies.bodies();
+    scene.contacts = contacts.contacts(scene.bodies);
     scene.gravity = parse_coordinates(gravity, "Gravity");
     scene.start = start == "equilibrium"  ? Start::equilibrium
                   : start == "undeformed" ? Start::undeformed

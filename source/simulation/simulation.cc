@@ -283,7 +283,7 @@ namespace taut
     const double step = parameters.step_parameters.shortest(parameters.step);
     std::vector<std::size_t> massless;
     for (std::size_t i = 0; i < links.size(); ++i)
-      if (!links[i].is_cut() && is_massless(model.links[links[i].link]))
+      if (links[i].is_link() && is_massless(model.links[links[i].link]))
         massless.push_back(i);
     if (!massless.empty())
       log << "Mass redistribution: nodes of wires under " << links.names(massless)
@@ -354,7 +354,7 @@ namespace taut
                  {"link", "x [m]", "y [m]", "force [N or N m]", "gap [m or rad]", "length [m]"});
     for (std::size_t i = 0; i < links.size(); ++i)
     {
-      if (links[i].is_cut())
+      if (!links[i].is_link())
         continue;
       const Link &link = model.links[links[i].link];
       const Attachment &end = link.to.kind == Attachment::Kind::ground ? link.from : link.to;

@@ -67,7 +67,7 @@ namespace taut
       if (scene.probes[i].name == item.of)
         return {Source::Kind::probe, i, {}};
     std::size_t row = 0;
-    while (rows[row].is_cut() || rows[row].name != item.of)
+    while (!rows[row].is_link() || rows[row].name != item.of)
       ++row;
     return {Source::Kind::force_of_constraint, row, {}};
   }

@@ -145,15 +145,27 @@ namespace taut
   }
 
   template <int dim>
-  void FEBody<dim>::prescribe(const dealii::types::global_dof_index dof,
-                              std::function<double(double)> motion)
+  void FEBody<dim>::add_constant_load(const dealii::Vector<double> &P)
   {
-    const auto found = std::find_if(constrained.begin(), constrained.end(),
-                                    [&](const ConstrainedDof &c) { return c.dof == dof; });
-    if (found == constrained.end() ||
-        forms[dof].index != std::vector<unsigned int>{static_cast<unsigned int>(dof)})
-      throw UserError("body '" + name() + "': no constraint prescribes DoF " + std::to_string(dof));
-    found->motion = std::move(motion);
+    check_size(P.size(), "load");
+    condense(P, constant_force);
+  }
+
+  template <int dim>
+  void FEBody<dim>::prescribe(
+      const std::map<dealii::types::global_dof_index, std::function<double(double)>> &motions)
+  {
+    for (const auto &[dof, motion] : motions)
+    {
+      const auto found =
+          std::lower_bound(constrained.begin(), constrained.end(), dof,
+                           [](const ConstrainedDof &c, const auto i) { return c.dof < i; });
+      if (found == constrained.end() || found->dof != dof ||
+          forms[dof].index != std::vector<unsigned int>{static_cast<unsigned int>(dof)})
+        throw UserError("body '" + name() + "': no constraint prescribes DoF " +
+                        std::to_string(dof));
+      found->motion = motion;
+    }
     finish();
   }
 

@@ -52,6 +52,11 @@ namespace taut
     throw UserError("body '" + name() + "' has no places that a constraint could act on");
   }
 
+  LinearForm Substructure::node_displacement(unsigned int, const Coordinates &) const
+  {
+    throw UserError("body '" + name() + "' has no surface that contacts could act on");
+  }
+
   std::unique_ptr<LocalSolver> Substructure::make_solver() const
   {
     return nullptr;

@@ -55,7 +55,7 @@ namespace
         {
           Record &now = is_start ? result.rest : result.motion;
           for (std::size_t i = 0; i < view.constraints.size(); ++i)
-            if (!view.constraints[i].is_cut())
+            if (view.constraints[i].is_link())
             {
               now.force.push_back(view.state.multiplier[i]);
               now.gap.push_back(view.state.geometric_gap[i]);

@@ -29,7 +29,7 @@ namespace
                 result.n_cut_rows = view.structure.cut_constraints().size();
                 for (std::size_t i = 0; i < view.constraints.size(); ++i)
                 {
-                  if (view.constraints[i].is_cut())
+                  if (!view.constraints[i].is_link())
                     continue;
                   result.force.push_back(view.state.multiplier[i]);
                   result.gap.push_back(view.state.geometric_gap[i]);

@@ -12,8 +12,9 @@
 
 namespace taut
 {
-  /// A constraint without a source in a scene, for example a cut of a wire.
+  /// A constraint without such a source in a scene, for example a cut of a wire.
   constexpr std::size_t no_link = std::numeric_limits<std::size_t>::max();
+  constexpr std::size_t no_contact = no_link;
 
   /// Where a constraint is that moves: its linear form at each time.
   class MovingPlace
@@ -41,6 +42,7 @@ namespace taut
     std::string name;
     std::string origin = {};    ///< path of its section in the parameter file, for messages
     std::size_t link = no_link; ///< index of its source in the scene
+    std::size_t contact = no_contact; ///< the same of one of many of a contact of surfaces
     bool unilateral = false;    ///< 0 <= D _|_ N >= 0; otherwise D = 0
     bool rotational = false;    ///< slopes and moments
     double stiffness = std::numeric_limits<double>::infinity(); ///< [N/m, N m/rad]
@@ -51,7 +53,7 @@ namespace taut
         {};              ///< of a constraint that moves; sets terms and gap
     bool moving = false; ///< has a place
 
-    bool is_cut() const { return link == no_link; }
+    bool is_link() const { return link != no_link; }
   };
 
   /// The constraints of a system: the fixed ones in their order, then the moving ones.

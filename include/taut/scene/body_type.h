@@ -18,6 +18,7 @@ namespace dealii
 namespace taut
 {
   class Substructure;
+  struct ContactSurface;
 
   /// What a scene says to a body that it makes.
   struct BodySetting
@@ -49,6 +50,14 @@ namespace taut
      * lives as long as the scene. Throws EntryError about an entry below setting.origin.
      */
     virtual std::unique_ptr<Substructure> make(const BodySetting &setting) const = 0;
+
+    /**
+     * The surface that the body shows to contacts, all of it if @p boundaries is empty, otherwise
+     * the faces with these ids; its nodes are those of Substructure::node_displacement() in either
+     * case. Called on all ranks, with the same result. Throws EntryError; so do types without one.
+     */
+    virtual ContactSurface surface(const BodySetting &setting,
+                                   const std::vector<unsigned int> &boundaries) const;
   };
 
   /// A body of a scene whose type is not one of Taut's own.

@@ -2,14 +2,16 @@
 #ifndef taut_expression_h
 #define taut_expression_h
 
+#include <taut/base/coordinates.h>
+
 #include <memory>
 #include <string>
 
 namespace taut
 {
   /**
-   * A scalar function of the position s [m] along a wire and of the time t [s], written as a
-   * formula in the syntax of deal.II's FunctionParser; pi is known. Copies share the parsed
+   * A scalar function of the position s [m] along a wire, or of a point x, y, z [m], and of the time
+   * t [s], written as a formula in the syntax of deal.II's FunctionParser; pi is known. Copies share the parsed
    * formula.
    */
   class Expression
@@ -23,7 +25,8 @@ namespace taut
     {
       position,
       time,
-      both
+      both, ///< s and t
+      space ///< x, y, z and t
     };
 
     /// @p entry names the parameter in error messages. A formula that cannot be parsed, depends on
@@ -37,6 +40,9 @@ namespace taut
     /// Value at s [m], t [s]. A value that is not finite is a UserError that names entry, s and t.
     double operator()(double s, double t) const;
 
+    /// Value at the point x [m], of a formula in space.
+    double operator()(const Coordinates &x, double t) const;
+
     const std::string &formula() const { return text; }
 
     /// True for a formula that is a number equal to zero.
@@ -45,9 +51,12 @@ namespace taut
     /// True if the formula mentions t.
     bool depends_on_time() const { return time_dependent; }
 
-  private:
     struct Parser;
-    std::shared_ptr<const Parser> parser;
+
+  private:
+    double evaluate(const Coordinates &x, double t, const char *variables) const;
+
+    std::shared_ptr<Parser> parser;
     std::string text = "0";
     std::string entry;
     double constant = 0.;

@@ -38,7 +38,7 @@ namespace taut
   class NamedItems
   {
   public:
-    /// @p parent is the path of the section that all this stands in; @p list the entry with the
+    /// @p parent is the path of the section that all this stands in, empty for none; @p list the entry with the
     /// names, e.g. "Wires".
     NamedItems(std::string parent, std::string list, std::string section, std::string help)
         : parent(std::move(parent)), list(std::move(list)), section(std::move(section)),
@@ -48,7 +48,7 @@ namespace taut
 
     void declare_names(dealii::ParameterHandler &prm)
     {
-      check_item_names(names, parent + "/" + list);
+      check_item_names(names, path(list));
       declare_item_names(prm, list, section, help, names);
     }
 
@@ -67,9 +67,14 @@ namespace taut
     std::vector<Item> items; ///< in the order of the names, once declare_parameters() has run
 
     /// Path of the section of the i-th item.
-    std::string title(std::size_t i) const { return parent + "/" + section + " " + names[i]; }
+    std::string title(std::size_t i) const { return path(section + " " + names[i]); }
 
   private:
+    std::string path(const std::string &entry) const
+    {
+      return parent.empty() ? entry : parent + "/" + entry;
+    }
+
     std::string parent, list, section, help;
   };
 } // namespace taut

@@ -6,6 +6,7 @@
 #include <taut/base/start.h>
 #include <taut/scene/body_type.h>
 #include <taut/scene/expression.h>
+#include <taut/scene/surface_contact.h>
 
 #include <cstddef>
 #include <limits>
@@ -251,6 +252,7 @@ namespace taut
     std::vector<CustomBody> bodies;
     std::vector<Spring> springs;
     std::vector<Link> links;
+    std::vector<SurfaceContact> contacts;
     std::vector<Load> loads;
     std::vector<Probe> probes;
   };

@@ -82,6 +82,7 @@ namespace taut
 
     std::vector<std::string> shared_libraries;
     BodyParameters bodies;
+    ContactParameters contacts;
     std::string generator_name = "catenary";
     std::vector<double> gravity = {0., -9.81};
     std::string start = "equilibrium";

@@ -13,6 +13,7 @@
 #include <deal.II/lac/vector.h>
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -67,9 +68,12 @@ namespace taut
     /// Adds a load that changes in time: @p add adds it at t [s] to P [N], one entry a DoF.
     void add_load(std::function<void(double t, dealii::Vector<double> &P)> add);
 
-    /// Gives a DoF that a constraint prescribes a motion u(t) [m]. Throws UserError for another
-    /// DoF.
-    void prescribe(dealii::types::global_dof_index dof, std::function<double(double)> motion);
+    /// Adds a load that does not change, one entry a DoF [N].
+    void add_constant_load(const dealii::Vector<double> &P);
+
+    /// Gives DoFs that constraints prescribe motions u(t) [m]. Throws UserError for other DoFs.
+    void prescribe(
+        const std::map<dealii::types::global_dof_index, std::function<double(double)>> &motions);
 
     /// Displacement and velocity at t = 0 for Start::given, one entry a DoF [m, m/s].
     void set_initial_state(const dealii::Vector<double> &displacement,

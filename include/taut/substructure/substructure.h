@@ -108,6 +108,9 @@ namespace taut
      */
     virtual LinearForm displacement(const Coordinates &place, const Coordinates &direction) const;
 
+    /// The same of a node of the surface that the body shows to contacts (BodyType::surface()).
+    virtual LinearForm node_displacement(unsigned int node, const Coordinates &direction) const;
+
     /// A local solver of its own for A = mass M + damping C + K; none: by the matrices, see
     /// make_local_solver().
     virtual std::unique_ptr<LocalSolver> make_solver() const;

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_surface_constraints_h
+#define taut_surface_constraints_h
+
+#include <taut/interface/constraints.h>
+#include <taut/model/scene_bodies.h>
+#include <taut/scene/contact_surface.h>
+
+#include <vector>
+
+namespace taut
+{
+  /// The slave surface of a contact of a scene, and its constraints.
+  struct ContactGeometry
+  {
+    ContactSurface slave;
+    std::vector<SurfaceConstraint> constraints;
+  };
+
+  /// Of contact number @p contact of the scene, from the reference positions; the same on all
+  /// ranks. Throws EntryError.
+  ContactGeometry contact_geometry(const Scene &scene, std::size_t contact);
+
+  /// The constraints of all contacts of a scene, one contact after the other, with the forms of the
+  /// bodies of this rank.
+  std::vector<ConstraintData> surface_constraints(const Scene &scene, const SceneBodies &bodies);
+} // namespace taut
+
+#endif

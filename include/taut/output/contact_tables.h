@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_contact_tables_h
+#define taut_contact_tables_h
+
+#include <taut/model/surface_constraints.h>
+#include <taut/output/csv_file.h>
+#include <taut/output/observer.h>
+#include <taut/output/vtu_file.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace taut
+{
+  /**
+   * The contacts of surfaces. contact_<name>.csv: a line each Output/Interval with the resultant
+   * force on the slave, where it acts, the area in contact, the largest pressure and the least gap.
+   * contact_<name>_NNNNN.vtu, joined by contact_<name>.pvd: the nodes of the slave that may touch,
+   * with pressure, gap and normal, for ParaView.
+   */
+  class ContactTables : public Observer
+  {
+  public:
+    /// @p field_interval: least time between two .vtu files; 0: none [s].
+    ContactTables(const Scene &scene, double field_interval);
+
+    std::vector<std::string> files() const override;
+    void begin(const RunView &run) override;
+    void record(const StepView &step) override;
+    void save(OutputArchive &archive) override;
+    void resume(InputArchive &archive, const StepView &step) override;
+    void finish() override;
+
+  private:
+    struct Contact
+    {
+      std::string stem;
+      ContactGeometry geometry;
+      std::unique_ptr<CsvFile> table; ///< on the root
+      std::unique_ptr<VtuFile> picture;
+      std::unique_ptr<PvdFile> collection;
+      std::size_t pressure = 0, gap = 0;
+    };
+    void write_line(Contact &contact, const State &state, std::size_t first);
+    void write_picture(Contact &contact, const State &state, std::size_t first);
+
+    std::vector<Contact> contacts;
+    std::string folder;
+    double interval = 0., field_interval, next = 0., next_field = 0.;
+    bool is_root = false;
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_elastic_solid_h
+#define taut_elastic_solid_h
+
+#include <taut/solid/solid_mesh.h>
+#include <taut/substructure/fe_body.h>
+
+#include <array>
+#include <functional>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace taut
+{
+  /// Isotropic, linear elastic.
+  struct ElasticMaterial
+  {
+    double youngs_modulus = 0.; ///< E [Pa]
+    double poissons_ratio = 0.; ///< nu in (-1, 1/2)
+    double density = 0.;        ///< [kg/m^3]
+  };
+
+  /// How a body in the plane is thick: strain, it cannot expand out of the plane; stress, it is
+  /// free to.
+  enum class PlaneState
+  {
+    strain,
+    stress
+  };
+
+  /// How the mass of an element is integrated, see MassMatrix: exactly; at the nodes; by one Gauss
+  /// point less in each direction than the element has nodes.
+  enum class SolidMass
+  {
+    consistent,
+    lumped,
+    reduced
+  };
+
+  /// What is given on a part of the boundary.
+  struct BoundaryCondition
+  {
+    enum class Kind
+    {
+      displacement, ///< of the components that are held [m]
+      symmetry,     ///< no motion along the normal of a plane boundary
+      traction,     ///< force per area [Pa]
+      pressure      ///< against the outward normal, the x of the value [Pa]
+    };
+    Kind kind = Kind::displacement;
+    std::set<dealii::types::boundary_id> boundaries;
+    std::array<bool, 3> held = {true, true, true};
+
+    /// The value at a point x [m] and t [s]; none: zero.
+    std::function<Coordinates(const Coordinates &x, double t)> value = {};
+    bool varies = false; ///< in time
+
+    std::string origin = {}; ///< path of its section in the parameter file, for messages
+  };
+
+  /**
+   * A solid that moves by small amounts: linear elasticity, discretised by deal.II,
+   *
+   *     stress = lambda tr(strain) 1 + 2 mu strain,
+   *
+   * in the plane (a body of some thickness) or in space, where it is.
+   */
+  template <int dim>
+  class ElasticSolid : public FEBody<dim>
+  {
+  public:
+    struct Options
+    {
+      std::string origin = {}; ///< path of its section in the parameter file, for messages
+
+      /// By material id of the cells; a single one is for all ids.
+      std::map<dealii::types::material_id, ElasticMaterial> materials;
+
+      PlaneState plane_state = PlaneState::strain; ///< if dim = 2
+      double thickness = 1.;                       ///< if dim = 2 [m]
+      SolidMass mass = SolidMass::consistent;
+      double mass_damping = 0.;      ///< C = mass_damping M + stiffness_damping K [1/s]
+      double stiffness_damping = 0.; ///< [s]
+      Coordinates gravity = {};      ///< [m/s^2]
+      std::vector<BoundaryCondition> conditions;
+    };
+
+    /// Throws UserError for a material that is missing or is none, for a boundary that the mesh
+    /// does not have, and for lumped masses of degree 2 on simplices, which have none at corners.
+    ElasticSolid(const std::string &name, std::shared_ptr<const SolidMesh<dim>> mesh,
+                 const Options &options);
+
+    /// Of a node of SolidMesh::surface().
+    LinearForm node_displacement(unsigned int node, const Coordinates &direction) const override;
+
+    bool has_definite_mass() const override { return options.mass != SolidMass::reduced; }
+
+    /// Displacements; stresses [Pa], from the Gauss points of least error (J. Barlow, Int. J.
+    /// Numer. Meth. Engng 10 (1976)) and averaged at the nodes among cells of one material; their
+    /// principal values, the largest first, and von Mises' stress.
+    void write_vtu(const std::string &path, const std::vector<double> &U) const override;
+
+  private:
+    struct Assembled;
+    class StressField;
+    ElasticSolid(const std::string &name, std::shared_ptr<const SolidMesh<dim>> mesh,
+                 const Options &options, const Assembled &assembled);
+    void add_boundary_loads();
+
+    const std::shared_ptr<const SolidMesh<dim>> mesh;
+    const Options options;
+    const typename SolidMesh<dim>::Surface boundary;
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
+#include <taut/model/surface_constraints.h>
+#include <taut/solid/contact_constraints.h>
+#include <taut/solid/rigid_obstacle.h>
+
+#include <memory>
+
+namespace taut
+{
+  namespace
+  {
+    ContactSurface surface_of(const Scene &scene, const SurfaceContact::Side &side)
+    {
+      const CustomBody &body = scene.bodies[side.body];
+      ContactSurface surface =
+          body.type->surface({body.name, body.origin, scene.gravity}, side.boundaries);
+      surface.name = body.name;
+      return surface;
+    }
+
+    std::unique_ptr<RigidObstacle> make_obstacle(const ObstacleSetting &o, const unsigned int dim)
+    {
+      const ObstacleSide side = o.encloses_body ? ObstacleSide::inside : ObstacleSide::outside;
+      switch (o.shape)
+      {
+      case ObstacleSetting::Shape::plane:
+        return std::make_unique<PlaneObstacle>(o.point, o.direction);
+      case ObstacleSetting::Shape::cylinder:
+        return std::make_unique<CylinderObstacle>(o.point, o.direction, o.radius, side);
+      case ObstacleSetting::Shape::sphere:
+        return std::make_unique<SphereObstacle>(o.point, o.radius, side);
+      default:
+        return std::make_unique<HeightObstacle>(
+            dim, o.direction, [height = o.height](const Coordinates &foot) { return height(foot, 0.); },
+            o.height_change);
+      }
+    }
+
+    std::vector<SurfaceConstraint> constraints_of(const Scene &scene, const SurfaceContact &contact,
+                                                  const ContactSurface &slave)
+    {
+      const double reach = contact.search_distance;
+      if (contact.obstacle.shape != ObstacleSetting::Shape::none)
+      {
+        const auto obstacle = make_obstacle(contact.obstacle, slave.dim);
+        return obstacle_constraints(slave, *obstacle, slave.thickness,
+                                    reach > 0. ? reach : std::numeric_limits<double>::infinity());
+      }
+      const ContactSurface master = surface_of(scene, contact.master);
+      if (master.dim != slave.dim)
+        throw UserError("one side is in the plane and the other in space");
+      const double distance = reach > 0. ? reach : automatic_search_distance;
+      if (slave.dim == 3 && contact.method == SurfaceMethod::mortar)
+        throw EntryError(contact.origin + "/Method",
+                         "mortar is for the plane; set Method = nodes to faces in space");
+      if (slave.dim == 3)
+        return node_to_face_constraints(slave, master, distance);
+      if (contact.method == SurfaceMethod::mortar)
+        return mortar_constraints(slave, master, slave.thickness, distance);
+      return node_to_segment_constraints(slave, master, slave.thickness, distance);
+    }
+
+    /// The form of weights of the nodes of a body, if it is on this rank.
+    void append(const SceneBodies &bodies, const std::size_t body,
+                const std::vector<NodeWeight> &weights, std::vector<Term> &terms)
+    {
+      const std::size_t k = bodies.index_of_body(body);
+      if (k == Structure::elsewhere || weights.empty())
+        return;
+      terms.push_back({k, {}});
+      for (const NodeWeight &w : weights)
+      {
+        const LinearForm form = bodies[k].node_displacement(w.node, w.weight);
+        for (std::size_t e = 0; e < form.index.size(); ++e)
+          terms.back().form.add(form.index[e], form.value[e]);
+      }
+    }
+  } // namespace
+
+  ContactGeometry contact_geometry(const Scene &scene, const std::size_t number)
+  {
+    const SurfaceContact &contact = scene.contacts[number];
+    try
+    {
+      ContactGeometry geometry;
+      geometry.slave = surface_of(scene, contact.slave);
+      geometry.constraints = constraints_of(scene, contact, geometry.slave);
+      for (SurfaceConstraint &constraint : geometry.constraints)
+        constraint.gap += contact.gap;
+      return geometry;
+    }
+    catch (const EntryError &)
+    {
+      throw;
+    }
+    catch (const UserError &e)
+    {
+      throw EntryError(contact.origin, e.what());
+    }
+  }
+
+  std::vector<ConstraintData> surface_constraints(const Scene &scene, const SceneBodies &bodies)
+  {
+    std::vector<ConstraintData> result;
+    for (std::size_t c = 0; c < scene.contacts.size(); ++c)
+    {
+      const SurfaceContact &contact = scene.contacts[c];
+      for (const SurfaceConstraint &constraint : contact_geometry(scene, c).constraints)
+      {
+        ConstraintData data{contact.name + " node " + std::to_string(constraint.node),
+                            contact.origin};
+        data.contact = c;
+        data.unilateral = true;
+        data.gap = constraint.gap;
+        if (contact.compliance > 0.)
+          data.stiffness = constraint.area / contact.compliance;
+        append(bodies, contact.slave.body, constraint.slave, data.terms);
+        if (contact.obstacle.shape == ObstacleSetting::Shape::none)
+          append(bodies, contact.master.body, constraint.master, data.terms);
+        result.push_back(std::move(data));
+      }
+    }
+    return result;
+  }
+} // namespace taut

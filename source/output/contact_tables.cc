@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/archive.h>
+#include <taut/output/contact_tables.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace taut
+{
+  namespace
+  {
+    /// A time that rounding put before the end of an interval.
+    bool is_due(const double time, const double next, const double interval)
+    {
+      return time >= next - 1e-9 * interval;
+    }
+
+    std::string frame(const std::string &stem, const std::size_t number)
+    {
+      char text[16];
+      std::snprintf(text, sizeof text, "_%05zu.vtu", number);
+      return stem + text;
+    }
+  } // namespace
+
+  ContactTables::ContactTables(const Scene &scene, const double field_interval)
+      : field_interval(field_interval)
+  {
+    for (std::size_t c = 0; c < scene.contacts.size(); ++c)
+    {
+      contacts.emplace_back();
+      contacts.back().stem = "contact_" + scene.contacts[c].name;
+      contacts.back().geometry = contact_geometry(scene, c);
+    }
+  }
+
+  std::vector<std::string> ContactTables::files() const
+  {
+    std::vector<std::string> result;
+    for (const Contact &contact : contacts)
+    {
+      result.push_back(contact.stem + ".csv");
+      result.push_back(contact.stem + ".pvd");
+    }
+    return result;
+  }
+
+  void ContactTables::begin(const RunView &run)
+  {
+    folder = run.folder + "/";
+    interval = run.interval;
+    is_root = run.communicator.is_root();
+    if (!is_root)
+      return;
+    for (Contact &contact : contacts)
+    {
+      contact.table = std::make_unique<CsvFile>(
+          folder + contact.stem + ".csv",
+          std::vector<std::string>{"time [s]", "force x [N]", "force y [N]", "force z [N]",
+                                   "point x [m]", "point y [m]", "point z [m]", "area [m^2]",
+                                   "largest pressure [Pa]", "least gap [m]", "closed [1]"},
+          run.resumes);
+      if (!(field_interval > 0.))
+        continue;
+      const std::vector<SurfaceConstraint> &all = contact.geometry.constraints;
+      std::vector<std::vector<std::int32_t>> cells;
+      std::vector<float> points, normals;
+      for (const SurfaceConstraint &constraint : all)
+      {
+        cells.push_back({static_cast<std::int32_t>(cells.size())});
+        for (int d = 0; d < 3; ++d)
+        {
+          points.push_back(static_cast<float>(constraint.point[d]));
+          normals.push_back(static_cast<float>(constraint.normal[d]));
+        }
+      }
+      contact.picture = std::make_unique<VtuFile>(all.size(), cells);
+      contact.picture->set(VtuFile::positions, points);
+      contact.pressure = contact.picture->add(VtuFile::Location::points, "pressure", 1);
+      contact.gap = contact.picture->add(VtuFile::Location::points, "gap", 1);
+      contact.picture->set(contact.picture->add(VtuFile::Location::points, "normal", 3), normals);
+      contact.collection = std::make_unique<PvdFile>(folder + contact.stem + ".pvd");
+    }
+  }
+
+  void ContactTables::record(const StepView &step)
+  {
+    const State &state = step.state;
+    const bool line = is_due(state.time, next, interval),
+               picture = field_interval > 0. && is_due(state.time, next_field, field_interval);
+    if (line)
+      next = state.time + interval;
+    if (picture)
+      next_field = state.time + field_interval;
+    if (!is_root || (!line && !picture))
+      return;
+    for (std::size_t c = 0; c < contacts.size(); ++c)
+    {
+      std::size_t first = 0;
+      while (step.constraints[first].contact != c)
+        ++first;
+      if (line)
+        write_line(contacts[c], state, first);
+      if (picture)
+        write_picture(contacts[c], state, first);
+    }
+  }
+
+  void ContactTables::write_line(Contact &contact, const State &state, const std::size_t first)
+  {
+    Coordinates force, weighted;
+    double area = 0., sum = 0., pressure = 0., gap = std::numeric_limits<double>::infinity();
+    std::size_t n_closed = 0;
+    const std::vector<SurfaceConstraint> &all = contact.geometry.constraints;
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+      const double N = state.multiplier[first + i];
+      gap = std::min(gap, state.geometric_gap[first + i]);
+      if (!(N > 0.))
+        continue;
+      ++n_closed;
+      force = add_scaled(force, -N, all[i].normal);
+      weighted = add_scaled(weighted, N, all[i].point);
+      sum += N;
+      area += all[i].area;
+      pressure = std::max(pressure, N / all[i].area);
+    }
+    contact.table->begin_line(state.time);
+    for (int d = 0; d < 3; ++d)
+      *contact.table << force[d];
+    for (int d = 0; d < 3; ++d)
+      *contact.table << (sum > 0. ? weighted[d] / sum : 0.);
+    *contact.table << area << pressure << gap << static_cast<double>(n_closed);
+    contact.table->end_line();
+  }
+
+  void ContactTables::write_picture(Contact &contact, const State &state, const std::size_t first)
+  {
+    std::vector<float> pressure, gap;
+    const std::vector<SurfaceConstraint> &all = contact.geometry.constraints;
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+      pressure.push_back(static_cast<float>(state.multiplier[first + i] / all[i].area));
+      gap.push_back(static_cast<float>(state.geometric_gap[first + i]));
+    }
+    contact.picture->set(contact.pressure, pressure);
+    contact.picture->set(contact.gap, gap);
+    const std::string file = frame(contact.stem, contact.collection->size());
+    contact.picture->write(folder + file);
+    contact.collection->add(state.time, file);
+  }
+
+  void ContactTables::save(OutputArchive &archive)
+  {
+    archive << next << next_field;
+    for (Contact &contact : contacts)
+    {
+      const std::size_t length = contact.table ? contact.table->save() : 0,
+                        n_frames = contact.collection ? contact.collection->size() : 0,
+                        pvd = n_frames > 0 ? contact.collection->length() : 0;
+      archive << length << n_frames << pvd;
+    }
+  }
+
+  void ContactTables::resume(InputArchive &archive, const StepView &)
+  {
+    archive >> next >> next_field;
+    for (Contact &contact : contacts)
+    {
+      std::size_t length = 0, n_frames = 0, pvd = 0;
+      archive >> length >> n_frames >> pvd;
+      if (contact.table)
+        contact.table->resume(length);
+      if (contact.collection && n_frames > 0)
+        contact.collection->resume(n_frames, pvd);
+    }
+  }
+
+  void ContactTables::finish()
+  {
+    for (Contact &contact : contacts)
+      if (contact.table)
+        contact.table->close();
+  }
+} // namespace taut

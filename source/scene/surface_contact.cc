@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
+#include <taut/scene/body_type.h>
+#include <taut/scene/entries.h>
+#include <taut/scene/surface_contact.h>
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/patterns.h>
+#include <deal.II/base/utilities.h>
+
+namespace taut
+{
+  namespace
+  {
+    namespace Patterns = dealii::Patterns;
+
+    /// "block: 2, 3" or "block".
+    SurfaceContact::Side side(const std::string &text, const std::vector<CustomBody> &bodies,
+                              const std::string &entry)
+    {
+      const std::size_t colon = text.find(':');
+      const std::string name = dealii::Utilities::trim(text.substr(0, colon));
+      SurfaceContact::Side result;
+      result.body = find_name(bodies, name);
+      if (result.body == ground)
+      {
+        std::string known;
+        for (const CustomBody &body : bodies)
+          known += (known.empty() ? "" : ", ") + body.name;
+        throw EntryError(entry, "'" + name + "' is not the name of a body in 'Bodies'" +
+                                    (known.empty() ? "" : "; known are: " + known) +
+                                    ". Write 'body: 2' or 'body: 2, 3' with ids of its boundary");
+      }
+      if (colon == std::string::npos)
+        return result;
+      try
+      {
+        for (const int id : dealii::Utilities::string_to_int(
+                 dealii::Utilities::split_string_list(text.substr(colon + 1))))
+          result.boundaries.push_back(id);
+      }
+      catch (const std::exception &)
+      {
+        throw EntryError(entry, "'" + text.substr(colon + 1) +
+                                    "' is not a list of ids of the boundary, as in 'body: 2, 3'");
+      }
+      return result;
+    }
+  } // namespace
+
+  void ContactParameters::Item::declare(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter("Slave", slave,
+                      "A body and ids of its boundary, 'body: 2' or 'body: 2, 3'; without ids all "
+                      "of it. Its nodes have the contact forces",
+                      Patterns::Anything());
+    prm.add_parameter("Master", master, "The same of the other side, without an obstacle",
+                      Patterns::Anything());
+    prm.add_parameter("Method", method,
+                      "Between two bodies: mortar, with dual multipliers, in the plane; or nodes "
+                      "to faces, which does not pass the patch test",
+                      Patterns::Selection("mortar|nodes to faces"));
+    prm.add_parameter("Obstacle", obstacle,
+                      "Rigid, instead of a master: plane, cylinder, sphere, or height, which is "
+                      "all below a graph",
+                      Patterns::Selection("none|plane|cylinder|sphere|height"));
+    prm.add_parameter("Point", point,
+                      "Of the obstacle: on the plane or the axis, or the centre; 'x, y' or 'x, y, "
+                      "z' [m]",
+                      Patterns::List(Patterns::Double(), 2, 3));
+    prm.add_parameter("Direction", direction,
+                      "Of the obstacle: out of the plane; of the axis, '0, 0, 1' in the plane; "
+                      "upwards over the graph",
+                      Patterns::List(Patterns::Double(), 2, 3));
+    prm.add_parameter("Radius", radius, "Of a cylinder or sphere [m]", Patterns::Double(0.));
+    prm.add_parameter("Encloses body", encloses_body,
+                      "The cylinder or sphere is a bore or a socket, and the body inside");
+    prm.add_parameter("Height", height,
+                      "Of the graph along Direction above the origin, a formula of x, y, z [m]");
+    prm.add_parameter("Height difference", height_change,
+                      "Step of the differences that make the slope of the graph [m]",
+                      Patterns::Double(0.));
+    prm.add_parameter("Gap", gap, "Added to the distance of the surfaces [m]");
+    prm.add_parameter("Compliance", compliance,
+                      "How far a pressure brings the surfaces into each other; 0: rigid [m/Pa]",
+                      Patterns::Double(0.));
+    prm.add_parameter("Search distance", search_distance,
+                      "Sides farther apart than this do not touch; 0: automatic [m]",
+                      Patterns::Double(0.));
+  }
+
+  std::vector<SurfaceContact>
+  ContactParameters::contacts(const std::vector<CustomBody> &bodies) const
+  {
+    using Shape = ObstacleSetting::Shape;
+    std::vector<SurfaceContact> result;
+    for (std::size_t i = 0; i < items.items.size(); ++i)
+    {
+      const Item &item = items.items[i];
+      SurfaceContact contact;
+      contact.name = items.names[i];
+      contact.origin = items.title(i);
+      const std::string section = contact.origin + "/";
+      contact.slave = side(item.slave, bodies, section + "Slave");
+      ObstacleSetting &obstacle = contact.obstacle;
+      obstacle.shape = item.obstacle == "plane"      ? Shape::plane
+                       : item.obstacle == "cylinder" ? Shape::cylinder
+                       : item.obstacle == "sphere"   ? Shape::sphere
+                       : item.obstacle == "height"   ? Shape::height
+                                                     : Shape::none;
+      if (obstacle.shape == Shape::none)
+        contact.master = side(item.master, bodies, section + "Master");
+      else if (!item.master.empty())
+        throw EntryError(section + "Master", "a contact has a master or an obstacle, not both; "
+                                             "leave it empty or set Obstacle = none");
+      obstacle.point = parse_coordinates(item.point, section + "Point");
+      obstacle.direction = parse_direction(item.direction, section + "Direction");
+      obstacle.radius = item.radius;
+      if ((obstacle.shape == Shape::cylinder || obstacle.shape == Shape::sphere) &&
+          !(item.radius > 0.))
+        throw EntryError(section + "Radius", "it must be positive");
+      obstacle.encloses_body = item.encloses_body;
+      obstacle.height =
+          Expression(item.height, section + "Height", Expression::Variables::space);
+      if (obstacle.height.depends_on_time())
+        throw EntryError(section + "Height", "an obstacle does not move: no t in its formula");
+      if (!(item.height_change > 0.))
+        throw EntryError(section + "Height difference", "it must be positive");
+      obstacle.height_change = item.height_change;
+      contact.method =
+          item.method == "mortar" ? SurfaceMethod::mortar : SurfaceMethod::nodes_to_faces;
+      contact.gap = item.gap;
+      contact.compliance = item.compliance;
+      contact.search_distance = item.search_distance;
+      result.push_back(std::move(contact));
+    }
+    return result;
+  }
+} // namespace taut

@@ -1,0 +1,421 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
+#include <taut/solid/elastic_solid.h>
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <deal.II/dofs/dof_tools.h>
+
+#include <deal.II/fe/fe_values.h>
+
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/full_matrix.h>
+
+#include <deal.II/numerics/vector_tools.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace taut
+{
+  namespace
+  {
+    template <int dim>
+    Coordinates coordinates(const dealii::Tensor<1, dim> &x)
+    {
+      return {x[0], x[1], dim == 3 ? x[dim - 1] : 0.};
+    }
+
+    /// As far as a normal may be from an axis for a boundary along it.
+    constexpr double along_axis = 1e-8;
+
+    void check_material(const ElasticMaterial &m)
+    {
+      if (!(m.youngs_modulus > 0.) || !std::isfinite(m.youngs_modulus))
+        throw UserError("Young's modulus must be positive, and it is " +
+                        std::to_string(m.youngs_modulus));
+      if (!(m.poissons_ratio > -1. && m.poissons_ratio < .5))
+        throw UserError("Poisson's ratio must be between -1 and 0.5, and it is " +
+                        std::to_string(m.poissons_ratio));
+      if (!(m.density >= 0.) || !std::isfinite(m.density))
+        throw UserError("the density must not be negative, and it is " + std::to_string(m.density));
+    }
+
+    template <int dim>
+    const ElasticMaterial &
+    material(const std::map<dealii::types::material_id, ElasticMaterial> &materials,
+             const dealii::types::material_id id)
+    {
+      if (materials.size() == 1)
+        return materials.begin()->second;
+      const auto found = materials.find(id);
+      if (found == materials.end())
+        throw UserError("the mesh has cells of material " + std::to_string(id) +
+                        ", of which no material is given");
+      return found->second;
+    }
+
+    /// Lame's constants; plane stress is plane strain with another lambda.
+    struct Lame
+    {
+      double lambda, mu;
+    };
+    Lame lame(const ElasticMaterial &m, const bool plane_stress)
+    {
+      const double mu = m.youngs_modulus / (2. * (1. + m.poissons_ratio)),
+                   lambda = 2. * mu * m.poissons_ratio / (1. - 2. * m.poissons_ratio);
+      return {plane_stress ? 2. * lambda * mu / (lambda + 2. * mu) : lambda, mu};
+    }
+  } // namespace
+
+  template <int dim>
+  struct ElasticSolid<dim>::Assembled
+  {
+    Assembled(const SolidMesh<dim> &mesh, const Options &options);
+
+    dealii::AffineConstraints<double> constraints;
+    dealii::SparsityPattern pattern;
+    dealii::SparseMatrix<double> M, C, K;
+    dealii::Vector<double> load;
+
+    struct Prescribed
+    {
+      dealii::types::global_dof_index dof;
+      const BoundaryCondition *by;
+    };
+    std::vector<Prescribed> prescribed;
+
+  private:
+    void constrain(const SolidMesh<dim> &mesh, const BoundaryCondition &condition);
+    std::array<bool, 3> normal_component(const SolidMesh<dim> &mesh,
+                                         const BoundaryCondition &condition) const;
+    void add_stiffness(const SolidMesh<dim> &mesh, const Options &options);
+    void add_mass(const SolidMesh<dim> &mesh, const Options &options);
+  };
+
+  template <int dim>
+  ElasticSolid<dim>::Assembled::Assembled(const SolidMesh<dim> &mesh, const Options &options)
+  {
+    if (options.materials.empty())
+      throw UserError("no material is given");
+    for (const auto &[id, m] : options.materials)
+      check_material(m);
+    const auto ids = mesh.boundary_ids();
+    const auto check_boundaries = [&](const std::set<dealii::types::boundary_id> &wanted)
+    {
+      for (const auto id : wanted)
+        if (ids.count(id) == 0)
+          throw UserError(mesh.no_boundary(id));
+    };
+    const dealii::DoFHandler<dim> &dofs = mesh.dof_handler();
+    dealii::DoFTools::make_hanging_node_constraints(dofs, constraints);
+    for (const BoundaryCondition &condition : options.conditions)
+    {
+      try
+      {
+        check_boundaries(condition.boundaries);
+        constrain(mesh, condition);
+      }
+      catch (const UserError &e)
+      {
+        throw EntryError(condition.origin, e.what());
+      }
+    }
+    constraints.close();
+    dealii::DynamicSparsityPattern all(dofs.n_dofs());
+    dealii::DoFTools::make_sparsity_pattern(dofs, all);
+    pattern.copy_from(all);
+    for (auto *matrix : {&M, &K})
+      matrix->reinit(pattern);
+    load.reinit(dofs.n_dofs());
+    add_stiffness(mesh, options);
+    add_mass(mesh, options);
+    if (options.mass_damping != 0. || options.stiffness_damping != 0.)
+    {
+      C.reinit(pattern);
+      C.add(options.mass_damping, M);
+      C.add(options.stiffness_damping, K);
+    }
+  }
+
+  template <int dim>
+  void ElasticSolid<dim>::Assembled::constrain(const SolidMesh<dim> &mesh,
+                                               const BoundaryCondition &condition)
+  {
+    using Kind = BoundaryCondition::Kind;
+    if (condition.kind != Kind::displacement && condition.kind != Kind::symmetry)
+      return;
+    const std::array<bool, 3> held = condition.kind == Kind::symmetry
+                                         ? normal_component(mesh, condition)
+                                         : condition.held;
+    dealii::ComponentMask mask(dim, false);
+    for (unsigned int c = 0; c < dim; ++c)
+      mask.set(c, held[c]);
+    const dealii::IndexSet on_boundary =
+        dealii::DoFTools::extract_boundary_dofs(mesh.dof_handler(), mask, condition.boundaries);
+    for (const auto dof : on_boundary)
+    {
+      // The first condition that is written counts where two meet, as do hanging nodes.
+      if (constraints.is_constrained(dof))
+        continue;
+      constraints.add_line(dof);
+      if (condition.value)
+        prescribed.push_back({dof, &condition});
+    }
+  }
+
+  /// Of a boundary in a plane across an axis.
+  template <int dim>
+  std::array<bool, 3>
+  ElasticSolid<dim>::Assembled::normal_component(const SolidMesh<dim> &mesh,
+                                                 const BoundaryCondition &condition) const
+  {
+    dealii::FEFaceValues<dim> values(mesh.mapping(), mesh.dof_handler().get_fe(),
+                                     mesh.face_quadrature(2), dealii::update_normal_vectors);
+    unsigned int axis = dim;
+    for (const auto &cell : mesh.dof_handler().active_cell_iterators())
+      for (const unsigned int f : cell->face_indices())
+      {
+        if (!cell->face(f)->at_boundary() ||
+            condition.boundaries.count(cell->face(f)->boundary_id()) == 0)
+          continue;
+        values.reinit(cell, f);
+        for (const auto &normal : values.get_normal_vectors())
+        {
+          unsigned int c = 0;
+          while (c < dim && !(std::fabs(normal[c]) > 1. - along_axis))
+            ++c;
+          if (c == dim || (axis != dim && c != axis))
+            throw UserError("symmetry needs a boundary in a plane across an axis; its normal at a "
+                            "face is (" +
+                            std::to_string(normal[0]) + ", " + std::to_string(normal[1]) +
+                            (dim == 3 ? ", " + std::to_string(normal[dim - 1]) : "") + ")");
+          axis = c;
+        }
+      }
+    std::array<bool, 3> held = {false, false, false};
+    held[axis] = true;
+    return held;
+  }
+
+  template <int dim>
+  void ElasticSolid<dim>::Assembled::add_stiffness(const SolidMesh<dim> &mesh,
+                                                   const Options &options)
+  {
+    const dealii::FiniteElement<dim> &element = mesh.dof_handler().get_fe();
+    dealii::FEValues<dim> values(mesh.mapping(), element, mesh.quadrature(mesh.degree() + 1),
+                                 dealii::update_gradients | dealii::update_JxW_values);
+    const unsigned int n = element.n_dofs_per_cell();
+    const double thickness = dim == 2 ? options.thickness : 1.;
+    dealii::FullMatrix<double> k(n, n);
+    std::vector<dealii::types::global_dof_index> index(n);
+    for (const auto &cell : mesh.dof_handler().active_cell_iterators())
+    {
+      values.reinit(cell);
+      const auto [lambda, mu] = lame(material<dim>(options.materials, cell->material_id()),
+                                     dim == 2 && options.plane_state == PlaneState::stress);
+      k = 0.;
+      for (const unsigned int q : values.quadrature_point_indices())
+      {
+        const double dx = thickness * values.JxW(q);
+        for (unsigned int i = 0; i < n; ++i)
+        {
+          const unsigned int a = element.system_to_component_index(i).first;
+          const auto &gi = values.shape_grad(i, q);
+          for (unsigned int j = 0; j <= i; ++j)
+          {
+            const unsigned int b = element.system_to_component_index(j).first;
+            const auto &gj = values.shape_grad(j, q);
+            k(i, j) += (lambda * gi[a] * gj[b] + mu * gi[b] * gj[a] +
+                        (a == b ? mu * (gi * gj) : 0.)) *
+                       dx;
+          }
+        }
+      }
+      cell->get_dof_indices(index);
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j <= i; ++j)
+        {
+          K.add(index[i], index[j], k(i, j));
+          if (i != j)
+            K.add(index[j], index[i], k(i, j));
+        }
+    }
+  }
+
+  /// The mass, and the weight, which is consistent whatever the mass is.
+  template <int dim>
+  void ElasticSolid<dim>::Assembled::add_mass(const SolidMesh<dim> &mesh, const Options &options)
+  {
+    const dealii::FiniteElement<dim> &element = mesh.dof_handler().get_fe();
+    const bool lumped = options.mass == SolidMass::lumped;
+    if (lumped && mesh.is_simplicial() && mesh.degree() == 2)
+      throw UserError("lumped masses of degree 2 on triangles or tetrahedra are none at their "
+                      "corners; take Mass matrix = consistent, or degree 1");
+    const unsigned int n_points = mesh.degree() + (options.mass == SolidMass::reduced ? 0 : 1);
+    const dealii::Quadrature<dim> exact = mesh.quadrature(n_points),
+                                  weighing = mesh.quadrature(mesh.degree() + 1);
+    dealii::FEValues<dim> values(mesh.mapping(), element, exact,
+                                 dealii::update_values | dealii::update_JxW_values),
+        weights(mesh.mapping(), element, weighing,
+                dealii::update_values | dealii::update_JxW_values);
+    const unsigned int n = element.n_dofs_per_cell();
+    const double thickness = dim == 2 ? options.thickness : 1.;
+    std::vector<dealii::types::global_dof_index> index(n);
+    std::vector<double> row(n);
+    for (const auto &cell : mesh.dof_handler().active_cell_iterators())
+    {
+      values.reinit(cell);
+      weights.reinit(cell);
+      cell->get_dof_indices(index);
+      const double density =
+          material<dim>(options.materials, cell->material_id()).density * thickness;
+      double cell_mass = 0., diagonal_mass = 0.;
+      std::vector<double> diagonal(n, 0.);
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        const unsigned int c = element.system_to_component_index(i).first;
+        std::fill(row.begin(), row.end(), 0.);
+        for (unsigned int j = 0; j < n; ++j)
+          if (element.system_to_component_index(j).first == c)
+            for (const unsigned int q : values.quadrature_point_indices())
+              row[j] += density * values.shape_value(i, q) * values.shape_value(j, q) *
+                        values.JxW(q);
+        if (!lumped)
+          for (unsigned int j = 0; j < n; ++j)
+            if (element.system_to_component_index(j).first == c)
+              M.add(index[i], index[j], row[j]);
+        diagonal[i] = row[i];
+        if (c == 0)
+        {
+          diagonal_mass += row[i];
+          for (const double m : row)
+            cell_mass += m;
+        }
+        double share = 0.;
+        for (const unsigned int q : weights.quadrature_point_indices())
+          share += density * weights.shape_value(i, q) * weights.JxW(q);
+        load[index[i]] += options.gravity[c] * share;
+      }
+      // The diagonal, scaled so that the cell keeps its mass (E. Hinton, T. Rock, O. C.
+      // Zienkiewicz, Earthquake Engineering and Structural Dynamics 4 (1976)).
+      if (lumped && diagonal_mass > 0.)
+        for (unsigned int i = 0; i < n; ++i)
+          M.add(index[i], index[i], diagonal[i] * cell_mass / diagonal_mass);
+    }
+  }
+
+  template <int dim>
+  ElasticSolid<dim>::ElasticSolid(const std::string &name,
+                                  std::shared_ptr<const SolidMesh<dim>> mesh,
+                                  const Options &options)
+      : ElasticSolid(name, mesh, options, Assembled(*mesh, options))
+  {
+  }
+
+  template <int dim>
+  ElasticSolid<dim>::ElasticSolid(const std::string &name,
+                                  std::shared_ptr<const SolidMesh<dim>> given,
+                                  const Options &chosen, const Assembled &assembled)
+      : FEBody<dim>(name, given->dof_handler(), assembled.M, assembled.C, assembled.K,
+                    assembled.constraints, assembled.load,
+                    [&]
+                    {
+                      typename FEBody<dim>::Options o;
+                      o.origin = chosen.origin;
+                      o.mapping = &given->mapping();
+                      return o;
+                    }()),
+        mesh(std::move(given)), options(chosen),
+        boundary(mesh->surface({}))
+  {
+    std::map<dealii::types::global_dof_index, std::function<double(double)>> motions;
+    for (const auto &[dof, by] : assembled.prescribed)
+    {
+      const Coordinates x = coordinates<dim>(mesh->points()[dof]);
+      const unsigned int c = mesh->component(dof);
+      if (by->varies)
+        motions[dof] = [value = by->value, x, c](const double t) { return value(x, t)[c]; };
+      else
+        motions[dof] = [u = by->value(x, 0.)[c]](double) { return u; };
+    }
+    if (!motions.empty())
+      this->prescribe(motions);
+    add_boundary_loads();
+  }
+
+  /// Tractions and pressures, which are integrated once if they do not change.
+  template <int dim>
+  void ElasticSolid<dim>::add_boundary_loads()
+  {
+    using Kind = BoundaryCondition::Kind;
+    for (const BoundaryCondition &condition : options.conditions)
+    {
+      if ((condition.kind != Kind::traction && condition.kind != Kind::pressure) ||
+          !condition.value)
+        continue;
+      std::vector<std::pair<typename dealii::DoFHandler<dim>::active_cell_iterator, unsigned int>>
+          faces;
+      for (const auto &cell : mesh->dof_handler().active_cell_iterators())
+        for (const unsigned int f : cell->face_indices())
+          if (cell->face(f)->at_boundary() &&
+              condition.boundaries.count(cell->face(f)->boundary_id()) > 0)
+            faces.emplace_back(cell, f);
+      const auto add = [this, &condition, faces](const double t, dealii::Vector<double> &P)
+      {
+        const dealii::FiniteElement<dim> &element = mesh->dof_handler().get_fe();
+        dealii::FEFaceValues<dim> values(mesh->mapping(), element,
+                                         mesh->face_quadrature(mesh->degree() + 1),
+                                         dealii::update_values | dealii::update_JxW_values |
+                                             dealii::update_normal_vectors |
+                                             dealii::update_quadrature_points);
+        const double thickness = dim == 2 ? options.thickness : 1.;
+        std::vector<dealii::types::global_dof_index> index(element.n_dofs_per_cell());
+        for (const auto &[cell, f] : faces)
+        {
+          values.reinit(cell, f);
+          cell->get_dof_indices(index);
+          for (const unsigned int q : values.quadrature_point_indices())
+          {
+            const Coordinates given =
+                condition.value(coordinates<dim>(values.quadrature_point(q)), t);
+            for (unsigned int i = 0; i < index.size(); ++i)
+            {
+              const unsigned int c = element.system_to_component_index(i).first;
+              const double traction = condition.kind == Kind::pressure
+                                          ? -given[0] * values.normal_vector(q)[c]
+                                          : given[c];
+              P[index[i]] += thickness * traction * values.shape_value(i, q) * values.JxW(q);
+            }
+          }
+        }
+      };
+      if (condition.varies)
+        this->add_load(add);
+      else
+      {
+        dealii::Vector<double> P(mesh->dof_handler().n_dofs());
+        add(0., P);
+        this->add_constant_load(P);
+      }
+    }
+  }
+
+  template <int dim>
+  LinearForm ElasticSolid<dim>::node_displacement(const unsigned int node,
+                                                  const Coordinates &direction) const
+  {
+    LinearForm result;
+    for (unsigned int c = 0; c < dim; ++c)
+      if (direction[c] != 0.)
+      {
+        const LinearForm form = this->displacement_of_dof(boundary.dofs[node][c]);
+        for (std::size_t i = 0; i < form.index.size(); ++i)
+          result.add(form.index[i], direction[c] * form.value[i]);
+      }
+    return result;
+  }
+
+  template class ElasticSolid<2>;
+  template class ElasticSolid<3>;
+} // namespace taut

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_solid_entries_h
+#define taut_solid_entries_h
+
+#include <taut/scene/body_type.h>
+#include <taut/scene/expression.h>
+#include <taut/solid/elastic_solid.h>
+
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace taut
+{
+  /// The mesh of a solid in a parameter file.
+  struct MeshEntries
+  {
+    void declare(dealii::ParameterHandler &prm);
+
+    /// Throws EntryError for what makes no mesh, below @p origin, the section of the body.
+    template <int dim>
+    std::unique_ptr<dealii::Triangulation<dim>> make(const std::string &origin) const;
+
+  private:
+    template <int dim>
+    void generate(dealii::Triangulation<dim> &cells, const std::string &section) const;
+    template <int dim>
+    void read(dealii::Triangulation<dim> &cells, const std::string &section) const;
+    template <int dim>
+    void refine(dealii::Triangulation<dim> &cells, const std::string &section) const;
+
+    std::string file, generator = "subdivided_hyper_rectangle",
+                      arguments = "4, 4 : 0, 0 : 1, 1 : true", where;
+    unsigned int refinements = 0, local_refinements = 0;
+    std::vector<double> shift;
+  };
+
+  /// A solid in a parameter file.
+  struct SolidEntries
+  {
+    void declare(dealii::ParameterHandler &prm);
+
+    /// Throws EntryError for what cannot be.
+    template <int dim>
+    typename ElasticSolid<dim>::Options options(const BodySetting &setting) const;
+
+    unsigned int dimension = 2, degree = 1;
+    MeshEntries mesh;
+
+  private:
+    std::vector<BoundaryCondition> conditions(const std::string &origin) const;
+
+    double youngs_modulus = 0., poissons_ratio = .3, density = 0., thickness = 1.,
+           mass_damping = 0., stiffness_damping = 0.;
+    std::string materials, plane_state = "strain", mass_matrix = "consistent";
+    std::vector<unsigned int> fixed, symmetric;
+    std::string displacement, traction, pressure;
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
+#include <taut/solid/elastic_solid.h>
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <deal.II/fe/fe_dgq.h>
+#include <deal.II/fe/fe_simplex_p.h>
+#include <deal.II/fe/fe_values.h>
+
+#include <deal.II/numerics/data_out.h>
+
+#include <cmath>
+#include <fstream>
+#include <map>
+
+namespace taut
+{
+  namespace
+  {
+    using Stress = dealii::SymmetricTensor<2, 3>;
+
+    double von_mises(const Stress &s)
+    {
+      const Stress d = dealii::deviator(s);
+      return std::sqrt(1.5 * (d * d));
+    }
+
+    /// An element that is not continuous, with nodes where those of the displacements are.
+    template <int dim>
+    std::unique_ptr<dealii::FiniteElement<dim>> discontinuous(const SolidMesh<dim> &mesh)
+    {
+      if (mesh.is_simplicial())
+        return std::make_unique<dealii::FE_SimplexDGP<dim>>(mesh.degree());
+      return std::make_unique<dealii::FE_DGQ<dim>>(mesh.degree());
+    }
+  } // namespace
+
+  /// The stresses at the nodes of each cell, averaged over the cells of one material at a node.
+  template <int dim>
+  class ElasticSolid<dim>::StressField
+  {
+  public:
+    StressField(const ElasticSolid<dim> &solid, const dealii::Vector<double> &U);
+
+    /// Components, principal values and von Mises' stress as a field of output.
+    void add_to(dealii::DataOut<dim> &data);
+
+  private:
+    Stress stress(const dealii::Tensor<2, dim> &gradient, const ElasticMaterial &material) const;
+    void find(const dealii::Vector<double> &U);
+    std::vector<double> components(const Stress &s) const;
+
+    const ElasticSolid<dim> &solid;
+    const SolidMesh<dim> &mesh;
+    const std::unique_ptr<dealii::FiniteElement<dim>> node_element;
+    std::vector<unsigned int> node_of_displacement; ///< of each node, the first DoF of a cell there
+    std::vector<std::vector<Stress>> stresses;      ///< of each cell and node
+    std::vector<std::string> names;
+    dealii::DoFHandler<dim> handler;
+    dealii::Vector<double> values;
+  };
+
+  template <int dim>
+  ElasticSolid<dim>::StressField::StressField(const ElasticSolid<dim> &solid,
+                                              const dealii::Vector<double> &U)
+      : solid(solid), mesh(*solid.mesh), node_element(discontinuous(mesh)),
+        handler(mesh.dof_handler().get_triangulation())
+  {
+    const dealii::FiniteElement<dim> &element = mesh.dof_handler().get_fe();
+    constexpr double same = 1e-10; // of the size of the unit cell
+    for (const dealii::Point<dim> &node : node_element->get_unit_support_points())
+      for (unsigned int i = 0; i < element.n_dofs_per_cell(); ++i)
+        if (element.system_to_component_index(i).first == 0 &&
+            node.distance(element.unit_support_point(i)) < same)
+          node_of_displacement.push_back(i);
+    names = dim == 2
+                ? std::vector<std::string>{"stress_xx", "stress_yy", "stress_xy", "stress_zz"}
+                : std::vector<std::string>{"stress_xx", "stress_yy", "stress_zz",
+                                           "stress_xy", "stress_xz", "stress_yz"};
+    names.insert(names.end(), {"principal_stress_1", "principal_stress_2", "principal_stress_3",
+                               "von_mises_stress"});
+    find(U);
+  }
+
+  template <int dim>
+  Stress ElasticSolid<dim>::StressField::stress(const dealii::Tensor<2, dim> &gradient,
+                                                const ElasticMaterial &m) const
+  {
+    const double nu = m.poissons_ratio, mu = m.youngs_modulus / (2. * (1. + nu));
+    dealii::SymmetricTensor<2, 3> strain;
+    for (unsigned int a = 0; a < dim; ++a)
+      for (unsigned int b = a; b < dim; ++b)
+        strain[a][b] = .5 * (gradient[a][b] + gradient[b][a]);
+    if (dim == 2 && solid.options.plane_state == PlaneState::stress)
+      strain[2][2] = -nu / (1. - nu) * (strain[0][0] + strain[1][1]);
+    return 2. * mu * (strain + nu / (1. - 2. * nu) * dealii::trace(strain) *
+                                   dealii::unit_symmetric_tensor<3>());
+  }
+
+  template <int dim>
+  void ElasticSolid<dim>::StressField::find(const dealii::Vector<double> &U)
+  {
+    const dealii::FiniteElement<dim> &element = mesh.dof_handler().get_fe();
+    const std::vector<dealii::Point<dim>> &nodes = node_element->get_unit_support_points();
+    // Where stresses are taken, and how they are continued to the nodes.
+    const dealii::Quadrature<dim> points =
+        mesh.is_simplicial() ? dealii::Quadrature<dim>(nodes) : mesh.quadrature(mesh.degree());
+    std::vector<std::vector<double>> weight(nodes.size(), std::vector<double>(points.size(), 0.));
+    if (mesh.is_simplicial())
+      for (std::size_t n = 0; n < nodes.size(); ++n)
+        weight[n][n] = 1.;
+    else
+    {
+      const dealii::FE_DGQArbitraryNodes<dim> through(dealii::QGauss<1>(mesh.degree()));
+      for (std::size_t n = 0; n < nodes.size(); ++n)
+        for (unsigned int q = 0; q < points.size(); ++q)
+          weight[n][q] = through.shape_value(q, nodes[n]);
+    }
+    dealii::FEValues<dim> at_points(mesh.mapping(), element, points, dealii::update_gradients);
+    std::vector<dealii::Tensor<2, dim>> gradients(points.size());
+    std::vector<dealii::types::global_dof_index> index(element.n_dofs_per_cell());
+    struct Sum
+    {
+      Stress total;
+      unsigned int n = 0;
+    };
+    std::map<std::pair<dealii::types::global_dof_index, dealii::types::material_id>, Sum> at_node;
+    const auto key = [&](const auto &cell, const std::size_t n)
+    { return std::make_pair(index[node_of_displacement[n]], cell->material_id()); };
+    for (const auto &cell : mesh.dof_handler().active_cell_iterators())
+    {
+      at_points.reinit(cell);
+      cell->get_dof_indices(index);
+      at_points[dealii::FEValuesExtractors::Vector(0)].get_function_gradients(U, gradients);
+      const auto &materials = solid.options.materials;
+      const ElasticMaterial &material =
+          materials.size() == 1 ? materials.begin()->second : materials.at(cell->material_id());
+      for (std::size_t n = 0; n < nodes.size(); ++n)
+      {
+        Sum &sum = at_node[key(cell, n)];
+        for (unsigned int q = 0; q < points.size(); ++q)
+          if (weight[n][q] != 0.)
+            sum.total += weight[n][q] * stress(gradients[q], material);
+        ++sum.n;
+      }
+    }
+    for (const auto &cell : mesh.dof_handler().active_cell_iterators())
+    {
+      cell->get_dof_indices(index);
+      stresses.emplace_back();
+      for (std::size_t n = 0; n < nodes.size(); ++n)
+      {
+        const Sum &sum = at_node[key(cell, n)];
+        stresses.back().push_back(sum.total / sum.n);
+      }
+    }
+  }
+
+  template <int dim>
+  std::vector<double> ElasticSolid<dim>::StressField::components(const Stress &s) const
+  {
+    std::vector<double> result =
+        dim == 2 ? std::vector<double>{s[0][0], s[1][1], s[0][1], s[2][2]}
+                 : std::vector<double>{s[0][0], s[1][1], s[2][2], s[0][1], s[0][2], s[1][2]};
+    for (const double principal : dealii::eigenvalues(s))
+      result.push_back(principal);
+    result.push_back(von_mises(s));
+    return result;
+  }
+
+  template <int dim>
+  void ElasticSolid<dim>::StressField::add_to(dealii::DataOut<dim> &data)
+  {
+    const dealii::FESystem<dim> element(*node_element, names.size());
+    handler.distribute_dofs(element);
+    values.reinit(handler.n_dofs());
+    std::vector<dealii::types::global_dof_index> index(element.n_dofs_per_cell());
+    auto of_cell = stresses.begin();
+    for (const auto &cell : handler.active_cell_iterators())
+    {
+      cell->get_dof_indices(index);
+      for (std::size_t n = 0; n < of_cell->size(); ++n)
+      {
+        const std::vector<double> found = components((*of_cell)[n]);
+        for (std::size_t c = 0; c < found.size(); ++c)
+          values[index[element.component_to_system_index(c, n)]] = found[c];
+      }
+      ++of_cell;
+    }
+    data.add_data_vector(handler, values, names);
+  }
+
+  template <int dim>
+  void ElasticSolid<dim>::write_vtu(const std::string &path, const std::vector<double> &U) const
+  {
+    using namespace dealii::DataComponentInterpretation;
+    const dealii::Vector<double> all = this->all_dofs(U);
+    StressField stress(*this, all);
+    dealii::DataOut<dim> data;
+    data.add_data_vector(
+        mesh->dof_handler(), all, std::vector<std::string>(dim, "displacement"),
+        std::vector<DataComponentInterpretation>(dim, component_is_part_of_vector));
+    stress.add_to(data);
+    data.build_patches(mesh->mapping(), mesh->degree());
+    dealii::DataOutBase::VtkFlags flags;
+    flags.print_date_and_time = false; // the same bytes from run to run
+    data.set_flags(flags);
+    std::ofstream file(path);
+    data.write_vtu(file);
+    file.close();
+    if (!file)
+      throw UserError("cannot write '" + path + "': no permission, or the disk is full");
+  }
+
+  template void ElasticSolid<2>::write_vtu(const std::string &, const std::vector<double> &) const;
+  template void ElasticSolid<3>::write_vtu(const std::string &, const std::vector<double> &) const;
+} // namespace taut
