@@ -14,6 +14,7 @@ ROOMS = {
     "substructure": ["base"],
     "wire": ["base", "scene", "substructure"],
     "mechanism": ["base", "scene", "substructure"],
+    "solid": ["base", "scene", "substructure"],
     "partition": ["base", "scene"],
     "interface": ["base", "complementarity", "substructure"],
     "time": ["base", "complementarity", "substructure", "interface"],
