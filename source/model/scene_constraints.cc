@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
 #include <taut/model/scene_constraints.h>
+#include <taut/model/surface_constraints.h>
 
 #include <sstream>
 
@@ -86,6 +87,8 @@ namespace taut
         constraint.terms = link_terms(bodies, link, link.to);
       constraints.push_back(std::move(constraint));
     }
+    for (ConstraintData &constraint : surface_constraints(scene, bodies))
+      constraints.push_back(std::move(constraint));
     for (const CutConstraint &cut : bodies.cut_constraints())
     {
       ConstraintData constraint{cut.name};

@@ -49,8 +49,10 @@ namespace taut
                           ending = entry.path().extension().string();
         if (names.count(name) ||
             (ending == ".vtu" &&
-             (begins(name, "wires_") || begins(name, "links_") || begins(name, "body_"))) ||
-            (ending == ".pvd" && begins(name, "body_")))
+             (begins(name, "wires_") || begins(name, "links_") || begins(name, "body_") ||
+              begins(name, "contact_"))) ||
+            (ending == ".pvd" && (begins(name, "body_") || begins(name, "contact_"))) ||
+            (ending == ".csv" && begins(name, "contact_")))
           results.push_back(entry.path());
       }
       return results;

@@ -235,6 +235,8 @@ namespace taut
       observers.add(guest);
     for (const std::string &name : parameters.output.observers)
       observers.add(parameters.make_observer(name));
+    if (!model.contacts.empty())
+      observers.add(std::make_unique<ContactTables>(model, parameters.output.field_interval));
   }
 
   void Simulation::show(const ObserverList &observers, const State &state,

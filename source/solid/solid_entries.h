@@ -46,13 +46,14 @@ namespace taut
     typename ElasticSolid<dim>::Options options(const BodySetting &setting) const;
 
     unsigned int dimension = 2, degree = 1;
+    double thickness = 1.;
     MeshEntries mesh;
 
   private:
     std::vector<BoundaryCondition> conditions(const std::string &origin) const;
 
-    double youngs_modulus = 0., poissons_ratio = .3, density = 0., thickness = 1.,
-           mass_damping = 0., stiffness_damping = 0.;
+    double youngs_modulus = 0., poissons_ratio = .3, density = 0., mass_damping = 0.,
+           stiffness_damping = 0.;
     std::string materials, plane_state = "strain", mass_matrix = "consistent";
     std::vector<unsigned int> fixed, symmetric;
     std::string displacement, traction, pressure;

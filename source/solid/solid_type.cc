@@ -42,7 +42,9 @@ namespace taut
 
       ContactSurface surface(const std::vector<unsigned int> &boundaries) const override
       {
-        return mesh->surface({boundaries.begin(), boundaries.end()}).surface;
+        ContactSurface surface = mesh->surface({boundaries.begin(), boundaries.end()}).surface;
+        surface.thickness = entries.thickness;
+        return surface;
       }
 
     private:

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_face_search_h
+#define taut_face_search_h
+
+#include "surface_geometry.h"
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace taut
+{
+  /// Finds faces of a surface by their bounding boxes, in an R-tree: n log n to build, log n a
+  /// query and face found.
+  class FaceSearch
+  {
+  public:
+    explicit FaceSearch(const SurfaceGeometry &geometry);
+    ~FaceSearch();
+
+    /// Faces whose boxes meet the convex hull of some points of the plane, in ascending order.
+    std::vector<std::size_t> meet_hull(const std::vector<Coordinates> &points) const;
+
+    /// Calls @p visit with faces and the distances of their boxes from @p x [m], which ascend, as
+    /// long as it returns true.
+    void visit_nearest(const Coordinates &x,
+                       const std::function<bool(std::size_t face, double distance)> &visit) const;
+
+  private:
+    struct Trees;
+    std::unique_ptr<const Trees> trees;
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "closest_point.h"
+#include "face_search.h"
+#include "nodal_areas.h"
+#include <taut/base/exceptions.h>
+#include <taut/solid/contact_constraints.h>
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace taut
+{
+  namespace
+  {
+    /// Cosine between a slave's and the opposite of a master's normal from which on they face each
+    /// other.
+    constexpr double facing = .1;
+
+    /// How far beside the master a node may be: of the distance, and of the size of the face.
+    constexpr double beside_of_distance = .1, beside_of_size = 1e-6;
+
+    /// Distance over the size of a face below which its direction is rounding.
+    constexpr double no_distance = 1e-9;
+
+    /// Projects nodes of one surface onto another.
+    class Projection
+    {
+    public:
+      Projection(const SurfaceGeometry &slave, const SurfaceGeometry &master,
+                 const double distance)
+          : slave(slave), master(master), areas(slave), points(master), search(master),
+            distance(distance)
+      {
+      }
+
+      /// The constraint of a node; none if it does not face the master.
+      std::optional<SurfaceConstraint> constraint(const unsigned int node) const
+      {
+        if (areas.faces(node).empty())
+          return std::nullopt;
+        const Coordinates x = slave.point(node);
+        const std::optional<ClosestPoint> found = closest(node, x);
+        if (!found)
+          return std::nullopt;
+        const FacePoint p = master.at(found->face, found->reference);
+        const Coordinates d = x - p.position;
+        const double size = master.box(found->face).diagonal();
+        Coordinates normal = p.normal(); // out of the master
+        const double across = norm(add_scaled(d, -dot(d, normal), normal));
+        if (found->on_open_border &&
+            across > beside_of_distance * found->distance + beside_of_size * size)
+          return std::nullopt;
+        if (found->on_border && found->distance > no_distance * size)
+          normal = scaled((dot(d, normal) < 0. ? -1. : 1.) / norm(d), d);
+        SurfaceConstraint c;
+        c.node = node;
+        c.point = x;
+        c.normal = scaled(-1., normal);
+        c.gap = dot(d, normal);
+        c.area = areas.area(node, c.normal);
+        c.slave = {{node, normal}};
+        for (unsigned int k = 0; k < p.shapes.n; ++k)
+          if (p.shapes.value[k] != 0.)
+            c.master.push_back(
+                {master.nodes(found->face)[k], scaled(-p.shapes.value[k], normal)});
+        return c;
+      }
+
+    private:
+      /// Of the faces that the node faces.
+      std::optional<ClosestPoint> closest(const unsigned int node, const Coordinates &x) const
+      {
+        std::optional<ClosestPoint> best;
+        search.visit_nearest(
+            x,
+            [&](const std::size_t face, const double box_distance)
+            {
+              if (box_distance > (best ? best->distance : distance))
+                return false;
+              const ClosestPoint found = points.find(face, x);
+              if (found.distance <= distance && (!best || found.distance < best->distance) &&
+                  areas.largest_cosine(
+                      node, scaled(-1., master.at(face, found.reference).normal())) >= facing)
+                best = found;
+              return true;
+            });
+        return best;
+      }
+
+      const SurfaceGeometry &slave, &master;
+      const NodalAreas areas;
+      const ClosestPoints points;
+      const FaceSearch search;
+      const double distance;
+    };
+
+    std::vector<SurfaceConstraint> constrain_nodes(const ContactSurface &slave,
+                                                   const ContactSurface &master,
+                                                   const unsigned int dim,
+                                                   const double thickness,
+                                                   const double wanted_distance)
+    {
+      const SurfaceGeometry slaves(slave), masters(master);
+      check_dimensions(slave, master);
+      if (slave.dim != dim)
+        throw UserError("contact surfaces '" + slave.name + "' and '" + master.name + "': " +
+                        (dim == 2 ? "node-to-segment constraints are for the plane; in space take "
+                                    "node-to-face"
+                                  : "node-to-face constraints are for bodies in space; in the "
+                                    "plane take mortar or node-to-segment"));
+      check_thickness(thickness);
+      const double distance = search_distance(slaves, masters, wanted_distance);
+      const Projection projection(slaves, masters, distance);
+      std::vector<SurfaceConstraint> constraints;
+      for (unsigned int node = 0; node < slave.points.size(); ++node)
+        if (std::optional<SurfaceConstraint> c = projection.constraint(node))
+        {
+          c->area *= thickness;
+          constraints.push_back(std::move(*c));
+        }
+      if (constraints.empty())
+        complain_about_search(slaves, masters, distance);
+      return constraints;
+    }
+  } // namespace
+
+  std::vector<SurfaceConstraint> node_to_segment_constraints(const ContactSurface &slave,
+                                                             const ContactSurface &master,
+                                                             const double thickness,
+                                                             const double search_distance)
+  {
+    return constrain_nodes(slave, master, 2, thickness, search_distance);
+  }
+
+  std::vector<SurfaceConstraint> node_to_face_constraints(const ContactSurface &slave,
+                                                          const ContactSurface &master,
+                                                          const double search_distance)
+  {
+    return constrain_nodes(slave, master, 3, 1., search_distance);
+  }
+} // namespace taut

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "nodal_areas.h"
+#include <taut/base/exceptions.h>
+#include <taut/solid/contact_constraints.h>
+#include <taut/solid/rigid_obstacle.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace taut
+{
+  namespace
+  {
+    /// Cosine from which on a face faces an obstacle.
+    constexpr double facing = .01;
+  } // namespace
+
+  std::vector<SurfaceConstraint> obstacle_constraints(const ContactSurface &surface,
+                                                      const RigidObstacle &obstacle,
+                                                      const double thickness,
+                                                      const double search_distance)
+  {
+    const SurfaceGeometry geometry(surface);
+    if (surface.dim == 2)
+      check_thickness(thickness);
+    if (!(search_distance > 0.))
+      throw UserError("contact surface '" + surface.name + "': the search distance is " +
+                      to_text(search_distance) + " m, it must be positive");
+    const NodalAreas areas(geometry);
+    std::vector<RigidObstacle::Distance> distances(surface.points.size());
+    for (unsigned int node = 0; node < distances.size(); ++node)
+      if (!areas.faces(node).empty())
+        distances[node] = obstacle.distance(geometry.point(node));
+
+    std::vector<SurfaceConstraint> constraints;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (unsigned int node = 0; node < distances.size(); ++node)
+    {
+      if (areas.faces(node).empty())
+        continue;
+      SurfaceConstraint c;
+      c.node = node;
+      c.point = geometry.point(node);
+      c.normal = scaled(-1., distances[node].normal);
+      if (!(areas.largest_cosine(node, c.normal) > facing))
+        continue;
+      nearest = std::min(nearest, std::fabs(distances[node].value));
+      if (std::fabs(distances[node].value) > search_distance)
+        continue;
+      c.area = areas.area(node, c.normal) * (surface.dim == 2 ? thickness : 1.);
+      for (const auto &[i, factor] : areas.amplitude(node))
+      {
+        c.slave.push_back({i, scaled(factor, distances[i].normal)});
+        c.gap += factor * distances[i].value;
+      }
+      constraints.push_back(std::move(c));
+    }
+    if (constraints.empty())
+      throw UserError("contact surface '" + surface.name +
+                      "': no node of it faces the obstacle" +
+                      (std::isinf(nearest)
+                           ? ". Check the boundary id, and the direction or the side of the "
+                             "obstacle"
+                           : " within the search distance of " + to_text(search_distance) +
+                                 " m; the nearest is " + to_text(nearest) +
+                                 " m away. Check the position of the obstacle, or enlarge the "
+                                 "search distance"));
+    return constraints;
+  }
+} // namespace taut

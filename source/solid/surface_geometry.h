@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_surface_geometry_h
+#define taut_surface_geometry_h
+
+#include "face_shapes.h"
+#include <taut/scene/contact_surface.h>
+
+#include <string>
+#include <vector>
+
+namespace taut
+{
+  inline Coordinates cross(const Coordinates &a, const Coordinates &b)
+  {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  }
+
+  inline Coordinates scaled(const double s, const Coordinates &a)
+  {
+    return {s * a.x, s * a.y, s * a.z};
+  }
+
+  inline Coordinates normalised(const Coordinates &a)
+  {
+    return scaled(1. / norm(a), a);
+  }
+
+  /// A number for a message, with six digits at most.
+  std::string to_text(double value);
+
+  /// A box with axes along those of space.
+  struct Box
+  {
+    Coordinates lower, upper;
+
+    void add(const Coordinates &x);
+    double diagonal() const { return norm(upper - lower); }
+  };
+
+  /// A place on a face.
+  struct FacePoint
+  {
+    FaceShapes shapes;
+    Coordinates position;
+    Coordinates tangent_x, tangent_y; ///< derivatives of the position; in the plane only the first
+    Coordinates area;                 ///< outer normal, as long as the area per reference area
+
+    double measure() const { return norm(area); }
+    Coordinates normal() const { return normalised(area); }
+  };
+
+  /// Faces of a contact surface as maps from their reference faces, with outer sides.
+  class SurfaceGeometry
+  {
+  public:
+    /// Keeps a reference. Throws UserError, see contact_constraints.h.
+    explicit SurfaceGeometry(const ContactSurface &surface);
+
+    const ContactSurface &surface() const { return description; }
+    std::size_t n_faces() const { return forms.size(); }
+    FaceForm form(const std::size_t face) const { return forms[face]; }
+    const std::vector<unsigned int> &nodes(const std::size_t face) const
+    {
+      return description.faces[face];
+    }
+    Coordinates point(const unsigned int node) const;
+
+    FacePoint at(std::size_t face, const ReferencePoint &reference) const;
+
+    /// Contains the face.
+    Box box(std::size_t face) const;
+
+    /// Of all faces.
+    Box bounding_box() const;
+
+  private:
+    [[noreturn]] void complain(std::size_t face, const std::string &what) const;
+    void check_nodes(std::size_t face) const;
+
+    const ContactSurface &description;
+    std::vector<FaceForm> forms;
+    std::vector<double> sides; ///< 1 or -1: which side of the tangents is the outer one
+  };
+
+  /// Throws UserError if the two are not in the same dimension.
+  void check_dimensions(const ContactSurface &a, const ContactSurface &b);
+
+  /// Throws UserError if @p thickness is no positive number.
+  void check_thickness(double thickness);
+
+  /// What a search distance means for a pair of surfaces; UserError if it is negative or no number.
+  double search_distance(const SurfaceGeometry &slave, const SurfaceGeometry &master,
+                         double distance);
+
+  /// Throws the UserError of two surfaces that do not face each other anywhere.
+  [[noreturn]] void complain_about_search(const SurfaceGeometry &slave,
+                                          const SurfaceGeometry &master, double distance);
+} // namespace taut
+
+#endif
