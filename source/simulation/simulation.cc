@@ -7,6 +7,7 @@
 #include <taut/model/contact_mass.h>
 #include <taut/model/form_finding.h>
 #include <taut/model/scene_constraints.h>
+#include <taut/output/contact_tables.h>
 #include <taut/output/fields.h>
 #include <taut/output/scene_report.h>
 #include <taut/output/series.h>

@@ -55,6 +55,19 @@ namespace taut
       return found->second;
     }
 
+    /// The axis that a face is across.
+    template <int dim>
+    unsigned int axis_of(const std::vector<dealii::Tensor<1, dim>> &normals)
+    {
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        if (std::all_of(normals.begin(), normals.end(), [axis](const dealii::Tensor<1, dim> &n)
+                        { return std::fabs(n[axis]) > 1. - along_axis; }))
+          return axis;
+      throw UserError("symmetry needs faces across an axis; the normal of one is (" +
+                      std::to_string(normals[0][0]) + ", " + std::to_string(normals[0][1]) +
+                      (dim == 3 ? ", " + std::to_string(normals[0][dim - 1]) : "") + ")");
+    }
+
     /// Lame's constants; plane stress is plane strain with another lambda.
     struct Lame
     {
@@ -87,8 +100,6 @@ namespace taut
 
   private:
     void constrain(const SolidMesh<dim> &mesh, const BoundaryCondition &condition);
-    std::array<bool, 3> normal_component(const SolidMesh<dim> &mesh,
-                                         const BoundaryCondition &condition) const;
     void add_stiffness(const SolidMesh<dim> &mesh, const Options &options);
     void add_mass(const SolidMesh<dim> &mesh, const Options &options);
   };
@@ -145,57 +156,34 @@ namespace taut
     using Kind = BoundaryCondition::Kind;
     if (condition.kind != Kind::displacement && condition.kind != Kind::symmetry)
       return;
-    const std::array<bool, 3> held = condition.kind == Kind::symmetry
-                                         ? normal_component(mesh, condition)
-                                         : condition.held;
-    dealii::ComponentMask mask(dim, false);
-    for (unsigned int c = 0; c < dim; ++c)
-      mask.set(c, held[c]);
-    const dealii::IndexSet on_boundary =
-        dealii::DoFTools::extract_boundary_dofs(mesh.dof_handler(), mask, condition.boundaries);
-    for (const auto dof : on_boundary)
-    {
-      // The first condition that is written counts where two meet, as do hanging nodes.
-      if (constraints.is_constrained(dof))
-        continue;
-      constraints.add_line(dof);
-      if (condition.value)
-        prescribed.push_back({dof, &condition});
-    }
-  }
-
-  /// Of a boundary in a plane across an axis.
-  template <int dim>
-  std::array<bool, 3>
-  ElasticSolid<dim>::Assembled::normal_component(const SolidMesh<dim> &mesh,
-                                                 const BoundaryCondition &condition) const
-  {
-    dealii::FEFaceValues<dim> values(mesh.mapping(), mesh.dof_handler().get_fe(),
-                                     mesh.face_quadrature(2), dealii::update_normal_vectors);
-    unsigned int axis = dim;
+    const dealii::FiniteElement<dim> &element = mesh.dof_handler().get_fe();
+    dealii::FEFaceValues<dim> values(mesh.mapping(), element, mesh.face_quadrature(2),
+                                     dealii::update_normal_vectors);
+    std::vector<dealii::types::global_dof_index> dofs(element.n_dofs_per_face(0));
     for (const auto &cell : mesh.dof_handler().active_cell_iterators())
       for (const unsigned int f : cell->face_indices())
       {
         if (!cell->face(f)->at_boundary() ||
             condition.boundaries.count(cell->face(f)->boundary_id()) == 0)
           continue;
-        values.reinit(cell, f);
-        for (const auto &normal : values.get_normal_vectors())
+        std::array<bool, 3> held = condition.held;
+        if (condition.kind == Kind::symmetry)
         {
-          unsigned int c = 0;
-          while (c < dim && !(std::fabs(normal[c]) > 1. - along_axis))
-            ++c;
-          if (c == dim || (axis != dim && c != axis))
-            throw UserError("symmetry needs a boundary in a plane across an axis; its normal at a "
-                            "face is (" +
-                            std::to_string(normal[0]) + ", " + std::to_string(normal[1]) +
-                            (dim == 3 ? ", " + std::to_string(normal[dim - 1]) : "") + ")");
-          axis = c;
+          values.reinit(cell, f);
+          held = {false, false, false};
+          held[axis_of<dim>(values.get_normal_vectors())] = true;
+        }
+        cell->face(f)->get_dof_indices(dofs);
+        for (const auto dof : dofs)
+        {
+          // The first condition that is written counts where two meet, as do hanging nodes.
+          if (!held[mesh.component(dof)] || constraints.is_constrained(dof))
+            continue;
+          constraints.add_line(dof);
+          if (condition.value)
+            prescribed.push_back({dof, &condition});
         }
       }
-    std::array<bool, 3> held = {false, false, false};
-    held[axis] = true;
-    return held;
   }
 
   template <int dim>
@@ -342,6 +330,13 @@ namespace taut
     if (!motions.empty())
       this->prescribe(motions);
     add_boundary_loads();
+    if (norm(options.initial_velocity) > 0.)
+    {
+      dealii::Vector<double> U(this->n_dofs()), V(this->n_dofs());
+      for (unsigned int i = 0; i < V.size(); ++i)
+        V[i] = options.initial_velocity[mesh->component(i)];
+      this->set_initial_state(U, V);
+    }
   }
 
   /// Tractions and pressures, which are integrated once if they do not change.

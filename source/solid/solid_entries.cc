@@ -135,8 +135,8 @@ namespace taut
                       Patterns::Double(0.));
     prm.add_parameter("Fixed boundaries", fixed, "Ids of parts of the boundary that do not move");
     prm.add_parameter("Symmetry boundaries", symmetric,
-                      "Ids of plane parts of the boundary, across an axis, that do not move along "
-                      "their normal");
+                      "Ids of parts of the boundary whose faces are across the axes, and do not "
+                      "move along their normals");
     prm.add_parameter("Displacement", displacement,
                       "Given motion of parts of the boundary: 'id: formula, formula; id: ...', one "
                       "formula of x, y, z, t a component [m]; a component without one is free, as "
@@ -147,6 +147,8 @@ namespace taut
     prm.add_parameter("Pressure", pressure,
                       "On parts of the boundary, against their normal: 'id: formula; id: ...' "
                       "[Pa]");
+    prm.add_parameter("Initial velocity", initial_velocity,
+                      "Of all points, with Start = given: 'x, y' or 'x, y, z' [m/s]");
   }
 
   std::vector<BoundaryCondition> SolidEntries::conditions(const std::string &origin) const
@@ -209,6 +211,13 @@ namespace taut
     o.stiffness_damping = stiffness_damping;
     o.gravity = setting.gravity;
     o.conditions = conditions(origin);
+    if (!initial_velocity.empty() && initial_velocity.size() != dim)
+      throw EntryError(origin + "Initial velocity",
+                       "it has " + std::to_string(initial_velocity.size()) +
+                           " components where the solid has " + std::to_string(dim));
+    if (!initial_velocity.empty())
+      o.initial_velocity = {initial_velocity[0], initial_velocity[1],
+                            dim == 3 ? initial_velocity[dim - 1] : 0.};
     return o;
   }
 

@@ -57,6 +57,7 @@ namespace taut
     std::string materials, plane_state = "strain", mass_matrix = "consistent";
     std::vector<unsigned int> fixed, symmetric;
     std::string displacement, traction, pressure;
+    std::vector<double> initial_velocity;
   };
 } // namespace taut
 

@@ -46,7 +46,7 @@ namespace taut
     enum class Kind
     {
       displacement, ///< of the components that are held [m]
-      symmetry,     ///< no motion along the normal of a plane boundary
+      symmetry,     ///< no motion along the normal of faces across the axes
       traction,     ///< force per area [Pa]
       pressure      ///< against the outward normal, the x of the value [Pa]
     };
@@ -86,6 +86,9 @@ namespace taut
       double stiffness_damping = 0.; ///< [s]
       Coordinates gravity = {};      ///< [m/s^2]
       std::vector<BoundaryCondition> conditions;
+
+      /// Of all points at t = 0, for Start::given [m/s].
+      Coordinates initial_velocity = {};
     };
 
     /// Throws UserError for a material that is missing or is none, for a boundary that the mesh

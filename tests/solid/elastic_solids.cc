@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Solids against exact solutions: linear displacements, beams of Euler and Timoshenko, their first
+// frequency, and what they weigh.
+#include "verification/run.h"
+
+#include <taut/interface/system.h>
+#include <taut/solid/elastic_solid.h>
+#include <taut/substructure/local_solver.h>
+#include <taut/time/static_equilibrium.h>
+
+#include <deal.II/grid/grid_generator.h>
+#include <deal.II/grid/grid_tools.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+namespace
+{
+  using taut::BoundaryCondition;
+  using taut::Coordinates;
+
+  template <int dim>
+  std::unique_ptr<dealii::Triangulation<dim>> box(const std::vector<unsigned int> &n,
+                                                  const dealii::Point<dim> &to,
+                                                  const bool simplices = false)
+  {
+    auto cells = std::make_unique<dealii::Triangulation<dim>>();
+    if (simplices)
+      dealii::GridGenerator::subdivided_hyper_rectangle_with_simplices(*cells, n,
+                                                                       dealii::Point<dim>(), to, true);
+    else
+      dealii::GridGenerator::subdivided_hyper_rectangle(*cells, n, dealii::Point<dim>(), to, true);
+    return cells;
+  }
+
+  /// Displacements from the undeformed solid in equilibrium.
+  template <int dim>
+  dealii::Vector<double> equilibrium(const std::shared_ptr<const taut::SolidMesh<dim>> &mesh,
+                                     const typename taut::ElasticSolid<dim>::Options &options)
+  {
+    taut::System system;
+    const auto number = system.add(
+        "solid", [&] { return std::make_unique<taut::ElasticSolid<dim>>("solid", mesh, options); });
+    const taut::StaticState state =
+        taut::static_equilibrium(system.structure(), system.constraints(), {}, 0.);
+    return static_cast<const taut::FEBody<dim> &>(*system.body(number))
+        .all_dofs(state.displacement[0]);
+  }
+
+  /// A displacement that is linear in space, given on the whole boundary, is so inside.
+  template <int dim>
+  void check_linear(std::unique_ptr<dealii::Triangulation<dim>> cells, const unsigned int degree)
+  {
+    const auto exact = [](const Coordinates &x, double)
+    {
+      return Coordinates{1e-3 * x.x + 2e-3 * x.y - 1e-3 * x.z, -3e-3 * x.x + 4e-3 * x.y,
+                         5e-4 * x.x + 1e-3 * x.z};
+    };
+    const auto mesh = std::make_shared<const taut::SolidMesh<dim>>(std::move(cells), degree);
+    typename taut::ElasticSolid<dim>::Options options;
+    options.materials[0] = {2e9, .3, 1e3};
+    options.conditions.emplace_back();
+    options.conditions.back().boundaries = mesh->boundary_ids();
+    options.conditions.back().value = exact;
+    const dealii::Vector<double> U = equilibrium<dim>(mesh, options);
+    double error = 0.;
+    for (unsigned int i = 0; i < U.size(); ++i)
+    {
+      const auto &x = mesh->points()[i];
+      const Coordinates u = exact({x[0], x[1], dim == 3 ? x[dim - 1] : 0.}, 0.);
+      error = std::fmax(error, std::fabs(U[i] - u[mesh->component(i)]));
+    }
+    EXPECT_LT(error, 1e-15) << "dim " << dim << ", degree " << degree;
+  }
+
+  double tip_deflection(const double length, const unsigned int n, const taut::PlaneState state)
+  {
+    const double E = 1e9, height = 1., force = 1e3;
+    const auto mesh = std::make_shared<const taut::SolidMesh<2>>(
+        box<2>({n, 4}, dealii::Point<2>(length, height)), 2);
+    taut::ElasticSolid<2>::Options options;
+    options.materials[0] = {E, .3, 0.};
+    options.plane_state = state;
+    options.conditions.resize(2);
+    options.conditions[0].boundaries = {0};
+    options.conditions[1].kind = BoundaryCondition::Kind::traction;
+    options.conditions[1].boundaries = {1};
+    options.conditions[1].value = [=](const Coordinates &, double) {
+      return Coordinates{0., -force / height, 0.};
+    };
+    const dealii::Vector<double> U = equilibrium<2>(mesh, options);
+    double tip = 0.;
+    unsigned int n_tip = 0;
+    for (unsigned int i = 0; i < U.size(); ++i)
+      if (mesh->component(i) == 1 && std::fabs(mesh->points()[i][0] - length) < 1e-9)
+      {
+        tip -= U[i];
+        ++n_tip;
+      }
+    return tip / n_tip;
+  }
+
+  /// P L^3 / (3 E I) + P L / (kappa G A).
+  double timoshenko(const double length, const double E, const double nu)
+  {
+    const double I = 1. / 12., G = E / (2. * (1. + nu)), kappa = 10. * (1. + nu) / (12. + 11. * nu);
+    return 1e3 * length * length * length / (3. * E * I) + 1e3 * length / (kappa * G);
+  }
+} // namespace
+
+TEST(ElasticSolids, linear_displacements_are_exact_on_distorted_cells)
+{
+  for (const unsigned int degree : {1, 2})
+  {
+    auto quadrilaterals = box<2>({5, 4}, dealii::Point<2>(2., 1.));
+    dealii::GridTools::distort_random(.2, *quadrilaterals, true, 7);
+    check_linear<2>(std::move(quadrilaterals), degree);
+    auto refined = box<2>({3, 3}, dealii::Point<2>(2., 1.));
+    refined->begin_active()->set_refine_flag();
+    refined->execute_coarsening_and_refinement();
+    check_linear<2>(std::move(refined), degree);
+    auto hexahedra = box<3>({3, 3, 2}, dealii::Point<3>(2., 1., 1.));
+    dealii::GridTools::distort_random(.2, *hexahedra, true, 7);
+    check_linear<3>(std::move(hexahedra), degree);
+    check_linear<2>(box<2>({4, 3}, dealii::Point<2>(2., 1.), true), degree);
+    check_linear<3>(box<3>({2, 2, 2}, dealii::Point<3>(2., 1., 1.), true), degree);
+  }
+}
+
+TEST(ElasticSolids, cantilevers_bend_as_beams)
+{
+  const double E = 1e9, nu = .3;
+  const double slender = tip_deflection(50., 100, taut::PlaneState::stress) / timoshenko(50., E, nu),
+               stocky = tip_deflection(4., 16, taut::PlaneState::stress) / timoshenko(4., E, nu);
+  verification::figure("cantilever of 50 x 1, Q2, tip over Timoshenko", slender);
+  verification::figure("cantilever of 4 x 1, Q2, tip over Timoshenko", stocky);
+  EXPECT_NEAR(slender, 1., 5e-3);
+  EXPECT_NEAR(stocky, 1., 5e-3);
+  // Plane strain is a beam of the stiffness E / (1 - nu^2).
+  const double strain = tip_deflection(50., 100, taut::PlaneState::strain) /
+                        timoshenko(50., E / (1. - nu * nu), nu);
+  EXPECT_NEAR(strain, 1., 5e-3);
+}
+
+TEST(ElasticSolids, the_first_frequency_of_a_cantilever_is_that_of_a_beam)
+{
+  const double length = 50., E = 1e9, density = 1e3;
+  for (const taut::SolidMass mass :
+       {taut::SolidMass::consistent, taut::SolidMass::lumped, taut::SolidMass::reduced})
+  {
+    const auto mesh = std::make_shared<const taut::SolidMesh<2>>(
+        box<2>({100, 4}, dealii::Point<2>(length, 1.)), 2);
+    taut::ElasticSolid<2>::Options options;
+    options.materials[0] = {E, .3, density};
+    options.plane_state = taut::PlaneState::stress;
+    options.mass = mass;
+    options.conditions.resize(1);
+    options.conditions[0].boundaries = {0};
+    const taut::ElasticSolid<2> solid("beam", mesh, options);
+    const auto solver = taut::make_local_solver("sparse direct", solid.stiffness());
+    solver->factor({{1., &solid.stiffness()}}, solid.constrained_dofs());
+    std::vector<double> x(solid.n_dofs(), 0.), Mx(solid.n_dofs());
+    for (unsigned int i = 0; i < x.size(); ++i)
+      x[i] = mesh->component(i) == 1 ? std::pow(mesh->points()[i][0] / length, 2) : 0.;
+    double omega2 = 0.;
+    for (int iteration = 0; iteration < 30; ++iteration)
+    {
+      Mx.assign(x.size(), 0.);
+      solid.mass().vmult_add(1., x.data(), Mx.data());
+      std::vector<double> y = Mx;
+      solver->solve(y);
+      const double yMx = std::inner_product(y.begin(), y.end(), Mx.begin(), 0.);
+      std::vector<double> My(x.size(), 0.);
+      solid.mass().vmult_add(1., y.data(), My.data());
+      omega2 = yMx / std::inner_product(y.begin(), y.end(), My.begin(), 0.);
+      const double size = std::sqrt(std::inner_product(y.begin(), y.end(), My.begin(), 0.));
+      for (unsigned int i = 0; i < x.size(); ++i)
+        x[i] = y[i] / size;
+    }
+    const double exact =
+        std::pow(1.8751040687, 2) * std::sqrt(E / 12. / density) / (length * length);
+    verification::figure("first frequency of a cantilever of 50 x 1 over that of a beam",
+                         std::sqrt(omega2) / exact);
+    EXPECT_NEAR(std::sqrt(omega2) / exact, 1., 5e-3);
+  }
+}
+
+TEST(ElasticSolids, weight_and_pressure_are_carried_by_the_supports)
+{
+  const auto mesh = std::make_shared<const taut::SolidMesh<3>>(
+      box<3>({3, 2, 2}, dealii::Point<3>(3., 1., 2.)), 1);
+  for (const taut::SolidMass mass : {taut::SolidMass::consistent, taut::SolidMass::lumped})
+  {
+    taut::ElasticSolid<3>::Options options;
+    options.materials[0] = {1e9, .2, 500.};
+    options.mass = mass;
+    options.gravity = {0., -9.81, 0.};
+    options.conditions.resize(1);
+    options.conditions[0].kind = BoundaryCondition::Kind::pressure;
+    options.conditions[0].boundaries = {3};
+    options.conditions[0].value = [](const Coordinates &x, double) {
+      return Coordinates{100. * x.x, 0., 0.};
+    };
+    const taut::ElasticSolid<3> solid("box", mesh, options);
+    std::vector<double> P, one(solid.n_dofs(), 0.), M(solid.n_dofs(), 0.);
+    solid.external_force(0., P);
+    double force = 0.;
+    for (unsigned int i = 0; i < P.size(); ++i)
+      if (mesh->component(i) == 1)
+      {
+        force += P[i];
+        one[i] = 1.;
+      }
+    solid.mass().vmult_add(1., one.data(), M.data());
+    EXPECT_NEAR(std::inner_product(one.begin(), one.end(), M.begin(), 0.), 500. * 6., 1e-9);
+    // The side y = 1 is 3 m x 2 m; the mean of x is 1.5 m.
+    EXPECT_NEAR(force, -9.81 * 500. * 6. - 100. * 1.5 * 6., 1e-8);
+    EXPECT_EQ(solid.null_space().vectors.size(), 6u);
+  }
+}

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Contacts of surfaces against exact solutions: the patch test, Hertz's cylinder and ball, the
+// impact of a block.
+#include "verification/run.h"
+
+#include <taut/model/surface_constraints.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace
+{
+  using verification::Overrides;
+
+  struct Found
+  {
+    std::vector<double> force, gap;
+    std::vector<taut::SurfaceConstraint> constraints;
+    double resultant = 0., largest_pressure = 0.;
+    int iterations = 0;
+  };
+
+  /// The first contact of a scene in its equilibrium.
+  Found equilibrium(const std::string &scene, const Overrides &overrides = {})
+  {
+    Found found;
+    verification::run_scene(
+        scene, overrides,
+        [&](const taut::StepView &view)
+        {
+          found = {};
+          found.constraints = taut::contact_geometry(view.scene, 0).constraints;
+          std::size_t i = 0;
+          while (view.constraints[i].contact != 0)
+            ++i;
+          for (const taut::SurfaceConstraint &constraint : found.constraints)
+          {
+            found.force.push_back(view.state.multiplier[i]);
+            found.gap.push_back(view.state.geometric_gap[i]);
+            found.resultant += found.force.back();
+            found.largest_pressure =
+                std::fmax(found.largest_pressure, found.force.back() / constraint.area);
+            ++i;
+          }
+          found.iterations = view.certificate.iterations;
+        });
+    return found;
+  }
+
+  struct Line
+  {
+    double value_at_zero = 0., zero = 0.;
+  };
+
+  /// The line that fits y over x best.
+  Line fit(const std::vector<double> &x, const std::vector<double> &y)
+  {
+    double n = 0., sx = 0., sy = 0., sxx = 0., sxy = 0.;
+    for (std::size_t i = 0; i < x.size(); ++i)
+    {
+      n += 1.;
+      sx += x[i];
+      sy += y[i];
+      sxx += x[i] * x[i];
+      sxy += x[i] * y[i];
+    }
+    const double slope = (n * sxy - sx * sy) / (n * sxx - sx * sx), at_zero = (sy - slope * sx) / n;
+    return {at_zero, -at_zero / slope};
+  }
+
+  struct Hertz
+  {
+    double pressure, half_width; ///< found over those of Hertz
+    double elements;             ///< in the half-width
+    int iterations;
+  };
+
+  Hertz cylinder(const int local_refinements)
+  {
+    const Found found =
+        equilibrium(verification::scene_file("hertz_cylinder"),
+                    {"Body cylinder/Mesh/Local refinements=" + std::to_string(local_refinements)});
+    const double modulus = 1e9 / (1. - .09), force = 2. * found.resultant,
+                 a = std::sqrt(4. * force / (M_PI * modulus)),
+                 p0 = std::sqrt(force * modulus / M_PI);
+    // p^2 = p0^2 (1 - x^2 / a^2).
+    std::vector<double> x2, p2;
+    double element = 1.;
+    for (std::size_t i = 0; i < found.force.size(); ++i)
+    {
+      const double x = found.constraints[i].point.x, p = found.force[i] / found.constraints[i].area;
+      if (x > 0.)
+        element = std::fmin(element, x);
+      if (p > 0. && x < .9 * a)
+      {
+        x2.push_back(x * x);
+        p2.push_back(p * p);
+      }
+    }
+    return {found.largest_pressure / p0, std::sqrt(fit(x2, p2).zero) / a, a / element,
+            found.iterations};
+  }
+} // namespace
+
+TEST(SurfaceContacts, uniform_pressure_passes_between_meshes_that_do_not_match)
+{
+  const std::string scene = verification::scene_file("block_on_block");
+  const Overrides swapped = {"Contact joint/Slave=lower: 3", "Contact joint/Master=upper: 2"};
+  // The upper block stands out by 0.13 m, or covers a part only.
+  const Overrides shifted = {"Body upper/Mesh/Arguments=7, 3 : 0.13, 0.5 : 0.8, 1 : true",
+                             "Body lower/Symmetry boundaries=0, 2"};
+  double error = 0.;
+  for (const std::string degree : {"1", "2"})
+    for (const Overrides &sides : {Overrides(), swapped})
+    {
+      Overrides all = sides;
+      all.push_back("Body upper/Degree=" + degree);
+      all.push_back("Body lower/Degree=" + degree);
+      const Found found = equilibrium(scene, all);
+      ASSERT_GT(found.force.size(), 5u);
+      for (std::size_t i = 0; i < found.force.size(); ++i)
+        error = std::fmax(error, std::fabs(found.force[i] / found.constraints[i].area - 1e6) / 1e6);
+      EXPECT_NEAR(found.resultant, 1e6, 1e-3);
+    }
+  verification::figure("patch test, mortar: largest error of the pressure", error);
+  EXPECT_LT(error, 1e-10);
+  // Nodes on segments cannot.
+  const Found nodes = equilibrium(scene, {"Contact joint/Method=nodes to faces"});
+  double other = 0.;
+  for (std::size_t i = 0; i < nodes.force.size(); ++i)
+    other = std::fmax(other, std::fabs(nodes.force[i] / nodes.constraints[i].area - 1e6) / 1e6);
+  verification::figure("patch test, nodes to faces: largest error of the pressure", other);
+  EXPECT_GT(other, 1e-3);
+}
+
+TEST(SurfaceContacts, a_cylinder_is_pressed_as_by_hertz)
+{
+  for (const int refinements : {2, 3, 4})
+  {
+    const Hertz h = cylinder(refinements);
+    verification::figure("Hertz' cylinder, elements in the half-width", h.elements);
+    verification::figure("Hertz' cylinder, error of the largest pressure", h.pressure - 1.);
+    verification::figure("Hertz' cylinder, error of the half-width", h.half_width - 1.);
+    verification::figure("Hertz' cylinder, active sets", h.iterations);
+    EXPECT_LE(h.iterations, 15);
+    if (h.elements > 7.)
+    {
+      EXPECT_NEAR(h.pressure, 1., 5e-3);
+      EXPECT_NEAR(h.half_width, 1., 7e-3);
+    }
+  }
+}
+
+TEST(SurfaceContacts, a_ball_is_pressed_as_by_hertz)
+{
+  const Found found = equilibrium(verification::scene_file("hertz_sphere"));
+  const double modulus = 1e9 / (1. - .09), force = 4. * found.resultant,
+               a = std::cbrt(3. * force / (4. * modulus)), p0 = 3. * force / (2. * M_PI * a * a);
+  verification::figure("Hertz' ball, half-width", a, "m");
+  verification::figure("Hertz' ball, error of the largest pressure", found.largest_pressure / p0 - 1.);
+  EXPECT_NEAR(found.largest_pressure / p0, 1., 3e-2);
+}
+
+TEST(SurfaceContacts, a_block_hits_a_wall_with_the_force_of_its_waves)
+{
+  double first = 0., plateau = 0., released = 0., rebound = 0., energy = 0.;
+  int n_plateau = 0;
+  verification::Session session(verification::scene_file("block_impact"));
+  session.run(
+      [&](const taut::StepView &view)
+      {
+        double force = 0.;
+        for (const double N : view.state.multiplier)
+          force += N;
+        const double t = view.state.time;
+        if (t > .004 && t < .012)
+          first = std::fmax(first, force);
+        if (t > .2 && t < .5)
+        {
+          plateau += force;
+          ++n_plateau;
+        }
+        if (force > 0.)
+          released = t;
+        energy = std::fmax(energy, view.measures.summary().contact_energy);
+        double momentum = 0.;
+        const auto &body = view.structure[0];
+        std::vector<double> p(body.n_dofs(), 0.);
+        body.mass().vmult_add(1., view.state.V[0].data(), p.data());
+        for (std::size_t i = 0; i < p.size(); ++i)
+          momentum += p[i];
+        rebound = momentum / 10.;
+      });
+  plateau /= n_plateau;
+  verification::figure("block against a wall, first force", first, "N");
+  verification::figure("block against a wall, mean force from 0.2 to 0.5 s", plateau, "N");
+  verification::figure("block against a wall, last contact", released, "s");
+  verification::figure("block against a wall, rebound", rebound, "m/s");
+  verification::figure("block against a wall, contact energy", energy, "J");
+  EXPECT_NEAR(plateau, 310., 10.);
+}
