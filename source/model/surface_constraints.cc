@@ -4,6 +4,7 @@
 #include <taut/solid/contact_constraints.h>
 #include <taut/solid/rigid_obstacle.h>
 
+#include <map>
 #include <memory>
 
 namespace taut
@@ -61,6 +62,34 @@ namespace taut
       return node_to_segment_constraints(slave, master, slave.thickness, distance);
     }
 
+    /// Gives the areas of hanging nodes to the nodes that they depend on, as their forces go.
+    void condense(const ContactSurface &slave, std::vector<SurfaceConstraint> &constraints)
+    {
+      std::map<unsigned int, std::size_t> of_node;
+      for (std::size_t i = 0; i < constraints.size(); ++i)
+        of_node[constraints[i].node] = i;
+      std::vector<char> is_hanging(constraints.size(), 0);
+      for (const ContactSurface::HangingNode &hanging : slave.hanging)
+      {
+        const auto own = of_node.find(hanging.node);
+        if (own == of_node.end())
+          continue;
+        is_hanging[own->second] = 1;
+        for (const auto &[parent, weight] : hanging.parents)
+          if (const auto found = of_node.find(parent); found != of_node.end())
+            constraints[found->second].area += weight * constraints[own->second].area;
+      }
+      std::size_t n = 0;
+      for (std::size_t i = 0; i < constraints.size(); ++i)
+        if (!is_hanging[i])
+        {
+          if (n != i)
+            constraints[n] = std::move(constraints[i]);
+          ++n;
+        }
+      constraints.resize(n);
+    }
+
     /// The form of weights of the nodes of a body, if it is on this rank.
     void append(const SceneBodies &bodies, const std::size_t body,
                 const std::vector<NodeWeight> &weights, std::vector<Term> &terms)
@@ -86,6 +115,7 @@ namespace taut
       ContactGeometry geometry;
       geometry.slave = surface_of(scene, contact.slave);
       geometry.constraints = constraints_of(scene, contact, geometry.slave);
+      condense(geometry.slave, geometry.constraints);
       for (SurfaceConstraint &constraint : geometry.constraints)
         constraint.gap += contact.gap;
       return geometry;

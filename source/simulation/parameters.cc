@@ -170,6 +170,7 @@ namespace taut
     study.declare_parameters(prm);
     sweep.declare_parameters(prm);
     bodies.declare_parameters(prm);
+    contacts.declare_names(prm);
     contacts.declare_parameters(prm);
     generator->declare_parameters(prm);
   }

@@ -13,6 +13,8 @@
 #include <deal.II/fe/mapping_fe.h>
 #include <deal.II/fe/mapping_q.h>
 
+#include <deal.II/lac/affine_constraints.h>
+
 #include <algorithm>
 #include <map>
 
@@ -161,6 +163,15 @@ namespace taut
         result.surface.faces.push_back(std::move(face));
         values.reinit(cell, f);
         result.surface.outward.push_back(coordinates<dim>(values.normal_vector(0)));
+      }
+    dealii::AffineConstraints<double> constraints;
+    dealii::DoFTools::make_hanging_node_constraints(handler, constraints);
+    for (const auto &[dof, node] : node_of)
+      if (const auto *entries = constraints.get_constraint_entries(dof); entries != nullptr)
+      {
+        result.surface.hanging.push_back({node, {}});
+        for (const auto &[parent, weight] : *entries)
+          result.surface.hanging.back().parents.emplace_back(node_of.at(parent), weight);
       }
     return result;
   }

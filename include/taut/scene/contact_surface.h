@@ -5,6 +5,7 @@
 #include <taut/base/coordinates.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace taut
@@ -31,6 +32,15 @@ namespace taut
 
     /// Nodes of each face. A node without a face is allowed, and takes no part in contact.
     std::vector<std::vector<unsigned int>> faces;
+
+    /// Hanging nodes, whose displacement is a sum of those of others times weights: they have no
+    /// constraint of their own as slaves.
+    struct HangingNode
+    {
+      unsigned int node;
+      std::vector<std::pair<unsigned int, double>> parents;
+    };
+    std::vector<HangingNode> hanging;
 
     /// Of each face the direction out of the body at its centre, of any length. Only its side of
     /// the face counts, normals themselves are those of the geometry.
