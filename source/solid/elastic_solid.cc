@@ -119,7 +119,15 @@ namespace taut
           throw UserError(mesh.no_boundary(id));
     };
     const dealii::DoFHandler<dim> &dofs = mesh.dof_handler();
-    dealii::DoFTools::make_hanging_node_constraints(dofs, constraints);
+    // Not closed, so that hanging nodes go on to depend on nodes whose displacement is given.
+    dealii::AffineConstraints<double> hanging;
+    dealii::DoFTools::make_hanging_node_constraints(dofs, hanging);
+    hanging.close();
+    for (const auto &line : hanging.get_lines())
+    {
+      constraints.add_line(line.index);
+      constraints.add_entries(line.index, line.entries);
+    }
     for (const BoundaryCondition &condition : options.conditions)
     {
       try
@@ -132,7 +140,6 @@ namespace taut
         throw EntryError(condition.origin, e.what());
       }
     }
-    constraints.close();
     dealii::DynamicSparsityPattern all(dofs.n_dofs());
     dealii::DoFTools::make_sparsity_pattern(dofs, all);
     pattern.copy_from(all);

@@ -29,7 +29,7 @@ namespace
     auto cells = std::make_unique<dealii::Triangulation<dim>>();
     if (simplices)
       dealii::GridGenerator::subdivided_hyper_rectangle_with_simplices(*cells, n,
-                                                                       dealii::Point<dim>(), to, true);
+                                                                       dealii::Point<dim>(), to);
     else
       dealii::GridGenerator::subdivided_hyper_rectangle(*cells, n, dealii::Point<dim>(), to, true);
     return cells;

@@ -91,10 +91,12 @@ namespace
     double element = 1.;
     for (std::size_t i = 0; i < found.force.size(); ++i)
     {
-      const double x = found.constraints[i].point.x, p = found.force[i] / found.constraints[i].area;
+      // Hertz' pressure is that on the flat plane.
+      const double x = found.constraints[i].point.x,
+                   p = found.force[i] / found.constraints[i].area / std::sqrt(1. - x * x);
       if (x > 0.)
         element = std::fmin(element, x);
-      if (p > 0. && x < .9 * a)
+      if (p > 0.)
       {
         x2.push_back(x * x);
         p2.push_back(p * p);
@@ -109,9 +111,6 @@ TEST(SurfaceContacts, uniform_pressure_passes_between_meshes_that_do_not_match)
 {
   const std::string scene = verification::scene_file("block_on_block");
   const Overrides swapped = {"Contact joint/Slave=lower: 3", "Contact joint/Master=upper: 2"};
-  // The upper block stands out by 0.13 m, or covers a part only.
-  const Overrides shifted = {"Body upper/Mesh/Arguments=7, 3 : 0.13, 0.5 : 0.8, 1 : true",
-                             "Body lower/Symmetry boundaries=0, 2"};
   double error = 0.;
   for (const std::string degree : {"1", "2"})
     for (const Overrides &sides : {Overrides(), swapped})
@@ -138,7 +137,7 @@ TEST(SurfaceContacts, uniform_pressure_passes_between_meshes_that_do_not_match)
 
 TEST(SurfaceContacts, a_cylinder_is_pressed_as_by_hertz)
 {
-  for (const int refinements : {2, 3, 4})
+  for (const int refinements : {2, 3, 4, 5})
   {
     const Hertz h = cylinder(refinements);
     verification::figure("Hertz' cylinder, elements in the half-width", h.elements);
@@ -161,7 +160,8 @@ TEST(SurfaceContacts, a_ball_is_pressed_as_by_hertz)
                a = std::cbrt(3. * force / (4. * modulus)), p0 = 3. * force / (2. * M_PI * a * a);
   verification::figure("Hertz' ball, half-width", a, "m");
   verification::figure("Hertz' ball, error of the largest pressure", found.largest_pressure / p0 - 1.);
-  EXPECT_NEAR(found.largest_pressure / p0, 1., 3e-2);
+  EXPECT_NEAR(found.largest_pressure / p0, 1., 1.5e-2);
+  EXPECT_LE(found.iterations, 15);
 }
 
 TEST(SurfaceContacts, a_block_hits_a_wall_with_the_force_of_its_waves)

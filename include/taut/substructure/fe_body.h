@@ -71,7 +71,9 @@ namespace taut
     /// Adds a load that does not change, one entry a DoF [N].
     void add_constant_load(const dealii::Vector<double> &P);
 
-    /// Gives DoFs that constraints prescribe motions u(t) [m]. Throws UserError for other DoFs.
+    /// Gives DoFs that constraints prescribe motions u(t) [m]. AffineConstraints::close() lets
+    /// hanging nodes forget DoFs that are zero: where such a DoF moves, do not close them. Throws
+    /// UserError for other DoFs.
     void prescribe(
         const std::map<dealii::types::global_dof_index, std::function<double(double)>> &motions);
 
