@@ -108,6 +108,8 @@ namespace taut
                        : item.obstacle == "sphere"   ? Shape::sphere
                        : item.obstacle == "height"   ? Shape::height
                                                      : Shape::none;
+      if (obstacle.shape == Shape::none && item.master.empty())
+        throw EntryError(contact.origin, "give it a Master or an Obstacle");
       if (obstacle.shape == Shape::none)
         contact.master = side(item.master, bodies, section + "Master");
       else if (!item.master.empty())
