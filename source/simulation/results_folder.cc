@@ -3,6 +3,7 @@
 #include "checkpoint.h"
 
 #include <taut/base/exceptions.h>
+#include <taut/base/memory.h>
 #include <taut/base/version.h>
 #include <taut/base/write_file.h>
 #include <taut/output/observer.h>
@@ -100,23 +101,16 @@ namespace taut
         fs::remove(file, error);
     fs::create_directories(folder, error);
     if (error)
-      throw EntryError("Output/Folder",
-                       "cannot make '" + folder.string() + "': " + error.message());
+      throw NotWritten("cannot make '" + folder.string() + "': " + error.message() +
+                       "; name another folder in Output/Folder, or make room for this one");
     std::ostringstream used;
     used << "# Written by taut " << version()
          << "; the entries of the run whose results are beside this file.\n";
     for (const std::string &comment : comments)
       used << "# " << comment << '\n';
     parameters.print(used);
-    try
-    {
-      replace_file(used_file, used.str());
-    }
-    catch (const UserError &)
-    {
-      throw EntryError("Output/Folder", "cannot write into '" + folder.string() +
-                                            "': no permission, or the disk is full");
-    }
+    check_memory();
+    replace_file(used_file, used.str());
   }
 
   void check_results_folder(const Parameters &parameters, const Communicator &processes)
