@@ -15,6 +15,9 @@
 
 #include <unistd.h>
 
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <sstream>
@@ -207,6 +210,24 @@ namespace
     taut::check_memory();
   }
 
+  bool memory_is_told = false; ///< that it was short
+  std::terminate_handler usual_end = nullptr;
+
+  /// The destructors of some libraries need memory, and end the program when they find none.
+  void end_without_memory()
+  {
+    if (taut::memory_was_short() && !memory_is_told)
+    {
+      std::cout.flush();
+      std::cerr << "taut: " << too_large << '\n';
+      memory_is_told = true;
+    }
+    if (!memory_is_told)
+      usual_end();
+    std::fflush(stdout);
+    std::_Exit(1);
+  }
+
   /// Says once what went wrong, without memory of its own. Returns the exit code.
   int report(taut::LastWords &last_words, const char *message, const int code = 1,
              const char *before = "", const char *after = "")
@@ -217,6 +238,7 @@ namespace
     {
       message = too_large;
       before = after = "";
+      memory_is_told = true;
     }
     if (last_words.are_own())
       std::cerr << "taut: " << before << message << after << '\n';
@@ -228,6 +250,7 @@ namespace
 int main(int argc, char **argv)
 {
   taut::watch_memory();
+  usual_end = std::set_terminate(end_without_memory);
   taut::Communicator processes;
   if (taut::started_in_parallel())
   {
@@ -258,7 +281,8 @@ int main(int argc, char **argv)
   }
   catch (const std::exception &e)
   {
-    if (taut::is_memory_shortage(e))
+    memory_is_told = taut::is_memory_shortage(e);
+    if (memory_is_told)
       return report(last_words, too_large);
     return report(last_words, e.what(), 1, "internal error: ");
   }

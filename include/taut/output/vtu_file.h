@@ -77,6 +77,9 @@ namespace taut
     std::size_t length() const { return stream.length(); }
     void resume(std::size_t n, std::size_t length);
 
+    /// Throws UserError if what was written did not reach the file after all.
+    void close() { stream.close(); }
+
   private:
     std::string path;
     GrowingFile stream;
