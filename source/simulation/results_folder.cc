@@ -100,9 +100,12 @@ namespace taut
       if (file != used_file)
         fs::remove(file, error);
     fs::create_directories(folder, error);
-    if (error)
-      throw NotWritten("cannot make '" + folder.string() + "': " + error.message() +
+    const std::string failed = "cannot make '" + folder.string() + "': " + error.message();
+    if (error == std::errc::no_space_on_device || error == std::errc::io_error)
+      throw NotWritten(failed +
                        "; name another folder in Output/Folder, or make room for this one");
+    if (error)
+      throw EntryError("Output/Folder", failed);
     std::ostringstream used;
     used << "# Written by taut " << version()
          << "; the entries of the run whose results are beside this file.\n";

@@ -98,7 +98,8 @@ namespace taut
                                            "with --resume, or run with --overwrite");
     fs::create_directories(folder, error);
     if (error)
-      throw EntryError("Sweep/Folder", "cannot make '" + folder.string() + "': " + error.message());
+      throw EntryError("Sweep/Folder", "cannot make '" + folder.string() + "': " + error.message() +
+                                           "; name another folder, or make room for this one");
     if (resume && has_table)
     {
       if (!parameters.has_entries_of(entries))

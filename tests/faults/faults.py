@@ -99,8 +99,10 @@ class Scenario:
         found = contents(self.program.folder)
         before = contents(self.before) if self.before else {}
         if result.code == 0:
-            # Memory that was not needed: there was another way.
-            done = fault in MEMORY and (found == self.reference or self.is_row_of_memory(found))
+            # Memory that was not needed: there was another way. A checkpoint that cannot be read does not become the one
+            # before the next.
+            other = {name for name in {**found, **self.reference} if found.get(name) != self.reference.get(name)}
+            done = fault in MEMORY and (other <= {"results/checkpoint.old"} or self.is_row_of_memory(found))
             figures[kind, "overcome"] += expect(f"{what}: passed over in silence", done, result.out[-300:])
         else:
             figures[kind, "clean"] += self.is_clean(what, fault, n, result)
@@ -128,7 +130,8 @@ class Scenario:
         if fault in MEMORY:
             return expect(f"{what}: the message", "memory" in line, line)
         failed = [path for _, path in result.operations[n - 1:]] if fault in ("full", "short") else [result.operations[n - 1][1]]
-        names = [f"{path.rpartition('/')[2]}'" for path in failed]
+        # Of a folder whose new names do not get to the disk, the file that has the name.
+        names = [f"{path.rpartition('/')[2]}" + ("" if (self.program.folder / path).is_dir() else "'") for path in failed]
         return expect(f"{what}: file, reason and remedy", any(name in line for name in names) and "cannot " in line and
                       ("check that" in line or "name another" in line), f"{line} {failed[0]}")
 
@@ -186,7 +189,7 @@ with tempfile.TemporaryDirectory() as name:
         scratch.mkdir()
         reference, complete, partial = reference_of(scratch, command)
         resume = [*command, "--resume"]
-        keeps = [name for name in contents(partial) if not name.endswith((".tmp", "checkpoint"))]
+        keeps = [name for name in contents(partial) if not name.endswith((".tmp", "checkpoint")) and "/worker_" not in name]
         scenarios = [Scenario(scratch, f"new {kind}", command, resume, reference),
                      Scenario(scratch, f"resumed {kind}", resume, resume, reference, partial, keeps),
                      Scenario(scratch, f"{kind} with --overwrite", [*command, "--overwrite"], resume, reference, complete)]
@@ -204,5 +207,5 @@ for kind in ("files", *MEMORY):
     print(f"figure | faults of {kind} | {figures[kind, 'injected']} injected, {figures[kind, 'clean']} clean errors, "
           f"{figures[kind, 'overcome']} made good")
 print(f"figure | files | {figures['damaged']} damaged; {figures['resumed']} runs resumed, {figures['other bytes']} to other bytes")
-expect("there are faults", figures["files", "injected"] > 0 and figures["new", "injected"] > 0)
+expect("there are faults", any(figures[kind, "injected"] for kind in ("files", *MEMORY)))
 sys.exit("\n".join(errors) or None)

@@ -14,9 +14,11 @@
 // files, memory, c_memory. No faults, but another rounding: up, down, to_zero, to_nearest.
 //
 // A program that mpirun starts is run as it is. The variable TAUT_FAULT, "<fault> <n> <rank>",
-// gives one rank its fault: one of memory, or throw, an exception in its n-th collective call of
-// MPI; the root appends the numbers of such calls of a run without a fault to the file
-// TAUT_FAULT_COUNT.
+// gives one rank its fault: one of memory, or an exception in its n-th collective call of MPI,
+// throw for one that the program knows nothing of and throw_user for a taut::UserError. That rank
+// appends the number of its calls in a run without a fault to the file TAUT_FAULT_COUNT.
+#include <taut/base/exceptions.h>
+
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <mpi.h>
@@ -78,6 +80,7 @@ namespace
                               {"malloc", Counted::c_memory, ENOMEM, false, false},
                               {"collectives", Counted::collectives, 0, false, false},
                               {"throw", Counted::collectives, EIO, false, false},
+                              {"throw_user", Counted::collectives, EINVAL, false, false},
                               {"to_nearest", Counted::nothing, 0, false, false},
                               {"up", Counted::nothing, 0, false, false, FE_UPWARD},
                               {"down", Counted::nothing, 0, false, false, FE_DOWNWARD},
@@ -262,7 +265,11 @@ namespace
       syscall(SYS_write, file, line, n);
     }
     else if (is_due(Counted::collectives))
+    {
+      if (fault.error == EINVAL)
+        throw taut::UserError("injected into a collective call");
       throw std::runtime_error("injected into a collective call");
+    }
   }
 
   int serve(int argc, char **argv, char **environment)
