@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/memory.h>
+#include <taut/base/memory_guard.h>
 
 #include <deal.II/base/exceptions.h>
 
@@ -12,11 +13,14 @@ namespace taut
   namespace
   {
     std::atomic<bool> was_short{false};
+    std::atomic<unsigned int> n_guards{0};
 
     /// Called by operator new when it finds no memory.
     void note_shortage()
     {
       was_short = true;
+      if (n_guards > 0)
+        std::terminate();
       throw std::bad_alloc();
     }
   } // namespace
@@ -35,6 +39,16 @@ namespace taut
   {
     if (memory_was_short())
       throw std::bad_alloc();
+  }
+
+  MemoryGuard::MemoryGuard()
+  {
+    ++n_guards;
+  }
+
+  MemoryGuard::~MemoryGuard()
+  {
+    --n_guards;
   }
 
   bool is_memory_shortage(const std::exception &e)
