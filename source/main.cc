@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
 #include <taut/base/interruption.h>
+#include <taut/base/last_words.h>
+#include <taut/base/memory.h>
 #include <taut/base/version.h>
+#include <taut/base/write_file.h>
 #include <taut/output/progress.h>
 #include <taut/output/scene_report.h>
 #include <taut/simulation/simulation.h>
@@ -12,17 +15,20 @@
 
 #include <unistd.h>
 
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <new>
-#include <stdexcept>
+#include <sstream>
 
 namespace
 {
   namespace po = boost::program_options;
 
   constexpr const char *default_file = "taut.prm";
+  constexpr const char *too_large =
+      "the scene needs more memory than there is; take larger elements or fewer links";
 
   /// Without a file: an annotated one with all defaults, which runs.
   void write_default_file()
@@ -32,12 +38,10 @@ namespace
                             "' already: run 'taut taut.prm', or move it away to get a new one");
     taut::Parameters parameters;
     parameters.set_defaults();
-    std::ofstream file(default_file);
-    parameters.print(file);
-    file.close();
-    if (!file)
-      throw taut::UserError(std::string("cannot write '") + default_file +
-                            "': no permission, or the disk is full");
+    std::ostringstream text;
+    parameters.print(text);
+    taut::check_memory();
+    taut::write_file(default_file, text.str());
     std::cout << "Wrote '" << default_file
               << "' with all entries and their defaults: a railway line with a pantograph.\n"
               << "Run it with 'taut " << default_file << "'; see 'taut --help'.\n";
@@ -145,52 +149,41 @@ namespace
     execvp("mpirun", pointers.data());
   }
 
-  /// Says once what all ranks have to say. Returns the exit code.
-  int report(const taut::Communicator &processes, const std::string &message, const int code = 1)
+  struct Options
   {
-    taut::ignore_interruptions();
-    std::cout.flush();
-    if (processes.is_root())
-      std::cerr << "taut: " << message << '\n';
-    return code;
-  }
-} // namespace
+    po::options_description shown = po::options_description("Options"), all;
+    po::positional_options_description positional;
 
-int main(int argc, char **argv)
-{
-  taut::Communicator processes;
-  if (taut::started_in_parallel())
+    Options()
+    {
+      shown.add_options()("check", "read the file, check the scene and print it, without a run")(
+          "sketch", po::value<std::string>()->value_name("FILE.svg"),
+          "draw the undeformed scene before the check or the run")(
+          "study",
+          "run the scene with all settings of its section Study and measure cost and error of "
+          "each")("sweep",
+                  "run the scene once for each case of its section Sweep and write a "
+                  "table of quantities")("jobs,j", po::value<unsigned int>()->value_name("N"),
+                                         "workers of a sweep: starts itself with 'mpirun -np N'")(
+          "set,s", po::value<std::vector<std::string>>()->composing()->value_name("ENTRY=VALUE"),
+          "change an entry of the file: Section.Entry=value (or Section/Entry=value); may be "
+          "repeated")("overwrite", "replace the results of an earlier run in the same folder")(
+          "resume", "go on with a run that was ended early, from its last checkpoint "
+                    "(Output/Checkpoint interval)")("version", "print the version")(
+          "help,h", "print this text");
+      all.add(shown).add_options()("file", po::value<std::string>());
+      positional.add("file", 1);
+    }
+  };
+
+  void work(const int argc, char **argv, const taut::Communicator &processes)
   {
-    taut::start_mpi();
-    processes = taut::Communicator(MPI_COMM_WORLD);
-  }
-  if (!processes.is_root())
-    std::cout.setstate(std::ios::failbit);
-  taut::catch_interruptions(processes.is_root());
-  po::options_description options("Options");
-  options.add_options()("check", "read the file, check the scene and print it, without a run")(
-      "sketch", po::value<std::string>()->value_name("FILE.svg"),
-      "draw the undeformed scene before the check or the run")(
-      "study",
-      "run the scene with all settings of its section Study and measure cost and error of each")(
-      "sweep",
-      "run the scene once for each case of its section Sweep and write a table of quantities")(
-      "jobs,j", po::value<unsigned int>()->value_name("N"),
-      "workers of a sweep: starts itself with 'mpirun -np N'")(
-      "set,s", po::value<std::vector<std::string>>()->composing()->value_name("ENTRY=VALUE"),
-      "change an entry of the file: Section.Entry=value (or Section/Entry=value); may be repeated")(
-      "overwrite", "replace the results of an earlier run in the same folder")(
-      "resume",
-      "go on with a run that was ended early, from its last checkpoint "
-      "(Output/Checkpoint interval)")("version", "print the version")("help,h", "print this text");
-  po::options_description all;
-  all.add(options).add_options()("file", po::value<std::string>());
-  po::positional_options_description positional;
-  positional.add("file", 1);
-  try
-  {
+    const Options options;
     po::variables_map arguments;
-    po::store(po::command_line_parser(argc, argv).options(all).positional(positional).run(),
+    po::store(po::command_line_parser(argc, argv)
+                  .options(options.all)
+                  .positional(options.positional)
+                  .run(),
               arguments);
     po::notify(arguments);
     if (arguments.count("help"))
@@ -198,7 +191,7 @@ int main(int argc, char **argv)
           << "taut: mechanical systems whose parts touch through unilateral contacts\n\n"
           << "Usage: taut FILE.prm [options]    run a parameter file, .prm or .json\n"
           << "       taut                       write an annotated parameter file, taut.prm\n\n"
-          << options;
+          << options.shown;
     else if (arguments.count("version"))
       std::cout << "taut " << taut::version() << '\n';
     else if (arguments.count("file"))
@@ -214,34 +207,83 @@ int main(int argc, char **argv)
     }
     else if (processes.is_root())
       write_default_file();
+    taut::check_memory();
+  }
+
+  bool memory_is_told = false; ///< that it was short
+  std::terminate_handler usual_end = nullptr;
+
+  /// The destructors of some libraries need memory, and end the program when they find none.
+  void end_without_memory()
+  {
+    if (taut::memory_was_short() && !memory_is_told)
+    {
+      std::cout.flush();
+      std::cerr << "taut: " << too_large << '\n';
+      memory_is_told = true;
+    }
+    if (!memory_is_told)
+      usual_end();
+    std::fflush(stdout);
+    std::_Exit(1);
+  }
+
+  /// Says once what went wrong, without memory of its own. Returns the exit code.
+  int report(taut::LastWords &last_words, const char *message, const int code = 1,
+             const char *before = "", const char *after = "")
+  {
+    taut::ignore_interruptions();
+    std::cout.flush();
+    if (taut::memory_was_short())
+    {
+      message = too_large;
+      before = after = "";
+      memory_is_told = true;
+    }
+    if (last_words.are_own())
+      std::cerr << "taut: " << before << message << after << '\n';
+    last_words.end_others(code);
+    return code;
+  }
+} // namespace
+
+int main(int argc, char **argv)
+{
+  taut::watch_memory();
+  usual_end = std::set_terminate(end_without_memory);
+  taut::Communicator processes;
+  if (taut::started_in_parallel())
+  {
+    taut::start_mpi();
+    processes = taut::Communicator(MPI_COMM_WORLD);
+  }
+  taut::LastWords last_words(processes);
+  if (!processes.is_root())
+    std::cout.setstate(std::ios::failbit);
+  taut::catch_interruptions(processes.is_root());
+  try
+  {
+    work(argc, argv, processes);
     std::cout.flush();
     return 0;
   }
   catch (const po::error &e)
   {
-    return report(processes, e.what() + std::string("; see 'taut --help'"));
+    return report(last_words, e.what(), 1, "", "; see 'taut --help'");
   }
   catch (const taut::Interrupted &e)
   {
-    return report(processes, e.what(), 128 + e.signal());
+    return report(last_words, e.what(), 128 + e.signal());
   }
   catch (const taut::UserError &e)
   {
-    return report(processes, e.what());
+    return report(last_words, e.what());
   }
   catch (const std::exception &e)
   {
-    taut::ignore_interruptions();
-    const bool too_large = dynamic_cast<const std::bad_alloc *>(&e) != nullptr ||
-                           dynamic_cast<const std::length_error *>(&e) != nullptr;
-    std::cerr << "taut: "
-              << (too_large ? "the scene needs more memory than there is; take larger elements or "
-                              "fewer links"
-                            : std::string("internal error: ") + e.what())
-              << '\n';
-    // The other ranks may not know of it, and would wait for this one.
-    if (processes.size() > 1)
-      MPI_Abort(MPI_COMM_WORLD, 1);
+    memory_is_told = taut::is_memory_shortage(e);
+    if (memory_is_told)
+      return report(last_words, too_large);
+    return report(last_words, e.what(), 1, "internal error: ");
   }
-  return 1;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/communicator.h>
 #include <taut/base/exceptions.h>
+#include <taut/base/memory.h>
 
 #include <algorithm>
 #include <cmath>
@@ -59,12 +60,10 @@ namespace taut
       {
         return {Failure::user, "", e.what()};
       }
-      catch (const std::bad_alloc &)
-      {
-        return {Failure::memory, "", ""};
-      }
       catch (const std::exception &e)
       {
+        if (is_memory_shortage(e))
+          return {Failure::memory, "", ""};
         return {Failure::internal, "", e.what()};
       }
       return {};

@@ -165,7 +165,11 @@ namespace taut
     rhs.dtype = CHOLMOD_DOUBLE;
     if (!cholmod_solve2(CHOLMOD_A, w.factors, &rhs, nullptr, &w.result, nullptr, &w.workspace_y,
                         &w.workspace_e, &w.common))
+    {
+      if (w.common.status == CHOLMOD_OUT_OF_MEMORY)
+        throw std::bad_alloc();
       throw std::runtime_error("CHOLMOD failed to solve");
+    }
     const auto *solution = static_cast<const double *>(w.result->x);
     std::copy(solution, solution + x.size(), x.begin());
   }

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/exceptions.h>
 #include <taut/output/csv_file.h>
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <charconv>
-#include <filesystem>
 
 namespace taut
 {
@@ -46,9 +41,7 @@ namespace taut
   {
     if (goes_on)
       return;
-    file.open(path);
-    if (!file)
-      throw UserError("cannot write '" + path + "': check that its folder exists and is writable");
+    file.create(path);
     for (const std::string &column : columns)
       *this << column;
     end_line();
@@ -89,47 +82,28 @@ namespace taut
       write();
   }
 
+  /// What could not be written stays in the buffer, for another try.
   void CsvFile::write()
   {
-    file << buffer;
+    file.append(buffer);
     buffer.clear();
-    if (!file)
-      throw UserError("cannot write to '" + path + "': the disk may be full");
   }
 
   std::size_t CsvFile::save()
   {
     write();
-    file.flush();
-    if (!file)
-      throw UserError("cannot write to '" + path + "': the disk may be full");
-    const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
-    const bool is_on_disk = descriptor >= 0 && fsync(descriptor) == 0;
-    if (descriptor >= 0)
-      ::close(descriptor);
-    if (!is_on_disk)
-      throw UserError("cannot write to '" + path + "': the disk may be full");
-    return file.tellp();
+    file.sync();
+    return file.length();
   }
 
   void CsvFile::resume(const std::size_t length)
   {
-    std::error_code error;
-    if (!(std::filesystem::file_size(path, error) >= length) || error)
-      throw UserError("'" + path +
-                      "' is shorter than when the checkpoint was written, or gone: a "
-                      "run resumes in the folder with its results as they were");
-    std::filesystem::resize_file(path, length, error);
-    file.open(path, std::ios::in | std::ios::out | std::ios::ate);
-    if (error || !file)
-      throw UserError("cannot write '" + path + "': check that it is writable");
+    file.resume(path, length);
   }
 
   void CsvFile::close()
   {
     write();
     file.close();
-    if (!file)
-      throw UserError("cannot write to '" + path + "': the disk may be full");
   }
 } // namespace taut

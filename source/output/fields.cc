@@ -259,6 +259,14 @@ namespace taut
     }
   }
 
+  void Fields::finish()
+  {
+    wire_collection.close();
+    link_collection.close();
+    for (BodyFiles &body : bodies)
+      body.collection.close();
+  }
+
   void Fields::move_ends(const StepView &step)
   {
     for (std::size_t e = n_fixed_ends; e < ends.size(); ++e)

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/exceptions.h>
+#include <taut/base/memory.h>
+#include <taut/base/write_file.h>
 #include <taut/output/scene_report.h>
 #include <taut/scene/entries.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <ostream>
 #include <sstream>
 
@@ -217,7 +217,7 @@ namespace taut
     const auto Y = [&](const Coordinates &p)
     { return margin + .5 * height - (p.y - .5 * (bottom + top)) * sy; };
 
-    std::ofstream out(path);
+    std::ostringstream out;
     out << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << width + 2. * margin
         << "\" height=\"" << height + 2. * margin
         << "\" font-family=\"sans-serif\" font-size=\"11\">\n"
@@ -264,9 +264,7 @@ namespace taut
            "(hollow: "
            "unilateral); heights x "
         << sy / sx << "</text>\n</svg>\n";
-    out.close();
-    if (!out)
-      throw UserError("cannot write the sketch '" + path +
-                      "': check that its folder is writable and the disk not full");
+    check_memory();
+    write_file(path, out.str());
   }
 } // namespace taut

@@ -146,6 +146,6 @@ namespace taut
                           {"limit", warning.limit},
                           {"unit", warning.unit},
                           {"time", time(warning.time)}});
-    write_file(path, root.dump(2));
+    write_file(path, root.dump(2) + '\n');
   }
 } // namespace taut

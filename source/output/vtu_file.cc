@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/exceptions.h>
+#include <taut/base/write_file.h>
 #include <taut/output/csv_file.h>
 #include <taut/output/vtu_file.h>
 
 #include <cstring>
-#include <filesystem>
 #include <sstream>
 
 namespace taut
@@ -132,16 +131,7 @@ namespace taut
           text += array.bytes;
         }
     text += "\n</AppendedData>\n</VTKFile>\n";
-    std::ofstream file(path, std::ios::binary);
-    file << text;
-    file.close();
-    if (!file)
-      throw UserError("cannot write '" + path + "': the disk may be full");
-  }
-
-  std::size_t PvdFile::length()
-  {
-    return n_entries == 0 ? 0 : static_cast<std::size_t>(stream.seekp(0, std::ios::end).tellp());
+    write_file(path, text);
   }
 
   void PvdFile::resume(const std::size_t n, const std::size_t length)
@@ -149,36 +139,24 @@ namespace taut
     n_entries = n;
     if (n == 0)
       return;
-    std::error_code error;
-    if (!(std::filesystem::file_size(path, error) >= length) || error)
-      throw UserError("'" + path +
-                      "' is shorter than when the checkpoint was written, or gone: a "
-                      "run resumes in the folder with its results as they were");
-    std::filesystem::resize_file(path, length, error);
-    stream.open(path, std::ios::binary | std::ios::in | std::ios::out);
-    stream.seekp(-static_cast<std::streamoff>(tail.size()), std::ios::end);
-    stream << tail << std::flush;
-    if (error || !stream)
-      throw UserError("cannot write '" + path + "': check that it is writable");
+    // The end of the collection again: it may have been written over.
+    stream.resume(path, length);
+    stream.insert("", tail);
   }
 
   void PvdFile::add(const double time, const std::string &file)
   {
-    std::string text;
-    if (n_entries == 0)
-    {
-      stream.open(path, std::ios::binary);
-      text = std::string("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
-                         "byte_order=\"") +
-             byte_order() + "\">\n<Collection>\n";
-    }
+    const std::string entry =
+        "<DataSet timestep=\"" + time_text(time) + "\" file=\"" + file + "\"/>\n";
+    if (n_entries > 0)
+      stream.insert(entry, tail);
     else
-      // The new entry is longer than the end that it replaces, in one write.
-      stream.seekp(-static_cast<std::streamoff>(tail.size()), std::ios::end);
-    text += "<DataSet timestep=\"" + time_text(time) + "\" file=\"" + file + "\"/>\n" + tail;
-    stream << text << std::flush;
-    if (!stream)
-      throw UserError("cannot write '" + path + "': the disk may be full");
+    {
+      stream.create(path);
+      stream.append(std::string("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" "
+                                "version=\"1.0\" byte_order=\"") +
+                    byte_order() + "\">\n<Collection>\n" + entry + tail);
+    }
     ++n_entries;
   }
 } // namespace taut

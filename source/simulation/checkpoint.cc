@@ -8,7 +8,9 @@
 #include <boost/crc.hpp>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -66,8 +68,10 @@ namespace taut
     // Between the two renames there is the old one only, which is enough; one that is damaged must
     // not take the place of a good one.
     Checkpoint last;
-    if (problem_of(path, last).empty())
-      std::rename(path.c_str(), (folder + "/" + checkpoint_names[1]).c_str());
+    const std::string before = folder + "/" + checkpoint_names[1];
+    if (problem_of(path, last).empty() && std::rename(path.c_str(), before.c_str()) != 0)
+      throw NotWritten("cannot write '" + before + "': " + std::strerror(errno) +
+                       "; check that its folder is writable and the disk not full");
     replace_file(path, first_line + checksum(content) + content);
   }
 

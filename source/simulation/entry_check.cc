@@ -2,6 +2,8 @@
 #include "entry_check.h"
 
 #include <taut/base/exceptions.h>
+#include <taut/base/memory.h>
+#include <taut/base/memory_guard.h>
 #include <taut/base/nearest_name.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -213,6 +215,9 @@ namespace taut
             (entry.path.size() > 1 ? " in '" + entry.path[entry.path.size() - 2] + "'" : "") +
             suggestion(name, names_in(node, false)) + sections_here(name, node) +
             elsewhere(root, name, false));
+      // A description that was cut off by a shortage, or is by one here, is a null pointer there.
+      check_memory();
+      const MemoryGuard guard;
       const auto pattern = pattern_factory(node[name]["pattern_description"].get<std::string>());
       if (!pattern->match(entry.value))
       {

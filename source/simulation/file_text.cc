@@ -5,6 +5,8 @@
 #include <taut/base/nearest_name.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -60,14 +62,14 @@ namespace taut
     }
   }
 
-  std::string cannot_read(const std::string &file)
+  std::string cannot_read(const std::string &file, const int reason)
   {
     namespace fs = std::filesystem;
     std::error_code error;
     if (fs::is_directory(file, error))
       return "cannot read '" + file + "': it is a folder; name a file in it";
     if (fs::exists(file, error))
-      return "cannot read '" + file + "': no permission";
+      return "cannot read '" + file + "': " + std::strerror(reason);
     // Parameter files beside it; a folder that cannot be read has none.
     const fs::path folder = fs::path(file).parent_path();
     std::vector<std::string> names;
@@ -83,9 +85,10 @@ namespace taut
   std::vector<std::pair<int, std::string>> lines_of(const std::string &file)
   {
     std::ifstream in(file, std::ios::binary);
+    const int reason = errno;
     std::error_code error;
     if (!in || std::filesystem::is_directory(file, error))
-      throw UserError(cannot_read(file));
+      throw UserError(cannot_read(file, reason));
     std::vector<std::pair<int, std::string>> lines;
     std::string text;
     int number = 0, first = 0;

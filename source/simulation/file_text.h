@@ -15,8 +15,9 @@ namespace taut
   /// @p place unless @p text is UTF-8 without control characters.
   void check_text(const std::string &text, const std::string &place);
 
-  /// Why a file cannot be read, with the nearest name beside it if there is none of this name.
-  std::string cannot_read(const std::string &file);
+  /// Why a file cannot be read (@p reason is errno), with the nearest name beside it if there is
+  /// none of this name.
+  std::string cannot_read(const std::string &file, int reason);
 
   /// The lines of a file without comments, continued ones joined, each with the number of its
   /// first. Throws UserError if it cannot be read or is not text.

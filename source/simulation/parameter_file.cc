@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -133,9 +134,10 @@ namespace taut
   {
     using nlohmann::json;
     std::ifstream in(file);
+    const int reason = errno;
     std::error_code error;
     if (!in || std::filesystem::is_directory(file, error))
-      throw UserError(cannot_read(file));
+      throw UserError(cannot_read(file, reason));
 
     // Keys of the objects that are open while parsing, to find one that comes twice.
     std::vector<std::vector<std::string>> open;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "entry_check.h"
+#include "file_text.h"
 
 #include <taut/base/exceptions.h>
 #include <taut/base/nearest_name.h>
@@ -12,6 +13,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -196,6 +198,8 @@ namespace taut
   bool Parameters::has_entries_of(const std::string &printed) const
   {
     std::ifstream in(printed);
+    if (!in && std::filesystem::exists(printed))
+      throw UserError(cannot_read(printed, errno));
     std::stringstream own;
     print(own);
     return in && entries_in(in) == entries_in(own);

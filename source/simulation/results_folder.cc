@@ -3,6 +3,7 @@
 #include "checkpoint.h"
 
 #include <taut/base/exceptions.h>
+#include <taut/base/memory.h>
 #include <taut/base/version.h>
 #include <taut/base/write_file.h>
 #include <taut/output/observer.h>
@@ -101,24 +102,20 @@ namespace taut
       if (file != used_file)
         fs::remove(file, error);
     fs::create_directories(folder, error);
+    const std::string failed = "cannot make '" + folder.string() + "': " + error.message();
+    if (error == std::errc::no_space_on_device || error == std::errc::io_error)
+      throw NotWritten(failed +
+                       "; name another folder in Output/Folder, or make room for this one");
     if (error)
-      throw EntryError("Output/Folder",
-                       "cannot make '" + folder.string() + "': " + error.message());
+      throw EntryError("Output/Folder", failed);
     std::ostringstream used;
     used << "# Written by taut " << version()
          << "; the entries of the run whose results are beside this file.\n";
     for (const std::string &comment : comments)
       used << "# " << comment << '\n';
     parameters.print(used);
-    try
-    {
-      replace_file(used_file, used.str());
-    }
-    catch (const UserError &)
-    {
-      throw EntryError("Output/Folder", "cannot write into '" + folder.string() +
-                                            "': no permission, or the disk is full");
-    }
+    check_memory();
+    replace_file(used_file, used.str());
   }
 
   void check_results_folder(const Parameters &parameters, const Communicator &processes)

@@ -4,6 +4,7 @@
 
 #include <taut/base/exceptions.h>
 #include <taut/base/interruption.h>
+#include <taut/base/memory.h>
 #include <taut/model/contact_mass.h>
 #include <taut/model/form_finding.h>
 #include <taut/model/scene_constraints.h>
@@ -161,7 +162,12 @@ namespace taut
     }
     const double all =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    processes.agree([&] { close(stop_signal != 0); });
+    processes.agree(
+        [&]
+        {
+          close(stop_signal != 0);
+          check_memory();
+        });
     statistics.print(log);
     log << measures->report();
     limits->print(log);
@@ -225,6 +231,7 @@ namespace taut
     processes.agree(
         [&]
         {
+          check_memory();
           if (processes.is_root())
             work();
         });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
 #include <taut/base/interruption.h>
+#include <taut/base/memory.h>
 #include <taut/simulation/simulation.h>
 #include <taut/study/study.h>
 #include <taut/study/study_report.h>
@@ -11,7 +12,6 @@
 #include <ctime>
 #include <filesystem>
 #include <limits>
-#include <new>
 #include <ostream>
 #include <sstream>
 
@@ -343,8 +343,11 @@ namespace taut
     {
       setting.message = on_one_line(e.what());
     }
-    catch (const std::bad_alloc &)
+    catch (const std::exception &e)
     {
+      if (!is_memory_shortage(e))
+        throw;
+      memory_was_short();
       setting.message = "more memory than there is";
     }
     if (!first)

@@ -245,6 +245,6 @@ namespace taut
       }
       root["settings"].push_back(entry);
     }
-    write_file(path, root.dump(2));
+    write_file(path, root.dump(2) + '\n');
   }
 } // namespace taut

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/growing_file.h>
 #include <taut/base/interruption.h>
+#include <taut/base/memory.h>
 #include <taut/base/write_file.h>
 #include <taut/output/csv_file.h>
 #include <taut/simulation/simulation.h>
@@ -10,7 +12,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <new>
 #include <ostream>
 #include <sstream>
 
@@ -20,7 +21,8 @@ namespace taut
   {
     namespace fs = std::filesystem;
 
-    constexpr const char *table_name = "sweep.csv", *entries_name = "sweep.prm";
+    constexpr const char *table_name = "sweep.csv", *entries_name = "sweep.prm",
+                         *too_large = "more memory than there is";
 
     std::string title(const Statistics::NamedQuantity &quantity)
     {
@@ -96,7 +98,8 @@ namespace taut
                                            "with --resume, or run with --overwrite");
     fs::create_directories(folder, error);
     if (error)
-      throw EntryError("Sweep/Folder", "cannot make '" + folder.string() + "': " + error.message());
+      throw EntryError("Sweep/Folder", "cannot make '" + folder.string() + "': " + error.message() +
+                                           "; name another folder, or make room for this one");
     if (resume && has_table)
     {
       if (!parameters.has_entries_of(entries))
@@ -110,7 +113,7 @@ namespace taut
     std::ostringstream used;
     parameters.print(used);
     replace_file(entries, used.str());
-    append(header);
+    write_file(table, header);
   }
 
   /// Counts its complete lines and drops what follows them.
@@ -125,7 +128,9 @@ namespace taut
                                            "--overwrite");
     const std::size_t end = text.rfind('\n') + 1;
     n_done = std::count(text.begin() + header.size(), text.begin() + end, '\n');
-    fs::resize_file(table, end);
+    GrowingFile lines;
+    lines.resume(table, end);
+    lines.close();
     log << n_done << " of " << cases.size() << " cases are done\n";
   }
 
@@ -167,8 +172,12 @@ namespace taut
       // One case a worker; the lines of all of them go to the disk in order.
       const std::size_t own = n_done + workers.rank();
       std::string text;
-      if (own < n)
-        text = run_case(own);
+      workers.agree(
+          [&]
+          {
+            if (own < n)
+              text = run_case(own);
+          });
       std::string complete;
       std::size_t n_complete = 0;
       for (const std::string &of_worker : workers.gather(text))
@@ -199,7 +208,8 @@ namespace taut
     log << "Sweep in " << sweep_folder() << '\n';
   }
 
-  /// The line of a case; empty if the run was asked to stop.
+  /// The line of a case; empty if the run was asked to stop. A disk that is full is no fault of the
+  /// case and ends the sweep: it goes on from here when there is room.
   std::string Sweep::run_case(const std::size_t number) const
   {
     std::string text = std::to_string(number + 1);
@@ -214,14 +224,22 @@ namespace taut
     {
       return "";
     }
+    catch (const NotWritten &)
+    {
+      throw;
+    }
     catch (const UserError &e)
     {
       message = e.what();
     }
-    catch (const std::bad_alloc &)
+    catch (const std::exception &e)
     {
-      message = "more memory than there is";
+      if (!is_memory_shortage(e))
+        throw;
+      message = too_large;
     }
+    if (memory_was_short())
+      message = too_large;
     std::replace(message.begin(), message.end(), '\n', ' ');
     return text + std::string(names.size() + 2, ',') + "," + csv_cell(message) + "\n";
   }
@@ -270,14 +288,15 @@ namespace taut
     }
   }
 
-  /// In one write; a sweep that ends within it leaves an incomplete last line.
+  /// A sweep that is killed within it leaves an incomplete last line.
   void Sweep::append(const std::string &lines) const
   {
     const std::string path = sweep_folder() + "/" + table_name;
-    std::ofstream out(path, std::ios::binary | std::ios::app);
-    out << lines << std::flush;
-    out.close();
-    if (!out)
-      throw UserError("cannot write to '" + path + "': the disk may be full");
+    std::error_code error;
+    const auto length = fs::file_size(path, error);
+    GrowingFile table;
+    table.resume(path, error ? 1 : length);
+    table.append(lines);
+    table.close();
   }
 } // namespace taut

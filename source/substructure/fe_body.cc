@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/dot.h>
 #include <taut/base/exceptions.h>
+#include <taut/base/memory.h>
+#include <taut/base/write_file.h>
 #include <taut/substructure/fe_body.h>
 
 #include <deal.II/dofs/dof_tools.h>
@@ -14,7 +16,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <sstream>
 
 namespace taut
@@ -270,11 +271,10 @@ namespace taut
     dealii::DataOutBase::VtkFlags flags;
     flags.print_date_and_time = false; // the same bytes from run to run
     data.set_flags(flags);
-    std::ofstream file(path);
+    std::ostringstream file;
     data.write_vtu(file);
-    file.close();
-    if (!file)
-      throw UserError("cannot write '" + path + "': no permission, or the disk is full");
+    check_memory();
+    write_file(path, file.str());
   }
 
   /// Motions without energy before the constraints.

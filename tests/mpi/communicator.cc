@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/communicator.h>
 #include <taut/base/exceptions.h>
+#include <taut/base/last_words.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
+#include <new>
+#include <random>
+#include <stdexcept>
 #include <string>
 
 namespace
@@ -75,4 +79,56 @@ TEST_F(Communicator, an_error_of_one_rank_is_that_of_all)
         EXPECT_EQ(e.message(), "wrong");
       }
   processes.agree([] {});
+}
+
+// Claim: so it is of many agreements one after the other, whichever of them one rank fails in: all
+// ranks leave at the same one with the kind and the message of that rank. Expected: the rank, the
+// number of the agreement and the kind, drawn at random by all ranks alike.
+TEST_F(Communicator, all_ranks_leave_at_the_agreement_in_which_one_throws)
+{
+  std::mt19937 random(1);
+  for (int round = 0; round < 400; ++round)
+  {
+    const unsigned int thrower = random() % n, at = random() % 50, kind = random() % 3;
+    const std::string message = "round " + std::to_string(round);
+    unsigned int i = 0;
+    std::string found;
+    try
+    {
+      for (; i < 50; ++i)
+        processes.agree(
+            [&]
+            {
+              if (r != thrower || i != at)
+                return;
+              if (kind == 0)
+                throw taut::UserError(message);
+              if (kind == 1)
+                throw std::runtime_error(message);
+              throw std::bad_alloc();
+            });
+    }
+    catch (const taut::UserError &e)
+    {
+      found = "user " + std::string(e.what());
+    }
+    catch (const std::bad_alloc &)
+    {
+      found = "memory " + message;
+    }
+    catch (const std::exception &e)
+    {
+      found = "internal " + std::string(e.what());
+    }
+    ASSERT_EQ(i, at);
+    ASSERT_EQ(found, (kind == 0 ? "user " : kind == 1 ? "internal " : "memory ") + message);
+  }
+}
+
+// Claim: an error that all ranks come with is said by the root alone, and no rank ends another.
+TEST_F(Communicator, the_root_says_what_all_ranks_know)
+{
+  taut::LastWords last_words(processes);
+  EXPECT_EQ(last_words.are_own(), r == 0);
+  last_words.end_others(1);
 }

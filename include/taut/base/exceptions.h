@@ -41,6 +41,13 @@ namespace taut
     std::string path, text;
   };
 
+  /// A file or folder that could not be written: the machine is at fault, not the scene.
+  class NotWritten : public UserError
+  {
+  public:
+    using UserError::UserError;
+  };
+
   /// A complementarity problem without a solution: the gaps of the named rows contradict each
   /// other.
   class ContradictoryRows : public UserError

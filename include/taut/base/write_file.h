@@ -6,12 +6,12 @@
 
 namespace taut
 {
-  /// Writes a text and a line end to a file. Throws UserError if not all of it could be written.
-  void write_file(const std::string &path, const std::string &text);
+  /// Puts a file with these bytes in the place of @p path: if the program ends meanwhile or fails,
+  /// the file is the old one or the new one. A device or pipe is written as it is. Throws UserError
+  /// if it could not be written; the old one stays then.
+  void write_file(const std::string &path, const std::string &bytes);
 
-  /// Puts a file with these bytes in the place of @p path: whatever happens meanwhile, the file is
-  /// the old one or the new one, on the disk. Throws UserError if it could not be written; the old
-  /// one stays then.
+  /// The same if the machine ends meanwhile: waits until the new file is on the disk.
   void replace_file(const std::string &path, const std::string &bytes);
 } // namespace taut
 

@@ -2,7 +2,8 @@
 #ifndef taut_csv_file_h
 #define taut_csv_file_h
 
-#include <fstream>
+#include <taut/base/growing_file.h>
+
 #include <string>
 #include <vector>
 
@@ -15,7 +16,8 @@ namespace taut
   std::string csv_number(double value);
   std::string csv_cell(const std::string &text);
 
-  /// A table with a header line. Numbers are written as short as possible without loss.
+  /// A table with a header line. Numbers are written as short as possible without loss. Whatever
+  /// fails, the file ends with a complete line.
   class CsvFile
   {
   public:
@@ -47,7 +49,7 @@ namespace taut
     void write();
 
     std::string path;
-    std::ofstream file;
+    GrowingFile file;
     std::string buffer;
     bool line_begins = true;
   };

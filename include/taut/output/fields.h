@@ -34,6 +34,7 @@ namespace taut
     void record(const StepView &step) override;
     void save(OutputArchive &archive) override;
     void resume(InputArchive &archive, const StepView &step) override;
+    void finish() override;
 
   private:
     /// A place with the linear forms of its motion along x, y and z.

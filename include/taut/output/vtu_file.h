@@ -2,8 +2,9 @@
 #ifndef taut_vtu_file_h
 #define taut_vtu_file_h
 
+#include <taut/base/growing_file.h>
+
 #include <cstdint>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -73,12 +74,15 @@ namespace taut
 
     /// Length of the file with @p n entries; resume() goes on there and drops what follows. Throws
     /// UserError if the file is shorter.
-    std::size_t length();
+    std::size_t length() const { return stream.length(); }
     void resume(std::size_t n, std::size_t length);
+
+    /// Throws UserError if what was written did not reach the file after all.
+    void close() { stream.close(); }
 
   private:
     std::string path;
-    std::ofstream stream;
+    GrowingFile stream;
     std::size_t n_entries = 0;
   };
 } // namespace taut

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_memory_guard_h
+#define taut_memory_guard_h
+
+namespace taut
+{
+  /**
+   * Around code of a library that goes on with a null pointer where a stream swallowed
+   * std::bad_alloc: while an object of this class lives, and after watch_memory(), an allocation
+   * that fails ends the program by std::terminate.
+   */
+  class MemoryGuard
+  {
+  public:
+    MemoryGuard();
+    ~MemoryGuard();
+    MemoryGuard(const MemoryGuard &) = delete;
+    MemoryGuard &operator=(const MemoryGuard &) = delete;
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/last_words.h>
+
+#include <chrono>
+#include <thread>
+
+namespace taut
+{
+  namespace
+  {
+    /// An error of all ranks reaches them within the work that one does more than another.
+    constexpr std::chrono::seconds patience{5};
+    constexpr std::chrono::milliseconds pause{10};
+  } // namespace
+
+  LastWords::LastWords(const Communicator &all) : is_root(all.is_root())
+  {
+    // Messages of its own, which those of interrupted work cannot be taken for.
+    if (all.size() > 1)
+      MPI_Comm_dup(MPI_COMM_WORLD, &processes);
+  }
+
+  bool LastWords::are_own()
+  {
+    if (processes == MPI_COMM_NULL)
+      return true;
+    MPI_Request request;
+    MPI_Ibarrier(processes, &request);
+    int all_came = 0;
+    const auto begin = std::chrono::steady_clock::now();
+    while (!all_came && std::chrono::steady_clock::now() - begin < patience)
+    {
+      MPI_Test(&request, &all_came, MPI_STATUS_IGNORE);
+      std::this_thread::sleep_for(pause);
+    }
+    are_of_all = all_came != 0;
+    return is_root || !are_of_all;
+  }
+
+  void LastWords::end_others(const int code) const
+  {
+    if (!are_of_all)
+      MPI_Abort(processes, code);
+  }
+} // namespace taut

@@ -1,0 +1,211 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Every operation on a file of a small run fails, and allocations do, one a run: each run ends with exit code 1 and one line
+that names file and remedy, or says that memory is short; what is on the disk stays readable, and --resume goes on from it
+to the same bytes. So do sweeps. Expected: the files of the same run without a fault."""
+import argparse
+import collections
+import json
+import pathlib
+import random
+import sys
+import tempfile
+import xml.etree.ElementTree
+
+sys.path.append(str(pathlib.Path(__file__).parent))
+from injected import Program, contents, ending
+
+parser = argparse.ArgumentParser(description=__doc__)
+parser.add_argument("--program", required=True)
+parser.add_argument("--library", type=pathlib.Path, required=True, help="what inject.cc makes")
+parser.add_argument("--prm", type=pathlib.Path, required=True)
+parser.add_argument("--files", type=float, default=1., help="part of the faults of files that are tried")
+parser.add_argument("--first", type=int, default=2000, help="so many first allocations fail")
+parser.add_argument("--sampled", type=int, default=2000, help="so many of all later ones")
+parser.add_argument("--seed", type=int, default=1)
+arguments = parser.parse_args()
+
+
+def entries(**values):
+    return [item for path, value in values.items() for item in ("--set", f"{path.replace('__', '/').replace('_', ' ')}={value}")]
+
+
+# Tables of all kinds, of which a line is written at every step, fields, energy, statistics and three checkpoints.
+LINE = [arguments.prm / "en50318_2002_250.prm", *entries(
+    Catenary__Number_of_spans=3, Catenary__Contact_wire__Element_size=2, Catenary__Messenger_wire__Element_size=2,
+    Catenary__Uplift_positions=90, Statistics__Window="", Time__Step=2e-3, Time__End=0.1,
+    Output__Folder="results", Output__Observers="energy", Output__Interval=0, Output__Link_interval=0,
+    Output__Field_interval=0.03, Output__Checkpoint_interval=0.03)]
+SWEEP = [arguments.prm / "oscillator_with_stop.prm", "--sweep", *entries(
+    Time__End=0.02, Output__Folder="results", Sweep__Folder="sweep", Sweep__Parameters="m",
+    Sweep__Parameter_m__Entries="Network/Mass mass/Mass", Sweep__Parameter_m__Values="1, 2, 3")]
+MEMORY = ("new", "all_new", "malloc")
+errors = []
+figures = collections.Counter()
+
+
+def expect(what, is_true, found=""):
+    if not is_true:
+        errors.append(f"{what}: {str(found)[:800]}")
+        if len(errors) == 1000:
+            sys.exit("\n".join(errors))
+    return is_true
+
+
+def damages(found, reference, before):
+    """Files that no one could go on with: each file is as it was before, or as that of a run without a fault; a table may
+    end early, with a complete line."""
+    for name, data in found.items():
+        if data in (before.get(name), reference.get(name)) or "/worker_" in name:
+            continue
+        stem = name.rpartition("/")[2]
+        if stem.endswith(".csv"):
+            if not data or (data.endswith(b"\n") and reference[name].startswith(data)):
+                continue
+        elif stem == "statistics.json":
+            try:
+                json.loads(data)
+                continue
+            except ValueError:
+                pass
+        elif stem.endswith(".pvd"):
+            try:
+                shown = {entry.get("file") for entry in xml.etree.ElementTree.fromstring(data).iter("DataSet")}
+                if all(f"results/{frame}" in found for frame in shown):
+                    continue
+            except xml.etree.ElementTree.ParseError:
+                pass
+        elif stem in ("checkpoint", "checkpoint.old") and data.startswith(b"Taut checkpoint"):
+            continue  # the run that resumes reads it
+        yield name
+
+
+class Scenario:
+    """A command, what is in the folder before it, and how to go on after a fault."""
+
+    def __init__(self, scratch, name, command, resume, reference, before=None, keeps=()):
+        self.name, self.before, self.reference, self.keeps = name, before, reference, keeps
+        self.program = Program(arguments.library, scratch, arguments.program, *command)
+        self.resume = Program(arguments.library, scratch, arguments.program, *resume)
+
+    def check(self, fault, n, goes_on=True):
+        what = f"{self.name}, {fault} {n}"
+        result = self.program.run(fault, n, self.before)
+        if result.failed == 0:
+            expect(f"{what}: nothing failed", result.code == 0, ending(result.code))
+            return
+        kind = fault if fault in MEMORY else "files"
+        figures[kind, "injected"] += 1
+        found = contents(self.program.folder)
+        before = contents(self.before) if self.before else {}
+        if result.code == 0:
+            # Memory that was not needed: there was another way. A checkpoint that cannot be read does not become the one
+            # before the next.
+            other = {name for name in {**found, **self.reference} if found.get(name) != self.reference.get(name)}
+            done = fault in MEMORY and (other <= {"results/checkpoint.old"} or self.is_row_of_memory(found))
+            figures[kind, "overcome"] += expect(f"{what}: passed over in silence", done, result.out[-300:])
+        else:
+            figures[kind, "clean"] += self.is_clean(what, fault, n, result)
+        wanted = dict(self.reference)
+        if self.is_row_of_memory(found):
+            wanted["sweep/sweep.csv"] = found["sweep/sweep.csv"]
+        damaged = list(damages(found, wanted, before)) + [name for name in self.keeps if name not in found]
+        figures["damaged"] += len(damaged)
+        expect(f"{what}: damaged", not damaged, damaged)
+        if not goes_on or result.code == 0:
+            return
+        figures["resumed"] += 1
+        again = self.resume.run_in(self.program.folder)
+        found = contents(self.program.folder)
+        different = [name for name in {**found, **self.reference} if found.get(name) != self.reference.get(name)]
+        if not expect(f"{what}: goes on to the same bytes", again.code == 0 and not different, f"{again.err} {different}"):
+            figures["other bytes"] += 1
+
+    def is_clean(self, what, fault, n, result):
+        lines = result.err.splitlines()
+        line = lines[0] if lines else ""
+        if not expect(f"{what}: one line and exit code 1", result.code == 1 and len(lines) == 1 and line.startswith("taut: "),
+                      f"{ending(result.code)} {result.err}"):
+            return False
+        if fault in MEMORY:
+            return expect(f"{what}: the message", "memory" in line, line)
+        failed = [path for _, path in result.operations[n - 1:]] if fault in ("full", "short") else [result.operations[n - 1][1]]
+        # Of a folder whose new names do not get to the disk, the file that has the name.
+        names = [f"{path.rpartition('/')[2]}" + ("" if (self.program.folder / path).is_dir() else "'") for path in failed]
+        return expect(f"{what}: file, reason and remedy", any(name in line for name in names) and "cannot " in line and
+                      ("check that" in line or "name another" in line), f"{line} {failed[0]}")
+
+    def is_row_of_memory(self, found):
+        """A sweep in which one case has no quantities but a reason."""
+        lines = found.get("sweep/sweep.csv", b"").splitlines()
+        wanted = self.reference.get("sweep/sweep.csv", b"").splitlines()
+        other = [line for line, as_wanted in zip(lines, wanted) if line != as_wanted]
+        return len(lines) == len(wanted) and len(other) == 1 and b"memory" in other[0]
+
+    def check_files(self, rng):
+        operations = self.program.run("files", 0, self.before).operations
+        n_checked = 0
+        for n in range(1, len(operations) + 1):
+            for fault in ("EIO", "ENOSPC", "short", "full"):
+                if rng.random() < arguments.files:
+                    self.check(fault, n)
+                    n_checked += 1
+        print(f"{self.name}: {len(operations)} operations on files, {n_checked} faults", flush=True)
+
+    def check_memory(self, rng, first, sampled, fault="new"):
+        count = self.program.run("c_memory" if fault == "malloc" else "memory", 0, self.before).counted
+        later = range(first + 1, count + 1)
+        chosen = [*range(1, first + 1), *sorted(rng.sample(later, min(sampled, len(later))))]
+        for n in chosen:
+            self.check(fault, n, goes_on=n > first and n % 10 == 0)
+        print(f"{self.name}: {count} allocations, {len(chosen)} faults of {fault}", flush=True)
+
+    def end(self):
+        self.program.end()
+        self.resume.end()
+
+
+def reference_of(scratch, command):
+    program = Program(arguments.library, scratch, arguments.program, *command)
+    result = program.run()
+    if result.code != 0:
+        sys.exit(f"the run without a fault: {ending(result.code)}\n{result.err}")
+    operations = result.operations
+    kept = scratch / "complete"
+    program.folder.rename(kept)
+    # The same run until its disk is full, most of the way.
+    program.run("full", 3 * len(operations) // 4)
+    partial = scratch / "partial"
+    program.folder.rename(partial)
+    program.end()
+    return contents(kept), kept, partial
+
+
+with tempfile.TemporaryDirectory() as name:
+    rng = random.Random(arguments.seed)
+    print(f"seed {arguments.seed}")
+    for kind, command in (("run", LINE), ("sweep", SWEEP)):
+        scratch = pathlib.Path(name) / kind
+        scratch.mkdir()
+        reference, complete, partial = reference_of(scratch, command)
+        resume = [*command, "--resume"]
+        keeps = [name for name in contents(partial) if not name.endswith((".tmp", "checkpoint")) and "/worker_" not in name]
+        scenarios = [Scenario(scratch, f"new {kind}", command, resume, reference),
+                     Scenario(scratch, f"resumed {kind}", resume, resume, reference, partial, keeps),
+                     Scenario(scratch, f"{kind} with --overwrite", [*command, "--overwrite"], resume, reference, complete)]
+        for scenario in scenarios:
+            scenario.check_files(rng)
+        part = 1. if kind == "run" else 0.1
+        for fault, share in (("new", 1.), ("all_new", 0.1), ("malloc", 0.1)):
+            for scenario in scenarios[:2]:
+                factor = part * share * (1. if scenario is scenarios[0] else 0.1)
+                scenario.check_memory(rng, int(factor * arguments.first), int(factor * arguments.sampled), fault)
+        for scenario in scenarios:
+            scenario.end()
+
+for kind in ("files", *MEMORY):
+    print(f"figure | faults of {kind} | {figures[kind, 'injected']} injected, {figures[kind, 'clean']} clean errors, "
+          f"{figures[kind, 'overcome']} made good")
+print(f"figure | files | {figures['damaged']} damaged; {figures['resumed']} runs resumed, {figures['other bytes']} to other bytes")
+expect("there are faults", any(figures[kind, "injected"] for kind in ("files", *MEMORY)))
+sys.exit("\n".join(errors) or None)

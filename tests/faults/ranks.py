@@ -1,0 +1,82 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""One rank of 2 or 4 throws in a collective call of MPI drawn at random, or finds no memory at an allocation drawn at random:
+all ranks end, with exit code 1 and the message of that rank, said once."""
+import argparse
+import collections
+import os
+import pathlib
+import random
+import subprocess
+import sys
+import tempfile
+
+parser = argparse.ArgumentParser(description=__doc__)
+parser.add_argument("--program", required=True)
+parser.add_argument("--library", required=True, help="what inject.cc makes")
+parser.add_argument("--prm", type=pathlib.Path, required=True)
+parser.add_argument("--mpiexec", required=True)
+parser.add_argument("--count", type=int, default=2, help="faults of each kind, on 2 and on 4 ranks")
+parser.add_argument("--seed", type=int, default=1)
+arguments = parser.parse_args()
+errors = []
+figures = collections.Counter()
+PATIENCE = 300.  # [s]
+
+
+def expect(what, is_true, found=""):
+    if not is_true:
+        errors.append(f"{what}: {str(found)[:1500]}")
+    return is_true
+
+
+def run(folder, ranks, fault):
+    command = [arguments.mpiexec, "-np", str(ranks), "env", f"LD_PRELOAD={arguments.library}", arguments.program,
+               str(arguments.prm / "en50318_2002_250.prm"), "--overwrite"]
+    for entry in ("Catenary/Number of spans=3", "Catenary/Contact wire/Element size=2", "Catenary/Messenger wire/Element size=2",
+                  "Catenary/Uplift positions=90", "Statistics/Window=", "Time/Step=2e-3", "Time/End=0.1",
+                  "Partition/Number of substructures=4", "Output/Folder=results", "Output/Checkpoint interval=0.03"):
+        command += ["--set", entry]
+    try:
+        return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=PATIENCE,
+                              env={**os.environ, "TAUT_FAULT": fault, "TAUT_FAULT_COUNT": str(folder / "count")})
+    except subprocess.TimeoutExpired:
+        return None
+
+
+def calls_of(folder, ranks, kind, rank):
+    """Number of calls of a rank in a run without a fault."""
+    path = folder / "count"
+    path.unlink(missing_ok=True)
+    result = run(folder, ranks, f"{kind} 0 {rank}")
+    if result is None or result.returncode != 0:
+        sys.exit(f"the run without a fault: {result}")
+    return int(path.read_text())
+
+
+with tempfile.TemporaryDirectory() as name:
+    folder = pathlib.Path(name)
+    rng = random.Random(arguments.seed)
+    print(f"seed {arguments.seed}")
+    for ranks in (2, 4):
+        for kind, fault, message in (("collectives", "throw", "internal error: injected into a collective call"),
+                                     ("collectives", "throw_user", "taut: injected into a collective call"),
+                                     ("memory", "new", "more memory than there is")):
+            n_calls = calls_of(folder, ranks, kind, ranks - 1)
+            for _ in range(arguments.count):
+                rank, n = rng.randrange(ranks), rng.randint(1, n_calls)
+                what = f"{fault} {n} of {n_calls} on rank {rank} of {ranks}"
+                result = run(folder, ranks, f"{fault} {n} {rank}")
+                figures[fault, "injected"] += 1
+                if not expect(f"{what}: ends", result is not None):
+                    continue
+                # The rank that ends the others has mpirun send them a signal, of which they say that they got it.
+                said = [line for line in result.stderr.splitlines()
+                        if line.startswith("taut: ") and not line.startswith("taut: ending")]
+                figures[fault, "clean"] += expect(f"{what}: one message, exit code 1",
+                                                  result.returncode == 1 and len(said) == 1 and message in said[0],
+                                                  f"{result.returncode} {said} {result.stderr}")
+
+for fault in ("throw", "throw_user", "new"):
+    print(f"figure | one rank of 2 or 4, {fault} | {figures[fault, 'injected']} injected, {figures[fault, 'clean']} clean errors")
+sys.exit("\n".join(errors) or None)
