@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/archive.h>
 #include <taut/base/exceptions.h>
 #include <taut/model/form_finding.h>
-#include <taut/base/archive.h>
 #include <taut/model/scene_constraints.h>
 #include <taut/model/scene_part.h>
 #include <taut/model/shared_parts.h>
@@ -163,8 +163,8 @@ namespace taut
         for (std::size_t i = 0; i < droppers.size(); ++i)
         {
           if (droppers[i].mass_per_length > 0.)
-            change = std::max(change,
-                              std::fabs(form.length[i] - droppers[i].length) / form.length[i]);
+            change =
+                std::max(change, std::fabs(form.length[i] - droppers[i].length) / form.length[i]);
           droppers[i].length = form.length[i];
         }
         if (change < 1e-12)
@@ -180,8 +180,7 @@ namespace taut
     /// All that decides about a form.
     std::string key(const Scene &part, const SolverParameters &parameters)
     {
-      return values_of(part) + archived([&](OutputArchive &archive)
-                                        { archive << parameters; });
+      return values_of(part) + archived([&](OutputArchive &archive) { archive << parameters; });
     }
   } // namespace
 

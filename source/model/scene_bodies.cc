@@ -71,8 +71,8 @@ namespace taut
       if (!shared)
         return make();
       const int kind = static_cast<int>(motion);
-      const std::string cut = archived([&](OutputArchive &archive)
-                                       { archive << kind << nodes << first << last; });
+      const std::string cut =
+          archived([&](OutputArchive &archive) { archive << kind << nodes << first << last; });
       return shared->wires.find(values_of(part) + cut, make);
     }
 
@@ -123,8 +123,7 @@ namespace taut
         wires[i].part.push_back(piece.part);
       }
       if (wire.has_axial)
-        add_pieces(scene, i, WireMotion::axial, partition.wires[i], owner, shared,
-                   wires[i].axial);
+        add_pieces(scene, i, WireMotion::axial, partition.wires[i], owner, shared, wires[i].axial);
       if (wire.transverse != TransverseKind::none)
         add_pieces(scene, i, WireMotion::transverse, partition.wires[i], owner, shared,
                    wires[i].transverse);
@@ -197,8 +196,8 @@ namespace taut
 
   void SceneBodies::add_pieces(const Scene &scene, const std::size_t wire, const WireMotion motion,
                                const std::vector<Partition::Piece> &pieces,
-                               const std::vector<unsigned int> &owner,
-                               SharedParts *const shared, std::vector<std::size_t> &indices)
+                               const std::vector<unsigned int> &owner, SharedParts *const shared,
+                               std::vector<std::size_t> &indices)
   {
     const std::vector<double> nodes = grid(scene, wire);
     const Scene part = wire_part(scene, wire);

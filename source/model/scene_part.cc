@@ -131,8 +131,9 @@ namespace taut
     part.wires = {scene.wires[wire]};
     const auto is_on_wire = [wire](const Attachment &end)
     { return end.kind == Kind::wire && end.index == wire; };
-    const auto inside = [&](const Attachment &end)
-    { return is_on_wire(end) ? Attachment{Kind::wire, 0, end.position} : Attachment(); };
+    const auto inside = [&](const Attachment &end) {
+      return is_on_wire(end) ? Attachment{Kind::wire, 0, end.position} : Attachment();
+    };
     for (const Support &support : scene.supports)
       if (support.wire == wire)
       {

@@ -140,8 +140,8 @@ namespace taut
     {
       observers.finish();
       if (is_partial)
-        log << "Partial results: until t = " << figures.until() << " s of "
-            << parameters.end_time << " s\n";
+        log << "Partial results: until t = " << figures.until() << " s of " << parameters.end_time
+            << " s\n";
       if (!processes.is_root() || !parameters.output.writes)
         return;
       figures.write(parameters.output.folder + "/statistics.json", description(is_partial));

@@ -27,10 +27,9 @@ namespace taut
       for (std::size_t i = 0; is_good && i < item.range.size(); i += 2)
         is_good = item.range[i + 1] >= (is_uniform ? item.range[i] : 0.);
       if (!is_good)
-        throw EntryError(entry,
-                         is_uniform
-                             ? "give the least and the largest value"
-                             : "give the mean and a standard deviation that is not negative");
+        throw EntryError(
+            entry, is_uniform ? "give the least and the largest value"
+                              : "give the mean and a standard deviation that is not negative");
     }
 
     /// A number for each pair of the range, with commas between them.

@@ -24,8 +24,8 @@ namespace taut
    * decide about stiffness and weight.
    *
    * Returns the scene with gap, length and stiffness of these links set and half of the mass of
-   * each put on each of its ends; the form comes from @p shared if it is known there. Throws UserError naming the dropper if a tension is negative or a
-   * length not positive.
+   * each put on each of its ends; the form comes from @p shared if it is known there. Throws
+   * UserError naming the dropper if a tension is negative or a length not positive.
    */
   Scene find_lengths(Scene scene, const SolverParameters &parameters,
                      SharedParts *shared = nullptr);
