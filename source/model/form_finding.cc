@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/archive.h>
 #include <taut/base/exceptions.h>
 #include <taut/model/form_finding.h>
 #include <taut/model/scene_constraints.h>
+#include <taut/model/scene_part.h>
+#include <taut/model/shared_parts.h>
 #include <taut/scene/entries.h>
+#include <taut/scene/scene_values.h>
 #include <taut/time/static_equilibrium.h>
 
 #include <algorithm>
@@ -142,6 +146,42 @@ namespace taut
       }
       return result;
     }
+
+    /// Tensions and lengths of the droppers between the parts of a scene without them.
+    DropperForm find_form(const Scene &base, std::vector<Link> droppers,
+                          const SolverParameters &parameters)
+    {
+      constexpr int max_iterations = 30;
+      for (int iteration = 0;; ++iteration)
+      {
+        const DropperForm form = [&]
+        {
+          const std::vector<double> tension = tensions(base, droppers, parameters);
+          return DropperForm{tension, lengths(base, droppers, tension, parameters)};
+        }();
+        double change = 0.;
+        for (std::size_t i = 0; i < droppers.size(); ++i)
+        {
+          if (droppers[i].mass_per_length > 0.)
+            change =
+                std::max(change, std::fabs(form.length[i] - droppers[i].length) / form.length[i]);
+          droppers[i].length = form.length[i];
+        }
+        if (change < 1e-12)
+          return form;
+        if (iteration + 1 == max_iterations)
+          throw EntryError(
+              droppers.front().origin,
+              "the dropper lengths do not settle: their weight decides the shape of the wires. "
+              "Check the mass per length of the droppers.");
+      }
+    }
+
+    /// All that decides about a form.
+    std::string key(const Scene &part, const SolverParameters &parameters)
+    {
+      return values_of(part) + archived([&](OutputArchive &archive) { archive << parameters; });
+    }
   } // namespace
 
   Scene without_sliding_contacts(Scene scene)
@@ -164,54 +204,48 @@ namespace taut
     return scene;
   }
 
-  Scene find_lengths(Scene scene, const SolverParameters &parameters)
+  Scene find_lengths(Scene scene, const SolverParameters &parameters, SharedParts *const shared)
   {
     std::vector<Link> droppers;
+    std::vector<Attachment> ends;
     for (const Link &link : scene.links)
       if (link.find_length)
       {
         droppers.push_back(link);
         droppers.back().length = distance(scene, link);
+        ends.insert(ends.end(), {link.from, link.to});
       }
     if (droppers.empty())
       return scene;
-    Scene base = without_sliding_contacts(scene);
-    base.links.erase(std::remove_if(base.links.begin(), base.links.end(),
-                                    [](const Link &link) { return link.find_length; }),
-                     base.links.end());
-
-    std::vector<double> tension, length;
-    constexpr int max_iterations = 30;
-    for (int iteration = 0; iteration < max_iterations; ++iteration)
+    // Nothing else: what is not connected with the droppers does not change a bit of their form.
+    ScenePart part = connected_part(without_sliding_contacts(scene), ends);
+    for (Link &dropper : droppers)
     {
-      tension = tensions(base, droppers, parameters);
-      length = lengths(base, droppers, tension, parameters);
-      double change = 0.;
-      for (std::size_t i = 0; i < droppers.size(); ++i)
-      {
-        if (droppers[i].mass_per_length > 0.)
-          change = std::max(change, std::fabs(length[i] - droppers[i].length) / length[i]);
-        droppers[i].length = length[i];
-      }
-      if (change < 1e-12)
-        break;
-      if (iteration + 1 == max_iterations)
-        throw EntryError(
-            droppers.front().origin,
-            "the dropper lengths do not settle: their weight decides the shape of the wires. Check "
-            "the mass per length of the droppers.");
+      dropper.from = part.inside(dropper.from);
+      dropper.to = part.inside(dropper.to);
     }
+    const auto find = [&]
+    {
+      Scene base = part.scene;
+      base.links.erase(std::remove_if(base.links.begin(), base.links.end(),
+                                      [](const Link &link) { return link.find_length; }),
+                       base.links.end());
+      return find_form(base, droppers, parameters);
+    };
+    const DropperForm form = shared && part.scene.bodies.empty()
+                                 ? shared->forms.find(key(part.scene, parameters), find)
+                                 : find();
 
     std::size_t i = 0;
     for (Link &link : scene.links)
       if (link.find_length)
       {
         link.find_length = false;
-        link.length = length[i];
+        link.length = form.length[i];
         if (link.axial_stiffness > 0.)
-          link.stiffness = link.axial_stiffness / length[i];
+          link.stiffness = link.axial_stiffness / form.length[i];
         // D = -n . (u_to - u_from) + gap + N / stiffness = 0 under the tension
-        link.gap = length[i] - distance(scene, link) - tension[i] / link.stiffness;
+        link.gap = form.length[i] - distance(scene, link) - form.tension[i] / link.stiffness;
         add_mass(link, scene);
         ++i;
       }

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/archive.h>
 #include <taut/base/exceptions.h>
 #include <taut/mechanism/mechanism.h>
 #include <taut/model/scene_bodies.h>
+#include <taut/model/scene_part.h>
+#include <taut/model/shared_parts.h>
+#include <taut/scene/scene_values.h>
 #include <taut/wire/wire_component.h>
 
 #include <algorithm>
@@ -55,6 +59,23 @@ namespace taut
       }
       return rank;
     }
+
+    /// A piece of the wire of a wire_part(), made or found.
+    std::shared_ptr<Substructure> make_piece(const Scene &part, const WireMotion motion,
+                                             const std::vector<double> &nodes,
+                                             const std::size_t first, const std::size_t last,
+                                             SharedParts *const shared)
+    {
+      const auto make = [&]() -> std::shared_ptr<Substructure>
+      { return std::make_shared<WireComponent>(part, 0, motion, nodes, first, last); };
+      if (!shared)
+        return make();
+      const int kind = static_cast<int>(motion);
+      const std::string cut =
+          archived([&](OutputArchive &archive) { archive << kind << nodes << first << last; });
+      return shared->wires.find(values_of(part) + cut, make);
+    }
+
     /// Of a point of a custom body; EntryError about @p entry if it is not on the body or does not
     /// move along the direction.
     LinearForm displacement(const Substructure &body, const Attachment &at,
@@ -83,7 +104,7 @@ namespace taut
   } // namespace
 
   SceneBodies::SceneBodies(const Scene &scene, const Partition &partition,
-                           const Communicator &processes)
+                           const Communicator &processes, SharedParts *const shared)
       : Structure(processes), wires(scene.wires.size()), mechanism_of_mass(scene.masses.size())
   {
     const auto mechanisms = connected_masses(scene);
@@ -102,9 +123,9 @@ namespace taut
         wires[i].part.push_back(piece.part);
       }
       if (wire.has_axial)
-        add_pieces(scene, i, WireMotion::axial, partition.wires[i], owner, wires[i].axial);
+        add_pieces(scene, i, WireMotion::axial, partition.wires[i], owner, shared, wires[i].axial);
       if (wire.transverse != TransverseKind::none)
-        add_pieces(scene, i, WireMotion::transverse, partition.wires[i], owner,
+        add_pieces(scene, i, WireMotion::transverse, partition.wires[i], owner, shared,
                    wires[i].transverse);
     }
     for (std::size_t m = 0; m < mechanisms.size(); ++m)
@@ -175,10 +196,11 @@ namespace taut
 
   void SceneBodies::add_pieces(const Scene &scene, const std::size_t wire, const WireMotion motion,
                                const std::vector<Partition::Piece> &pieces,
-                               const std::vector<unsigned int> &owner,
+                               const std::vector<unsigned int> &owner, SharedParts *const shared,
                                std::vector<std::size_t> &indices)
   {
     const std::vector<double> nodes = grid(scene, wire);
+    const Scene part = wire_part(scene, wire);
     const std::string name = WireComponent::name_of(scene, wire, motion);
     const bool has_slopes =
         motion == WireMotion::transverse && scene.wires[wire].transverse == TransverseKind::beam;
@@ -190,9 +212,9 @@ namespace taut
       indices.push_back(add(name, owner[pieces[p].part],
                             [&]
                             {
-                              auto made = std::make_unique<WireComponent>(
-                                  scene, wire, motion, nodes, pieces[p].first, last);
-                              right = made.get();
+                              auto made =
+                                  make_piece(part, motion, nodes, pieces[p].first, last, shared);
+                              right = static_cast<const WireComponent *>(made.get());
                               return made;
                             }));
       for (unsigned int k = 0; p > 0 && k < (has_slopes ? 2u : 1u); ++k)

@@ -216,7 +216,7 @@ namespace taut
     walk(root);
   }
 
-  void ParameterFile::set(const std::string &assignment)
+  const ParameterFile::Entry &ParameterFile::set(const std::string &assignment)
   {
     const std::size_t equals = assignment.find('=');
     if (equals == std::string::npos || equals == 0)
@@ -232,9 +232,9 @@ namespace taut
     check_text(assignment, "--set");
     const auto known = index.find(entry.name());
     if (known != index.end() && (entry.value.empty() || entry.value.back() != '\\'))
-      list[known->second] = entry;
-    else
-      add(entry);
+      return list[known->second] = entry;
+    add(entry);
+    return list.back();
   }
 
   void ParameterFile::broadcast(const Communicator &processes)

@@ -41,6 +41,25 @@ namespace taut
         throw EntryError(entry, "the first number is the smaller one; swap them");
     }
 
+    /// All entries by path, with their values.
+    std::map<std::string, std::string> values_in(const dealii::ParameterHandler &prm)
+    {
+      std::ostringstream json;
+      prm.print_parameters(json, dealii::ParameterHandler::JSON);
+      std::map<std::string, std::string> values;
+      const std::function<void(const nlohmann::json &, const std::string &)> walk =
+          [&](const nlohmann::json &node, const std::string &path)
+      {
+        for (const auto &[name, child] : node.items())
+          if (child.is_object() && child.contains("pattern_description"))
+            values[path + name] = child.at("value").get<std::string>();
+          else if (child.is_object())
+            walk(child, path + name + "/");
+      };
+      walk(nlohmann::json::parse(json.str()), "");
+      return values;
+    }
+
     /// The part of a deal.II exception that is for the user.
     std::string message(const std::exception &e)
     {
@@ -62,58 +81,8 @@ namespace taut
     }
   } // namespace
 
-  void OutputParameters::ProbeItem::declare(dealii::ParameterHandler &prm)
-  {
-    prm.add_parameter("Point", point, "A mass or 'wire @ position'", Anything());
-    prm.add_parameter("Direction", direction, "'x, y' or 'x, y, z'; the length does not matter",
-                      List(Double(), 2, 3));
-    prm.add_parameter("Rotational", rotational, "Slope or rotation instead of displacement");
-  }
-
-  void OutputParameters::declare_names(dealii::ParameterHandler &prm)
-  {
-    prm.enter_subsection("Output");
-    probes.declare_names(prm);
-    prm.leave_subsection();
-  }
-
-  void OutputParameters::declare_parameters(dealii::ParameterHandler &prm)
-  {
-    declare_names(prm);
-    prm.enter_subsection("Output");
-    prm.add_parameter("Folder", folder, "Where the results go; made if it does not exist",
-                      Anything());
-    prm.add_parameter(
-        "Interval", interval,
-        "Least time between two lines of sliding.csv, probes.csv, certificate.csv; 0: "
-        "every step. With an interval, the first two have the least and largest value since the "
-        "line before [s]",
-        not_negative());
-    prm.add_parameter(
-        "Link interval", link_interval,
-        "Least time between two lines of links.csv and supports.csv; 0: every step. With an "
-        "interval, they have the least and largest value since the line before, and how often "
-        "each unilateral link opened or closed [s]",
-        not_negative());
-    prm.add_parameter(
-        "Field interval", field_interval,
-        "Least time between two files of the motion of all wires for ParaView; 0: none "
-        "[s]",
-        not_negative());
-    prm.add_parameter(
-        "Checkpoint interval", checkpoint_interval,
-        "Time between two checkpoints, from the last of which --resume goes on with a run that was "
-        "ended early, with the same results to the last bit; 0: none [s]",
-        not_negative());
-    const auto &known = Registry<Observer>::instance();
-    prm.add_parameter("Observers", observers,
-                      "What else records the steps. " + known.descriptions(),
-                      List(Selection(known.names())));
-    prm.add_parameter("Subdivisions", subdivisions,
-                      "Pieces that each element is drawn with in these files [1]", Integer(1, 20));
-    probes.declare_parameters(prm);
-    prm.leave_subsection();
-  }
+  Parameters::Parameters() = default;
+  Parameters::~Parameters() = default;
 
   void Parameters::declare(dealii::ParameterHandler &prm)
   {
@@ -263,11 +232,18 @@ namespace taut
     {
       // Plugins and the generator's name, then the names of items, then everything: each pass knows
       // what to declare for the next one, and only the last is strict.
+      structural_entries.clear();
+      const auto read_leniently = [&](dealii::ParameterHandler &prm)
+      {
+        prm.parse_input_from_string(text, "", true);
+        for (const auto &[path, value] : values_in(prm))
+          structural_entries.insert(path);
+      };
       {
         dealii::ParameterHandler prm;
         prm.add_parameter("Additional shared libraries", shared_libraries);
         prm.add_parameter("Generator", generator_name);
-        prm.parse_input_from_string(text, "", true);
+        read_leniently(prm);
       }
       load_shared_libraries(shared_libraries, "Additional shared libraries");
       create_integrators();
@@ -289,33 +265,19 @@ namespace taut
         output.declare_names(prm);
         study.declare_names(prm);
         sweep.declare_names(prm);
-        prm.parse_input_from_string(text, "", true);
+        read_leniently(prm);
       }
       {
         dealii::ParameterHandler prm;
         bodies.declare_types(prm);
-        prm.parse_input_from_string(text, "", true);
+        read_leniently(prm);
       }
       bodies.create_types();
-      dealii::ParameterHandler prm;
-      declare(prm);
-      check_entries(file, prm);
-      prm.parse_input_from_string(text);
-      keep_listing(prm);
-      if (end_time > 0. && !(step > 0.))
-        throw EntryError("Time/Step", "it must be positive");
-      constexpr double most_steps = 1e10;
-      if (end_time > 0. && end_time / step > most_steps)
-        throw EntryError(
-            "Time/Step",
-            "Time/End takes more than 1e10 such steps; take a larger step or an earlier end");
-      if (end_time > 0. && end_time < step * (1. - 1e-9))
-        throw EntryError("Time/End", "it is shorter than one step; take a smaller Time/Step");
-      check_pair(statistics.window, "Statistics/Window");
-      for (const auto &[figure, range] : statistics.expected)
-        check_pair(range, "Statistics/Expected ranges/" + figure);
-      study.parameter_lists(entry_values);
-      sweep.parameters(entry_values);
+      begin_entries();
+      check_entries(file, *entries);
+      entries->parse_input_from_string(text);
+      keep_values();
+      check_values();
     }
     catch (const EntryError &e)
     {
@@ -327,26 +289,33 @@ namespace taut
     }
   }
 
-  void Parameters::keep_listing(const dealii::ParameterHandler &prm)
+  void Parameters::check_values() const
   {
-    std::ostringstream text;
-    prm.print_parameters(text, dealii::ParameterHandler::PRM |
-                                   dealii::ParameterHandler::KeepDeclarationOrder);
-    listing = text.str();
+    if (end_time > 0. && !(step > 0.))
+      throw EntryError("Time/Step", "it must be positive");
+    constexpr double most_steps = 1e10;
+    if (end_time > 0. && end_time / step > most_steps)
+      throw EntryError(
+          "Time/Step",
+          "Time/End takes more than 1e10 such steps; take a larger step or an earlier end");
+    if (end_time > 0. && end_time < step * (1. - 1e-9))
+      throw EntryError("Time/End", "it is shorter than one step; take a smaller Time/Step");
+    check_pair(statistics.window, "Statistics/Window");
+    for (const auto &[figure, range] : statistics.expected)
+      check_pair(range, "Statistics/Expected ranges/" + figure);
+    study.parameter_lists(entry_values);
+    sweep.parameters(entry_values);
+  }
 
-    std::ostringstream json;
-    prm.print_parameters(json, dealii::ParameterHandler::JSON);
-    entry_values.clear();
-    const std::function<void(const nlohmann::json &, const std::string &)> walk =
-        [&](const nlohmann::json &node, const std::string &path)
-    {
-      for (const auto &[name, child] : node.items())
-        if (child.is_object() && child.contains("pattern_description"))
-          entry_values[path + name] = child.at("value").get<std::string>();
-        else if (child.is_object())
-          walk(child, path + name + "/");
-    };
-    walk(nlohmann::json::parse(json.str()), "");
+  void Parameters::begin_entries()
+  {
+    entries = std::make_unique<dealii::ParameterHandler>();
+    declare(*entries);
+  }
+
+  void Parameters::keep_values()
+  {
+    entry_values = values_in(*entries);
   }
 
   void Parameters::set_defaults()
@@ -354,9 +323,8 @@ namespace taut
     create_integrators();
     create_observers();
     generator = Registry<SceneGenerator>::instance().create(generator_name);
-    dealii::ParameterHandler prm;
-    declare(prm);
-    keep_listing(prm);
+    begin_entries();
+    keep_values();
   }
 
   std::string Parameters::file_name() const
@@ -366,7 +334,10 @@ namespace taut
 
   void Parameters::print(std::ostream &out) const
   {
-    out << listing;
+    if (!entries)
+      return;
+    entries->print_parameters(out, dealii::ParameterHandler::PRM |
+                                       dealii::ParameterHandler::KeepDeclarationOrder);
   }
 
   Scene Parameters::scene() const

@@ -8,6 +8,7 @@
 #include <taut/model/contact_mass.h>
 #include <taut/model/form_finding.h>
 #include <taut/model/scene_constraints.h>
+#include <taut/model/shared_parts.h>
 #include <taut/output/contact_tables.h>
 #include <taut/output/fields.h>
 #include <taut/output/scene_report.h>
@@ -29,8 +30,12 @@ namespace taut
 {
   namespace
   {
-    Scene prepare_contacts(Scene scene, const Parameters &parameters)
+    /// The scene with all lengths, and nodes without mass where the contacts ask for that.
+    Scene prepare_scene(const Parameters &parameters, SharedParts *const shared)
     {
+      if (shared)
+        shared->begin();
+      Scene scene = find_lengths(parameters.scene(), parameters.solver, shared);
       if (parameters.chooses_contact_mass())
         redistribute_contact_mass(scene, parameters.solver,
                                   parameters.step_parameters.shortest(parameters.step));
@@ -39,11 +44,12 @@ namespace taut
   } // namespace
 
   Simulation::Simulation(const Parameters &parameters, std::ostream &log,
-                         const Communicator &processes)
+                         const Communicator &processes, SharedParts *const shared)
       : parameters(parameters), log(log), processes(processes),
-        model(prepare_contacts(find_lengths(parameters.scene(), parameters.solver), parameters)),
-        bodies(model, make_partition(model, parameters.partition), processes),
-        links(scene_constraints(model, bodies)), reactions(model, bodies)
+        model(prepare_scene(parameters, shared)),
+        bodies(model, make_partition(model, parameters.partition), processes, shared),
+        links(scene_constraints(model, bodies)), reactions(model, bodies),
+        figures(parameters.statistics, model, links)
   {
     for (const Probe &probe : model.probes)
     {
@@ -56,7 +62,8 @@ namespace taut
 
   void Simulation::run()
   {
-    check_results_folder(parameters, processes);
+    if (parameters.output.writes)
+      check_results_folder(parameters, processes);
     find_checkpoint();
     describe();
     find_start();
@@ -80,7 +87,7 @@ namespace taut
     on_root(
         [&]
         {
-          if (checkpoint)
+          if (checkpoint || !parameters.output.writes)
             return;
           std::vector<std::string> comments;
           if (!scheme.empty())
@@ -117,12 +124,13 @@ namespace taut
     on_root(
         [&]
         {
+          if (!parameters.output.writes)
+            return;
           series = std::make_unique<Series>(parameters.output.folder, model, links,
                                             parameters.output.interval,
                                             parameters.output.link_interval, checkpoint != nullptr);
         });
-    Statistics statistics(parameters.statistics, model, links);
-    observers.add(&statistics);
+    observers.add(&figures);
     observers.add(series.get());
     add_guests(observers);
     observers.add(&fields);
@@ -134,11 +142,11 @@ namespace taut
     {
       observers.finish();
       if (is_partial)
-        log << "Partial results: until t = " << statistics.until() << " s of "
-            << parameters.end_time << " s\n";
-      if (!processes.is_root())
+        log << "Partial results: until t = " << figures.until() << " s of " << parameters.end_time
+            << " s\n";
+      if (!processes.is_root() || !parameters.output.writes)
         return;
-      statistics.write(parameters.output.folder + "/statistics.json", description(is_partial));
+      figures.write(parameters.output.folder + "/statistics.json", description(is_partial));
     };
     const auto begin = std::chrono::steady_clock::now();
     try
@@ -152,7 +160,7 @@ namespace taut
       try
       {
         close(true);
-        statistics.print(log);
+        figures.print(log);
         limits->print(log);
       }
       catch (const std::exception &)
@@ -168,16 +176,16 @@ namespace taut
           close(stop_signal != 0);
           check_memory();
         });
-    statistics.print(log);
+    figures.print(log);
     log << measures->report();
     limits->print(log);
-    print_cost(stepper, statistics.until(), all);
+    print_cost(stepper, figures.until(), all);
     log << "Results in " << parameters.output.folder << '\n';
     if (stop_signal != 0)
     {
       std::ostringstream message;
       message << "ended by " << signal_name(stop_signal)
-              << " after the step at t = " << statistics.until() << " s of " << parameters.end_time
+              << " after the step at t = " << figures.until() << " s of " << parameters.end_time
               << " s; the results until then are in " << parameters.output.folder;
       if (parameters.output.checkpoint_interval > 0.)
         message << "; go on with --resume";

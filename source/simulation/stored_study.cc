@@ -148,7 +148,7 @@ namespace taut
   {
     const auto begins = [&](const std::string &head)
     { return path.compare(0, head.size(), head) == 0; };
-    return begins("Study/") || begins("Statistics/Expected ranges/") ||
+    return begins("Study/") || begins("Sweep/") || begins("Statistics/Expected ranges/") ||
            (begins("Output/") && !begins("Output/Probe"));
   }
 

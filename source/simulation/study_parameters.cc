@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
-#include <taut/base/nearest_name.h>
 #include <taut/simulation/study_parameters.h>
-#include <taut/simulation/text_lists.h>
 
 #include <deal.II/base/parameter_handler.h>
 
-#include <algorithm>
 #include <cmath>
 #include <set>
 #include <sstream>
@@ -27,13 +24,7 @@ namespace taut
 
   void StudyParameters::ParameterListItem::declare(dealii::ParameterHandler &prm)
   {
-    prm.add_parameter("Entries", entries,
-                      "Paths of the entries that take each value together, 'Section/Entry', "
-                      "separated by commas",
-                      Anything());
-    prm.add_parameter("Values", values,
-                      "Separated by commas, or by semicolons if a value is itself a list",
-                      Anything());
+    varied.declare(prm);
     prm.add_parameter("Refined", refined,
                       "Whether a smaller value is a finer model: the reference then starts from "
                       "the least value and halves it, together with those of the other refined "
@@ -101,10 +92,9 @@ namespace taut
   std::vector<ParameterList>
   StudyParameters::parameter_lists(const std::map<std::string, std::string> &scene) const
   {
+    // A study runs each of them several times.
+    constexpr std::size_t most_values = 10000;
     std::vector<ParameterList> result;
-    std::vector<std::string> known;
-    for (const auto &[path, value] : scene)
-      known.push_back(path);
     std::set<std::string> taken;
     for (std::size_t i = 0; i < parameter_list_items.names.size(); ++i)
     {
@@ -112,30 +102,9 @@ namespace taut
       const std::string title = parameter_list_items.title(i);
       ParameterList parameter_list;
       parameter_list.name = parameter_list_items.names[i];
-      parameter_list.entries = split(item.entries, ',');
-      parameter_list.values =
-          split(item.values, item.values.find(';') != std::string::npos ? ';' : ',');
+      parameter_list.entries = item.varied.paths(title, scene, taken);
+      parameter_list.values = item.varied.value_list(title, most_values);
       parameter_list.refined = item.refined;
-      if (parameter_list.entries.empty())
-        throw EntryError(title + "/Entries", "name the entries that take the values");
-      for (const std::string &entry : parameter_list.entries)
-      {
-        if (scene.count(entry) == 0)
-          throw EntryError(title + "/Entries", "there is no entry '" + entry +
-                                                   "'; write its sections and its name, "
-                                                   "'Time/Step'" +
-                                                   suggestion(entry, known));
-        if (entry.compare(0, 6, "Study/") == 0 || entry.compare(0, 7, "Output/") == 0)
-          throw EntryError(title + "/Entries", "'" + entry +
-                                                   "' is not part of the scene or of "
-                                                   "how it is solved; take another entry");
-        if (!taken.insert(entry).second)
-          throw EntryError(title + "/Entries",
-                           "'" + entry + "' is varied twice; remove it from one of the parameters");
-      }
-      if (parameter_list.values.empty() ||
-          std::count(parameter_list.values.begin(), parameter_list.values.end(), std::string()) > 0)
-        throw EntryError(title + "/Values", "give one or more values, none of them empty");
       if (parameter_list.refined)
         for (const std::string &value : parameter_list.values)
           if (!is_positive_number(value))

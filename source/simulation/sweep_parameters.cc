@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
-#include <taut/base/nearest_name.h>
 #include <taut/output/csv_file.h>
 #include <taut/simulation/sweep_parameters.h>
-#include <taut/simulation/text_lists.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -12,9 +10,7 @@
 #include <boost/random/uniform_real_distribution.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <optional>
 #include <set>
 
 namespace taut
@@ -23,57 +19,49 @@ namespace taut
   {
     constexpr std::size_t most_cases = 10000000;
 
-    std::optional<double> number(const std::string &text)
+    /// Throws EntryError unless the range is one or more pairs that the distribution can have.
+    void check_range(const SweepParameters::Item &item, const std::string &entry)
     {
-      double value = 0.;
-      const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-      return result.ec == std::errc() && result.ptr == text.data() + text.size() &&
-                     std::isfinite(value)
-                 ? std::optional<double>(value)
-                 : std::nullopt;
+      const bool is_uniform = item.distribution == "uniform";
+      bool is_good = !item.range.empty() && item.range.size() % 2 == 0;
+      for (std::size_t i = 0; is_good && i < item.range.size(); i += 2)
+        is_good = item.range[i + 1] >= (is_uniform ? item.range[i] : 0.);
+      if (!is_good)
+        throw EntryError(
+            entry, is_uniform ? "give the least and the largest value"
+                              : "give the mean and a standard deviation that is not negative");
     }
 
-    /// A value, or all of "first:step:last".
-    std::vector<std::string> expanded(const std::string &text, const std::string &entry)
+    /// A number for each pair of the range, with commas between them.
+    std::string drawn(const SweepParameters::Item &item, boost::random::mt19937_64 &generator)
     {
-      const std::vector<std::string> parts = split(text, ':');
-      std::vector<double> numbers;
-      for (const std::string &part : parts)
-        if (const auto value = number(part))
-          numbers.push_back(*value);
-      if (parts.size() != 3 || numbers.size() != 3)
-        return {text};
-      const double n = (numbers[2] - numbers[0]) / numbers[1];
-      constexpr double rounding = 1e-9;
-      if (!(n >= -rounding) || !(n < most_cases))
-        throw EntryError(entry, "'" + text +
-                                    "' never gets from its first to its last value, or "
-                                    "has too many; write first:step:last");
-      std::vector<std::string> values;
-      for (std::size_t i = 0; i <= n + rounding; ++i)
-        values.push_back(time_text(numbers[0] + i * numbers[1]));
-      return values;
+      std::string text;
+      for (std::size_t i = 0; i < item.range.size(); i += 2)
+      {
+        const double first = item.range[i], second = item.range[i + 1];
+        const double value =
+            item.distribution == "normal"
+                ? boost::random::normal_distribution<double>(first, second)(generator)
+                : boost::random::uniform_real_distribution<double>(
+                      first, second > first ? second : std::nextafter(first, HUGE_VAL))(generator);
+        text += (i > 0 ? ", " : "") + csv_number(value);
+      }
+      return text;
     }
   } // namespace
 
   void SweepParameters::Item::declare(dealii::ParameterHandler &prm)
   {
     using namespace dealii::Patterns;
-    prm.add_parameter("Entries", entries,
-                      "Paths of the entries that take each value together, 'Section/Entry', "
-                      "separated by commas",
-                      Anything());
-    prm.add_parameter("Values", values,
-                      "Separated by commas, or by semicolons if a value is itself a list; a range "
-                      "is first:step:last, with its ends",
-                      Anything());
+    varied.declare(prm);
     prm.add_parameter("Distribution", distribution,
                       "'values': those of the list. 'uniform': drawn at random between the two "
                       "numbers of Range. 'normal': drawn with these as mean and standard deviation",
                       Selection("values|uniform|normal"));
     prm.add_parameter("Range", range,
-                      "Least and largest value, or mean and standard deviation [the entry's unit]",
-                      List(Double(), 0, 2));
+                      "Least and largest value, or mean and standard deviation; for an entry that "
+                      "is a list, two for each of its numbers [the entry's unit]",
+                      List(Double()));
   }
 
   void SweepParameters::declare_names(dealii::ParameterHandler &prm)
@@ -108,111 +96,91 @@ namespace taut
   std::vector<SweptParameter>
   SweepParameters::parameters(const std::map<std::string, std::string> &scene) const
   {
-    std::vector<std::string> known;
-    for (const auto &[path, value] : scene)
-      known.push_back(path);
     std::vector<SweptParameter> result;
     std::set<std::string> taken;
     for (std::size_t i = 0; i < items.names.size(); ++i)
-    {
-      const std::string entry = items.title(i) + "/Entries";
-      SweptParameter swept{items.names[i], split(items.items[i].entries, ',')};
-      if (swept.entries.empty())
-        throw EntryError(entry, "name the entries that take the values");
-      for (const std::string &path : swept.entries)
-      {
-        if (scene.count(path) == 0)
-          throw EntryError(entry, "there is no entry '" + path +
-                                      "'; write its sections and its name, 'Time/Step'" +
-                                      suggestion(path, known));
-        for (const char *section : {"Study/", "Sweep/", "Output/Folder"})
-          if (path.compare(0, std::string(section).size(), section) == 0)
-            throw EntryError(entry, "'" + path +
-                                        "' is not part of the scene or of how it is "
-                                        "solved; take another entry");
-        if (!taken.insert(path).second)
-          throw EntryError(entry, "'" + path +
-                                      "' is varied twice; remove it from one of the "
-                                      "parameters");
-      }
-      result.push_back(std::move(swept));
-    }
+      result.push_back({items.names[i], items.items[i].varied.paths(items.title(i), scene, taken)});
     return result;
+  }
+
+  /// Of the parameters that are not random; empty for those that are.
+  std::vector<std::vector<std::string>> SweepParameters::value_lists() const
+  {
+    std::vector<std::vector<std::string>> lists;
+    for (std::size_t i = 0; i < items.items.size(); ++i)
+    {
+      const Item &item = items.items[i];
+      const std::string title = items.title(i);
+      if (item.is_random())
+      {
+        check_range(item, title + "/Range");
+        lists.emplace_back();
+      }
+      else
+        lists.push_back(item.varied.value_list(title, most_cases));
+    }
+    return lists;
+  }
+
+  /// At most one more than most_cases.
+  std::size_t
+  SweepParameters::n_combinations(const std::vector<std::vector<std::string>> &lists) const
+  {
+    std::size_t n = 1;
+    bool is_first = true;
+    for (std::size_t i = 0; i < lists.size(); ++i)
+    {
+      const std::size_t own = lists[i].size();
+      if (items.items[i].is_random())
+        continue;
+      if (combination == "product")
+        n = std::min(n * own, most_cases + 1);
+      else if (!is_first && own != n)
+        throw EntryError(items.title(i) + "/Values",
+                         "it has " + std::to_string(own) + " values and the list before it " +
+                             std::to_string(n) +
+                             ": zipped lists are equally long. Add some, or set Combination = "
+                             "product");
+      else
+        n = own;
+      is_first = false;
+    }
+    return n;
+  }
+
+  /// Of each combination.
+  std::size_t SweepParameters::n_samples() const
+  {
+    if (std::none_of(items.items.begin(), items.items.end(),
+                     [](const Item &item) { return item.is_random(); }))
+      return 1;
+    if (samples == 0)
+      throw EntryError("Sweep/Samples", "a parameter is drawn at random: say how often");
+    return samples;
   }
 
   std::vector<std::vector<std::string>> SweepParameters::cases() const
   {
-    const std::size_t n_items = items.items.size();
-    std::vector<std::vector<std::string>> lists(n_items);
-    bool has_random = false;
-    std::size_t n_combinations = 1, zipped = 0;
-    for (std::size_t i = 0; i < n_items; ++i)
-    {
-      const Item &item = items.items[i];
-      const std::string title = items.title(i);
-      if (item.distribution != "values")
-      {
-        has_random = true;
-        if (item.range.size() != 2 ||
-            !(item.range[1] >= (item.distribution == "uniform" ? item.range[0] : 0.)))
-          throw EntryError(title + "/Range",
-                           item.distribution == "uniform"
-                               ? "give the least and the largest value"
-                               : "give the mean and a standard deviation that is not negative");
-        continue;
-      }
-      for (const std::string &value :
-           split(item.values, item.values.find(';') != std::string::npos ? ';' : ','))
-        for (const std::string &one : expanded(value, title + "/Values"))
-          lists[i].push_back(one);
-      if (lists[i].empty() || std::count(lists[i].begin(), lists[i].end(), std::string()) > 0)
-        throw EntryError(title + "/Values", "give one or more values, none of them empty");
-      if (combination == "product")
-        n_combinations = std::min(n_combinations * lists[i].size(), most_cases + 1);
-      else if (zipped != 0 && lists[i].size() != zipped)
-        throw EntryError(title + "/Values",
-                         "it has " + std::to_string(lists[i].size()) +
-                             " values and the list "
-                             "before it " +
-                             std::to_string(zipped) +
-                             ": zipped lists are equally long. Add some, or set Combination = "
-                             "product");
-      else
-        n_combinations = zipped = lists[i].size();
-    }
-    if (has_random && samples == 0)
-      throw EntryError("Sweep/Samples", "a parameter is drawn at random: say how often");
-    const std::size_t n_samples = has_random ? samples : 1;
-    if (n_combinations > most_cases || n_combinations * n_samples > most_cases)
+    const std::vector<std::vector<std::string>> lists = value_lists();
+    const std::size_t n = n_combinations(lists), n_draws = n_samples();
+    if (n > most_cases || n * n_draws > most_cases)
       throw EntryError("Sweep/Parameters", "they make more than " + std::to_string(most_cases) +
                                                " cases; take fewer values or samples");
-
     boost::random::mt19937_64 generator(seed);
-    std::vector<std::vector<std::string>> result;
-    for (std::size_t c = 0; c < n_combinations * n_samples; ++c)
+    std::vector<std::vector<std::string>> result(n * n_draws);
+    for (std::size_t c = 0; c < result.size(); ++c)
     {
-      std::vector<std::string> values;
-      std::size_t rest = c / n_samples;
-      for (std::size_t i = 0; i < n_items; ++i)
-      {
-        const Item &item = items.items[i];
-        if (item.distribution == "uniform")
-          values.push_back(csv_number(boost::random::uniform_real_distribution<double>(
-              item.range[0], item.range[1] > item.range[0]
-                                 ? item.range[1]
-                                 : std::nextafter(item.range[0], HUGE_VAL))(generator)));
-        else if (item.distribution == "normal")
-          values.push_back(csv_number(
-              boost::random::normal_distribution<double>(item.range[0], item.range[1])(generator)));
+      std::size_t rest = c / n_draws;
+      for (std::size_t i = 0; i < lists.size(); ++i)
+        if (items.items[i].is_random())
+          result[c].push_back(drawn(items.items[i], generator));
         else if (combination == "zipped")
-          values.push_back(lists[i][rest]);
+          result[c].push_back(lists[i][rest]);
         else
         {
-          values.push_back(lists[i][rest % lists[i].size()]);
+          result[c].push_back(lists[i][rest % lists[i].size()]);
           rest /= lists[i].size();
         }
-      }
-      result.push_back(std::move(values));
     }
     return result;
   }

@@ -5,10 +5,10 @@
 #include <taut/base/memory.h>
 #include <taut/base/write_file.h>
 #include <taut/output/csv_file.h>
-#include <taut/simulation/simulation.h>
 #include <taut/study/sweep.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -29,22 +29,28 @@ namespace taut
       return quantity.item + ": " + quantity.quantity + " [" + quantity.unit + "]";
     }
 
-    /// The statistics of a run, kept after its end.
-    class Results : public Observer
+    /**
+     * Time that a batch of cases takes about [s]: a sweep that is killed loses that much of each
+     * worker, and a worker that waits for the slowest one at its end waits for a small part of it,
+     * as the differences between many cases average out.
+     */
+    constexpr double batch_seconds = 10.;
+
+    /// The lines of all workers in the order of the cases, which they have in turn; up to the first
+    /// one that is missing.
+    std::vector<std::string> in_order(const std::vector<std::string> &texts)
     {
-    public:
-      Results(const Parameters &parameters, const Simulation &simulation)
-          : statistics(parameters.statistics, simulation.scene(), simulation.constraints())
-      {
-      }
-      void record(const StepView &step) override { statistics.record(step); }
-      Statistics statistics;
-    };
+      std::vector<std::istringstream> of_workers(texts.begin(), texts.end());
+      std::vector<std::string> lines;
+      for (std::string line;; lines.push_back(line))
+        if (!std::getline(of_workers[lines.size() % texts.size()], line))
+          return lines;
+    }
   } // namespace
 
   Sweep::Sweep(const std::string &file, const std::vector<std::string> &overrides,
                const Communicator &workers, std::ostream &log)
-      : file(file), overrides(overrides), workers(workers), log(log)
+      : workers(workers), log(log), runner(file, overrides)
   {
     parameters.read(file, overrides, workers);
     try
@@ -71,13 +77,10 @@ namespace taut
   /// Of the scene as it is written.
   void Sweep::name_columns()
   {
-    std::ostringstream silent;
-    const Simulation simulation(parameters, silent);
-    const Results results(parameters, simulation);
     header = csv_cell("case");
     for (const SweptParameter &parameter : swept)
       header += "," + csv_cell(parameter.name);
-    for (const Statistics::NamedQuantity &quantity : results.statistics.named_quantities())
+    for (const Statistics::NamedQuantity &quantity : runner.quantities())
     {
       names.push_back(title(quantity));
       header += "," + csv_cell(names.back());
@@ -151,6 +154,39 @@ namespace taut
     {
       throw UserError(parameters.explain(e));
     }
+    share_columns();
+
+    const std::size_t n = cases.size();
+    log << n << " cases on " << workers.size() << (workers.size() == 1 ? " worker" : " workers")
+        << ", random numbers from seed " << parameters.sweep.seed << '\n';
+    int signal = 0;
+    std::size_t n_each = 1;
+    while (n_done < n && signal == 0)
+    {
+      const auto begin = std::chrono::steady_clock::now();
+      const std::size_t n_before = n_done;
+      n_done += run_batch(n_each);
+      const double seconds = workers.max(
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+      if (seconds < .5 * batch_seconds)
+        n_each *= 2;
+      else if (seconds > 2. * batch_seconds && n_each > 1)
+        n_each /= 2;
+      // A line a hundredth of the sweep.
+      if (100 * n_done / n > 100 * n_before / n || n_done == n)
+        log << "  " << n_done << " of " << n << " cases" << std::endl;
+      signal = static_cast<int>(workers.max(stop_asked ? stop_asked() : 0));
+    }
+    if (n_done < n)
+      throw Interrupted(signal, "sweep ended by " + signal_name(signal) + " with " +
+                                    std::to_string(n_done) + " of " + std::to_string(n) +
+                                    " cases done; go on with --sweep --resume");
+    log << "Sweep in " << sweep_folder() << '\n';
+  }
+
+  /// What the root knows of the table, on all workers.
+  void Sweep::share_columns()
+  {
     std::string shared = std::to_string(n_done);
     for (const std::string &name : names)
       shared += '\n' + name;
@@ -162,55 +198,40 @@ namespace taut
     names.clear();
     for (std::string name; std::getline(lines, name);)
       names.push_back(name);
+  }
 
-    const std::size_t n = cases.size();
-    log << n << " cases on " << workers.size() << (workers.size() == 1 ? " worker" : " workers")
-        << ", random numbers from seed " << parameters.sweep.seed << '\n';
-    int signal = 0;
-    while (n_done < n && signal == 0)
-    {
-      // One case a worker; the lines of all of them go to the disk in order.
-      const std::size_t own = n_done + workers.rank();
-      std::string text;
-      workers.agree(
-          [&]
+  /// The next cases, up to @p n_each for each worker. Returns how many lines were written.
+  std::size_t Sweep::run_batch(const std::size_t n_each)
+  {
+    std::string own;
+    workers.agree(
+        [&]
+        {
+          for (std::size_t i = 0; i < n_each; ++i)
           {
-            if (own < n)
-              text = run_case(own);
-          });
-      std::string complete;
-      std::size_t n_complete = 0;
-      for (const std::string &of_worker : workers.gather(text))
-      {
-        if (of_worker.empty())
-          break;
-        complete += of_worker;
-        ++n_complete;
-      }
-      workers.agree(
-          [&]
-          {
-            if (workers.is_root())
-              append(complete);
-          });
-      // A line a hundredth of the sweep.
-      if (100 * (n_done + n_complete) / n > 100 * n_done / n || n_done + n_complete == n)
-        log << "  " << n_done + n_complete << " of " << n << " cases" << std::endl;
-      n_done += n_complete;
-      signal = static_cast<int>(workers.max(stop_asked ? stop_asked() : 0));
-    }
-    std::error_code error;
-    fs::remove_all(sweep_folder() + "/worker_" + std::to_string(workers.rank()), error);
-    if (n_done < n)
-      throw Interrupted(signal, "sweep ended by " + signal_name(signal) + " with " +
-                                    std::to_string(n_done) + " of " + std::to_string(n) +
-                                    " cases done; go on with --sweep --resume");
-    log << "Sweep in " << sweep_folder() << '\n';
+            const std::size_t number = n_done + i * workers.size() + workers.rank();
+            const std::string line = number < cases.size() ? run_case(number) : "";
+            if (line.empty())
+              break;
+            own += line + '\n';
+          }
+        });
+    const std::vector<std::string> lines = in_order(workers.gather(own));
+    std::string complete;
+    for (const std::string &line : lines)
+      complete += line + '\n';
+    workers.agree(
+        [&]
+        {
+          if (workers.is_root())
+            append(complete);
+        });
+    return lines.size();
   }
 
   /// The line of a case; empty if the run was asked to stop. A disk that is full is no fault of the
   /// case and ends the sweep: it goes on from here when there is room.
-  std::string Sweep::run_case(const std::size_t number) const
+  std::string Sweep::run_case(const std::size_t number)
   {
     std::string text = std::to_string(number + 1);
     for (const std::string &value : cases[number])
@@ -218,7 +239,7 @@ namespace taut
     std::string message;
     try
     {
-      return text + line(number) + ",\n";
+      return text + numbers_of(number) + ",";
     }
     catch (const Interrupted &)
     {
@@ -241,51 +262,29 @@ namespace taut
     if (memory_was_short())
       message = too_large;
     std::replace(message.begin(), message.end(), '\n', ' ');
-    return text + std::string(names.size() + 2, ',') + "," + csv_cell(message) + "\n";
+    return text + std::string(names.size() + 2, ',') + "," + csv_cell(message);
   }
 
   /// Quantities and residuals of a case.
-  std::string Sweep::line(const std::size_t number) const
+  std::string Sweep::numbers_of(const std::size_t number)
   {
-    std::vector<std::string> all = overrides;
+    std::vector<std::string> entries;
     for (std::size_t i = 0; i < swept.size(); ++i)
       for (const std::string &entry : swept[i].entries)
-        all.push_back(entry + "=" + cases[number][i]);
-    all.push_back("Output/Folder=" + sweep_folder() + "/worker_" + std::to_string(workers.rank()));
-    Parameters chosen;
-    chosen.read(file, all);
-    chosen.output.interval = chosen.output.link_interval = 2. * chosen.end_time;
-    chosen.output.field_interval = 0.;
-    chosen.output.checkpoint_interval = 0.;
-    chosen.output.observers.clear();
-    chosen.output.overwrite = true;
-    std::ostringstream silent;
-    try
+        entries.push_back(entry + "=" + cases[number][i]);
+    const CaseResult result = runner.run(entries);
+    bool is_same = result.quantities.size() == names.size();
+    std::string text;
+    for (std::size_t i = 0; is_same && i < names.size(); ++i)
     {
-      Simulation simulation(chosen, silent);
-      Results results(chosen, simulation);
-      simulation.stop_if(stop_asked);
-      simulation.observe(results);
-      simulation.run();
-      std::string text;
-      const std::vector<Statistics::NamedQuantity> quantities =
-          results.statistics.named_quantities();
-      bool is_same = quantities.size() == names.size();
-      for (std::size_t i = 0; is_same && i < names.size(); ++i)
-      {
-        is_same = title(quantities[i]) == names[i];
-        text += "," + csv_number(quantities[i].value);
-      }
-      if (!is_same)
-        throw UserError("the scene of this case has other contacts, links or probes than the "
-                        "parameter file: its quantities have no columns");
-      const Certificate &worst = results.statistics.worst_certificate();
-      return text + "," + csv_number(worst.complementarity) + "," + csv_number(worst.balance);
+      is_same = title(result.quantities[i]) == names[i];
+      text += "," + csv_number(result.quantities[i].value);
     }
-    catch (const EntryError &e)
-    {
-      throw UserError(chosen.explain(e));
-    }
+    if (!is_same)
+      throw UserError("the scene of this case has other contacts, links or probes than the "
+                      "parameter file: its quantities have no columns");
+    return text + "," + csv_number(result.worst.complementarity) + "," +
+           csv_number(result.worst.balance);
   }
 
   /// A sweep that is killed within it leaves an incomplete last line.

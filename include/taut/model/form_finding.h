@@ -7,6 +7,8 @@
 
 namespace taut
 {
+  struct SharedParts;
+
   /**
    * The scene with its sliding contacts taken off the wires. A mass that one of them may hold, as
    * nothing but other masses and the ground is connected with it, is held by a joint to the ground
@@ -22,10 +24,11 @@ namespace taut
    * decide about stiffness and weight.
    *
    * Returns the scene with gap, length and stiffness of these links set and half of the mass of
-   * each put on each of its ends. Throws UserError naming the dropper if a tension is negative or a
-   * length not positive.
+   * each put on each of its ends; the form comes from @p shared if it is known there. Throws
+   * UserError naming the dropper if a tension is negative or a length not positive.
    */
-  Scene find_lengths(Scene scene, const SolverParameters &parameters);
+  Scene find_lengths(Scene scene, const SolverParameters &parameters,
+                     SharedParts *shared = nullptr);
 } // namespace taut
 
 #endif

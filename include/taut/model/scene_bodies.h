@@ -19,6 +19,8 @@ namespace taut
     std::vector<Term> terms;
   };
 
+  struct SharedParts;
+
   /// The substructures of a scene, and where the scene's points are in them.
   class SceneBodies : public Structure
   {
@@ -27,9 +29,10 @@ namespace taut
     explicit SceneBodies(const Scene &scene) : SceneBodies(scene, whole(scene)) {}
 
     /// The wires cut as @p partition says, the parts shared out so that all ranks have about the
-    /// same number of DoFs. Called by all ranks together.
+    /// same number of DoFs. Wires that @p shared knows come from there. Called by all ranks
+    /// together.
     SceneBodies(const Scene &scene, const Partition &partition,
-                const Communicator &processes = Communicator());
+                const Communicator &processes = Communicator(), SharedParts *shared = nullptr);
 
     /**
      * The displacement along @p direction, or the slope or rotation, of an attachment as linear
@@ -77,7 +80,8 @@ namespace taut
     void check_places(const Scene &scene) const;
     void add_pieces(const Scene &scene, std::size_t wire, WireMotion motion,
                     const std::vector<Partition::Piece> &pieces,
-                    const std::vector<unsigned int> &owner, std::vector<std::size_t> &indices);
+                    const std::vector<unsigned int> &owner, SharedParts *shared,
+                    std::vector<std::size_t> &indices);
     std::size_t piece(const WireParts &parts, double s) const;
 
     std::vector<WireParts> wires;

@@ -34,8 +34,8 @@ namespace taut
     void read(const std::string &file);
 
     /// Adds "A.B.Entry=value" or "A/B/Entry=value" from the command line; replaces the entry if it
-    /// is there.
-    void set(const std::string &assignment);
+    /// is there. Returns it.
+    const Entry &set(const std::string &assignment);
 
     /// What the root has read becomes what all ranks have.
     void broadcast(const Communicator &processes);

@@ -18,6 +18,7 @@
 #include <iosfwd>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,7 @@ namespace taut
     std::vector<std::string> observers; ///< registered names
     bool overwrite = false;             ///< from the command line, not from the file
     bool resume = false;                ///< from the command line
+    bool writes = true;                 ///< false: a run leaves nothing on the disk
 
     /// A probe by name.
     struct ProbeItem
@@ -52,6 +54,9 @@ namespace taut
   class Parameters
   {
   public:
+    Parameters();
+    ~Parameters();
+
     /**
      * Reads a .prm or .json file; @p overrides are "Section.Entry=value" and replace entries of the
      * file. With Study/Accuracy, entries that the stored study varied get the values it recommends.
@@ -60,6 +65,14 @@ namespace taut
      */
     void read(const std::string &file, const std::vector<std::string> &overrides = {},
               const Communicator &processes = Communicator());
+
+    /**
+     * Replaces entries of what was read on this process, "Section/Entry=value": the result is that
+     * of read() with these overrides besides, for a small part of its cost. False where only read()
+     * gets there: an entry decides which others there are, a value is not allowed, or a stored
+     * study was asked. Entries may then be changed in part. Throws UserError as read() does.
+     */
+    bool change(const std::vector<std::string> &overrides);
 
     /// Leaves all entries at their defaults, for print().
     void set_defaults();
@@ -148,14 +161,18 @@ namespace taut
   private:
     void read_entries(const std::string &file, const std::vector<std::string> &overrides,
                       const Communicator &processes);
-    void keep_listing(const dealii::ParameterHandler &prm);
+    void check_values() const;
+    void begin_entries();
+    void keep_values();
     void create_integrators();
     void create_observers();
     void declare_observers(dealii::ParameterHandler &prm);
     void declare(dealii::ParameterHandler &prm);
 
-    /// Entries and values for print(), as text.
-    std::string listing, choice;
+    std::string choice;
+    /// All entries with the members that they set: an object stays where it is.
+    std::unique_ptr<dealii::ParameterHandler> entries;
+    std::set<std::string> structural_entries; ///< those that decide which others there are
     std::map<std::string, std::string> entry_values;
     ParameterFile file;
     std::unique_ptr<SceneGenerator> generator;

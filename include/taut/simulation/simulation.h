@@ -6,6 +6,7 @@
 #include <taut/output/model_limits.h>
 #include <taut/output/observer.h>
 #include <taut/output/reactions.h>
+#include <taut/output/statistics.h>
 #include <taut/simulation/parameters.h>
 #include <taut/time/time_stepper.h>
 
@@ -18,6 +19,7 @@ namespace taut
   class ObserverList;
   class StepControl;
   struct Checkpoint;
+  struct SharedParts;
 
   /**
    * Throws an EntryError on Output/Folder if a run could not write its results there, because it is
@@ -33,10 +35,12 @@ namespace taut
   public:
     /**
      * @p parameters is kept by reference; what is said goes to @p log. All ranks of @p processes
-     * call each function together, with the same parameters; the root writes the results.
+     * call each function together, with the same parameters; the root writes the results. What
+     * earlier runs left in @p shared is not made again, and later ones find there what this one
+     * makes; its results are the same.
      */
     Simulation(const Parameters &parameters, std::ostream &log,
-               const Communicator &processes = Communicator());
+               const Communicator &processes = Communicator(), SharedParts *shared = nullptr);
 
     /// Adds an observer of the start and of each step, called after those that write the results;
     /// kept by reference.
@@ -59,6 +63,9 @@ namespace taut
     const Scene &scene() const { return model; }
     const SceneBodies &structure() const { return bodies; }
     const Constraints &constraints() const { return links; }
+
+    /// Of the steps so far.
+    const Statistics &statistics() const { return figures; }
 
     /// Steps of a run: those that fit into its time.
     long n_steps() const;
@@ -102,6 +109,7 @@ namespace taut
     std::vector<std::vector<Term>> probe_terms;
     std::vector<double> probe_rest, probe_values;
     Reactions reactions;
+    Statistics figures;
     std::unique_ptr<ModelLimits> limits; ///< of a run
     std::vector<Observer *> guests;
     std::unique_ptr<TimeIntegrator> chosen_integrator; ///< of Scheme = automatic

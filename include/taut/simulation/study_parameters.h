@@ -3,15 +3,11 @@
 #define taut_study_parameters_h
 
 #include <taut/scene/named_items.h>
+#include <taut/simulation/varied_entries.h>
 
 #include <map>
 #include <string>
 #include <vector>
-
-namespace dealii
-{
-  class ParameterHandler;
-}
 
 namespace taut
 {
@@ -35,7 +31,8 @@ namespace taut
 
     struct ParameterListItem
     {
-      std::string entries, values, reference;
+      VariedEntries varied;
+      std::string reference;
       bool refined = false;
       void declare(dealii::ParameterHandler &prm);
     };

@@ -3,15 +3,11 @@
 #define taut_sweep_parameters_h
 
 #include <taut/scene/named_items.h>
+#include <taut/simulation/varied_entries.h>
 
 #include <map>
 #include <string>
 #include <vector>
-
-namespace dealii
-{
-  class ParameterHandler;
-}
 
 namespace taut
 {
@@ -31,9 +27,11 @@ namespace taut
 
     struct Item
     {
-      std::string entries, values, distribution = "values";
-      std::vector<double> range;
+      VariedEntries varied;
+      std::string distribution = "values";
+      std::vector<double> range; ///< a pair for each number that is drawn
       void declare(dealii::ParameterHandler &prm);
+      bool is_random() const { return distribution != "values"; }
     };
     NamedItems<Item> items{"Sweep", "Parameters", "Parameter", "entries that a sweep varies"};
 
@@ -48,6 +46,11 @@ namespace taut
     /// A value for each of the parameters in each case. The same on every machine; throws
     /// EntryError.
     std::vector<std::vector<std::string>> cases() const;
+
+  private:
+    std::vector<std::vector<std::string>> value_lists() const;
+    std::size_t n_combinations(const std::vector<std::vector<std::string>> &lists) const;
+    std::size_t n_samples() const;
   };
 } // namespace taut
 

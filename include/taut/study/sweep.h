@@ -3,8 +3,8 @@
 #define taut_sweep_h
 
 #include <taut/base/communicator.h>
-#include <taut/output/statistics.h>
 #include <taut/simulation/parameters.h>
+#include <taut/study/case_runner.h>
 
 #include <functional>
 #include <iosfwd>
@@ -19,7 +19,7 @@ namespace taut
    * (Statistics::named_quantities), the largest residuals of the run, and why it failed if it did.
    *
    * Ranks are workers: each runs cases of its own, alone, so that the lines are the same for any
-   * number of them. A line is on the disk before the cases after it begin on the same rank.
+   * number of them. They meet after each batch of cases: its lines then go to the disk in order.
    */
   class Sweep
   {
@@ -33,7 +33,7 @@ namespace taut
     void set_resume(bool value) { resume = value; }
 
     /// As Simulation::stop_if(), asked after each step of each run.
-    void stop_if(std::function<int()> asked) { stop_asked = std::move(asked); }
+    void stop_if(std::function<int()> asked) { runner.stop_if(stop_asked = std::move(asked)); }
 
     /**
      * Runs all cases that have no line yet. A case that cannot be run is a line with its error.
@@ -47,16 +47,17 @@ namespace taut
     void name_columns();
     void prepare_folder();
     void continue_table(const std::string &table);
-    std::string line(std::size_t number) const;
-    std::string run_case(std::size_t number) const;
+    void share_columns();
+    std::size_t run_batch(std::size_t n_each);
+    std::string run_case(std::size_t number);
+    std::string numbers_of(std::size_t number);
     void append(const std::string &lines) const;
 
-    std::string file;
-    std::vector<std::string> overrides;
     const Communicator workers;
     std::ostream &log;
     bool overwrite = false, resume = false;
     Parameters parameters;
+    CaseRunner runner;
     std::vector<SweptParameter> swept;
     std::vector<std::vector<std::string>> cases;
     std::vector<std::string> names; ///< of the quantities, "item: quantity [unit]"

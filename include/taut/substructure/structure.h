@@ -32,8 +32,9 @@ namespace taut
     explicit Structure(const Communicator &processes = Communicator()) : processes(processes) {}
     virtual ~Structure() = default;
 
-    /// Makes a substructure; called on its owner alone.
-    using Factory = std::function<std::unique_ptr<Substructure>()>;
+    /// Makes a substructure; called on its owner alone. One that keeps no state may be in several
+    /// structures.
+    using Factory = std::function<std::shared_ptr<Substructure>()>;
 
     /// Index of a substructure that is on another rank.
     static constexpr std::size_t elsewhere = -1;
@@ -71,7 +72,7 @@ namespace taut
 
   private:
     Communicator processes;
-    std::vector<std::unique_ptr<Substructure>> substructures;
+    std::vector<std::shared_ptr<Substructure>> substructures;
     std::vector<Body> bodies;
     std::vector<std::size_t> numbers; ///< of the substructures here
   };

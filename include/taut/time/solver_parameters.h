@@ -23,6 +23,14 @@ namespace taut
 
     /// Declares the members in subsection "Solver".
     void declare_parameters(dealii::ParameterHandler &prm);
+
+    /// For Boost's archives.
+    template <typename Archive>
+    void serialize(Archive &archive, unsigned int)
+    {
+      archive &local_solver &interface.form &interface.preconditioner &interface.coarse_space
+          &complementarity &contact_tolerance;
+    }
   };
 } // namespace taut
 

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_kept_h
+#define taut_kept_h
+
+#include <map>
+#include <string>
+#include <utility>
+
+namespace taut
+{
+  /**
+   * What one run made and the next one may use again, by a key that holds all values that define
+   * it. What a run did not ask for is forgotten when the next but one begins, so that memory stays
+   * that of two runs.
+   */
+  template <typename Value>
+  class Kept
+  {
+  public:
+    /// A run begins.
+    void begin()
+    {
+      for (auto entry = entries.begin(); entry != entries.end();)
+        if (entry->second.is_used)
+          (entry++)->second.is_used = false;
+        else
+          entry = entries.erase(entry);
+    }
+
+    /// The value of @p key, which @p make returns if it is not known; nothing is kept if that
+    /// throws.
+    template <typename Make>
+    const Value &find(const std::string &key, const Make &make)
+    {
+      auto known = entries.find(key);
+      if (known == entries.end())
+        known = entries.emplace(key, Entry{make()}).first;
+      known->second.is_used = true;
+      return known->second.value;
+    }
+
+    std::size_t size() const { return entries.size(); }
+
+  private:
+    struct Entry
+    {
+      Value value;
+      bool is_used = true;
+    };
+    std::map<std::string, Entry> entries;
+  };
+} // namespace taut
+
+#endif

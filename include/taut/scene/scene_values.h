@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_scene_values_h
+#define taut_scene_values_h
+
+#include <taut/scene/scene.h>
+
+#include <string>
+
+namespace taut
+{
+  /**
+   * All values of a scene as bytes: two scenes have the same if and only if they agree in every
+   * number to the last bit, every name and every formula. Not for scenes with bodies of types from
+   * plugins, which are no plain values.
+   */
+  std::string values_of(const Scene &scene);
+} // namespace taut
+
+#endif

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_case_runner_h
+#define taut_case_runner_h
+
+#include <taut/model/shared_parts.h>
+#include <taut/output/statistics.h>
+#include <taut/simulation/parameters.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace taut
+{
+  /// What a case of a sweep gave.
+  struct CaseResult
+  {
+    std::vector<Statistics::NamedQuantity> quantities;
+    Certificate worst; ///< largest residuals of any step
+  };
+
+  /**
+   * Runs cases of one parameter file one after the other, on this process alone and without files.
+   * What the cases have in common is made once: the parameters, the form of the line, the wires
+   * (SharedParts). Each has the bits of a run of its own.
+   */
+  class CaseRunner
+  {
+  public:
+    /// @p overrides as for Parameters::read(), of all cases.
+    CaseRunner(std::string file, std::vector<std::string> overrides)
+        : file(std::move(file)), overrides(std::move(overrides))
+    {
+    }
+
+    /// As Simulation::stop_if(), asked after each step.
+    void stop_if(std::function<int()> asked) { stop_asked = std::move(asked); }
+
+    /// The quantities that a case has, of the scene as it is in the file and without a run. Throws
+    /// UserError.
+    std::vector<Statistics::NamedQuantity> quantities();
+
+    /// Runs the case with these entries, "Section/Entry=value": the same entries in each case.
+    /// Throws UserError, and Interrupted if it was asked to stop.
+    CaseResult run(const std::vector<std::string> &entries);
+
+  private:
+    void set_parameters(const std::vector<std::string> &entries);
+
+    std::string file;
+    std::vector<std::string> overrides;
+    std::function<int()> stop_asked;
+    std::unique_ptr<Parameters> parameters; ///< of the last case; none before the first one
+    SharedParts shared;
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
+#include <taut/simulation/simulation.h>
+#include <taut/study/case_runner.h>
+
+#include <sstream>
+
+namespace taut
+{
+  std::vector<Statistics::NamedQuantity> CaseRunner::quantities()
+  {
+    set_parameters({});
+    std::ostringstream silent;
+    try
+    {
+      const Simulation simulation(*parameters, silent, Communicator(), &shared);
+      return simulation.statistics().named_quantities();
+    }
+    catch (const EntryError &e)
+    {
+      throw UserError(parameters->explain(e));
+    }
+  }
+
+  CaseResult CaseRunner::run(const std::vector<std::string> &entries)
+  {
+    set_parameters(entries);
+    std::ostringstream silent;
+    try
+    {
+      Simulation simulation(*parameters, silent, Communicator(), &shared);
+      simulation.stop_if(stop_asked);
+      simulation.run();
+      return {simulation.statistics().named_quantities(),
+              simulation.statistics().worst_certificate()};
+    }
+    catch (const EntryError &e)
+    {
+      throw UserError(parameters->explain(e));
+    }
+  }
+
+  /// Those of the last case, changed, or read anew.
+  void CaseRunner::set_parameters(const std::vector<std::string> &entries)
+  {
+    if (parameters && parameters->change(entries))
+      return;
+    parameters.reset();
+    std::vector<std::string> all = overrides;
+    all.insert(all.end(), entries.begin(), entries.end());
+    auto fresh = std::make_unique<Parameters>();
+    fresh->read(file, all);
+    fresh->output.writes = false;
+    fresh->output.field_interval = 0.;
+    fresh->output.checkpoint_interval = 0.;
+    fresh->output.observers.clear();
+    parameters = std::move(fresh);
+  }
+} // namespace taut
