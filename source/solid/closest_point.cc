@@ -33,8 +33,7 @@ namespace taut
     }
   } // namespace
 
-  ClosestPoints::ClosestPoints(const SurfaceGeometry &geometry)
-      : geometry(geometry)
+  ClosestPoints::ClosestPoints(const SurfaceGeometry &geometry) : geometry(geometry)
   {
     std::vector<unsigned int> edges_of_node(geometry.surface().points.size(), 0);
     for (std::size_t f = 0; f < geometry.n_faces(); ++f)

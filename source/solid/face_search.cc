@@ -66,8 +66,8 @@ namespace taut
     return faces;
   }
 
-  void FaceSearch::visit_nearest(
-      const Coordinates &x, const std::function<bool(std::size_t, double)> &visit) const
+  void FaceSearch::visit_nearest(const Coordinates &x,
+                                 const std::function<bool(std::size_t, double)> &visit) const
   {
     const auto visit_tree = [&visit](const auto &tree, const auto &point)
     {

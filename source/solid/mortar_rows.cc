@@ -65,9 +65,9 @@ namespace taut
 
   void NodeVectors::add(const unsigned int node, const double factor, const Coordinates &vector)
   {
-    auto it = std::lower_bound(sorted.begin(), sorted.end(), node,
-                               [](const NodeWeight &w, const unsigned int n)
-                               { return w.node < n; });
+    auto it =
+        std::lower_bound(sorted.begin(), sorted.end(), node,
+                         [](const NodeWeight &w, const unsigned int n) { return w.node < n; });
     if (it == sorted.end() || it->node != node)
       it = sorted.insert(it, {node, {}});
     it->weight = add_scaled(it->weight, factor, vector);

@@ -13,7 +13,7 @@ namespace taut
   /// A part of a slave edge and the master edge that it faces.
   struct MortarSegment
   {
-    std::size_t master = 0;       ///< face of the master surface
+    std::size_t master = 0;      ///< face of the master surface
     double begin = 0., end = 0.; ///< on the reference edge of the slave, begin < end
   };
 
@@ -38,8 +38,8 @@ namespace taut
   private:
     struct Ray
     {
-      Coordinates begin, direction;       ///< on the slave edge; outwards, about a unit vector
-      Coordinates tangent, turn;          ///< their derivatives
+      Coordinates begin, direction; ///< on the slave edge; outwards, about a unit vector
+      Coordinates tangent, turn;    ///< their derivatives
     };
 
     void average_normals();

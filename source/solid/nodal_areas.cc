@@ -62,8 +62,8 @@ namespace taut
   Coordinates NodalAreas::normal(const std::size_t face, const unsigned int node) const
   {
     const std::vector<unsigned int> &nodes = geometry.nodes(face);
-    const auto local = static_cast<unsigned int>(std::find(nodes.begin(), nodes.end(), node) -
-                                                 nodes.begin());
+    const auto local =
+        static_cast<unsigned int>(std::find(nodes.begin(), nodes.end(), node) - nodes.begin());
     const unsigned int degree = geometry.surface().degree;
     ReferencePoint at = centre(geometry.form(face));
     if (geometry.form(face) == FaceForm::line)
@@ -95,8 +95,8 @@ namespace taut
       if (dot(normal(f, node), direction) >= part_of_largest * largest)
       {
         const std::vector<unsigned int> &nodes = geometry.nodes(f);
-        sum += integrals[f][static_cast<std::size_t>(
-            std::find(nodes.begin(), nodes.end(), node) - nodes.begin())];
+        sum += integrals[f][static_cast<std::size_t>(std::find(nodes.begin(), nodes.end(), node) -
+                                                     nodes.begin())];
       }
     if (!(sum > 0.))
     {

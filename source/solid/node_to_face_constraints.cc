@@ -17,8 +17,8 @@ namespace taut
     /// other.
     constexpr double facing = .1;
 
-    /// How far beside the master a node may be: of the distance, and of the size of the face.
-    constexpr double beside_of_distance = .1, beside_of_size = 1e-6;
+    /// How far beside the master a node may be, as part of the distance plus the size of the face.
+    constexpr double beside = 1e-6;
 
     /// Distance over the size of a face below which its direction is rounding.
     constexpr double no_distance = 1e-9;
@@ -27,8 +27,7 @@ namespace taut
     class Projection
     {
     public:
-      Projection(const SurfaceGeometry &slave, const SurfaceGeometry &master,
-                 const double distance)
+      Projection(const SurfaceGeometry &slave, const SurfaceGeometry &master, const double distance)
           : slave(slave), master(master), areas(slave), points(master), search(master),
             distance(distance)
       {
@@ -48,8 +47,7 @@ namespace taut
         const double size = master.box(found->face).diagonal();
         Coordinates normal = p.normal(); // out of the master
         const double across = norm(add_scaled(d, -dot(d, normal), normal));
-        if (found->on_open_border &&
-            across > beside_of_distance * found->distance + beside_of_size * size)
+        if (found->on_open_border && across > beside * (found->distance + size))
           return std::nullopt;
         if (found->on_border && found->distance > no_distance * size)
           normal = scaled((dot(d, normal) < 0. ? -1. : 1.) / norm(d), d);
@@ -62,8 +60,7 @@ namespace taut
         c.slave = {{node, normal}};
         for (unsigned int k = 0; k < p.shapes.n; ++k)
           if (p.shapes.value[k] != 0.)
-            c.master.push_back(
-                {master.nodes(found->face)[k], scaled(-p.shapes.value[k], normal)});
+            c.master.push_back({master.nodes(found->face)[k], scaled(-p.shapes.value[k], normal)});
         return c;
       }
 
@@ -97,8 +94,7 @@ namespace taut
 
     std::vector<SurfaceConstraint> constrain_nodes(const ContactSurface &slave,
                                                    const ContactSurface &master,
-                                                   const unsigned int dim,
-                                                   const double thickness,
+                                                   const unsigned int dim, const double thickness,
                                                    const double wanted_distance)
     {
       const SurfaceGeometry slaves(slave), masters(master);

@@ -36,12 +36,14 @@ namespace
   {
     Pair pair;
     pair.direction = {std::cos(angle), std::sin(angle), 0.};
-    const auto line = [&pair](const double s) { return add_scaled(pair.origin, s, pair.direction); };
+    const auto line = [&pair](const double s)
+    { return add_scaled(pair.origin, s, pair.direction); };
     const std::vector<double> grid = random_grid(5, 0., 1., random);
     pair.lower = on_curve(grid, degree, line, true, random);
     pair.last = sliver ? grid[5] - grid[4] : grid[1] - grid[0];
     pair.begin = (sliver ? 1. : grid[1]) - part * pair.last;
-    pair.upper = on_curve(random_grid(7, pair.begin, 1.4, random), other_degree, line, false, random);
+    pair.upper =
+        on_curve(random_grid(7, pair.begin, 1.4, random), other_degree, line, false, random);
     return pair;
   }
 
@@ -54,11 +56,11 @@ namespace
     const Coordinates up = {-pair.direction.y, pair.direction.x, 0.};
     const Coordinates on_slave = times((lower_is_slave ? -1. : 1.) * pressure * thickness, up);
     const double length = pair.end - pair.begin;
-    EXPECT_LT(largest_difference(
-                  forces(constraints, &SurfaceConstraint::slave, slave.points.size(), pressure),
-                  consistent_loads(slave, pair.origin, pair.direction, pair.begin, pair.end,
-                                   on_slave)),
-              exact);
+    EXPECT_LT(
+        largest_difference(
+            forces(constraints, &SurfaceConstraint::slave, slave.points.size(), pressure),
+            consistent_loads(slave, pair.origin, pair.direction, pair.begin, pair.end, on_slave)),
+        exact);
     EXPECT_LT(largest_difference(
                   forces(constraints, &SurfaceConstraint::master, master.points.size(), pressure),
                   consistent_loads(master, pair.origin, pair.direction, pair.begin, pair.end,
@@ -146,17 +148,17 @@ namespace
         const Vectors more = consistent_loads(slave, {}, {1., 0., 0.}, .6, 1.8, down);
         for (std::size_t i = 0; i < expected.size(); ++i)
           expected[i] = add_scaled(expected[i], 1., more[i]);
-        EXPECT_LT(largest_difference(
-                      forces(constraints, &SurfaceConstraint::slave, slave.points.size(), 1.),
-                      expected),
-                  exact);
+        EXPECT_LT(
+            largest_difference(
+                forces(constraints, &SurfaceConstraint::slave, slave.points.size(), 1.), expected),
+            exact);
         for (const SurfaceConstraint &c : constraints)
           EXPECT_GT(c.area, 0.);
       }
   }
 
-  /// Slave on the line y = 0 from 0 to 1, master on y = f(x) from 1 - ... : D_i is f at the node, at
-  /// the outer one f at the end of the overlap.
+  /// Slave on the line y = 0 from 0 to 1, master on y = f(x) from 1 - ... : D_i is f at the node,
+  /// at the outer one f at the end of the overlap.
   TEST(Mortar, MeanGapsOfLinearAndQuadraticGaps)
   {
     std::mt19937 random(4);
@@ -165,13 +167,20 @@ namespace
       {
         const std::vector<double> grid = random_grid(5, 0., 1., random);
         const ContactSurface slave = on_curve(
-            grid, degree, [](const double s) { return Coordinates{s, 0., 0.}; }, true, random);
+            grid, degree,
+            [](const double s) {
+              return Coordinates{s, 0., 0.};
+            },
+            true, random);
         const auto f = [degree](const double x)
         { return .02 + .1 * x + (degree == 2 ? .05 * x * x : 0.); };
         const double begin = grid[1] - part * (grid[1] - grid[0]);
         const ContactSurface master = on_curve(
             random_grid(4, begin, 1.3, random), degree,
-            [&f](const double s) { return Coordinates{s, f(s), 0.}; }, false, random);
+            [&f](const double s) {
+              return Coordinates{s, f(s), 0.};
+            },
+            false, random);
         const Constraints constraints = mortar_constraints(slave, master);
         double moment[2] = {};
         for (const SurfaceConstraint &c : constraints)
@@ -230,8 +239,9 @@ namespace
     const Coordinates direction = {.8, .6, 0.}, up = {-.6, .8, 0.};
     for (const unsigned int degree : {1u, 2u})
     {
-      const auto line = [&](const double height)
-      { return [&, height](const double s) { return add_scaled(times(s, direction), height, up); }; };
+      const auto line = [&](const double height) {
+        return [&, height](const double s) { return add_scaled(times(s, direction), height, up); };
+      };
       const ContactSurface slave =
           on_curve(random_grid(6, 0., 1., random), degree, line(0.), true, random);
       const ContactSurface master =
@@ -262,8 +272,9 @@ namespace
         {
           const auto arc = [](const double radius)
           {
-            return [radius](const double s)
-            { return Coordinates{-radius * std::cos(s), radius * std::sin(s), 0.}; };
+            return [radius](const double s) {
+              return Coordinates{-radius * std::cos(s), radius * std::sin(s), 0.};
+            };
           };
           const ContactSurface inner =
               on_curve(random_grid(24, .2, 2.2, random), degree, arc(1.), true, random);
@@ -335,15 +346,19 @@ namespace
     std::mt19937 random(8);
     const auto bend = [](const double offset)
     {
-      return [offset](const double s)
-      { return s < 0. ? Coordinates{-offset, -s, 0.} : Coordinates{s, -offset, 0.}; };
+      return [offset](const double s) {
+        return s < 0. ? Coordinates{-offset, -s, 0.} : Coordinates{s, -offset, 0.};
+      };
     };
     const ContactSurface block =
         on_curve({-1., -.6, -.3, 0., .2, .7, 1.}, 1, bend(0.), false, random);
     const auto walls = bend(.01);
-    ContactSurface wall = on_curve({-1., -.4, 0.}, 1,
-                                   [](const double s) { return Coordinates{-.01, -s, 0.}; }, true,
-                                   random);
+    ContactSurface wall = on_curve(
+        {-1., -.4, 0.}, 1,
+        [](const double s) {
+          return Coordinates{-.01, -s, 0.};
+        },
+        true, random);
     const ContactSurface floor = on_curve({0., .5, 1.}, 1, walls, true, random);
     wall.points.insert(wall.points.end(), floor.points.begin(), floor.points.end());
     for (std::size_t f = 0; f < floor.faces.size(); ++f)
@@ -362,8 +377,9 @@ namespace
   TEST(Mortar, BacksAndNearestFaces)
   {
     std::mt19937 random(9);
-    const auto line = [](const double y)
-    { return [y](const double s) { return Coordinates{s, y, 0.}; }; };
+    const auto line = [](const double y) {
+      return [y](const double s) { return Coordinates{s, y, 0.}; };
+    };
     ContactSurface plate = on_curve({0., .5, 1.}, 1, line(0.), false, random);
     const ContactSurface top = on_curve({0., .5, 1.}, 1, line(.05), true, random);
     ContactSurface floor = on_curve({-1., 2.}, 1, line(-.3), true, random);
@@ -425,8 +441,9 @@ namespace
   TEST(Mortar, Errors)
   {
     std::mt19937 random(11);
-    const auto line = [](const double y)
-    { return [y](const double s) { return Coordinates{s, y, 0.}; }; };
+    const auto line = [](const double y) {
+      return [y](const double s) { return Coordinates{s, y, 0.}; };
+    };
     const ContactSurface lower = on_curve({0., 1.}, 1, line(0.), true, random),
                          upper = on_curve({0., 1.}, 1, line(.5), false, random),
                          turned = on_curve({0., 1.}, 1, line(.5), true, random),
@@ -475,7 +492,8 @@ namespace
     {
       const auto line = [](const double s) { return Coordinates{s, 0., 0.}; };
       const ContactSurface slave = on_curve(random_grid(4, 0., 1., random), 1, line, true, random),
-                           master = on_curve(random_grid(7, 0., 1., random), 1, line, false, random);
+                           master =
+                               on_curve(random_grid(7, 0., 1., random), 1, line, false, random);
       const auto error = [&](const Constraints &constraints)
       {
         const Vectors load =
@@ -503,10 +521,16 @@ namespace
       const auto f = [degree](const double x) { return .1 + .2 * x + (degree == 2 ? x * x : 0.); };
       const ContactSurface slave = on_curve(
           random_grid(9, 0., 1., random), degree,
-          [](const double s) { return Coordinates{s, 0., 0.}; }, true, random);
+          [](const double s) {
+            return Coordinates{s, 0., 0.};
+          },
+          true, random);
       const ContactSurface master = on_curve(
           random_grid(4, .2, 1.3, random), degree,
-          [&f](const double s) { return Coordinates{s, f(s), 0.}; }, false, random);
+          [&f](const double s) {
+            return Coordinates{s, f(s), 0.};
+          },
+          false, random);
       const auto turn = [](const Coordinates &x) { return Coordinates{-x.y, x.x, 0.}; };
       const Constraints constraints = node_to_segment_constraints(slave, master);
       EXPECT_GE(constraints.size(), 7u * degree);
