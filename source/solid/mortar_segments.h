@@ -20,8 +20,8 @@ namespace taut
   /**
    * Segments of two surfaces in the plane. Points of a slave edge see along its nodal normals,
    * interpolated between its nodes, which are averaged over the edges that meet there unless these
-   * make a corner. Of the master edges on that line, in front or behind, which face the slave, the
-   * nearest counts.
+   * make a corner. Of the master edges on that line which face the slave, in front or behind (there
+   * by the longer of the two edges at most), the nearest counts.
    */
   class MortarSegments
   {

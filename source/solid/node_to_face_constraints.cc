@@ -5,6 +5,7 @@
 #include <taut/base/exceptions.h>
 #include <taut/solid/contact_constraints.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -17,6 +18,9 @@ namespace taut
     /// other.
     constexpr double facing = .1;
 
+    /// What such a cosine may differ by between the nodes of a face.
+    constexpr double margin = .5;
+
     /// How far beside the master a node may be, as part of the distance plus the size of the face.
     constexpr double beside = 1e-6;
 
@@ -28,8 +32,8 @@ namespace taut
     {
     public:
       Projection(const SurfaceGeometry &slave, const SurfaceGeometry &master, const double distance)
-          : slave(slave), master(master), areas(slave), points(master), search(master),
-            distance(distance)
+          : slave(slave), master(master), areas(slave), normals(master), points(master),
+            search(master), distance(distance)
       {
       }
 
@@ -65,28 +69,45 @@ namespace taut
       }
 
     private:
-      /// Of the faces that the node faces.
+      /// Of the faces that the node faces, and has not penetrated by more than an element.
       std::optional<ClosestPoint> closest(const unsigned int node, const Coordinates &x) const
       {
         std::optional<ClosestPoint> best;
-        search.visit_nearest(
-            x,
-            [&](const std::size_t face, const double box_distance)
-            {
-              if (box_distance > (best ? best->distance : distance))
-                return false;
-              const ClosestPoint found = points.find(face, x);
-              if (found.distance <= distance && (!best || found.distance < best->distance) &&
-                  areas.largest_cosine(
-                      node, scaled(-1., master.at(face, found.reference).normal())) >= facing)
-                best = found;
-              return true;
-            });
+        double own_size = 0.;
+        for (const NodalAreas::NodeOfFace &f : areas.faces(node))
+          own_size = std::max(own_size, slave.box(f.face).diagonal());
+        const auto visit = [&](const std::size_t face, const double box_distance)
+        {
+          if (box_distance > (best ? best->distance : distance))
+            return false;
+          if (!may_face(node, face))
+            return true;
+          const ClosestPoint found = points.find(face, x);
+          if (found.distance > distance || (best && found.distance >= best->distance))
+            return true;
+          const FacePoint p = master.at(face, found.reference);
+          const bool is_deep = dot(x - p.position, p.area) < 0. &&
+                               found.distance > std::max(own_size, master.box(face).diagonal());
+          if (!is_deep && areas.largest_cosine(node, scaled(-1., p.normal())) >= facing)
+            best = found;
+          return true;
+        };
+        search.visit_nearest(x, visit);
         return best;
+      }
+
+      /// Whether some place of the face may face the node, from normals at nodes.
+      bool may_face(const unsigned int node, const std::size_t face) const
+      {
+        for (std::size_t i = 0; i < master.nodes(face).size(); ++i)
+          if (areas.largest_cosine(node, scaled(-1., normals.at(face, i))) >= facing - margin)
+            return true;
+        return false;
       }
 
       const SurfaceGeometry &slave, &master;
       const NodalAreas areas;
+      const NodeNormals normals; ///< of the master
       const ClosestPoints points;
       const FaceSearch search;
       const double distance;

@@ -20,7 +20,9 @@ namespace taut
    * Constraints are in the order of the slave's nodes. All functions throw UserError, with the
    * names of the surfaces, if a surface has no faces or wrong ones (number of nodes, a node that is
    * not there, no area, an outer side that cannot be told), if dimensions do not fit, and if
-   * nothing faces the other side within the search distance [m].
+   * nothing faces the other side within the search distance [m]. Between two surfaces the search
+   * looks back, for penetration, by the size of the larger of the two faces at most: a surface may
+   * be the whole boundary of a body.
    */
 
   /**
