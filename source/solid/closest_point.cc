@@ -10,8 +10,8 @@ namespace taut
 {
   namespace
   {
-    /// Change of a reference coordinate that ends Newton's method.
-    constexpr double converged = 1e-14;
+    /// Change of a reference coordinate that ends Newton's method, whose next one is its square.
+    constexpr double converged = 1e-11;
     constexpr unsigned int most_iterations = 50;
 
     /// Starts along a line, besides its ends.
