@@ -25,6 +25,9 @@ namespace taut
         for (const Link &link : scene.links)
           if (!link.moving() && link.from.kind != Kind::ground && link.to.kind != Kind::ground)
             join(number(link.from), number(link.to));
+        for (const SurfaceContact &contact : scene.contacts)
+          if (contact.obstacle.shape == ObstacleSetting::Shape::none)
+            join(n_wires + n_masses + contact.slave.body, n_wires + n_masses + contact.master.body);
       }
 
       std::size_t number(const Attachment &end) const
@@ -113,6 +116,13 @@ namespace taut
         link.from = part.inside(link.from);
         link.to = part.inside(link.to);
         inner.links.push_back(std::move(link));
+      }
+    for (SurfaceContact contact : scene.contacts)
+      if ((contact.slave.body = part.body[contact.slave.body]) != ground)
+      {
+        if (contact.obstacle.shape == ObstacleSetting::Shape::none)
+          contact.master.body = part.body[contact.master.body];
+        inner.contacts.push_back(std::move(contact));
       }
     for (Load load : scene.loads)
       if (has(load.target))

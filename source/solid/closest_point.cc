@@ -3,18 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace taut
 {
   namespace
   {
-    /// Change of a reference coordinate that ends Newton's method.
-    constexpr double converged = 1e-14;
+    /// Change of a reference coordinate that ends Newton's method, whose next one is its square.
+    constexpr double converged = 1e-11;
     constexpr unsigned int most_iterations = 50;
 
     /// Starts along a line, besides its ends.
-    constexpr double starts[] = {.25, .5, .75};
+    constexpr double starts[] = {.5, .2, .8};
 
     std::array<unsigned int, 2> key(const unsigned int a, const unsigned int b)
     {
@@ -33,8 +34,7 @@ namespace taut
     }
   } // namespace
 
-  ClosestPoints::ClosestPoints(const SurfaceGeometry &geometry)
-      : geometry(geometry)
+  ClosestPoints::ClosestPoints(const SurfaceGeometry &geometry) : geometry(geometry)
   {
     std::vector<unsigned int> edges_of_node(geometry.surface().points.size(), 0);
     for (std::size_t f = 0; f < geometry.n_faces(); ++f)
@@ -159,8 +159,11 @@ namespace taut
     const auto distance = [&](const double t)
     { return norm(x - geometry.at(face, between(begin, end, t)).position); };
     double best = distance(0.) <= distance(1.) ? 0. : 1., smallest = distance(best);
-    for (double t : starts)
+    // A straight line needs one start only.
+    const std::size_t n_starts = geometry.surface().degree == 1 ? 1 : std::size(starts);
+    for (std::size_t s = 0; s < n_starts; ++s)
     {
+      double t = starts[s];
       for (unsigned int i = 0; i < most_iterations; ++i)
       {
         const FacePoint p = geometry.at(face, between(begin, end, t));

@@ -15,8 +15,8 @@ namespace taut
   {
     std::size_t face = 0;
     ReferencePoint reference;
-    double distance = 0.;       ///< not negative [m]
-    bool on_border = false;     ///< of the face
+    double distance = 0.;        ///< not negative [m]
+    bool on_border = false;      ///< of the face
     bool on_open_border = false; ///< of the surface
   };
 

@@ -24,6 +24,41 @@ namespace taut
     using Entry = std::pair<bg::model::box<Point<dim>>, std::size_t>;
     template <std::size_t dim>
     using Tree = bg::index::rtree<Entry<dim>, bg::index::rstar<16>>;
+
+    template <std::size_t dim>
+    bg::model::box<Point<dim>> box_around(const Point<dim> &x, const double radius)
+    {
+      Point<dim> lower = x, upper = x;
+      bg::subtract_value(lower, radius);
+      bg::add_value(upper, radius);
+      return {lower, upper};
+    }
+
+    /// Faces by shells around a point, each twice as far as the one before. The tree's own
+    /// queries for nearest entries one by one sort all that they have seen again and again.
+    template <std::size_t dim>
+    void visit_shells(const Tree<dim> &tree, const Point<dim> &x, const double first_radius,
+                      const std::function<bool(std::size_t, double)> &visit)
+    {
+      std::vector<std::pair<double, std::size_t>> shell;
+      std::size_t n_seen = 0;
+      double inner = -1., outer = std::max(first_radius, bg::distance(x, tree.bounds()));
+      while (n_seen < tree.size())
+      {
+        shell.clear();
+        for (auto it = tree.qbegin(bg::index::intersects(box_around(x, outer))); it != tree.qend();
+             ++it)
+          if (const double d = bg::distance(x, it->first); d > inner && d <= outer)
+            shell.push_back({d, it->second});
+        std::sort(shell.begin(), shell.end());
+        for (const auto &[d, face] : shell)
+          if (!visit(face, d))
+            return;
+        n_seen += shell.size();
+        inner = outer;
+        outer *= 2.;
+      }
+    }
   } // namespace
 
   /// One of the two is empty.
@@ -40,6 +75,7 @@ namespace taut
     for (std::size_t f = 0; f < geometry.n_faces(); ++f)
     {
       const Box b = geometry.box(f);
+      mean_size += b.diagonal() / static_cast<double>(geometry.n_faces());
       if (geometry.surface().dim == 2)
         plane.push_back({{{b.lower.x, b.lower.y}, {b.upper.x, b.upper.y}}, f});
       else
@@ -66,19 +102,12 @@ namespace taut
     return faces;
   }
 
-  void FaceSearch::visit_nearest(
-      const Coordinates &x, const std::function<bool(std::size_t, double)> &visit) const
+  void FaceSearch::visit_nearest(const Coordinates &x,
+                                 const std::function<bool(std::size_t, double)> &visit) const
   {
-    const auto visit_tree = [&visit](const auto &tree, const auto &point)
-    {
-      const auto nearest = bg::index::nearest(point, static_cast<unsigned int>(tree.size()));
-      for (auto it = tree.qbegin(nearest); it != tree.qend(); ++it)
-        if (!visit(it->second, bg::distance(point, it->first)))
-          return;
-    };
     if (!trees->plane.empty())
-      visit_tree(trees->plane, Point<2>(x.x, x.y));
+      visit_shells(trees->plane, Point<2>(x.x, x.y), mean_size, visit);
     else
-      visit_tree(trees->space, Point<3>(x.x, x.y, x.z));
+      visit_shells(trees->space, Point<3>(x.x, x.y, x.z), mean_size, visit);
   }
 } // namespace taut

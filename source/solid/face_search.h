@@ -29,6 +29,7 @@ namespace taut
   private:
     struct Trees;
     std::unique_ptr<const Trees> trees;
+    double mean_size = 0.; ///< of the boxes [m]
   };
 } // namespace taut
 

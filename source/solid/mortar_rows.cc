@@ -10,8 +10,11 @@ namespace taut
 {
   namespace
   {
-    /// Rows that differ by less in all weights become one.
-    constexpr double merge_limit = .1;
+    /// Rows of a sliver that differ by less in all weights become one.
+    constexpr double small_difference = .1;
+
+    /// On a sliver, areas below this part of the largest have no row of their own.
+    constexpr double small_area = .1;
 
     /// Weights below this part of the largest are rounding.
     constexpr double rounding = 1e-14;
@@ -62,9 +65,9 @@ namespace taut
 
   void NodeVectors::add(const unsigned int node, const double factor, const Coordinates &vector)
   {
-    auto it = std::lower_bound(sorted.begin(), sorted.end(), node,
-                               [](const NodeWeight &w, const unsigned int n)
-                               { return w.node < n; });
+    auto it =
+        std::lower_bound(sorted.begin(), sorted.end(), node,
+                         [](const NodeWeight &w, const unsigned int n) { return w.node < n; });
     if (it == sorted.end() || it->node != node)
       it = sorted.insert(it, {node, {}});
     it->weight = add_scaled(it->weight, factor, vector);
@@ -76,30 +79,48 @@ namespace taut
       add(entry.node, 1., entry.weight);
   }
 
+  void MortarRows::merge(const unsigned int gone, const unsigned int kept)
+  {
+    MortarRow &from = rows[gone], &to = rows[kept];
+    to.area += from.area;
+    to.gap += from.gap;
+    to.point = add_scaled(to.point, 1., from.point);
+    to.normal = add_scaled(to.normal, 1., from.normal);
+    to.slave.add(from.slave);
+    to.master.add(from.master);
+    from = MortarRow();
+  }
+
+  bool MortarRows::merge_small(const std::vector<unsigned int> &nodes)
+  {
+    const auto is_smaller = [this](const unsigned int a, const unsigned int b)
+    { return rows[a].area < rows[b].area; };
+    const unsigned int largest = *std::max_element(nodes.begin(), nodes.end(), is_smaller),
+                       smallest = *std::min_element(nodes.begin(), nodes.end(), is_smaller);
+    if (rows[smallest].area >= small_area * rows[largest].area)
+      return false;
+    for (const unsigned int node : nodes)
+      if (node != largest)
+        merge(node, largest);
+    return true;
+  }
+
   bool MortarRows::merge_closest_pair(const std::vector<unsigned int> &nodes)
   {
-    double smallest = merge_limit;
+    double smallest = small_difference;
     std::pair<unsigned int, unsigned int> pair;
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      for (std::size_t j = i + 1; j < nodes.size(); ++j)
-        if (rows[nodes[i]].area > 0. && rows[nodes[j]].area > 0.)
-          if (const double d = difference(rows[nodes[i]], rows[nodes[j]]); d < smallest)
+    for (const unsigned int a : nodes)
+      for (const unsigned int b : nodes)
+        if (a < b)
+          if (const double d = difference(rows[a], rows[b]); d < smallest)
           {
             smallest = d;
-            pair = {nodes[i], nodes[j]};
+            pair = {a, b};
           }
-    if (smallest == merge_limit)
+    if (smallest == small_difference)
       return false;
-    MortarRow &kept = rows[rows[pair.first].area >= rows[pair.second].area ? pair.first
-                                                                          : pair.second];
-    MortarRow &gone = &kept == &rows[pair.first] ? rows[pair.second] : rows[pair.first];
-    kept.area += gone.area;
-    kept.gap += gone.gap;
-    kept.point = add_scaled(kept.point, 1., gone.point);
-    kept.normal = add_scaled(kept.normal, 1., gone.normal);
-    kept.slave.add(gone.slave);
-    kept.master.add(gone.master);
-    gone = MortarRow();
+    const bool first_is_larger = rows[pair.first].area >= rows[pair.second].area;
+    merge(first_is_larger ? pair.second : pair.first, first_is_larger ? pair.first : pair.second);
     return true;
   }
 
@@ -109,8 +130,16 @@ namespace taut
     while (changed)
     {
       changed = false;
-      for (const std::vector<unsigned int> &nodes : slivers)
-        changed = merge_closest_pair(nodes) || changed;
+      for (std::vector<unsigned int> &nodes : slivers)
+      {
+        // Those whose row an edge next door has merged are gone.
+        nodes.erase(std::remove_if(nodes.begin(), nodes.end(),
+                                   [this](const unsigned int node)
+                                   { return !(rows[node].area > 0.); }),
+                    nodes.end());
+        if (nodes.size() > 1)
+          changed = merge_small(nodes) || merge_closest_pair(nodes) || changed;
+      }
     }
   }
 

@@ -23,6 +23,12 @@ namespace taut
     /// Part of an edge below which a segment is rounding.
     constexpr double no_segment = 1e-13;
 
+    double chord(const SurfaceGeometry &geometry, const std::size_t face)
+    {
+      return norm(geometry.point(geometry.nodes(face)[1]) -
+                  geometry.point(geometry.nodes(face)[0]));
+    }
+
     double cross_z(const Coordinates &a, const Coordinates &b)
     {
       return a.x * b.y - a.y * b.x;
@@ -82,7 +88,7 @@ namespace taut
     for (std::size_t f = 0; f < slave.n_faces(); ++f)
     {
       const std::vector<unsigned int> &nodes = slave.nodes(f);
-      const double length = norm(slave.point(nodes[1]) - slave.point(nodes[0]));
+      const double length = chord(slave, f);
       for (unsigned int i = 0; i < nodes.size(); ++i)
       {
         FacePoint p = slave.at(f, {i == 0 ? 0. : i == 1 ? 1. : .5, 0.});
@@ -177,7 +183,7 @@ namespace taut
   }
 
   /// Distance of what a place on the slave edge sees of a master edge [m], infinite if the two do
-  /// not face each other or it is too far.
+  /// not face each other, it is too far, or it is further behind than the longer of the two edges.
   double MortarSegments::gap_of(const std::size_t face, const double at,
                                 const std::size_t other) const
   {
@@ -186,8 +192,10 @@ namespace taut
     const Ray r = ray(face, at);
     const Coordinates d = m.position - r.begin;
     const double gap = norm(d);
-    const bool hits = std::fabs(cross_z(d, r.direction)) <= hit * norm(r.tangent);
-    return hits && gap <= distance && -dot(normal, m.normal()) >= facing
+    const bool hits = std::fabs(cross_z(d, r.direction)) <= hit * norm(r.tangent),
+               is_deep =
+                   dot(d, normal) < 0. && gap > std::max(chord(slave, face), chord(master, other));
+    return hits && !is_deep && gap <= distance && -dot(normal, m.normal()) >= facing
                ? gap
                : std::numeric_limits<double>::infinity();
   }

@@ -13,15 +13,15 @@ namespace taut
   /// A part of a slave edge and the master edge that it faces.
   struct MortarSegment
   {
-    std::size_t master = 0;       ///< face of the master surface
+    std::size_t master = 0;      ///< face of the master surface
     double begin = 0., end = 0.; ///< on the reference edge of the slave, begin < end
   };
 
   /**
    * Segments of two surfaces in the plane. Points of a slave edge see along its nodal normals,
    * interpolated between its nodes, which are averaged over the edges that meet there unless these
-   * make a corner. Of the master edges on that line, in front or behind, which face the slave, the
-   * nearest counts.
+   * make a corner. Of the master edges on that line which face the slave, in front or behind (there
+   * by the longer of the two edges at most), the nearest counts.
    */
   class MortarSegments
   {
@@ -38,8 +38,8 @@ namespace taut
   private:
     struct Ray
     {
-      Coordinates begin, direction;       ///< on the slave edge; outwards, about a unit vector
-      Coordinates tangent, turn;          ///< their derivatives
+      Coordinates begin, direction; ///< on the slave edge; outwards, about a unit vector
+      Coordinates tangent, turn;    ///< their derivatives
     };
 
     void average_normals();

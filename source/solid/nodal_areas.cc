@@ -17,7 +17,7 @@ namespace taut
   } // namespace
 
   NodalAreas::NodalAreas(const SurfaceGeometry &geometry)
-      : geometry(geometry), faces_of_node(geometry.surface().points.size()),
+      : geometry(geometry), normals(geometry), faces_of_node(geometry.surface().points.size()),
         integrals(geometry.n_faces(), std::array<double, 9>{}),
         ends(geometry.surface().points.size())
   {
@@ -26,8 +26,8 @@ namespace taut
     for (std::size_t f = 0; f < geometry.n_faces(); ++f)
     {
       const std::vector<unsigned int> &nodes = geometry.nodes(f);
-      for (const unsigned int node : nodes)
-        faces_of_node[node].push_back(f);
+      for (unsigned int i = 0; i < nodes.size(); ++i)
+        faces_of_node[nodes[i]].push_back({f, i});
       if (geometry.form(f) == FaceForm::triangle && geometry.surface().degree == 2)
         for (const FaceEdge &edge : face_edges(FaceForm::triangle, 2))
           ends[nodes[edge.middle]] = {nodes[edge.first], nodes[edge.second]};
@@ -59,31 +59,11 @@ namespace taut
       }
   }
 
-  Coordinates NodalAreas::normal(const std::size_t face, const unsigned int node) const
-  {
-    const std::vector<unsigned int> &nodes = geometry.nodes(face);
-    const auto local = static_cast<unsigned int>(std::find(nodes.begin(), nodes.end(), node) -
-                                                 nodes.begin());
-    const unsigned int degree = geometry.surface().degree;
-    ReferencePoint at = centre(geometry.form(face));
-    if (geometry.form(face) == FaceForm::line)
-      at.x = local == 0 ? 0. : local == 1 ? 1. : .5;
-    for (const FaceEdge &edge : face_edges(geometry.form(face), degree))
-      if (local == edge.first)
-        at = edge.begin;
-      else if (degree == 2 && local == edge.middle)
-        at = {.5 * (edge.begin.x + edge.end.x), .5 * (edge.begin.y + edge.end.y)};
-    FacePoint p = geometry.at(face, at);
-    if (!(p.measure() > 0.)) // a corner of an angle of zero
-      p = geometry.at(face, centre(geometry.form(face)));
-    return p.normal();
-  }
-
   double NodalAreas::largest_cosine(const unsigned int node, const Coordinates &direction) const
   {
     double largest = -std::numeric_limits<double>::infinity();
-    for (const std::size_t f : faces(node))
-      largest = std::max(largest, dot(normal(f, node), direction));
+    for (const NodeOfFace &f : faces(node))
+      largest = std::max(largest, dot(normals.at(f.face, f.local), direction));
     return largest;
   }
 
@@ -91,13 +71,9 @@ namespace taut
   {
     const double largest = largest_cosine(node, direction);
     double sum = 0.;
-    for (const std::size_t f : faces(node))
-      if (dot(normal(f, node), direction) >= part_of_largest * largest)
-      {
-        const std::vector<unsigned int> &nodes = geometry.nodes(f);
-        sum += integrals[f][static_cast<std::size_t>(
-            std::find(nodes.begin(), nodes.end(), node) - nodes.begin())];
-      }
+    for (const NodeOfFace &f : faces(node))
+      if (dot(normals.at(f.face, f.local), direction) >= part_of_largest * largest)
+        sum += integrals[f.face][f.local];
     if (!(sum > 0.))
     {
       const Coordinates x = geometry.point(node);

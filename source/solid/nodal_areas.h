@@ -2,6 +2,7 @@
 #ifndef taut_nodal_areas_h
 #define taut_nodal_areas_h
 
+#include "node_normals.h"
 #include "surface_geometry.h"
 
 #include <array>
@@ -21,14 +22,17 @@ namespace taut
   public:
     explicit NodalAreas(const SurfaceGeometry &geometry);
 
+    struct NodeOfFace
+    {
+      std::size_t face;
+      unsigned int local; ///< which of its nodes
+    };
+
     /// Faces of a node. A node without one has no area.
-    const std::vector<std::size_t> &faces(const unsigned int node) const
+    const std::vector<NodeOfFace> &faces(const unsigned int node) const
     {
       return faces_of_node[node];
     }
-
-    /// Outer normal of a face at one of its nodes.
-    Coordinates normal(std::size_t face, unsigned int node) const;
 
     /// Of all faces of a node, how closely the best faces the @p direction: the largest cosine.
     double largest_cosine(unsigned int node, const Coordinates &direction) const;
@@ -45,7 +49,8 @@ namespace taut
     void integrate(std::size_t face);
 
     const SurfaceGeometry &geometry;
-    std::vector<std::vector<std::size_t>> faces_of_node;
+    NodeNormals normals;
+    std::vector<std::vector<NodeOfFace>> faces_of_node;
     std::vector<std::array<double, 9>> integrals; ///< of the nodes of each face
 
     /// Of each node, those of the edge whose middle it is, if the basis is changed there; else

@@ -5,6 +5,7 @@
 #include <taut/base/exceptions.h>
 #include <taut/solid/contact_constraints.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -17,8 +18,11 @@ namespace taut
     /// other.
     constexpr double facing = .1;
 
-    /// How far beside the master a node may be: of the distance, and of the size of the face.
-    constexpr double beside_of_distance = .1, beside_of_size = 1e-6;
+    /// What such a cosine may differ by between the nodes of a face.
+    constexpr double margin = .5;
+
+    /// How far beside the master a node may be, as part of the distance plus the size of the face.
+    constexpr double beside = 1e-6;
 
     /// Distance over the size of a face below which its direction is rounding.
     constexpr double no_distance = 1e-9;
@@ -27,10 +31,9 @@ namespace taut
     class Projection
     {
     public:
-      Projection(const SurfaceGeometry &slave, const SurfaceGeometry &master,
-                 const double distance)
-          : slave(slave), master(master), areas(slave), points(master), search(master),
-            distance(distance)
+      Projection(const SurfaceGeometry &slave, const SurfaceGeometry &master, const double distance)
+          : slave(slave), master(master), areas(slave), normals(master), points(master),
+            search(master), distance(distance)
       {
       }
 
@@ -48,8 +51,7 @@ namespace taut
         const double size = master.box(found->face).diagonal();
         Coordinates normal = p.normal(); // out of the master
         const double across = norm(add_scaled(d, -dot(d, normal), normal));
-        if (found->on_open_border &&
-            across > beside_of_distance * found->distance + beside_of_size * size)
+        if (found->on_open_border && across > beside * (found->distance + size))
           return std::nullopt;
         if (found->on_border && found->distance > no_distance * size)
           normal = scaled((dot(d, normal) < 0. ? -1. : 1.) / norm(d), d);
@@ -62,34 +64,50 @@ namespace taut
         c.slave = {{node, normal}};
         for (unsigned int k = 0; k < p.shapes.n; ++k)
           if (p.shapes.value[k] != 0.)
-            c.master.push_back(
-                {master.nodes(found->face)[k], scaled(-p.shapes.value[k], normal)});
+            c.master.push_back({master.nodes(found->face)[k], scaled(-p.shapes.value[k], normal)});
         return c;
       }
 
     private:
-      /// Of the faces that the node faces.
+      /// Of the faces that the node faces, and has not penetrated by more than an element.
       std::optional<ClosestPoint> closest(const unsigned int node, const Coordinates &x) const
       {
         std::optional<ClosestPoint> best;
-        search.visit_nearest(
-            x,
-            [&](const std::size_t face, const double box_distance)
-            {
-              if (box_distance > (best ? best->distance : distance))
-                return false;
-              const ClosestPoint found = points.find(face, x);
-              if (found.distance <= distance && (!best || found.distance < best->distance) &&
-                  areas.largest_cosine(
-                      node, scaled(-1., master.at(face, found.reference).normal())) >= facing)
-                best = found;
-              return true;
-            });
+        double own_size = 0.;
+        for (const NodalAreas::NodeOfFace &f : areas.faces(node))
+          own_size = std::max(own_size, slave.box(f.face).diagonal());
+        const auto visit = [&](const std::size_t face, const double box_distance)
+        {
+          if (box_distance > (best ? best->distance : distance))
+            return false;
+          if (!may_face(node, face))
+            return true;
+          const ClosestPoint found = points.find(face, x);
+          if (found.distance > distance || (best && found.distance >= best->distance))
+            return true;
+          const FacePoint p = master.at(face, found.reference);
+          const bool is_deep = dot(x - p.position, p.area) < 0. &&
+                               found.distance > std::max(own_size, master.box(face).diagonal());
+          if (!is_deep && areas.largest_cosine(node, scaled(-1., p.normal())) >= facing)
+            best = found;
+          return true;
+        };
+        search.visit_nearest(x, visit);
         return best;
+      }
+
+      /// Whether some place of the face may face the node, from normals at nodes.
+      bool may_face(const unsigned int node, const std::size_t face) const
+      {
+        for (std::size_t i = 0; i < master.nodes(face).size(); ++i)
+          if (areas.largest_cosine(node, scaled(-1., normals.at(face, i))) >= facing - margin)
+            return true;
+        return false;
       }
 
       const SurfaceGeometry &slave, &master;
       const NodalAreas areas;
+      const NodeNormals normals; ///< of the master
       const ClosestPoints points;
       const FaceSearch search;
       const double distance;
@@ -97,8 +115,7 @@ namespace taut
 
     std::vector<SurfaceConstraint> constrain_nodes(const ContactSurface &slave,
                                                    const ContactSurface &master,
-                                                   const unsigned int dim,
-                                                   const double thickness,
+                                                   const unsigned int dim, const double thickness,
                                                    const double wanted_distance)
     {
       const SurfaceGeometry slaves(slave), masters(master);

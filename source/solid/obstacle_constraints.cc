@@ -56,8 +56,7 @@ namespace taut
       constraints.push_back(std::move(c));
     }
     if (constraints.empty())
-      throw UserError("contact surface '" + surface.name +
-                      "': no node of it faces the obstacle" +
+      throw UserError("contact surface '" + surface.name + "': no node of it faces the obstacle" +
                       (std::isinf(nearest)
                            ? ". Check the boundary id, and the direction or the side of the "
                              "obstacle"

@@ -89,8 +89,8 @@ namespace taut
       : dim(dim), height(std::move(height)), difference(difference)
   {
     if (!(difference > 0.) || !std::isfinite(difference))
-      throw UserError("obstacle: the step of differences of its height is " +
-                      to_text(difference) + " m, it must be positive");
+      throw UserError("obstacle: the step of differences of its height is " + to_text(difference) +
+                      " m, it must be positive");
     set_directions(up);
   }
 
@@ -122,11 +122,10 @@ namespace taut
     Plane plane{add_scaled(foot, height_at(foot), up), up};
     for (unsigned int i = 0; i + 1 < dim; ++i)
     {
-      const double slope =
-          gradient ? dot(gradient(foot), across[i])
-                   : (height_at(add_scaled(foot, difference, across[i])) -
-                      height_at(add_scaled(foot, -difference, across[i]))) /
-                         (2. * difference);
+      const double slope = gradient ? dot(gradient(foot), across[i])
+                                    : (height_at(add_scaled(foot, difference, across[i])) -
+                                       height_at(add_scaled(foot, -difference, across[i]))) /
+                                          (2. * difference);
       plane.normal = add_scaled(plane.normal, -slope, across[i]);
     }
     plane.normal = normalised(plane.normal);

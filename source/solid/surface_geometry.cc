@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "face_search.h"
 #include "surface_geometry.h"
+#include "face_search.h"
 #include <taut/base/exceptions.h>
 #include <taut/solid/contact_constraints.h>
 
@@ -85,8 +85,7 @@ namespace taut
   void SurfaceGeometry::complain(const std::size_t face, const std::string &what) const
   {
     std::string where;
-    if (!description.faces[face].empty() &&
-        description.faces[face][0] < description.points.size())
+    if (!description.faces[face].empty() && description.faces[face][0] < description.points.size())
     {
       const Coordinates x = point(description.faces[face][0]);
       where = " at (" + to_text(x.x) + ", " + to_text(x.y) + ", " + to_text(x.z) + ")";

@@ -30,8 +30,8 @@ namespace contact_meshes
 
   /// Positions of the ends of @p n edges from @p begin to @p end; none is shorter than a fifth of
   /// their mean.
-  inline std::vector<double> random_grid(const unsigned int n, const double begin,
-                                         const double end, std::mt19937 &random)
+  inline std::vector<double> random_grid(const unsigned int n, const double begin, const double end,
+                                         std::mt19937 &random)
   {
     std::uniform_real_distribution<double> width(.25, 1.);
     std::vector<double> s(n + 1, 0.);
@@ -111,10 +111,11 @@ namespace contact_meshes
       {
         const double t = (at[q] - s[0]) / (s[1] - s[0]), w = weight[q] * (high - low);
         const double linear[3] = {1. - t, t, 0.},
-                     quadratic[3] = {(1. - t) * (1. - 2. * t), t * (2. * t - 1.), 4. * t * (1. - t)};
+                     quadratic[3] = {(1. - t) * (1. - 2. * t), t * (2. * t - 1.),
+                                     4. * t * (1. - t)};
         for (unsigned int i = 0; i < face.size(); ++i)
-          load[face[i]] =
-              add_scaled(load[face[i]], w * (surface.degree == 1 ? linear : quadratic)[i], traction);
+          load[face[i]] = add_scaled(load[face[i]],
+                                     w * (surface.degree == 1 ? linear : quadratic)[i], traction);
       }
     }
     return load;

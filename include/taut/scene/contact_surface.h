@@ -57,7 +57,8 @@ namespace taut
   /**
    * One unilateral constraint of a pair of surfaces, or of a surface and a rigid obstacle:
    *
-   *   D = sum over slave (weight . u) + sum over master (weight . u) + gap,   N >= 0, D >= 0, N D = 0.
+   *   D = sum over slave (weight . u) + sum over master (weight . u) + gap,   N >= 0, D >= 0, N D =
+   * 0.
    *
    * D is a mean gap [m], its multiplier N a force [N] that acts on each node along its weight, so
    * that N > 0 pushes the bodies apart. The contact pressure is N / area [Pa]. Displacements are

@@ -20,7 +20,9 @@ namespace taut
    * Constraints are in the order of the slave's nodes. All functions throw UserError, with the
    * names of the surfaces, if a surface has no faces or wrong ones (number of nodes, a node that is
    * not there, no area, an outer side that cannot be told), if dimensions do not fit, and if
-   * nothing faces the other side within the search distance [m].
+   * nothing faces the other side within the search distance [m]. Between two surfaces the search
+   * looks back, for penetration, by the size of the larger of the two faces at most: a surface may
+   * be the whole boundary of a body.
    */
 
   /**
@@ -53,9 +55,11 @@ namespace taut
    * hull of this part: on a face that is covered as a whole they are the dual basis of the shape
    * functions, and D_i is the gap at node i; on one covered in part D_i of the outer node is the
    * gap at the end of the overlap. Their sum is 1, so that N_i = p area_i are the consistent nodal
-   * loads of a uniform pressure on both bodies, and areas are positive for any overlap. Constraints
-   * of two nodes of a face that differ by less than 0.1 in all weights, as those of a sliver of
-   * overlap do, become one. A node without overlap beside it has none.
+   * loads of a uniform pressure on both bodies, and areas are positive for any overlap.
+   *
+   * On a face of which less than a tenth is covered, nodes become one, with the sum of their psi_i,
+   * if one has less than a tenth of the area of the other, or if their constraints differ by less
+   * than 0.1 in all weights. A node without overlap beside it has no constraint.
    */
   std::vector<SurfaceConstraint>
   mortar_constraints(const ContactSurface &slave, const ContactSurface &master,
@@ -63,8 +67,9 @@ namespace taut
 
   /**
    * Nodes of the slave against their closest points on the master, in the plane. The area of a node
-   * is the integral of its shape function. It fails the patch test: pressures of non-matching
-   * meshes are wrong by up to half, on any mesh. mortar_constraints() passes it.
+   * is the integral of its shape function. It fails the patch test: nodal loads of a uniform
+   * pressure on non-matching meshes are wrong by as much as those of an edge, however fine the
+   * meshes are. mortar_constraints() passes it.
    */
   std::vector<SurfaceConstraint>
   node_to_segment_constraints(const ContactSurface &slave, const ContactSurface &master,

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "node_normals.h"
+
+namespace taut
+{
+  namespace
+  {
+    /// Places of the nodes of a face on its reference face.
+    std::vector<ReferencePoint> node_places(const FaceForm form, const unsigned int degree,
+                                            const std::size_t n_nodes)
+    {
+      std::vector<ReferencePoint> places(n_nodes, centre(form));
+      if (form == FaceForm::line)
+      {
+        places[0].x = 0.;
+        places[1].x = 1.;
+      }
+      for (const FaceEdge &edge : face_edges(form, degree))
+      {
+        places[edge.first] = edge.begin;
+        if (degree == 2)
+          places[edge.middle] = {.5 * (edge.begin.x + edge.end.x),
+                                 .5 * (edge.begin.y + edge.end.y)};
+      }
+      return places;
+    }
+  } // namespace
+
+  NodeNormals::NodeNormals(const SurfaceGeometry &geometry) : normals(geometry.n_faces())
+  {
+    for (std::size_t f = 0; f < geometry.n_faces(); ++f)
+      for (const ReferencePoint &place :
+           node_places(geometry.form(f), geometry.surface().degree, geometry.nodes(f).size()))
+      {
+        FacePoint p = geometry.at(f, place);
+        if (!(p.measure() > 0.)) // a corner of an angle of zero
+          p = geometry.at(f, centre(geometry.form(f)));
+        normals[f].push_back(p.normal());
+      }
+  }
+} // namespace taut

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: mortar constraints find what faces what on curves, around corners, between whole
+// boundaries and among ten thousand edges, balance forces and moments there, and say what is wrong
+// with a surface. Expected: closed forms of circles and blocks.
+#include "contact_meshes.h"
+#include <taut/base/exceptions.h>
+#include <taut/solid/contact_constraints.h>
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <string>
+
+namespace
+{
+  using namespace contact_meshes;
+  using taut::mortar_constraints;
+  using Constraints = std::vector<SurfaceConstraint>;
+
+  constexpr double exact = 1e-13;
+
+  /// Arcs about the origin, polygons or parabolas, with a gap: forces balance to rounding, moments
+  /// to the force times the gap times the angle of an edge.
+  TEST(Mortar, CurvedInterfaces)
+  {
+    std::mt19937 random(7);
+    for (const unsigned int degree : {1u, 2u})
+      for (const double distance : {0., .01})
+        for (const bool lower_is_slave : {true, false})
+        {
+          const auto arc = [](const double radius)
+          {
+            return [radius](const double s) {
+              return Coordinates{-radius * std::cos(s), radius * std::sin(s), 0.};
+            };
+          };
+          const ContactSurface inner =
+              on_curve(random_grid(24, .2, 2.2, random), degree, arc(1.), true, random);
+          const ContactSurface outer =
+              on_curve(random_grid(17, .5, 2.6, random), degree, arc(1. + distance), false, random);
+          const ContactSurface &slave = lower_is_slave ? inner : outer,
+                               &master = lower_is_slave ? outer : inner;
+          const Constraints constraints = mortar_constraints(slave, master);
+          Coordinates force;
+          double moment = 0., scale = 0.;
+          std::uniform_real_distribution<double> any(0., 1.);
+          for (const SurfaceConstraint &c : constraints)
+          {
+            const double n = any(random) * c.area;
+            scale += n;
+            for (const auto &w : c.slave)
+            {
+              force = add_scaled(force, n, w.weight);
+              moment += n * vector_product(slave.points[w.node], w.weight).z;
+            }
+            for (const auto &w : c.master)
+            {
+              force = add_scaled(force, n, w.weight);
+              moment += n * vector_product(master.points[w.node], w.weight).z;
+            }
+            // A chord of 2 / 24 to 2 / 8 is h^2 / 8 off its arc.
+            EXPECT_NEAR(c.gap, distance, degree == 1 ? 8e-3 : 2e-4);
+            EXPECT_GT(c.area, 0.);
+          }
+          EXPECT_LT(norm(force), exact);
+          EXPECT_LT(std::fabs(moment), scale * (degree == 1 ? 1e-3 : 2e-5));
+          EXPECT_NEAR(total_area(constraints), 1.7 * (lower_is_slave ? 1. : 1. + distance), 5e-3);
+          // Uniform pressure on the edges of the slave that are covered: consistent loads.
+          if (degree == 1 && lower_is_slave)
+          {
+            const Vectors load =
+                forces(constraints, &SurfaceConstraint::slave, slave.points.size(), 1.);
+            Vectors expected(slave.points.size());
+            std::vector<bool> inside(slave.points.size(), true);
+            for (const auto &face : slave.faces)
+            {
+              const Coordinates t = slave.points[face[1]] - slave.points[face[0]];
+              Coordinates down = {.5 * t.y, -.5 * t.x, 0.};
+              if (dot(down, slave.points[face[0]]) > 0.)
+                down = times(-1., down);
+              for (const unsigned int i : face)
+              {
+                expected[i] = add_scaled(expected[i], 1., down);
+                for (const unsigned int k : face)
+                {
+                  const double s = std::atan2(slave.points[k].y, -slave.points[k].x);
+                  inside[i] = inside[i] && s > .52 && s < 2.18;
+                }
+              }
+            }
+            for (std::size_t i = 0; i < load.size(); ++i)
+              if (inside[i])
+              {
+                EXPECT_LT(norm(load[i] - expected[i]), exact);
+              }
+          }
+        }
+  }
+
+  /// A block in a corner, its surface around two sides: each side sees its own wall, without any
+  /// averaging around the corner.
+  TEST(Mortar, Corners)
+  {
+    std::mt19937 random(8);
+    const auto bend = [](const double offset)
+    {
+      return [offset](const double s) {
+        return s < 0. ? Coordinates{-offset, -s, 0.} : Coordinates{s, -offset, 0.};
+      };
+    };
+    const ContactSurface block =
+        on_curve({-1., -.6, -.3, 0., .2, .7, 1.}, 1, bend(0.), false, random);
+    const auto walls = bend(.01);
+    ContactSurface wall = on_curve(
+        {-1., -.4, 0.}, 1,
+        [](const double s) {
+          return Coordinates{-.01, -s, 0.};
+        },
+        true, random);
+    const ContactSurface floor = on_curve({0., .5, 1.}, 1, walls, true, random);
+    wall.points.insert(wall.points.end(), floor.points.begin(), floor.points.end());
+    for (std::size_t f = 0; f < floor.faces.size(); ++f)
+    {
+      wall.faces.push_back({floor.faces[f][0] + 3, floor.faces[f][1] + 3});
+      wall.outward.push_back(floor.outward[f]);
+    }
+    const Constraints constraints = mortar_constraints(block, wall);
+    EXPECT_EQ(constraints.size(), 7u);
+    EXPECT_NEAR(total_area(constraints), 2., exact);
+    for (const SurfaceConstraint &c : constraints)
+      EXPECT_NEAR(c.gap, .01, exact);
+  }
+
+  /// A plate above a floor: its top sees no floor, its bottom sees the nearer of two.
+  TEST(Mortar, BacksAndNearestFaces)
+  {
+    std::mt19937 random(9);
+    const auto line = [](const double y) {
+      return [y](const double s) { return Coordinates{s, y, 0.}; };
+    };
+    ContactSurface plate = on_curve({0., .5, 1.}, 1, line(0.), false, random);
+    const ContactSurface top = on_curve({0., .5, 1.}, 1, line(.05), true, random);
+    ContactSurface floor = on_curve({-1., 2.}, 1, line(-.3), true, random);
+    const ContactSurface shelf = on_curve({.5, 2.}, 1, line(.01), true, random);
+    for (auto *both : {&plate, &floor})
+    {
+      const ContactSurface &more = both == &plate ? top : shelf;
+      const auto n = static_cast<unsigned int>(both->points.size());
+      both->points.insert(both->points.end(), more.points.begin(), more.points.end());
+      for (std::size_t f = 0; f < more.faces.size(); ++f)
+      {
+        both->faces.push_back({more.faces[f][0] + n, more.faces[f][1] + n});
+        both->outward.push_back(more.outward[f]);
+      }
+    }
+    const Constraints constraints = mortar_constraints(plate, floor);
+    EXPECT_NEAR(total_area(constraints), 1., exact);
+    double integral = 0.;
+    for (const SurfaceConstraint &c : constraints)
+    {
+      integral += c.area * c.gap;
+      EXPECT_LT(c.normal.y, 0.);
+    }
+    EXPECT_NEAR(integral, .5 * .3 - .5 * .01, exact);
+  }
+
+  /// Two blocks on each other, each with its whole boundary, and sides flush: only the interface.
+  TEST(Mortar, WholeBoundaries)
+  {
+    std::mt19937 random(14);
+    const auto around = [](const double low, const double high)
+    {
+      return [low, high](const double s)
+      {
+        return s < 1.   ? Coordinates{s, low, 0.}
+               : s < 2. ? Coordinates{1., low + (high - low) * (s - 1.), 0.}
+               : s < 3. ? Coordinates{3. - s, high, 0.}
+                        : Coordinates{0., high - (high - low) * (s - 3.), 0.};
+      };
+    };
+    const ContactSurface lower = on_curve({0., .3, .7, 1., 1.4, 2., 2.2, 2.9, 3., 3.5, 4.}, 1,
+                                          around(-.6, 0.), false, random);
+    for (const double distance : {.1, 0., -.05})
+    {
+      const ContactSurface upper = on_curve({0., .45, 1., 1.4, 2., 2.8, 3., 3.5, 4.}, 1,
+                                            around(distance, .5 + distance), false, random);
+      for (const bool lower_is_slave : {true, false})
+      {
+        const Constraints constraints =
+            lower_is_slave ? mortar_constraints(lower, upper) : mortar_constraints(upper, lower);
+        EXPECT_NEAR(total_area(constraints), 1., exact);
+        for (const SurfaceConstraint &c : constraints)
+          EXPECT_NEAR(c.gap, distance, exact);
+      }
+    }
+  }
+
+  TEST(Mortar, TenThousandFacesInSeconds)
+  {
+    std::mt19937 random(10);
+    const auto line = [](const double s) { return Coordinates{s, .6 * s, 0.}; };
+    const ContactSurface slave =
+        on_curve(random_grid(10000, 0., 1., random), 1, line, true, random);
+    const ContactSurface master =
+        on_curve(random_grid(12000, 0., 1., random), 1, line, false, random);
+    const auto start = std::chrono::steady_clock::now();
+    const Constraints constraints = mortar_constraints(slave, master);
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    RecordProperty("seconds", std::to_string(seconds));
+    std::cout << seconds << " s\n";
+    EXPECT_NEAR(total_area(constraints), std::hypot(1., .6), 1e-12);
+    EXPECT_LT(seconds, 30.);
+  }
+
+  std::string message(const ContactSurface &slave, const ContactSurface &master,
+                      const double t = 1., const double distance = 0.)
+  {
+    try
+    {
+      mortar_constraints(slave, master, t, distance);
+    }
+    catch (const taut::UserError &e)
+    {
+      return e.what();
+    }
+    return "";
+  }
+
+  TEST(Mortar, Errors)
+  {
+    std::mt19937 random(11);
+    const auto line = [](const double y) {
+      return [y](const double s) { return Coordinates{s, y, 0.}; };
+    };
+    const ContactSurface lower = on_curve({0., 1.}, 1, line(0.), true, random),
+                         upper = on_curve({0., 1.}, 1, line(.5), false, random),
+                         turned = on_curve({0., 1.}, 1, line(.5), true, random),
+                         beside = on_curve({2., 3.}, 1, line(.5), false, random);
+    EXPECT_EQ(message(lower, upper), "");
+    const auto expect = [](const std::string &text, const std::string &part)
+    { EXPECT_NE(text.find(part), std::string::npos) << text; };
+    expect(message(lower, upper, 1., .1), "within 0.1 m; the smallest distance between them is "
+                                          "about 0.5 m");
+    expect(message(lower, turned), "no face of the first faces the second");
+    expect(message(lower, beside), "'lower' and 'upper': no face");
+    expect(message(lower, upper, 0.), "thickness");
+    expect(message(lower, upper, 1., -1.), "search distance is -1");
+    ContactSurface wrong = lower;
+    wrong.faces[0][1] = 7;
+    expect(message(wrong, upper), "'lower': face 0 at (");
+    expect(message(wrong, upper), "names node 7 of 2");
+    wrong = lower;
+    wrong.points[1] = wrong.points[0];
+    expect(message(wrong, upper), "has no area");
+    wrong = lower;
+    wrong.outward[0] = {1., 0., 0.};
+    expect(message(upper, wrong), "outward direction along the face");
+    wrong = lower;
+    wrong.degree = 2;
+    expect(message(wrong, upper), "has 2 nodes, which no face of degree 2 has");
+    wrong = lower;
+    wrong.faces.clear();
+    wrong.outward.clear();
+    expect(message(wrong, upper), "has no faces");
+    wrong = lower;
+    wrong.points[0].x = std::nan("");
+    expect(message(wrong, upper), "no number");
+    wrong = lower;
+    wrong.dim = 3;
+    expect(message(wrong, upper), "no face of degree 1 has");
+  }
+} // namespace
