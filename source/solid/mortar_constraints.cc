@@ -12,12 +12,8 @@ namespace taut
 {
   namespace
   {
-    /// Part of the hull of the covered part of an edge that may be uncovered before multipliers of
-    /// degree 2 become linear.
-    constexpr double hole = 1e-9;
-
     /// Integral of a polynomial of degree 2 over the hull, over the covered length, below which
-    /// multipliers become linear. It is 1/6 on a straight edge.
+    /// multipliers become linear: at holes. It is 1/6 on a straight edge without any.
     constexpr double small_integral = .02;
 
     using Small = std::array<double, 3>;
@@ -35,7 +31,6 @@ namespace taut
     {
       std::vector<CoverPoint> points;
       double begin = 0., end = 1.; ///< hull on the reference edge
-      bool has_holes = false;
     };
 
     Cover cover(const SurfaceGeometry &slave, const SurfaceGeometry &master,
@@ -47,10 +42,8 @@ namespace taut
         return result;
       result.begin = segments.front().begin;
       result.end = segments.back().end;
-      double covered = 0.;
       for (const MortarSegment &s : segments)
       {
-        covered += s.end - s.begin;
         for (const auto &[t, weight] : gauss_points())
         {
           const double at = s.begin + t * (s.end - s.begin);
@@ -63,7 +56,6 @@ namespace taut
           result.points.push_back(p);
         }
       }
-      result.has_holes = covered < (1. - hole) * (result.end - result.begin);
       return result;
     }
 
@@ -99,8 +91,7 @@ namespace taut
     class DualBasis
     {
     public:
-      DualBasis(const Cover &cover, const unsigned int wanted_degree)
-          : degree(cover.has_holes ? 1 : wanted_degree)
+      DualBasis(const Cover &cover, const unsigned int wanted_degree) : degree(wanted_degree)
       {
         if (!build(cover))
         {
