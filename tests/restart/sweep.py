@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Sweeps: each line has the quantities of a run of its own; the table is the same, byte for byte, for 1, 2 and 4 workers,
+"""Sweeps: each line has the quantities of a run of its own, though the cases share what they have in common; the table is the same, byte for byte, for 1, 2 and 4 workers,
 and when the sweep is killed and resumed; a case that fails is a line; mistakes are one line of error each."""
 import argparse
 import csv
@@ -141,6 +141,40 @@ def check_killed(folder, name, reference):
     expect("SIGINT", process.returncode == 130 and "sweep ended by SIGINT with" in said and "--sweep --resume" in said, said)
 
 
+def numbers_in(node):
+    """All numbers of a JSON document."""
+    if isinstance(node, (dict, list)):
+        return {number for child in (node.values() if isinstance(node, dict) else node) for number in numbers_in(child)}
+    return {float(node)} if isinstance(node, (int, float)) and not isinstance(node, bool) else set()
+
+
+def check_sharing(folder):
+    """The sweep over pantographs, in short: on any number of workers the same bytes, and in each line the numbers of a run of
+    its own, to the last bit, though line, wires and parameters are made once."""
+    short = [word for entry in ("Time/End=0.4", "Statistics/Window=65, 80", "Sweep/Samples=7", "Catenary/Uplift positions=80",
+                                "Output/Folder=short") for word in ("--set", entry)]
+    name = str((arguments.prm / "en50318_2002_sweep.prm").resolve())
+    first = sweep(folder, name, "on_1", *short)
+    for ranks in (2, 4):
+        expect(f"pantographs on {ranks} workers", sweep(folder, name, f"on_{ranks}", *short, ranks=ranks) == first)
+    table = rows(first)
+    expect("pantographs", len(table) == 7 and len({row["masses"] for row in table}) == 7, first[:500])
+    entries = {"masses": "Masses", "stiffnesses": "Stiffnesses", "dampings": "Dampings", "speed": "Speed"}
+    for row in (table[0], table[4], table[6]):
+        values = [word for column, entry in entries.items()
+                  for word in ("--set", f"Catenary/Pantograph pantograph/{entry}={row[column]}")]
+        result = taut(folder, name, *short, *values, "--overwrite")
+        expect("a pantograph alone", result.returncode == 0, result.stderr)
+        alone = numbers_in(json.loads((folder / "short" / "statistics.json").read_text()))
+        titles = [title for title in row if ": " in title]
+        expect("quantities of a pantograph", len(titles) > 400, len(titles))
+        # Times and the contact loss are rounded there.
+        missing = [title for title in titles if not title.startswith("contact wire") and
+                   not title.endswith(("time [s]", "contact loss [1]")) and float(row[title]) not in alone]
+        expect("numbers of a run alone", not missing, missing[:5])
+        expect("certified", max(float(row["complementarity [1]"]), float(row["balance [1]"])) < 1e-10 and not row["message"], row)
+
+
 def check_pictures(folder):
     """Curves over one entry, a map over two, percentiles of a sample."""
     mass = {"Entries": MASS, "Values": "1:0.5:3"}
@@ -177,6 +211,8 @@ def check_mistakes(folder):
             ("no range", {"m": {"Entries": MASS, "Distribution": "normal"}}, {"Samples": 3}, (), "standard deviation"),
             ("unequal lists", {"m": one, "k": {"Entries": STIFFNESS, "Values": "1, 2"}}, {"Combination": "zipped"}, (),
              "equally long"),
+            ("half a range", {"m": {"Entries": MASS, "Distribution": "uniform", "Range": "1, 2, 3"}}, {"Samples": 3}, (),
+             "least and the largest"),
             ("varied twice", {"m": one, "k": one}, {}, (), "varied twice"),
             ("the folder", {"m": {"Entries": "Sweep/Folder", "Values": "1"}}, {}, (), "not part of the scene"),
             ("--study", {"m": one}, {}, ("--study",), "exclude each other"),
@@ -191,7 +227,7 @@ def check_mistakes(folder):
 
 
 with tempfile.TemporaryDirectory() as name:
-    for check in (check_values, check_random, check_pictures, check_mistakes):
+    for check in (check_values, check_random, check_sharing, check_pictures, check_mistakes):
         folder = pathlib.Path(name) / check.__name__
         folder.mkdir()
         check(folder)

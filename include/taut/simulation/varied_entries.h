@@ -15,7 +15,7 @@ namespace dealii
 namespace taut
 {
   /// Entries of a scene that take values together, one after the other: what a study and a sweep
-  /// have in common in their sections 'Parameter <name>'.
+  /// have in common in the sections of their parameters.
   struct VariedEntries
   {
     std::string entries, values; ///< as written
