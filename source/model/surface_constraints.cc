@@ -33,7 +33,8 @@ namespace taut
         return std::make_unique<SphereObstacle>(o.point, o.radius, side);
       default:
         return std::make_unique<HeightObstacle>(
-            dim, o.direction, [height = o.height](const Coordinates &foot) { return height(foot, 0.); },
+            dim, o.direction,
+            [height = o.height](const Coordinates &foot) { return height(foot, 0.); },
             o.height_change);
       }
     }

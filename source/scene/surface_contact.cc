@@ -122,8 +122,7 @@ namespace taut
           !(item.radius > 0.))
         throw EntryError(section + "Radius", "it must be positive");
       obstacle.encloses_body = item.encloses_body;
-      obstacle.height =
-          Expression(item.height, section + "Height", Expression::Variables::space);
+      obstacle.height = Expression(item.height, section + "Height", Expression::Variables::space);
       if (obstacle.height.depends_on_time())
         throw EntryError(section + "Height", "an obstacle does not move: no t in its formula");
       if (!(item.height_change > 0.))

@@ -49,9 +49,8 @@ namespace taut
         const std::string name = entry.path().filename().string(),
                           ending = entry.path().extension().string();
         if (names.count(name) ||
-            (ending == ".vtu" &&
-             (begins(name, "wires_") || begins(name, "links_") || begins(name, "body_") ||
-              begins(name, "contact_"))) ||
+            (ending == ".vtu" && (begins(name, "wires_") || begins(name, "links_") ||
+                                  begins(name, "body_") || begins(name, "contact_"))) ||
             (ending == ".pvd" && (begins(name, "body_") || begins(name, "contact_"))) ||
             (ending == ".csv" && begins(name, "contact_")))
           results.push_back(entry.path());

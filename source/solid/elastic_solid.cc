@@ -60,7 +60,8 @@ namespace taut
     unsigned int axis_of(const std::vector<dealii::Tensor<1, dim>> &normals)
     {
       for (unsigned int axis = 0; axis < dim; ++axis)
-        if (std::all_of(normals.begin(), normals.end(), [axis](const dealii::Tensor<1, dim> &n)
+        if (std::all_of(normals.begin(), normals.end(),
+                        [axis](const dealii::Tensor<1, dim> &n)
                         { return std::fabs(n[axis]) > 1. - along_axis; }))
           return axis;
       throw UserError("symmetry needs faces across an axis; the normal of one is (" +
@@ -221,9 +222,8 @@ namespace taut
           {
             const unsigned int b = element.system_to_component_index(j).first;
             const auto &gj = values.shape_grad(j, q);
-            k(i, j) += (lambda * gi[a] * gj[b] + mu * gi[b] * gj[a] +
-                        (a == b ? mu * (gi * gj) : 0.)) *
-                       dx;
+            k(i, j) +=
+                (lambda * gi[a] * gj[b] + mu * gi[b] * gj[a] + (a == b ? mu * (gi * gj) : 0.)) * dx;
           }
         }
       }
@@ -274,8 +274,8 @@ namespace taut
         for (unsigned int j = 0; j < n; ++j)
           if (element.system_to_component_index(j).first == c)
             for (const unsigned int q : values.quadrature_point_indices())
-              row[j] += density * values.shape_value(i, q) * values.shape_value(j, q) *
-                        values.JxW(q);
+              row[j] +=
+                  density * values.shape_value(i, q) * values.shape_value(j, q) * values.JxW(q);
         if (!lumped)
           for (unsigned int j = 0; j < n; ++j)
             if (element.system_to_component_index(j).first == c)
@@ -321,8 +321,7 @@ namespace taut
                       o.mapping = &given->mapping();
                       return o;
                     }()),
-        mesh(std::move(given)), options(chosen),
-        boundary(mesh->surface({}))
+        mesh(std::move(given)), options(chosen), boundary(mesh->surface({}))
   {
     std::map<dealii::types::global_dof_index, std::function<double(double)>> motions;
     for (const auto &[dof, by] : assembled.prescribed)
@@ -366,11 +365,10 @@ namespace taut
       const auto add = [this, &condition, faces](const double t, dealii::Vector<double> &P)
       {
         const dealii::FiniteElement<dim> &element = mesh->dof_handler().get_fe();
-        dealii::FEFaceValues<dim> values(mesh->mapping(), element,
-                                         mesh->face_quadrature(mesh->degree() + 1),
-                                         dealii::update_values | dealii::update_JxW_values |
-                                             dealii::update_normal_vectors |
-                                             dealii::update_quadrature_points);
+        dealii::FEFaceValues<dim> values(
+            mesh->mapping(), element, mesh->face_quadrature(mesh->degree() + 1),
+            dealii::update_values | dealii::update_JxW_values | dealii::update_normal_vectors |
+                dealii::update_quadrature_points);
         const double thickness = dim == 2 ? options.thickness : 1.;
         std::vector<dealii::types::global_dof_index> index(element.n_dofs_per_cell());
         for (const auto &[cell, f] : faces)

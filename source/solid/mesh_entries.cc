@@ -38,13 +38,15 @@ namespace taut
     prm.add_parameter("File", file,
                       "Of a mesh in a format that deal.II reads, e.g. .msh of gmsh; empty: "
                       "Generator makes it");
-    prm.add_parameter("Generator", generator,
-                      "Function of deal.II's GridGenerator: hyper_cube, subdivided_hyper_rectangle, "
-                      "hyper_ball, quarter_hyper_ball, cylinder, plate_with_a_hole, ...");
-    prm.add_parameter("Arguments", arguments,
-                      "Those of the function after the mesh, with colons between them, numbers in "
-                      "m: e.g. '4, 2 : 0, 0 : 2, 1 : true' for cells, two corners, and boundary ids "
-                      "2d (left or lower) and 2d + 1 across axis d");
+    prm.add_parameter(
+        "Generator", generator,
+        "Function of deal.II's GridGenerator: hyper_cube, subdivided_hyper_rectangle, "
+        "hyper_ball, quarter_hyper_ball, cylinder, plate_with_a_hole, ...");
+    prm.add_parameter(
+        "Arguments", arguments,
+        "Those of the function after the mesh, with colons between them, numbers in "
+        "m: e.g. '4, 2 : 0, 0 : 2, 1 : true' for cells, two corners, and boundary ids "
+        "2d (left or lower) and 2d + 1 across axis d");
     prm.add_parameter("Refinements", refinements, "Each halves all cells in each direction");
     prm.add_parameter("Local refinements", local_refinements,
                       "Times that the cells are halved whose centre Refine where is positive at");
@@ -68,8 +70,8 @@ namespace taut
     {
       if (shift.size() != dim)
         throw EntryError(section + "Shift", "it has " + std::to_string(shift.size()) +
-                                           " components where the solid has " +
-                                           std::to_string(dim));
+                                                " components where the solid has " +
+                                                std::to_string(dim));
       dealii::Tensor<1, dim> by;
       for (unsigned int d = 0; d < dim; ++d)
         by[d] = shift[d];
@@ -89,13 +91,14 @@ namespace taut
     catch (const std::exception &e)
     {
       throw EntryError(section + "Arguments", "deal.II makes no mesh by " + generator + "(" +
-                                             arguments + "): " + reason(e));
+                                                  arguments + "): " + reason(e));
     }
     for (const auto &cell : cells.active_cell_iterators())
       if (!(cell->measure() > 0.))
-        throw EntryError(section + "Arguments", generator + "(" + arguments +
-                                               ") makes cells that are empty or turned inside "
-                                               "out; check sizes and the order of the corners");
+        throw EntryError(section + "Arguments",
+                         generator + "(" + arguments +
+                             ") makes cells that are empty or turned inside "
+                             "out; check sizes and the order of the corners");
   }
 
   template <int dim>
@@ -110,8 +113,9 @@ namespace taut
     }
     catch (const std::exception &e)
     {
-      throw EntryError(section + "File", "deal.II reads no mesh of dimension " + std::to_string(dim) +
-                                        " from '" + file + "': " + reason(e));
+      throw EntryError(section + "File", "deal.II reads no mesh of dimension " +
+                                             std::to_string(dim) + " from '" + file +
+                                             "': " + reason(e));
     }
   }
 
@@ -142,13 +146,16 @@ namespace taut
         }
       }
       if (!any)
-        throw EntryError(section + "Refine where", "'" + where + "' is positive at the centre of no "
-                                                            "cell in refinement " +
-                                                  std::to_string(r + 1));
+        throw EntryError(section + "Refine where", "'" + where +
+                                                       "' is positive at the centre of no "
+                                                       "cell in refinement " +
+                                                       std::to_string(r + 1));
       cells.execute_coarsening_and_refinement();
     }
   }
 
-  template std::unique_ptr<dealii::Triangulation<2>> MeshEntries::make<2>(const std::string &) const;
-  template std::unique_ptr<dealii::Triangulation<3>> MeshEntries::make<3>(const std::string &) const;
+  template std::unique_ptr<dealii::Triangulation<2>>
+  MeshEntries::make<2>(const std::string &) const;
+  template std::unique_ptr<dealii::Triangulation<3>>
+  MeshEntries::make<3>(const std::string &) const;
 } // namespace taut

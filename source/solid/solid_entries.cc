@@ -29,8 +29,7 @@ namespace taut
         {
           if (colon == std::string::npos)
             throw std::invalid_argument("no colon");
-          id = dealii::Utilities::string_to_int(
-              dealii::Utilities::trim(part.substr(0, colon)));
+          id = dealii::Utilities::string_to_int(dealii::Utilities::trim(part.substr(0, colon)));
         }
         catch (const std::exception &)
         {
@@ -81,8 +80,7 @@ namespace taut
       const std::vector<std::string> parts = split(formulas);
       if (parts.size() != dimension)
         throw EntryError(entry, "'" + formulas + "' has " + std::to_string(parts.size()) +
-                                    " components where the solid has " +
-                                    std::to_string(dimension));
+                                    " components where the solid has " + std::to_string(dimension));
       BoundaryCondition condition;
       condition.kind = kind;
       condition.boundaries = {id};
@@ -116,9 +114,10 @@ namespace taut
     prm.add_parameter("Young's modulus", youngs_modulus, "E [Pa]");
     prm.add_parameter("Poisson's ratio", poissons_ratio, "nu, more than -1 and less than 0.5 [1]");
     prm.add_parameter("Density", density, "[kg/m^3]", Patterns::Double(0.));
-    prm.add_parameter("Materials", materials,
-                      "Materials by the ids of the mesh, instead of the three entries above: 'id: E, "
-                      "nu, density; id: E, nu, density'");
+    prm.add_parameter(
+        "Materials", materials,
+        "Materials by the ids of the mesh, instead of the three entries above: 'id: E, "
+        "nu, density; id: E, nu, density'");
     prm.add_parameter("Plane state", plane_state,
                       "Of a solid in the plane: strain, it cannot expand across the plane; stress, "
                       "it is free to",
@@ -155,8 +154,8 @@ namespace taut
   {
     using Kind = BoundaryCondition::Kind;
     std::vector<BoundaryCondition> result;
-    const auto add = [&](const Kind kind, const std::vector<unsigned int> &ids,
-                         const std::string &entry)
+    const auto add =
+        [&](const Kind kind, const std::vector<unsigned int> &ids, const std::string &entry)
     {
       if (ids.empty())
         return;

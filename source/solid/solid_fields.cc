@@ -75,10 +75,9 @@ namespace taut
         if (element.system_to_component_index(i).first == 0 &&
             node.distance(element.unit_support_point(i)) < same)
           node_of_displacement.push_back(i);
-    names = dim == 2
-                ? std::vector<std::string>{"stress_xx", "stress_yy", "stress_xy", "stress_zz"}
-                : std::vector<std::string>{"stress_xx", "stress_yy", "stress_zz",
-                                           "stress_xy", "stress_xz", "stress_yz"};
+    names = dim == 2 ? std::vector<std::string>{"stress_xx", "stress_yy", "stress_xy", "stress_zz"}
+                     : std::vector<std::string>{"stress_xx", "stress_yy", "stress_zz",
+                                                "stress_xy", "stress_xz", "stress_yz"};
     names.insert(names.end(), {"principal_stress_1", "principal_stress_2", "principal_stress_3",
                                "von_mises_stress"});
     find(U);
@@ -95,8 +94,9 @@ namespace taut
         strain[a][b] = .5 * (gradient[a][b] + gradient[b][a]);
     if (dim == 2 && solid.options.plane_state == PlaneState::stress)
       strain[2][2] = -nu / (1. - nu) * (strain[0][0] + strain[1][1]);
-    return 2. * mu * (strain + nu / (1. - 2. * nu) * dealii::trace(strain) *
-                                   dealii::unit_symmetric_tensor<3>());
+    return 2. * mu *
+           (strain +
+            nu / (1. - 2. * nu) * dealii::trace(strain) * dealii::unit_symmetric_tensor<3>());
   }
 
   template <int dim>

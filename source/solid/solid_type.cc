@@ -106,7 +106,7 @@ namespace taut
       mutable std::unique_ptr<SolidOf> made;
     };
 
-    const Register<BodyType, SolidType>
-        solid("solid", "a linear elastic solid in the plane or in space");
+    const Register<BodyType, SolidType> solid("solid",
+                                              "a linear elastic solid in the plane or in space");
   } // namespace
 } // namespace taut

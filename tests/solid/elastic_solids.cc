@@ -132,15 +132,16 @@ TEST(ElasticSolids, linear_displacements_are_exact_on_distorted_cells)
 TEST(ElasticSolids, cantilevers_bend_as_beams)
 {
   const double E = 1e9, nu = .3;
-  const double slender = tip_deflection(50., 100, taut::PlaneState::stress) / timoshenko(50., E, nu),
+  const double slender =
+                   tip_deflection(50., 100, taut::PlaneState::stress) / timoshenko(50., E, nu),
                stocky = tip_deflection(4., 16, taut::PlaneState::stress) / timoshenko(4., E, nu);
   verification::figure("cantilever of 50 x 1, Q2, tip over Timoshenko", slender);
   verification::figure("cantilever of 4 x 1, Q2, tip over Timoshenko", stocky);
   EXPECT_NEAR(slender, 1., 5e-3);
   EXPECT_NEAR(stocky, 1., 5e-3);
   // Plane strain is a beam of the stiffness E / (1 - nu^2).
-  const double strain = tip_deflection(50., 100, taut::PlaneState::strain) /
-                        timoshenko(50., E / (1. - nu * nu), nu);
+  const double strain =
+      tip_deflection(50., 100, taut::PlaneState::strain) / timoshenko(50., E / (1. - nu * nu), nu);
   EXPECT_NEAR(strain, 1., 5e-3);
 }
 

@@ -27,26 +27,25 @@ namespace
   Found equilibrium(const std::string &scene, const Overrides &overrides = {})
   {
     Found found;
-    verification::run_scene(
-        scene, overrides,
-        [&](const taut::StepView &view)
-        {
-          found = {};
-          found.constraints = taut::contact_geometry(view.scene, 0).constraints;
-          std::size_t i = 0;
-          while (view.constraints[i].contact != 0)
-            ++i;
-          for (const taut::SurfaceConstraint &constraint : found.constraints)
-          {
-            found.force.push_back(view.state.multiplier[i]);
-            found.gap.push_back(view.state.geometric_gap[i]);
-            found.resultant += found.force.back();
-            found.largest_pressure =
-                std::fmax(found.largest_pressure, found.force.back() / constraint.area);
-            ++i;
-          }
-          found.iterations = view.certificate.iterations;
-        });
+    verification::run_scene(scene, overrides,
+                            [&](const taut::StepView &view)
+                            {
+                              found = {};
+                              found.constraints = taut::contact_geometry(view.scene, 0).constraints;
+                              std::size_t i = 0;
+                              while (view.constraints[i].contact != 0)
+                                ++i;
+                              for (const taut::SurfaceConstraint &constraint : found.constraints)
+                              {
+                                found.force.push_back(view.state.multiplier[i]);
+                                found.gap.push_back(view.state.geometric_gap[i]);
+                                found.resultant += found.force.back();
+                                found.largest_pressure = std::fmax(
+                                    found.largest_pressure, found.force.back() / constraint.area);
+                                ++i;
+                              }
+                              found.iterations = view.certificate.iterations;
+                            });
     return found;
   }
 
@@ -159,7 +158,8 @@ TEST(SurfaceContacts, a_ball_is_pressed_as_by_hertz)
   const double modulus = 1e9 / (1. - .09), force = 4. * found.resultant,
                a = std::cbrt(3. * force / (4. * modulus)), p0 = 3. * force / (2. * M_PI * a * a);
   verification::figure("Hertz' ball, half-width", a, "m");
-  verification::figure("Hertz' ball, error of the largest pressure", found.largest_pressure / p0 - 1.);
+  verification::figure("Hertz' ball, error of the largest pressure",
+                       found.largest_pressure / p0 - 1.);
   EXPECT_NEAR(found.largest_pressure / p0, 1., 1.5e-2);
   EXPECT_LE(found.iterations, 15);
 }

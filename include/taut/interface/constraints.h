@@ -40,11 +40,11 @@ namespace taut
   struct ConstraintData
   {
     std::string name;
-    std::string origin = {};    ///< path of its section in the parameter file, for messages
-    std::size_t link = no_link; ///< index of its source in the scene
+    std::string origin = {};          ///< path of its section in the parameter file, for messages
+    std::size_t link = no_link;       ///< index of its source in the scene
     std::size_t contact = no_contact; ///< the same of one of many of a contact of surfaces
-    bool unilateral = false;    ///< 0 <= D _|_ N >= 0; otherwise D = 0
-    bool rotational = false;    ///< slopes and moments
+    bool unilateral = false;          ///< 0 <= D _|_ N >= 0; otherwise D = 0
+    bool rotational = false;          ///< slopes and moments
     double stiffness = std::numeric_limits<double>::infinity(); ///< [N/m, N m/rad]
     double damping = 0.;                                        ///< [N s/m, N m s/rad]
     double gap = 0.;                                            ///< D at U = 0, N = 0 [m, rad]

@@ -10,9 +10,9 @@
 namespace taut
 {
   /**
-   * A scalar function of the position s [m] along a wire, or of a point x, y, z [m], and of the time
-   * t [s], written as a formula in the syntax of deal.II's FunctionParser; pi is known. Copies share the parsed
-   * formula.
+   * A scalar function of the position s [m] along a wire, or of a point x, y, z [m], and of the
+   * time t [s], written as a formula in the syntax of deal.II's FunctionParser; pi is known. Copies
+   * share the parsed formula.
    */
   class Expression
   {

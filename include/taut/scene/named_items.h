@@ -38,8 +38,8 @@ namespace taut
   class NamedItems
   {
   public:
-    /// @p parent is the path of the section that all this stands in, empty for none; @p list the entry with the
-    /// names, e.g. "Wires".
+    /// @p parent is the path of the section that all this stands in, empty for none; @p list the
+    /// entry with the names, e.g. "Wires".
     NamedItems(std::string parent, std::string list, std::string section, std::string help)
         : parent(std::move(parent)), list(std::move(list)), section(std::move(section)),
           help(std::move(help))

@@ -31,12 +31,12 @@ namespace taut
       height ///< all below a graph over the plane across `direction`
     };
     Shape shape = Shape::none;
-    Coordinates point;            ///< of the plane or the axis, or the centre [m]
-    Coordinates direction;        ///< out of the plane; of the axis; upwards
-    double radius = 0.;           ///< [m]
-    bool encloses_body = false;   ///< of a cylinder or sphere: a bore or socket
-    Expression height;            ///< formula of x, y, z [m]
-    double height_change = 1e-3;  ///< step of the differences of the height [m]
+    Coordinates point;           ///< of the plane or the axis, or the centre [m]
+    Coordinates direction;       ///< out of the plane; of the axis; upwards
+    double radius = 0.;          ///< [m]
+    bool encloses_body = false;  ///< of a cylinder or sphere: a bore or socket
+    Expression height;           ///< formula of x, y, z [m]
+    double height_change = 1e-3; ///< step of the differences of the height [m]
   };
 
   /// How the constraints of two surfaces are made.
