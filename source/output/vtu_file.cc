@@ -152,10 +152,12 @@ namespace taut
       stream.insert(entry, tail);
     else
     {
-      stream.create(path);
-      stream.append(std::string("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" "
-                                "version=\"1.0\" byte_order=\"") +
-                    byte_order() + "\">\n<Collection>\n" + entry + tail);
+      // As a whole: an empty file would be no collection.
+      const std::string text = std::string("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" "
+                                           "version=\"1.0\" byte_order=\"") +
+                               byte_order() + "\">\n<Collection>\n" + entry + tail;
+      write_file(path, text);
+      stream.resume(path, text.size());
     }
     ++n_entries;
   }
