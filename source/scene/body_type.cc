@@ -42,14 +42,13 @@ namespace taut
     types.clear();
     for (std::size_t i = 0; i < names.size(); ++i)
     {
-      if (known.empty())
-        throw EntryError("Bodies", "no type of body is known; name the library that registers it "
-                                   "in 'Additional shared libraries'");
       if (!registry.knows(type_names[i]))
         throw EntryError(title(i) + "/Type",
                          (type_names[i].empty() ? "it is missing" : "there is no such type") +
                              ("; known are: " + registry.names(", ")) +
-                             suggestion(type_names[i], known));
+                             suggestion(type_names[i], known) +
+                             ". A type of a plugin needs its library in 'Additional shared "
+                             "libraries'");
       types.push_back(registry.create(type_names[i]));
     }
   }

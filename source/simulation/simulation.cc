@@ -365,7 +365,7 @@ namespace taut
       file.end_line();
       file.close();
     }
-    if (links.size() == 0)
+    if (model.links.empty())
       return;
     CsvFile file(parameters.output.folder + "/start.csv",
                  {"link", "x [m]", "y [m]", "force [N or N m]", "gap [m or rad]", "length [m]"});

@@ -14,10 +14,10 @@
 namespace taut
 {
   /**
-   * The contacts of surfaces. contact_<name>.csv: a line each Output/Interval with the resultant
+   * The contacts of surfaces. `contact_<name>.csv`: a line each Output/Interval with the resultant
    * force on the slave, where it acts, the area in contact, the largest pressure and the least gap.
-   * contact_<name>_NNNNN.vtu, joined by contact_<name>.pvd: the nodes of the slave that may touch,
-   * with pressure, gap and normal, for ParaView.
+   * `contact_<name>_NNNNN.vtu`, joined by `contact_<name>.pvd`: the nodes of the slave that may
+   * touch, with pressure, gap and normal, for ParaView.
    */
   class ContactTables : public Observer
   {
