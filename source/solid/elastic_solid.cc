@@ -20,12 +20,6 @@ namespace taut
 {
   namespace
   {
-    template <int dim>
-    Coordinates coordinates(const dealii::Tensor<1, dim> &x)
-    {
-      return {x[0], x[1], dim == 3 ? x[dim - 1] : 0.};
-    }
-
     /// As far as a normal may be from an axis for a boundary along it.
     constexpr double along_axis = 1e-8;
 

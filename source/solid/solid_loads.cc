@@ -9,15 +9,6 @@
 
 namespace taut
 {
-  namespace
-  {
-    template <int dim>
-    Coordinates coordinates(const dealii::Tensor<1, dim> &x)
-    {
-      return {x[0], x[1], dim == 3 ? x[dim - 1] : 0.};
-    }
-  } // namespace
-
   /// Tractions and pressures, which are integrated once if they do not change.
   template <int dim>
   void ElasticSolid<dim>::add_boundary_loads()

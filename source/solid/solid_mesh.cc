@@ -52,11 +52,6 @@ namespace taut
       return std::make_unique<dealii::MappingQ<dim>>(degree);
     }
 
-    template <int dim>
-    Coordinates coordinates(const dealii::Tensor<1, dim> &x)
-    {
-      return {x[0], x[1], dim == 3 ? x[dim - 1] : 0.};
-    }
   } // namespace
 
   template <int dim>

@@ -22,6 +22,13 @@
 
 namespace taut
 {
+  /// A point or direction of deal.II; in the plane z = 0.
+  template <int dim>
+  Coordinates coordinates(const dealii::Tensor<1, dim> &x)
+  {
+    return {x[0], x[1], dim == 3 ? x[dim - 1] : 0.};
+  }
+
   /**
    * A mesh with displacements of degree 1 or 2 on it: quadrilaterals and hexahedra with hanging
    * nodes, or triangles and tetrahedra.
