@@ -46,9 +46,9 @@ namespace taut
         throw EntryError(title(i) + "/Type",
                          (type_names[i].empty() ? "it is missing" : "there is no such type") +
                              ("; known are: " + registry.names(", ")) +
-                             suggestion(type_names[i], known) +
-                             ". A type of a plugin needs its library in 'Additional shared "
-                             "libraries'");
+                             "; one of a plugin needs its library in 'Additional shared "
+                             "libraries'" +
+                             suggestion(type_names[i], known));
       types.push_back(registry.create(type_names[i]));
     }
   }

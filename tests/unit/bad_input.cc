@@ -301,14 +301,14 @@ end
          network,
          {{"set Generator = network",
            "set Generator = network\nset Bodies = solid\nset Contacts = wall\nsubsection Body "
-           "block\n  set Type = solid\n  set Young's modulus = 0 # here\nend\nsubsection Contact "
+           "solid\n  set Type = solid\n  set Young's modulus = 0 # here\nend\nsubsection Contact "
            "wall\n  set Slave = solid: 0\n  set Obstacle = plane\nend"}},
          {"Young's modulus = '0'", "needs a positive one [Pa]"}},
         {"boundary_that_a_mesh_does_not_have",
          network,
          {{"set Generator = network",
            "set Generator = network\nset Bodies = solid\nset Contacts = wall\nsubsection Body "
-           "block\n  set Type = solid\n  set Young's modulus = 1e9\n  set Fixed boundaries = 7 # "
+           "solid\n  set Type = solid\n  set Young's modulus = 1e9\n  set Fixed boundaries = 7 # "
            "here\nend\nsubsection Contact wall\n  set Slave = solid: 0\n  set Obstacle = "
            "plane\nend"}},
          {"Fixed boundaries = '7'", "the mesh has no boundary 7; it has 0 1 2 3"}},
@@ -316,14 +316,14 @@ end
          network,
          {{"set Generator = network",
            "set Generator = network\nset Bodies = solid\nset Contacts = wall\nsubsection Body "
-           "block\n  set Type = solid\n  set Young's modulus = 1e9\nend\nsubsection Contact wall\n "
+           "solid\n  set Type = solid\n  set Young's modulus = 1e9\nend\nsubsection Contact wall\n "
            " set Slave = sollid: 0 # here\n  set Obstacle = plane\nend"}},
          {"Contact wall/Slave = 'sollid: 0'", "known are: solid"}},
         {"traction_with_too_few_components",
          network,
          {{"set Generator = network",
            "set Generator = network\nset Bodies = solid\nset Contacts = wall\nsubsection Body "
-           "block\n  set Type = solid\n  set Young's modulus = 1e9\n  set Traction = 1: 3 # "
+           "solid\n  set Type = solid\n  set Young's modulus = 1e9\n  set Traction = 1: 3 # "
            "here\nend\nsubsection Contact wall\n  set Slave = solid: 0\n  set Obstacle = "
            "plane\nend"}},
          {"Traction = '1: 3'", "1 components where the solid has 2"}},
@@ -331,7 +331,7 @@ end
          network,
          {{"set Generator = network",
            "set Generator = network\nset Bodies = solid\nset Contacts = wall\nsubsection Body "
-           "block\n  set Type = solid\n  set Young's modulus = 1e9\nend\nsubsection Contact wall\n "
+           "solid\n  set Type = solid\n  set Young's modulus = 1e9\nend\nsubsection Contact wall\n "
            " set Slave = solid: 0\n  set Obstacle = height\n  set Height = 0.1*t # here\nend"}},
          {"Contact wall/Height", "an obstacle does not move"}},
         {"unknown_observer",
