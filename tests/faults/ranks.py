@@ -7,6 +7,7 @@ import collections
 import os
 import pathlib
 import random
+import re
 import subprocess
 import sys
 import tempfile
@@ -70,9 +71,9 @@ with tempfile.TemporaryDirectory() as name:
                 figures[fault, "injected"] += 1
                 if not expect(f"{what}: ends", result is not None):
                     continue
-                # The rank that ends the others has mpirun send them a signal, of which they say that they got it.
-                said = [line for line in result.stderr.splitlines()
-                        if line.startswith("taut: ") and not line.startswith("taut: ending")]
+                # The rank that ends the others has mpirun send them a signal, of which they say that they got it. What
+                # mpirun itself says may begin the line.
+                said = re.findall(r"taut: (?!ending;)[^\n]*", result.stderr)
                 figures[fault, "clean"] += expect(f"{what}: one message, exit code 1",
                                                   result.returncode == 1 and len(said) == 1 and message in said[0],
                                                   f"{result.returncode} {said} {result.stderr}")
