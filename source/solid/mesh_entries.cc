@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "mesh_arguments.h"
 #include "solid_entries.h"
 
 #include <taut/base/exceptions.h>
@@ -10,6 +11,7 @@
 #include <deal.II/grid/grid_in.h>
 #include <deal.II/grid/grid_tools.h>
 
+#include <cmath>
 #include <fstream>
 #include <regex>
 
@@ -38,18 +40,23 @@ namespace taut
     prm.add_parameter("File", file,
                       "Of a mesh in a format that deal.II reads, e.g. .msh of gmsh; empty: "
                       "Generator makes it");
-    prm.add_parameter(
-        "Generator", generator,
-        "Function of deal.II's GridGenerator: hyper_cube, subdivided_hyper_rectangle, "
-        "hyper_ball, quarter_hyper_ball, cylinder, plate_with_a_hole, ...");
+    prm.add_parameter("Generator", generator,
+                      "Function of deal.II's GridGenerator. Its arguments: "
+                      "subdivided_hyper_rectangle, 'numbers of cells : corner : opposite corner'; "
+                      "hyper_ball, half_hyper_ball (x above that of the centre), "
+                      "quarter_hyper_ball (a quarter, in space an eighth), 'centre : radius'; "
+                      "cylinder along x, 'radius : half length'",
+                      Patterns::Selection("subdivided_hyper_rectangle|hyper_ball|half_hyper_ball|"
+                                          "quarter_hyper_ball|cylinder"));
     prm.add_parameter(
         "Arguments", arguments,
-        "Those of the function after the mesh, with colons between them, numbers in "
-        "m: e.g. '4, 2 : 0, 0 : 2, 1 : true' for cells, two corners, and boundary ids "
-        "2d (left or lower) and 2d + 1 across axis d");
-    prm.add_parameter("Refinements", refinements, "Each halves all cells in each direction");
+        "Of the generator, in m, with colons between them: e.g. '4, 2 : 0, 0 : 2, 1'. "
+        "A rectangle has the boundary ids 2d (left or lower) and 2d + 1 across axis d");
+    prm.add_parameter("Refinements", refinements, "Each halves all cells in each direction",
+                      Patterns::Integer(0, 12));
     prm.add_parameter("Local refinements", local_refinements,
-                      "Times that the cells are halved whose centre Refine where is positive at");
+                      "Times that the cells are halved whose centre Refine where is positive at",
+                      Patterns::Integer(0, 30));
     prm.add_parameter("Refine where", where,
                       "Formula of x, y, z at the centre of a cell, positive where it is refined; t "
                       "is the number of local refinements so far, e.g. '0.1/2^t-sqrt(x^2+y^2)'");
@@ -84,21 +91,41 @@ namespace taut
   template <int dim>
   void MeshEntries::generate(dealii::Triangulation<dim> &cells, const std::string &section) const
   {
-    try
+    namespace Generator = dealii::GridGenerator;
+    MeshArguments<dim> given(arguments, section + "Arguments");
+    if (generator == "subdivided_hyper_rectangle")
     {
-      dealii::GridGenerator::generate_from_name_and_arguments(cells, generator, arguments);
+      const std::vector<unsigned int> n = given.cells();
+      const dealii::Point<dim> from = given.point("first corner"),
+                               to = given.point("second corner");
+      for (unsigned int d = 0; d < dim; ++d)
+        if (!(to[d] > from[d]))
+          throw given.error("the second corner must be beyond the first along each axis");
+      given.finish();
+      Generator::subdivided_hyper_rectangle(cells, n, from, to, true);
     }
-    catch (const std::exception &e)
+    else if (generator == "cylinder")
     {
-      throw EntryError(section + "Arguments", "deal.II makes no mesh by " + generator + "(" +
-                                                  arguments + "): " + reason(e));
+      const double radius = given.positive("radius"), half_length = given.positive("half length");
+      given.finish();
+      if constexpr (dim == 3)
+        Generator::cylinder(cells, radius, half_length);
+      else
+        throw EntryError(section + "Generator",
+                         "a cylinder is in space; in the plane take hyper_ball");
     }
-    for (const auto &cell : cells.active_cell_iterators())
-      if (!(cell->measure() > 0.))
-        throw EntryError(section + "Arguments",
-                         generator + "(" + arguments +
-                             ") makes cells that are empty or turned inside "
-                             "out; check sizes and the order of the corners");
+    else
+    {
+      const dealii::Point<dim> centre = given.point("centre");
+      const double radius = given.positive("radius");
+      given.finish();
+      if (generator == "quarter_hyper_ball")
+        Generator::quarter_hyper_ball(cells, centre, radius);
+      else if (generator == "half_hyper_ball")
+        Generator::half_hyper_ball(cells, centre, radius);
+      else
+        Generator::hyper_ball(cells, centre, radius);
+    }
   }
 
   template <int dim>
@@ -127,6 +154,16 @@ namespace taut
       throw EntryError(section + "Local refinements",
                        "triangles and tetrahedra are not refined locally; refine where the mesh is "
                        "made, or use quadrilaterals or hexahedra");
+    const auto check_number = [&](const double n, const char *const entry)
+    {
+      if (n > most_cells)
+        throw EntryError(section + entry, "the mesh would have more than 1e7 cells; refine less");
+    };
+    check_number(cells.n_active_cells() * std::pow(2., dim * static_cast<double>(refinements)),
+                 "Refinements");
+    if (refinements > 0 && !can_be_refined)
+      throw EntryError(section + "Refinements", "triangles and tetrahedra are not refined here; "
+                                                "refine where the mesh is made");
     cells.refine_global(static_cast<int>(refinements));
     if (local_refinements == 0)
       return;
@@ -150,6 +187,7 @@ namespace taut
                                                        "' is positive at the centre of no "
                                                        "cell in refinement " +
                                                        std::to_string(r + 1));
+      check_number(cells.n_active_cells() * std::pow(2., dim), "Local refinements");
       cells.execute_coarsening_and_refinement();
     }
   }

@@ -30,8 +30,8 @@ namespace taut
     template <int dim>
     void refine(dealii::Triangulation<dim> &cells, const std::string &section) const;
 
-    std::string file, generator = "subdivided_hyper_rectangle",
-                      arguments = "4, 4 : 0, 0 : 1, 1 : true", where;
+    std::string file, generator = "subdivided_hyper_rectangle", arguments = "4, 4 : 0, 0 : 1, 1",
+                      where;
     unsigned int refinements = 0, local_refinements = 0;
     std::vector<double> shift;
   };

@@ -109,7 +109,8 @@ fails(["Network/Link contact/From", "is not on it"],
       "--set", "Network/Link contact/From=plate @ 2.5, 1")
 fails(["Network/Link contact/From", "say where on the body"], "--set", "Network/Link contact/From=plate")
 fails(["Body plate/Type", "did you mean 'elastic plate'"], "--set", "Body plate/Type=elastic plat")
-fails(["no type of body is known"], "--set", "Additional shared libraries=")
+fails(["there is no such type", "needs its library in 'Additional shared libraries'"], "--set",
+      "Additional shared libraries=")
 fails(["there is no entry 'Presure'", "did you mean 'Pressure'"], "--set", "Body plate/Presure=1")
 fails(["'largest displacemen'", "did you mean 'largest displacement'"], "--set", "Output/Observers=largest displacemen")
 
