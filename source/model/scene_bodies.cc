@@ -25,6 +25,11 @@ namespace taut
                                                        : 0);
     }
 
+    bool is_divided(const Partition &partition, const std::size_t body)
+    {
+      return body < partition.bodies.size() && partition.bodies[body].body;
+    }
+
     /// The rank of each part, each mechanism and each custom body: the largest first, each to the
     /// rank with the fewest DoFs so far.
     std::vector<unsigned int> share_out(const Scene &scene, const Partition &partition,
@@ -43,8 +48,16 @@ namespace taut
       }
       for (const std::vector<std::size_t> &members : mechanisms)
         n_dofs.push_back(members.size());
-      for (const CustomBody &body : scene.bodies)
-        n_dofs.push_back(body.type->n_dofs());
+      for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+        if (!is_divided(partition, i))
+          n_dofs.push_back(scene.bodies[i].type->n_dofs());
+        else
+        {
+          n_dofs.push_back(0);
+          const BodyCells &cells = partition.bodies[i].body->cells();
+          for (std::size_t c = 0; n_ranks > 1 && c < cells.size(); ++c)
+            n_dofs[partition.bodies[i].part[c]] += cells.n_dofs() / cells.size() + 1;
+        }
 
       std::vector<std::size_t> order(n_dofs.size());
       std::iota(order.begin(), order.end(), 0);
@@ -74,32 +87,6 @@ namespace taut
       const std::string cut =
           archived([&](OutputArchive &archive) { archive << kind << nodes << first << last; });
       return shared->wires.find(values_of(part) + cut, make);
-    }
-
-    /// Of a point of a custom body; EntryError about @p entry if it is not on the body or does not
-    /// move along the direction.
-    LinearForm displacement(const Substructure &body, const Attachment &at,
-                            const Coordinates &direction, const std::string &origin,
-                            const std::string &entry)
-    {
-      LinearForm form;
-      try
-      {
-        form = body.displacement(at.place, direction);
-      }
-      catch (const EntryError &)
-      {
-        throw;
-      }
-      catch (const UserError &e)
-      {
-        throw EntryError(origin.empty() ? "" : origin + "/" + entry, e.what());
-      }
-      if (form.index.empty())
-        throw EntryError(origin.empty() ? "" : origin + "/" + entry,
-                         "body '" + body.name() +
-                             "' has no motion there along the direction; change the direction");
-      return form;
     }
   } // namespace
 
@@ -136,62 +123,8 @@ namespace taut
       for (const std::size_t mass : mechanisms[m])
         mechanism_of_mass[mass] = k;
     }
-    add_custom_bodies(scene, owner.data() + partition.n_parts + mechanisms.size());
+    add_custom_bodies(scene, partition, owner);
     check_places(scene);
-  }
-
-  void SceneBodies::add_custom_bodies(const Scene &scene, const unsigned int *const owner)
-  {
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-    {
-      const CustomBody &body = scene.bodies[i];
-      const auto make = [&]
-      {
-        std::unique_ptr<Substructure> made =
-            body.type->make({body.name, body.origin, scene.gravity});
-        if (!made)
-          throw EntryError(body.origin, "its type '" + body.type_name + "' made no body");
-        add_loads(scene, i, *made);
-        return made;
-      };
-      custom_bodies.push_back(add(body.name, owner[i], make));
-    }
-  }
-
-  void SceneBodies::add_loads(const Scene &scene, const std::size_t body, Substructure &made) const
-  {
-    for (const Load &load : scene.loads)
-    {
-      if (load.target.kind != Attachment::Kind::body || load.target.index != body)
-        continue;
-      const LinearForm form = displacement(made, load.target, load.direction, load.origin, "On");
-      if (load.magnitude.depends_on_time())
-        made.add_force(form, [f = load.magnitude](const double t) { return f(0., t); });
-      else
-        made.add_force(form, load.magnitude(0., 0.));
-    }
-  }
-
-  /// That all points at custom bodies are on them and move, on all ranks alike.
-  void SceneBodies::check_places(const Scene &scene) const
-  {
-    const auto check = [&](const Attachment &end, const Coordinates &direction,
-                           const std::string &origin, const std::string &entry)
-    {
-      if (end.kind == Attachment::Kind::body && custom_bodies[end.index] != elsewhere)
-        displacement((*this)[custom_bodies[end.index]], end, direction, origin, entry);
-    };
-    communicator().agree(
-        [&]
-        {
-          for (const Link &link : scene.links)
-          {
-            check(link.from, link.direction, link.origin, "From");
-            check(link.to, link.direction, link.origin, "To");
-          }
-          for (const Probe &probe : scene.probes)
-            check(probe.point, probe.direction, probe.origin, "Point");
-        });
   }
 
   void SceneBodies::add_pieces(const Scene &scene, const std::size_t wire, const WireMotion motion,
@@ -271,8 +204,9 @@ namespace taut
     }
     else if (point.kind == Attachment::Kind::body)
     {
-      const std::size_t k = custom_bodies[point.index];
-      if (k != elsewhere && !rotational && !derivative)
+      const std::size_t k =
+          rotational || derivative ? elsewhere : index_at(point.index, point.place);
+      if (k != elsewhere)
         append(k, factor, (*this)[k].displacement(point.place, direction));
     }
     else if (point.kind == Attachment::Kind::wire)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/exceptions.h>
+#include <taut/base/about_entry.h>
 #include <taut/model/surface_constraints.h>
 #include <taut/solid/contact_constraints.h>
 #include <taut/solid/rigid_obstacle.h>
@@ -91,44 +91,39 @@ namespace taut
       constraints.resize(n);
     }
 
-    /// The form of weights of the nodes of a body, if it is on this rank.
+    /// The form of weights of the nodes of a body, as far as its parts are on this rank.
     void append(const SceneBodies &bodies, const std::size_t body,
                 const std::vector<NodeWeight> &weights, std::vector<Term> &terms)
     {
-      const std::size_t k = bodies.index_of_body(body);
-      if (k == Structure::elsewhere || weights.empty())
-        return;
-      terms.push_back({k, {}});
+      std::map<std::size_t, LinearForm> of_part;
       for (const NodeWeight &w : weights)
       {
+        const std::size_t k = bodies.index_at_node(body, w.node);
+        if (k == Structure::elsewhere)
+          continue;
         const LinearForm form = bodies[k].node_displacement(w.node, w.weight);
         for (std::size_t e = 0; e < form.index.size(); ++e)
-          terms.back().form.add(form.index[e], form.value[e]);
+          of_part[k].add(form.index[e], form.value[e]);
       }
+      for (auto &[k, form] : of_part)
+        terms.push_back({k, std::move(form)});
     }
   } // namespace
 
   ContactGeometry contact_geometry(const Scene &scene, const std::size_t number)
   {
     const SurfaceContact &contact = scene.contacts[number];
-    try
-    {
-      ContactGeometry geometry;
-      geometry.slave = surface_of(scene, contact.slave);
-      geometry.constraints = constraints_of(scene, contact, geometry.slave);
-      condense(geometry.slave, geometry.constraints);
-      for (SurfaceConstraint &constraint : geometry.constraints)
-        constraint.gap += contact.gap;
-      return geometry;
-    }
-    catch (const EntryError &)
-    {
-      throw;
-    }
-    catch (const UserError &e)
-    {
-      throw EntryError(contact.origin, e.what());
-    }
+    return about_entry(contact.origin,
+                       [&]
+                       {
+                         ContactGeometry geometry;
+                         geometry.slave = surface_of(scene, contact.slave);
+                         geometry.constraints = constraints_of(scene, contact, geometry.slave);
+                         condense(geometry.slave, geometry.constraints);
+                         for (SurfaceConstraint &constraint : geometry.constraints)
+                           constraint.gap += contact.gap;
+                         return geometry;
+                       });
   }
 
   std::vector<ConstraintData> surface_constraints(const Scene &scene, const SceneBodies &bodies)

@@ -64,8 +64,9 @@ namespace taut
     std::vector<double> shown(scene.bodies.size(), 0.);
     for (std::size_t i = 0; i < shown.size(); ++i)
     {
-      const std::size_t k = structure.index_of_body(i);
-      shown[i] = k != Structure::elsewhere && structure[k].has_fields() ? 1. : 0.;
+      for (const std::size_t k : structure.indices_of_body(i))
+        if (k != Structure::elsewhere && structure[k].has_fields())
+          shown[i] = 1.;
     }
     structure.communicator().sum(shown);
     for (std::size_t i = 0; i < shown.size(); ++i)
@@ -78,7 +79,7 @@ namespace taut
                                                          "_*.vtu', which are those of another "
                                                          "body; rename one");
         bodies.push_back(
-            {stem, structure.index_of_body(i), PvdFile(folder + "/" + stem + ".pvd"), 0});
+            {stem, structure.indices_of_body(i), PvdFile(folder + "/" + stem + ".pvd"), 0});
       }
   }
 
@@ -86,16 +87,22 @@ namespace taut
   {
     for (BodyFiles &body : bodies)
     {
-      const std::string frame = numbered(body.stem, body.n_frames++);
-      if (body.index != Structure::elsewhere)
+      const unsigned int number = body.n_frames++;
+      for (std::size_t part = 0; part < body.parts.size(); ++part)
       {
-        std::vector<double> U = step.reference.displacement[body.index];
-        for (std::size_t i = 0; i < U.size(); ++i)
-          U[i] += step.state.U[body.index][i];
-        step.structure[body.index].write_vtu(folder + "/" + frame, U);
+        const bool is_whole = body.parts.size() == 1;
+        const std::string frame =
+            numbered(is_whole ? body.stem : body.stem + "_part" + std::to_string(part), number);
+        if (const std::size_t k = body.parts[part]; k != Structure::elsewhere)
+        {
+          std::vector<double> U = step.reference.displacement[k];
+          for (std::size_t i = 0; i < U.size(); ++i)
+            U[i] += step.state.U[k][i];
+          step.structure[k].write_vtu(folder + "/" + frame, U);
+        }
+        if (step.structure.communicator().is_root())
+          body.collection.add(step.state.time, frame, part);
       }
-      if (step.structure.communicator().is_root())
-        body.collection.add(step.state.time, frame);
     }
   }
 

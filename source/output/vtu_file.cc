@@ -144,10 +144,11 @@ namespace taut
     stream.insert("", tail);
   }
 
-  void PvdFile::add(const double time, const std::string &file)
+  void PvdFile::add(const double time, const std::string &file, const std::size_t part)
   {
-    const std::string entry =
-        "<DataSet timestep=\"" + time_text(time) + "\" file=\"" + file + "\"/>\n";
+    const std::string entry = "<DataSet timestep=\"" + time_text(time) +
+                              (part > 0 ? "\" part=\"" + std::to_string(part) : "") + "\" file=\"" +
+                              file + "\"/>\n";
     if (n_entries > 0)
       stream.insert(entry, tail);
     else

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "cell_parts.h"
+
 #include <taut/base/exceptions.h>
 #include <taut/partition/make_partition.h>
 #include <taut/scene/entries.h>
@@ -27,11 +29,14 @@ namespace taut
       return (*after - s < s - *(after - 1) ? after : after - 1) - nodes.begin();
     }
 
-    /// The grid nodes of all wires as vertices of one graph.
+    /// The grid nodes of all wires, and the cells of all bodies that can be cut, as vertices of one
+    /// graph.
     class NodeGraph
     {
     public:
       explicit NodeGraph(const Scene &scene);
+
+      std::size_t n_vertices() const { return neighbours.size(); }
 
       /// Part of every node.
       std::vector<idx_t> parts(idx_t n_parts) const;
@@ -40,12 +45,16 @@ namespace taut
       std::vector<std::size_t> first;         ///< vertex of the first node of each wire
       std::vector<std::vector<char>>
           is_attachment; ///< a link, support, mass or load is on the node
+      std::vector<std::shared_ptr<const DivisibleBody>> bodies; ///< none: it stays whole
+      std::vector<std::size_t> first_cell;                      ///< vertex of the first of each
 
     private:
       /// Elements hold their ends together more than links do.
       static constexpr idx_t element_weight = 10, link_weight = 1;
 
+      void add_cells(const DivisibleBody &body);
       void connect(std::size_t a, std::size_t b, idx_t weight);
+      void connect(const Link &link);
       void note(const Attachment &end);
 
       std::vector<std::map<idx_t, idx_t>> neighbours;
@@ -69,16 +78,20 @@ namespace taut
         for (std::size_t i = 0; i + 1 < nodes[w].size(); ++i)
           connect(first[w] + i, first[w] + i + 1, element_weight);
       }
+      for (const CustomBody &body : scene.bodies)
+      {
+        bodies.push_back(body.type->division({body.name, body.origin, scene.gravity}));
+        first_cell.push_back(neighbours.size());
+        if (bodies.back())
+          add_cells(*bodies.back());
+      }
       for (const Link &link : scene.links)
       {
         if (link.moving())
           continue;
         note(link.from);
         note(link.to);
-        if (link.from.kind == Attachment::Kind::wire && link.to.kind == Attachment::Kind::wire)
-          connect(first[link.from.index] + nearest_node(nodes[link.from.index], link.from.position),
-                  first[link.to.index] + nearest_node(nodes[link.to.index], link.to.position),
-                  link_weight);
+        connect(link);
       }
       const auto note_all = [&](const std::size_t wire, const std::vector<double> &positions)
       {
@@ -92,6 +105,38 @@ namespace taut
       for (const Load &load : scene.loads)
         if (load.kind == Load::Kind::point)
           note(load.target);
+    }
+
+    void NodeGraph::add_cells(const DivisibleBody &body)
+    {
+      const BodyCells &cells = body.cells();
+      const auto pairs = cell_neighbours(cells);
+      const std::size_t begin = neighbours.size();
+      neighbours.resize(begin + cells.size());
+      work.resize(neighbours.size(), std::max<idx_t>(1, cells.n_dofs() / cells.size()));
+      for (std::size_t c = 0; c < pairs.size(); ++c)
+        for (const auto &[other, n_shared] : pairs[c])
+          if (other < c)
+            connect(begin + c, begin + other, element_weight * n_shared);
+    }
+
+    void NodeGraph::connect(const Link &link)
+    {
+      std::vector<std::size_t> ends;
+      for (const Attachment &end : {link.from, link.to})
+        if (end.kind == Attachment::Kind::wire)
+          ends.push_back(first[end.index] + nearest_node(nodes[end.index], end.position));
+        else if (end.kind == Attachment::Kind::body && bodies[end.index])
+          try
+          {
+            ends.push_back(first_cell[end.index] + bodies[end.index]->cell_at(end.place));
+          }
+          catch (const UserError &)
+          {
+            // Where the bodies are made, the error names the link.
+          }
+      if (ends.size() == 2)
+        connect(ends[0], ends[1], link_weight);
     }
 
     void NodeGraph::connect(const std::size_t a, const std::size_t b, const idx_t weight)
@@ -131,7 +176,7 @@ namespace taut
           &n, &n_constraints, offset.data(), adjacent.data(), vertex_weight.data(), nullptr,
           weight.data(), &n_parts, nullptr, nullptr, options, &cut, part.data());
       if (status != METIS_OK)
-        throw std::runtime_error("METIS failed to partition the wires");
+        throw std::runtime_error("METIS failed to partition the scene");
       return part;
     }
 
@@ -150,13 +195,17 @@ namespace taut
 
     Partition by_metis(const Scene &scene, const unsigned int n_parts)
     {
+      if (n_parts == 1)
+        return whole(scene);
       const NodeGraph graph(scene);
       std::size_t n_elements = 0;
       for (const auto &nodes : graph.nodes)
         n_elements += nodes.size() - 1;
+      for (const auto &body : graph.bodies)
+        n_elements += body ? body->cells().size() : 0;
       if (n_parts > std::max<std::size_t>(1, n_elements))
         throw EntryError("Partition/Number of substructures",
-                         "the wires have only " + std::to_string(n_elements) +
+                         "wires and solids have only " + std::to_string(n_elements) +
                              " elements to share; take fewer substructures or smaller elements");
       const std::vector<idx_t> part = graph.parts(n_parts);
       Partition partition;
@@ -176,6 +225,15 @@ namespace taut
               pieces.push_back({node, static_cast<unsigned int>(p[i])});
           }
         partition.wires.push_back(std::move(pieces));
+      }
+      for (std::size_t b = 0; b < graph.bodies.size(); ++b)
+      {
+        partition.bodies.push_back({graph.bodies[b], {}});
+        if (!graph.bodies[b])
+          continue;
+        const auto begin = part.begin() + graph.first_cell[b];
+        partition.bodies[b].part.assign(begin, begin + graph.bodies[b]->cells().size());
+        connect_parts(graph.bodies[b]->cells(), partition.bodies[b].part, partition.n_parts);
       }
       return partition;
     }
@@ -230,11 +288,12 @@ namespace taut
     prm.enter_subsection("Partition");
     prm.add_parameter(
         "Method", method,
-        "'METIS': parts of about equal work. 'wires': every wire is a part. 'given': at "
+        "'METIS': parts of about equal work. 'wires': every wire is a part. 'given': wires at "
         "the positions of Cuts",
         Selection("METIS|wires|given"));
     prm.add_parameter("Number of substructures", n_substructures,
-                      "Parts that METIS cuts the wires into; 1: no cuts [1]", Integer(1, 1000000));
+                      "Parts that METIS cuts wires and solids into; 1: no cuts [1]",
+                      Integer(1, 1000000));
     prm.add_parameter("Cuts", cuts,
                       "For 'given': 'wire @ positions; other wire @ positions', numbers and ranges "
                       "first:step:last [m]",

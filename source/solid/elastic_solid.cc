@@ -4,8 +4,6 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
-#include <deal.II/dofs/dof_tools.h>
-
 #include <deal.II/fe/fe_values.h>
 
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
@@ -15,14 +13,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace taut
 {
   namespace
   {
-    /// As far as a normal may be from an axis for a boundary along it.
-    constexpr double along_axis = 1e-8;
-
     void check_material(const ElasticMaterial &m)
     {
       if (!(m.youngs_modulus > 0.) || !std::isfinite(m.youngs_modulus))
@@ -49,20 +45,6 @@ namespace taut
       return found->second;
     }
 
-    /// The axis that a face is across.
-    template <int dim>
-    unsigned int axis_of(const std::vector<dealii::Tensor<1, dim>> &normals)
-    {
-      for (unsigned int axis = 0; axis < dim; ++axis)
-        if (std::all_of(normals.begin(), normals.end(),
-                        [axis](const dealii::Tensor<1, dim> &n)
-                        { return std::fabs(n[axis]) > 1. - along_axis; }))
-          return axis;
-      throw UserError("symmetry needs faces across an axis; the normal of one is (" +
-                      std::to_string(normals[0][0]) + ", " + std::to_string(normals[0][1]) +
-                      (dim == 3 ? ", " + std::to_string(normals[0][dim - 1]) : "") + ")");
-    }
-
     /// Lame's constants; plane stress is plane strain with another lambda.
     struct Lame
     {
@@ -79,68 +61,47 @@ namespace taut
   template <int dim>
   struct ElasticSolid<dim>::Assembled
   {
-    Assembled(const SolidMesh<dim> &mesh, const Options &options);
+    /// Of the cells only; of none, of all.
+    Assembled(const SolidMesh<dim> &mesh, const Options &options,
+              const dealii::AffineConstraints<double> &constraints, std::vector<Cell> part);
 
-    dealii::AffineConstraints<double> constraints;
     dealii::SparsityPattern pattern;
     dealii::SparseMatrix<double> M, C, K;
     dealii::Vector<double> load;
 
-    struct Prescribed
-    {
-      dealii::types::global_dof_index dof;
-      const BoundaryCondition *by;
-    };
-    std::vector<Prescribed> prescribed;
-
   private:
-    void constrain(const SolidMesh<dim> &mesh, const BoundaryCondition &condition);
     void add_stiffness(const SolidMesh<dim> &mesh, const Options &options);
     void add_mass(const SolidMesh<dim> &mesh, const Options &options);
+
+    std::vector<Cell> cells;
+    std::vector<std::vector<dealii::types::global_dof_index>> index; ///< rows of each cell
   };
 
   template <int dim>
-  ElasticSolid<dim>::Assembled::Assembled(const SolidMesh<dim> &mesh, const Options &options)
+  ElasticSolid<dim>::Assembled::Assembled(const SolidMesh<dim> &mesh, const Options &options,
+                                          const dealii::AffineConstraints<double> &constraints,
+                                          std::vector<Cell> part)
+      : cells(part.empty() ? mesh.cells() : std::move(part))
   {
     if (options.materials.empty())
       throw UserError("no material is given");
     for (const auto &[id, m] : options.materials)
       check_material(m);
-    const auto ids = mesh.boundary_ids();
-    const auto check_boundaries = [&](const std::set<dealii::types::boundary_id> &wanted)
+    const auto dofs = FEBody<dim>::part_dofs(cells, constraints);
+    dealii::DynamicSparsityPattern all(dofs.size());
+    for (const Cell &cell : cells)
     {
-      for (const auto id : wanted)
-        if (ids.count(id) == 0)
-          throw UserError(mesh.no_boundary(id));
-    };
-    const dealii::DoFHandler<dim> &dofs = mesh.dof_handler();
-    // Not closed, so that hanging nodes go on to depend on nodes whose displacement is given.
-    dealii::AffineConstraints<double> hanging;
-    dealii::DoFTools::make_hanging_node_constraints(dofs, hanging);
-    hanging.close();
-    for (const auto &line : hanging.get_lines())
-    {
-      constraints.add_line(line.index);
-      constraints.add_entries(line.index, line.entries);
+      index.emplace_back(mesh.dof_handler().get_fe().n_dofs_per_cell());
+      cell->get_dof_indices(index.back());
+      for (auto &dof : index.back())
+        dof = std::lower_bound(dofs.begin(), dofs.end(), dof) - dofs.begin();
+      for (const auto row : index.back())
+        all.add_entries(row, index.back().begin(), index.back().end());
     }
-    for (const BoundaryCondition &condition : options.conditions)
-    {
-      try
-      {
-        check_boundaries(condition.boundaries);
-        constrain(mesh, condition);
-      }
-      catch (const UserError &e)
-      {
-        throw EntryError(condition.origin, e.what());
-      }
-    }
-    dealii::DynamicSparsityPattern all(dofs.n_dofs());
-    dealii::DoFTools::make_sparsity_pattern(dofs, all);
     pattern.copy_from(all);
     for (auto *matrix : {&M, &K})
       matrix->reinit(pattern);
-    load.reinit(dofs.n_dofs());
+    load.reinit(dofs.size());
     add_stiffness(mesh, options);
     add_mass(mesh, options);
     if (options.mass_damping != 0. || options.stiffness_damping != 0.)
@@ -149,43 +110,6 @@ namespace taut
       C.add(options.mass_damping, M);
       C.add(options.stiffness_damping, K);
     }
-  }
-
-  template <int dim>
-  void ElasticSolid<dim>::Assembled::constrain(const SolidMesh<dim> &mesh,
-                                               const BoundaryCondition &condition)
-  {
-    using Kind = BoundaryCondition::Kind;
-    if (condition.kind != Kind::displacement && condition.kind != Kind::symmetry)
-      return;
-    const dealii::FiniteElement<dim> &element = mesh.dof_handler().get_fe();
-    dealii::FEFaceValues<dim> values(mesh.mapping(), element, mesh.face_quadrature(2),
-                                     dealii::update_normal_vectors);
-    std::vector<dealii::types::global_dof_index> dofs(element.n_dofs_per_face(0));
-    for (const auto &cell : mesh.dof_handler().active_cell_iterators())
-      for (const unsigned int f : cell->face_indices())
-      {
-        if (!cell->face(f)->at_boundary() ||
-            condition.boundaries.count(cell->face(f)->boundary_id()) == 0)
-          continue;
-        std::array<bool, 3> held = condition.held;
-        if (condition.kind == Kind::symmetry)
-        {
-          values.reinit(cell, f);
-          held = {false, false, false};
-          held[axis_of<dim>(values.get_normal_vectors())] = true;
-        }
-        cell->face(f)->get_dof_indices(dofs);
-        for (const auto dof : dofs)
-        {
-          // The first condition that is written counts where two meet, as do hanging nodes.
-          if (!held[mesh.component(dof)] || constraints.is_constrained(dof))
-            continue;
-          constraints.add_line(dof);
-          if (condition.value)
-            prescribed.push_back({dof, &condition});
-        }
-      }
   }
 
   template <int dim>
@@ -198,9 +122,9 @@ namespace taut
     const unsigned int n = element.n_dofs_per_cell();
     const double thickness = dim == 2 ? options.thickness : 1.;
     dealii::FullMatrix<double> k(n, n);
-    std::vector<dealii::types::global_dof_index> index(n);
-    for (const auto &cell : mesh.dof_handler().active_cell_iterators())
+    for (std::size_t number = 0; number < cells.size(); ++number)
     {
+      const Cell &cell = cells[number];
       values.reinit(cell);
       const auto [lambda, mu] = lame(material<dim>(options.materials, cell->material_id()),
                                      dim == 2 && options.plane_state == PlaneState::stress);
@@ -221,13 +145,13 @@ namespace taut
           }
         }
       }
-      cell->get_dof_indices(index);
+      const auto &rows = index[number];
       for (unsigned int i = 0; i < n; ++i)
         for (unsigned int j = 0; j <= i; ++j)
         {
-          K.add(index[i], index[j], k(i, j));
+          K.add(rows[i], rows[j], k(i, j));
           if (i != j)
-            K.add(index[j], index[i], k(i, j));
+            K.add(rows[j], rows[i], k(i, j));
         }
     }
   }
@@ -250,13 +174,13 @@ namespace taut
                 dealii::update_values | dealii::update_JxW_values);
     const unsigned int n = element.n_dofs_per_cell();
     const double thickness = dim == 2 ? options.thickness : 1.;
-    std::vector<dealii::types::global_dof_index> index(n);
     std::vector<double> row(n);
-    for (const auto &cell : mesh.dof_handler().active_cell_iterators())
+    for (std::size_t number = 0; number < cells.size(); ++number)
     {
+      const Cell &cell = cells[number];
+      const auto &rows = index[number];
       values.reinit(cell);
       weights.reinit(cell);
-      cell->get_dof_indices(index);
       const double density =
           material<dim>(options.materials, cell->material_id()).density * thickness;
       double cell_mass = 0., diagonal_mass = 0.;
@@ -273,7 +197,7 @@ namespace taut
         if (!lumped)
           for (unsigned int j = 0; j < n; ++j)
             if (element.system_to_component_index(j).first == c)
-              M.add(index[i], index[j], row[j]);
+              M.add(rows[i], rows[j], row[j]);
         diagonal[i] = row[i];
         if (c == 0)
         {
@@ -284,13 +208,13 @@ namespace taut
         double share = 0.;
         for (const unsigned int q : weights.quadrature_point_indices())
           share += density * weights.shape_value(i, q) * weights.JxW(q);
-        load[index[i]] += options.gravity[c] * share;
+        load[rows[i]] += options.gravity[c] * share;
       }
       // The diagonal, scaled so that the cell keeps its mass (E. Hinton, T. Rock, O. C.
       // Zienkiewicz, Earthquake Engineering and Structural Dynamics 4 (1976)).
       if (lumped && diagonal_mass > 0.)
         for (unsigned int i = 0; i < n; ++i)
-          M.add(index[i], index[i], diagonal[i] * cell_mass / diagonal_mass);
+          M.add(rows[i], rows[i], diagonal[i] * cell_mass / diagonal_mass);
     }
   }
 
@@ -298,28 +222,42 @@ namespace taut
   ElasticSolid<dim>::ElasticSolid(const std::string &name,
                                   std::shared_ptr<const SolidMesh<dim>> mesh,
                                   const Options &options)
-      : ElasticSolid(name, mesh, options, Assembled(*mesh, options))
+      : ElasticSolid(name, mesh, options, SolidConditions<dim>(*mesh, options.conditions), {})
+  {
+  }
+
+  template <int dim>
+  ElasticSolid<dim>::ElasticSolid(const std::string &name,
+                                  std::shared_ptr<const SolidMesh<dim>> mesh,
+                                  const Options &options, const SolidConditions<dim> &conditions,
+                                  const std::vector<Cell> &part)
+      : ElasticSolid(name, mesh, options, conditions, part,
+                     Assembled(*mesh, options, conditions.constraints(), part))
   {
   }
 
   template <int dim>
   ElasticSolid<dim>::ElasticSolid(const std::string &name,
                                   std::shared_ptr<const SolidMesh<dim>> given,
-                                  const Options &chosen, const Assembled &assembled)
+                                  const Options &chosen, const SolidConditions<dim> &conditions,
+                                  const std::vector<Cell> &part, const Assembled &assembled)
       : FEBody<dim>(name, given->dof_handler(), assembled.M, assembled.C, assembled.K,
-                    assembled.constraints, assembled.load,
+                    conditions.constraints(), assembled.load,
                     [&]
                     {
                       typename FEBody<dim>::Options o;
                       o.origin = chosen.origin;
                       o.mapping = &given->mapping();
+                      o.cells = part;
                       return o;
                     }()),
-        mesh(std::move(given)), options(chosen), boundary(mesh->surface({}))
+        mesh(std::move(given)), options(chosen)
   {
     std::map<dealii::types::global_dof_index, std::function<double(double)>> motions;
-    for (const auto &[dof, by] : assembled.prescribed)
+    for (const auto &[dof, by] : conditions.prescribed())
     {
+      if (!this->has_dof(dof))
+        continue;
       const Coordinates x = coordinates<dim>(mesh->points()[dof]);
       const unsigned int c = mesh->component(dof);
       if (by->varies)
@@ -333,8 +271,9 @@ namespace taut
     if (norm(options.initial_velocity) > 0.)
     {
       dealii::Vector<double> U(this->n_dofs()), V(this->n_dofs());
-      for (unsigned int i = 0; i < V.size(); ++i)
-        V[i] = options.initial_velocity[mesh->component(i)];
+      for (dealii::types::global_dof_index dof = 0; dof < mesh->dof_handler().n_dofs(); ++dof)
+        if (this->has_dof(dof))
+          V[this->index(dof)] = options.initial_velocity[mesh->component(dof)];
       this->set_initial_state(U, V);
     }
   }
@@ -347,7 +286,7 @@ namespace taut
     for (unsigned int c = 0; c < dim; ++c)
       if (direction[c] != 0.)
       {
-        const LinearForm form = this->displacement_of_dof(boundary.dofs[node][c]);
+        const LinearForm form = this->displacement_of_dof(mesh->whole_surface().dofs[node][c]);
         for (std::size_t i = 0; i < form.index.size(); ++i)
           result.add(form.index[i], direction[c] * form.value[i]);
       }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/exceptions.h>
+#include <taut/base/memory.h>
+#include <taut/base/write_file.h>
 #include <taut/solid/elastic_solid.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -12,8 +13,8 @@
 #include <deal.II/numerics/data_out.h>
 
 #include <cmath>
-#include <fstream>
 #include <map>
+#include <sstream>
 
 namespace taut
 {
@@ -129,7 +130,7 @@ namespace taut
     std::map<std::pair<dealii::types::global_dof_index, dealii::types::material_id>, Sum> at_node;
     const auto key = [&](const auto &cell, const std::size_t n)
     { return std::make_pair(index[node_of_displacement[n]], cell->material_id()); };
-    for (const auto &cell : mesh.dof_handler().active_cell_iterators())
+    for (const Cell &cell : solid.cells())
     {
       at_points.reinit(cell);
       cell->get_dof_indices(index);
@@ -146,7 +147,7 @@ namespace taut
         ++sum.n;
       }
     }
-    for (const auto &cell : mesh.dof_handler().active_cell_iterators())
+    for (const Cell &cell : solid.cells())
     {
       cell->get_dof_indices(index);
       stresses.emplace_back();
@@ -178,8 +179,9 @@ namespace taut
     values.reinit(handler.n_dofs());
     std::vector<dealii::types::global_dof_index> index(element.n_dofs_per_cell());
     auto of_cell = stresses.begin();
-    for (const auto &cell : handler.active_cell_iterators())
+    for (const Cell &own : solid.cells())
     {
+      const Cell cell(&handler.get_triangulation(), own->level(), own->index(), &handler);
       cell->get_dof_indices(index);
       for (std::size_t n = 0; n < of_cell->size(); ++n)
       {
@@ -203,15 +205,15 @@ namespace taut
         mesh->dof_handler(), all, std::vector<std::string>(dim, "displacement"),
         std::vector<DataComponentInterpretation>(dim, component_is_part_of_vector));
     stress.add_to(data);
+    this->show_own_cells(data);
     data.build_patches(mesh->mapping(), mesh->degree());
     dealii::DataOutBase::VtkFlags flags;
     flags.print_date_and_time = false; // the same bytes from run to run
     data.set_flags(flags);
-    std::ofstream file(path);
+    std::ostringstream file;
     data.write_vtu(file);
-    file.close();
-    if (!file)
-      throw UserError("cannot write '" + path + "': no permission, or the disk is full");
+    check_memory();
+    write_file(path, file.str());
   }
 
   template void ElasticSolid<2>::write_vtu(const std::string &, const std::vector<double> &) const;

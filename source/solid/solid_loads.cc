@@ -19,9 +19,8 @@ namespace taut
       if ((condition.kind != Kind::traction && condition.kind != Kind::pressure) ||
           !condition.value)
         continue;
-      std::vector<std::pair<typename dealii::DoFHandler<dim>::active_cell_iterator, unsigned int>>
-          faces;
-      for (const auto &cell : mesh->dof_handler().active_cell_iterators())
+      std::vector<std::pair<Cell, unsigned int>> faces;
+      for (const Cell &cell : this->cells())
         for (const unsigned int f : cell->face_indices())
           if (cell->face(f)->at_boundary() &&
               condition.boundaries.count(cell->face(f)->boundary_id()) > 0)
@@ -49,7 +48,8 @@ namespace taut
               const double traction = condition.kind == Kind::pressure
                                           ? -given[0] * values.normal_vector(q)[c]
                                           : given[c];
-              P[index[i]] += thickness * traction * values.shape_value(i, q) * values.JxW(q);
+              P[this->index(index[i])] +=
+                  thickness * traction * values.shape_value(i, q) * values.JxW(q);
             }
           }
         }
@@ -58,7 +58,7 @@ namespace taut
         this->add_load(add);
       else
       {
-        dealii::Vector<double> P(mesh->dof_handler().n_dofs());
+        dealii::Vector<double> P(this->n_dofs());
         add(0., P);
         this->add_constant_load(P);
       }

@@ -57,9 +57,9 @@ namespace taut
   template <int dim>
   SolidMesh<dim>::SolidMesh(std::unique_ptr<dealii::Triangulation<dim>> given,
                             const unsigned int degree)
-      : cells(std::move(given)), simplicial(has_simplices(*cells)),
+      : triangulation(std::move(given)), simplicial(has_simplices(*triangulation)),
         cell_mapping(make_mapping<dim>(simplicial, degree)),
-        element(make_element<dim>(simplicial, degree)), handler(*cells)
+        element(make_element<dim>(simplicial, degree)), handler(*triangulation)
   {
     handler.distribute_dofs(element);
     support_points.resize(handler.n_dofs());
@@ -68,10 +68,12 @@ namespace taut
     std::vector<dealii::types::global_dof_index> dofs(element.n_dofs_per_cell());
     for (const auto &cell : handler.active_cell_iterators())
     {
+      active_cells.push_back(cell);
       cell->get_dof_indices(dofs);
       for (unsigned int i = 0; i < dofs.size(); ++i)
         components[dofs[i]] = element.system_to_component_index(i).first;
     }
+    boundary = surface({});
   }
 
   template <int dim>
@@ -93,7 +95,7 @@ namespace taut
   template <int dim>
   std::set<dealii::types::boundary_id> SolidMesh<dim>::boundary_ids() const
   {
-    const std::vector<dealii::types::boundary_id> ids = cells->get_boundary_ids();
+    const std::vector<dealii::types::boundary_id> ids = triangulation->get_boundary_ids();
     return {ids.begin(), ids.end()};
   }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "solid_entries.h"
 
-#include <taut/base/exceptions.h>
+#include <taut/base/about_entry.h>
 #include <taut/scene/body_type.h>
 #include <taut/scene/contact_surface.h>
+#include <taut/solid/divisible_fe_body.h>
 #include <taut/solid/elastic_solid.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -12,6 +13,44 @@ namespace taut
 {
   namespace
   {
+    /// A solid that is cut along its cells.
+    template <int dim>
+    class DivisibleSolid : public DivisibleFEBody<dim>
+    {
+    public:
+      using Options = typename ElasticSolid<dim>::Options;
+
+      DivisibleSolid(std::shared_ptr<const SolidMesh<dim>> mesh,
+                     std::shared_ptr<const Options> options,
+                     std::shared_ptr<const SolidConditions<dim>> conditions)
+          : DivisibleFEBody<dim>(mesh->dof_handler(), mesh->mapping(), conditions->constraints()),
+            mesh(mesh), options(options), conditions(conditions)
+      {
+        for (const auto &cell : mesh->cells())
+          for (std::size_t e = this->cells().begin[cell->active_cell_index()];
+               e < this->cells().begin[cell->active_cell_index() + 1]; ++e)
+            cell_of_dof[this->cells().dofs[e]] = cell->active_cell_index();
+      }
+
+      std::size_t cell_at_node(const unsigned int node) const override
+      {
+        return cell_of_dof[mesh->whole_surface().dofs[node][0]];
+      }
+
+      std::unique_ptr<Substructure> make_part(const BodySetting &setting,
+                                              const std::vector<unsigned int> &part) const override
+      {
+        return std::make_unique<ElasticSolid<dim>>(setting.name, mesh, *options, *conditions,
+                                                   this->DivisibleFEBody<dim>::cells(part));
+      }
+
+    private:
+      const std::shared_ptr<const SolidMesh<dim>> mesh;
+      const std::shared_ptr<const Options> options;
+      const std::shared_ptr<const SolidConditions<dim>> conditions;
+      std::vector<std::size_t> cell_of_dof = std::vector<std::size_t>(this->cells().n_dofs());
+    };
+
     /// What a solid of either dimension is to a scene.
     class SolidOf
     {
@@ -20,6 +59,7 @@ namespace taut
       virtual std::size_t n_dofs() const = 0;
       virtual std::unique_ptr<Substructure> make(const BodySetting &setting) const = 0;
       virtual ContactSurface surface(const std::vector<unsigned int> &boundaries) const = 0;
+      virtual std::shared_ptr<const DivisibleBody> division(const BodySetting &setting) const = 0;
     };
 
     template <int dim>
@@ -47,6 +87,15 @@ namespace taut
         return surface;
       }
 
+      std::shared_ptr<const DivisibleBody> division(const BodySetting &setting) const override
+      {
+        const auto options = std::make_shared<const typename ElasticSolid<dim>::Options>(
+            entries.template options<dim>(setting));
+        return std::make_shared<DivisibleSolid<dim>>(
+            mesh, options,
+            std::make_shared<const SolidConditions<dim>>(*mesh, options->conditions));
+      }
+
     private:
       const SolidEntries &entries;
       const std::shared_ptr<const SolidMesh<dim>> mesh;
@@ -71,18 +120,12 @@ namespace taut
 
       std::unique_ptr<Substructure> make(const BodySetting &setting) const override
       {
-        try
-        {
-          return solid(setting.origin).make(setting);
-        }
-        catch (const EntryError &)
-        {
-          throw;
-        }
-        catch (const UserError &e)
-        {
-          throw EntryError(setting.origin, e.what());
-        }
+        return about_entry(setting.origin, [&] { return solid(setting.origin).make(setting); });
+      }
+
+      std::shared_ptr<const DivisibleBody> division(const BodySetting &setting) const override
+      {
+        return about_entry(setting.origin, [&] { return solid(setting.origin).division(setting); });
       }
 
       ContactSurface surface(const BodySetting &setting,

@@ -20,12 +20,6 @@
 
 namespace taut
 {
-  namespace
-  {
-    /// Part of itself below which a vector is a combination of others.
-    constexpr double dependent = 1e-10;
-  } // namespace
-
   /// A load that changes in time, on the DoFs that are kept.
   template <int dim>
   class FEBody<dim>::Load : public TimeLoad
@@ -58,7 +52,17 @@ namespace taut
         mapping(options.mapping ? *options.mapping : dealii::StaticMappingQ1<dim>::mapping),
         scalar_direction(options.direction)
   {
-    const unsigned int n = handler.n_dofs();
+    if (options.cells.empty())
+      for (const auto &cell : handler.active_cell_iterators())
+        own_cells.push_back(cell);
+    else
+    {
+      own_cells = options.cells;
+      std::sort(own_cells.begin(), own_cells.end());
+      own_dofs = part_dofs(own_cells, constraints);
+    }
+    const unsigned int n = own_dofs.empty() ? handler.n_dofs() : own_dofs.size();
+    forms.resize(n);
     check_size(mass.m(), "mass matrix");
     check_size(stiffness.m(), "stiffness matrix");
     if (!damping.empty())
@@ -71,21 +75,21 @@ namespace taut
       kinds = options.kinds;
     }
 
-    forms.resize(n);
     for (unsigned int i = 0; i < n; ++i)
     {
+      const dealii::types::global_dof_index dof = own_dofs.empty() ? i : own_dofs[i];
       const auto *entries =
-          constraints.is_constrained(i) ? constraints.get_constraint_entries(i) : nullptr;
+          constraints.is_constrained(dof) ? constraints.get_constraint_entries(dof) : nullptr;
       if (!entries || entries->empty())
         forms[i].add(i, 1.);
       else
         for (const auto &[j, weight] : *entries)
-          forms[i].add(j, weight);
-      if (!constraints.is_constrained(i))
+          forms[i].add(index(j), weight);
+      if (!constraints.is_constrained(dof))
         continue;
-      const double value = constraints.get_inhomogeneity(i);
+      const double value = constraints.get_inhomogeneity(dof);
       if (value != 0. && entries && !entries->empty())
-        throw UserError("body '" + name + "': DoF " + std::to_string(i) +
+        throw UserError("body '" + name + "': DoF " + std::to_string(dof) +
                         " depends on others and has an inhomogeneity; prescribe those others");
       constrained.push_back({i});
       if (value != 0.)
@@ -109,9 +113,54 @@ namespace taut
   template <int dim>
   void FEBody<dim>::check_size(const std::size_t size, const std::string &what) const
   {
-    if (size != handler.n_dofs())
+    if (size != forms.size())
       throw UserError("body '" + name() + "': its " + what + " has size " + std::to_string(size) +
-                      ", and its DoFHandler " + std::to_string(handler.n_dofs()) + " DoFs");
+                      ", and " +
+                      (own_dofs.empty() ? "its DoFHandler " : "the part of its DoFHandler ") +
+                      std::to_string(forms.size()) + " DoFs");
+  }
+
+  template <int dim>
+  std::vector<dealii::types::global_dof_index>
+  FEBody<dim>::part_dofs(const std::vector<Cell> &cells,
+                         const dealii::AffineConstraints<double> &constraints)
+  {
+    std::vector<dealii::types::global_dof_index> result, on_cell;
+    for (const Cell &cell : cells)
+    {
+      on_cell.resize(cell->get_fe().n_dofs_per_cell());
+      cell->get_dof_indices(on_cell);
+      for (const auto dof : on_cell)
+      {
+        result.push_back(dof);
+        if (constraints.is_constrained(dof))
+          for (const auto &[other, weight] : *constraints.get_constraint_entries(dof))
+            result.push_back(other);
+      }
+    }
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
+  }
+
+  template <int dim>
+  bool FEBody<dim>::has_cell(const Cell &cell) const
+  {
+    return own_dofs.empty() || std::binary_search(own_cells.begin(), own_cells.end(), cell);
+  }
+
+  template <int dim>
+  bool FEBody<dim>::has_dof(const dealii::types::global_dof_index dof) const
+  {
+    return own_dofs.empty() || std::binary_search(own_dofs.begin(), own_dofs.end(), dof);
+  }
+
+  template <int dim>
+  unsigned int FEBody<dim>::index(const dealii::types::global_dof_index dof) const
+  {
+    if (own_dofs.empty())
+      return dof;
+    return std::lower_bound(own_dofs.begin(), own_dofs.end(), dof) - own_dofs.begin();
   }
 
   /// T^T A T with the rows of T in `forms`, lower triangle.
@@ -158,11 +207,12 @@ namespace taut
   {
     for (const auto &[dof, motion] : motions)
     {
+      const unsigned int own = index(dof);
       const auto found =
-          std::lower_bound(constrained.begin(), constrained.end(), dof,
-                           [](const ConstrainedDof &c, const auto i) { return c.dof < i; });
-      if (found == constrained.end() || found->dof != dof ||
-          forms[dof].index != std::vector<unsigned int>{static_cast<unsigned int>(dof)})
+          std::lower_bound(constrained.begin(), constrained.end(), own,
+                           [](const ConstrainedDof &c, const unsigned int i) { return c.dof < i; });
+      if (!has_dof(dof) || found == constrained.end() || found->dof != own ||
+          forms[own].index != std::vector<unsigned int>{own})
         throw UserError("body '" + name() + "': no constraint prescribes DoF " +
                         std::to_string(dof));
       found->motion = motion;
@@ -213,7 +263,7 @@ namespace taut
     catch (const dealii::ExceptionBase &)
     {
     }
-    if (cell == handler.end())
+    if (cell == handler.end() || !has_cell(cell))
     {
       std::ostringstream out;
       out << "body '" << name() << "': the point " << point << " is not on it";
@@ -230,9 +280,9 @@ namespace taut
       {
         const double value = element.shape_value_component(i, unit, c) *
                              (element.n_components() == 1 ? along : direction[c]);
-        if (value != 0.)
-          for (std::size_t p = 0; p < forms[dofs[i]].index.size(); ++p)
-            result.add(forms[dofs[i]].index[p], value * forms[dofs[i]].value[p]);
+        const LinearForm &form = forms[index(dofs[i])];
+        for (std::size_t p = 0; value != 0. && p < form.index.size(); ++p)
+          result.add(form.index[p], value * form.value[p]);
       }
     return result;
   }
@@ -240,16 +290,37 @@ namespace taut
   template <int dim>
   LinearForm FEBody<dim>::displacement_of_dof(const dealii::types::global_dof_index dof) const
   {
-    return forms[dof];
+    return forms[index(dof)];
   }
 
   template <int dim>
   dealii::Vector<double> FEBody<dim>::all_dofs(const std::vector<double> &U) const
   {
-    dealii::Vector<double> result(U.size());
+    dealii::Vector<double> result(handler.n_dofs());
     for (std::size_t i = 0; i < U.size(); ++i)
-      result[i] = forms[i].dot(U);
+      result[own_dofs.empty() ? i : own_dofs[i]] = forms[i].dot(U);
     return result;
+  }
+
+  template <int dim>
+  void FEBody<dim>::show_own_cells(dealii::DataOut<dim, dim> &data) const
+  {
+    if (own_dofs.empty())
+      return;
+    using TriaCell = typename dealii::Triangulation<dim>::cell_iterator;
+    const auto at = [this](const typename std::vector<Cell>::const_iterator &own,
+                           const dealii::Triangulation<dim> &mesh)
+    {
+      return own == own_cells.end() ? TriaCell(mesh.end())
+                                    : TriaCell(&mesh, (*own)->level(), (*own)->index());
+    };
+    data.set_cell_selection(
+        [this, at](const dealii::Triangulation<dim> &mesh) { return at(own_cells.begin(), mesh); },
+        [this, at](const dealii::Triangulation<dim> &mesh, const TriaCell &cell)
+        {
+          const Cell own(&mesh, cell->level(), cell->index(), &handler);
+          return at(std::upper_bound(own_cells.begin(), own_cells.end(), own), mesh);
+        });
   }
 
   template <int dim>
@@ -267,6 +338,7 @@ namespace taut
                           is_vector
                               ? dealii::DataComponentInterpretation::component_is_part_of_vector
                               : dealii::DataComponentInterpretation::component_is_scalar));
+    show_own_cells(data);
     data.build_patches(mapping, handler.get_fe().degree);
     dealii::DataOutBase::VtkFlags flags;
     flags.print_date_and_time = false; // the same bytes from run to run
@@ -275,141 +347,6 @@ namespace taut
     data.write_vtu(file);
     check_memory();
     write_file(path, file.str());
-  }
-
-  /// Motions without energy before the constraints.
-  template <int dim>
-  std::vector<std::vector<double>> FEBody<dim>::candidates(const Options &options) const
-  {
-    std::vector<std::vector<double>> modes;
-    for (const dealii::Vector<double> &given : options.null_space)
-    {
-      check_size(given.size(), "null space");
-      modes.emplace_back(given.begin(), given.end());
-    }
-    const dealii::FiniteElement<dim> &element = handler.get_fe();
-    if (!options.null_space.empty() || !options.rigid_body_modes || !element.has_support_points())
-      return modes;
-    const unsigned int n_components = element.n_components();
-    if (n_components != 1 && n_components != dim)
-      return modes;
-    std::vector<dealii::Point<dim>> points(handler.n_dofs());
-    dealii::DoFTools::map_dofs_to_support_points(mapping, handler, points);
-    std::vector<unsigned int> component(handler.n_dofs(), 0);
-    for (unsigned int c = 0; c < n_components; ++c)
-    {
-      dealii::ComponentMask mask(n_components, false);
-      mask.set(c, true);
-      for (const auto dof : dealii::DoFTools::extract_dofs(handler, mask))
-        component[dof] = c;
-      modes.emplace_back(handler.n_dofs(), 0.);
-    }
-    for (unsigned int i = 0; i < handler.n_dofs(); ++i)
-      modes[component[i]][i] = 1.;
-    if (n_components == 1)
-      return modes;
-    // Rotations about the middle, with the size of the body as the unit of length.
-    dealii::Point<dim> middle;
-    for (const auto &point : points)
-      middle += point / static_cast<double>(points.size());
-    double size = 0.;
-    for (const auto &point : points)
-      size = std::max(size, point.distance(middle));
-    for (unsigned int a = 0; a < dim; ++a)
-      for (unsigned int b = a + 1; b < dim; ++b)
-      {
-        modes.emplace_back(handler.n_dofs(), 0.);
-        for (unsigned int i = 0; i < handler.n_dofs(); ++i)
-          if (component[i] == a)
-            modes.back()[i] = -(points[i] - middle)[b] / size;
-          else if (component[i] == b)
-            modes.back()[i] = (points[i] - middle)[a] / size;
-      }
-    return modes;
-  }
-
-  /**
-   * The combinations of the candidates that vanish on all prescribed DoFs, and DoFs that fix them.
-   * The candidates are reduced by their values there, largest pivots first (a rank-revealing LU of
-   * a few columns); those that are left have none.
-   */
-  template <int dim>
-  void FEBody<dim>::find_null_space(const Options &options)
-  {
-    std::vector<std::vector<double>> modes = candidates(options);
-    std::vector<char> is_constrained(handler.n_dofs(), 0);
-    for (const ConstrainedDof &constraint : constrained)
-      is_constrained[constraint.dof] = 1;
-    std::vector<unsigned int> prescribed, kept;
-    for (unsigned int i = 0; i < handler.n_dofs(); ++i)
-      if (!is_constrained[i])
-        kept.push_back(i);
-      else if (forms[i].index == std::vector<unsigned int>{i})
-        prescribed.push_back(i);
-
-    /// Takes the mode and the DoF of the largest value out of the list; none above the bound:
-    /// false.
-    const auto eliminate = [](std::vector<std::vector<double>> &list,
-                              const std::vector<unsigned int> &dofs, unsigned int &dof,
-                              std::vector<double> &pivot_mode)
-    {
-      double largest = dependent;
-      std::size_t mode = list.size();
-      for (std::size_t m = 0; m < list.size(); ++m)
-        for (const unsigned int i : dofs)
-          if (std::fabs(list[m][i]) > largest)
-          {
-            largest = std::fabs(list[m][i]);
-            mode = m;
-            dof = i;
-          }
-      if (mode == list.size())
-        return false;
-      pivot_mode = list[mode];
-      list.erase(list.begin() + mode);
-      for (std::vector<double> &other : list)
-      {
-        const double factor = other[dof] / pivot_mode[dof];
-        for (std::size_t i = 0; i < other.size(); ++i)
-          other[i] -= factor * pivot_mode[i];
-        other[dof] = 0.;
-      }
-      return true;
-    };
-    unsigned int dof = 0;
-    std::vector<double> pivot;
-    while (eliminate(modes, prescribed, dof, pivot))
-      ;
-    for (std::vector<double> &mode : modes)
-      for (unsigned int i = 0; i < mode.size(); ++i)
-        if (is_constrained[i])
-          mode[i] = 0.;
-    // Only those that K does not resist.
-    std::vector<double> diagonal(handler.n_dofs(), 0.);
-    K->visit(
-        [&](const unsigned int i, const unsigned int j, const double value)
-        {
-          if (i == j)
-            diagonal[i] = value;
-        });
-    modes.erase(std::remove_if(modes.begin(), modes.end(),
-                               [&](const std::vector<double> &mode)
-                               {
-                                 std::vector<double> force(mode.size(), 0.);
-                                 K->vmult_add(1., mode.data(), force.data());
-                                 double scale = 0.;
-                                 for (std::size_t i = 0; i < mode.size(); ++i)
-                                   scale += diagonal[i] * mode[i] * mode[i];
-                                 return std::fabs(dot(force, mode)) > dependent * scale;
-                               }),
-                modes.end());
-    own_null_space = {};
-    std::vector<std::vector<double>> rest = modes;
-    while (eliminate(rest, kept, dof, pivot))
-    {
-      own_null_space.vectors.push_back(pivot);
-      own_null_space.fixing_dofs.push_back(dof);
-    }
   }
 
   template class FEBody<1>;

@@ -11,7 +11,7 @@
 
 namespace taut
 {
-  /// What holds two pieces of a wire together where it was cut: a linear form that is zero.
+  /// What holds two pieces of a wire or body together where it was cut: a linear form that is zero.
   struct CutConstraint
   {
     std::string name;
@@ -53,12 +53,25 @@ namespace taut
       append_motion(point, false, direction, factor, true, terms);
     }
 
-    /// One constraint a cut for each motion that is continuous there: displacement, and slope of a
-    /// beam.
+    /**
+     * Of wires one constraint a cut for each motion that is continuous there: displacement, and
+     * slope of a beam. Of bodies one fewer for each DoF than parts have it, from part to part: the
+     * constraints are independent of each other where several cuts meet.
+     */
     const std::vector<CutConstraint> &cut_constraints() const { return cuts; }
 
-    /// The index of a custom body of the scene on this rank, or Structure::elsewhere.
-    std::size_t index_of_body(std::size_t body) const { return custom_bodies[body]; }
+    /// The indices on this rank of the parts of a custom body of the scene, one if it is whole;
+    /// Structure::elsewhere for those on other ranks.
+    const std::vector<std::size_t> &indices_of_body(std::size_t body) const
+    {
+      return custom_bodies[body].index;
+    }
+
+    /// The one of them with a place on the body; throws UserError if it is not on the body.
+    std::size_t index_at(std::size_t body, const Coordinates &place) const;
+
+    /// The one with a node of the surface that the body shows to contacts.
+    std::size_t index_at_node(std::size_t body, unsigned int node) const;
 
     /// Part of the partition that a point of a wire belongs to.
     unsigned int part(std::size_t wire, double s) const;
@@ -75,8 +88,22 @@ namespace taut
       std::vector<std::size_t> axial, transverse;
     };
 
-    void add_custom_bodies(const Scene &scene, const unsigned int *owner);
-    void add_loads(const Scene &scene, std::size_t body, Substructure &made) const;
+    /// A custom body, whole or in parts.
+    struct BodyParts
+    {
+      std::vector<std::size_t> index; ///< of each part
+      Partition::Division division;   ///< with the position in `index` of the part of each cell
+    };
+
+    void add_custom_bodies(const Scene &scene, const Partition &partition,
+                           const std::vector<unsigned int> &owner);
+    std::vector<std::size_t> add_parts(const Scene &scene, std::size_t body,
+                                       const std::vector<unsigned int> &owner);
+    void tie_parts(const std::string &name, const BodyParts &body,
+                   const std::vector<std::vector<unsigned int>> &cells);
+    std::size_t part_at(std::size_t body, const Coordinates &place) const;
+    void add_loads(const Scene &scene, std::size_t body, std::size_t part,
+                   Substructure &made) const;
     void check_places(const Scene &scene) const;
     void add_pieces(const Scene &scene, std::size_t wire, WireMotion motion,
                     const std::vector<Partition::Piece> &pieces,
@@ -87,7 +114,8 @@ namespace taut
     std::vector<WireParts> wires;
     std::vector<Coordinates> tangents, normals;
     std::vector<double> lengths;
-    std::vector<std::size_t> mechanism_of_mass, custom_bodies;
+    std::vector<std::size_t> mechanism_of_mass;
+    std::vector<BodyParts> custom_bodies;
     std::vector<CutConstraint> cuts;
   };
 } // namespace taut

@@ -75,8 +75,8 @@ namespace taut
     struct BodyFiles
     {
       std::string stem;
-      std::size_t index = 0; ///< on this rank, or Structure::elsewhere
-      PvdFile collection;    ///< on the root
+      std::vector<std::size_t> parts; ///< on this rank, or Structure::elsewhere
+      PvdFile collection;             ///< on the root
       std::size_t n_frames = 0;
     };
     std::vector<BodyFiles> bodies;

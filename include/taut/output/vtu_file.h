@@ -66,9 +66,9 @@ namespace taut
     /// The file is made when the first entry is added.
     explicit PvdFile(std::string path) : path(std::move(path)) {}
 
-    /// @p time [s]; @p file is relative to the folder of this one. Throws UserError if it cannot be
-    /// written.
-    void add(double time, const std::string &file);
+    /// @p time [s]; @p file is relative to the folder of this one; several files of one time are
+    /// the parts of what is shown. Throws UserError if it cannot be written.
+    void add(double time, const std::string &file, std::size_t part = 0);
 
     std::size_t size() const { return n_entries; }
 

@@ -25,11 +25,12 @@ namespace taut
   };
 
   /**
-   * Cuts the wires of a scene:
-   * 'METIS': the graph of all grid nodes into parts of about equal work; elements and links pull
-   * their ends together, and a cut moves to the nearest node without a link or support. 'wires':
-   * every wire is a part. 'given': at the positions listed, moved to the nearest node; every piece
-   * is a part. Throws EntryError.
+   * Cuts the wires and the bodies of a scene:
+   * 'METIS': the graph of all grid nodes and cells into parts of about equal work; elements and
+   * links pull their ends together, cells those with which they have nodes in common, by their
+   * number. The cut of a wire moves to the nearest node without a link or support, the cells of a
+   * part hang together by faces. 'wires': every wire is a part. 'given': at the positions listed,
+   * moved to the nearest node; every piece is a part. Bodies then stay whole. Throws EntryError.
    */
   Partition make_partition(const Scene &scene, const PartitionParameters &parameters);
 } // namespace taut

@@ -17,6 +17,7 @@ namespace dealii
 
 namespace taut
 {
+  class DivisibleBody;
   class Substructure;
   struct ContactSurface;
 
@@ -58,6 +59,13 @@ namespace taut
      */
     virtual ContactSurface surface(const BodySetting &setting,
                                    const std::vector<unsigned int> &boundaries) const;
+
+    /// How the body can be cut; none: it stays whole. Called on all ranks, with the same result.
+    /// Throws EntryError.
+    virtual std::shared_ptr<const DivisibleBody> division(const BodySetting &) const
+    {
+      return nullptr;
+    }
   };
 
   /// A body of a scene whose type is not one of Taut's own.

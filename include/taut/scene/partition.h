@@ -2,16 +2,19 @@
 #ifndef taut_scene_partition_h
 #define taut_scene_partition_h
 
+#include <taut/scene/divisible_body.h>
 #include <taut/scene/scene.h>
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 namespace taut
 {
   /**
-   * How the wires of a scene are cut, as plain values: a cut is at a node of a wire's grid, so that
-   * cutting never changes the mesh. Every piece belongs to one of the parts.
+   * How the wires and the bodies of a scene are cut: a wire at nodes of its grid, a body along
+   * faces of its cells, so that cutting never changes the mesh. Every piece belongs to one of the
+   * parts.
    */
   struct Partition
   {
@@ -23,12 +26,22 @@ namespace taut
       unsigned int part = 0;
     };
     std::vector<std::vector<Piece>> wires; ///< at least one piece a wire, in ascending order
+
+    /// How a custom body is cut; without `body` it stays whole.
+    struct Division
+    {
+      std::shared_ptr<const DivisibleBody> body;
+      std::vector<unsigned int> part; ///< of each cell
+    };
+    std::vector<Division> bodies; ///< of each custom body, or empty
+
     unsigned int n_parts = 1;
 
+    /// Of wires.
     std::size_t n_cuts() const;
   };
 
-  /// All wires whole, in one part.
+  /// All wires and bodies whole, in one part.
   Partition whole(const Scene &scene);
 } // namespace taut
 

@@ -2,14 +2,12 @@
 #ifndef taut_elastic_solid_h
 #define taut_elastic_solid_h
 
+#include <taut/solid/solid_conditions.h>
 #include <taut/solid/solid_mesh.h>
 #include <taut/substructure/fe_body.h>
 
-#include <array>
-#include <functional>
 #include <map>
 #include <memory>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -38,27 +36,6 @@ namespace taut
     consistent,
     lumped,
     reduced
-  };
-
-  /// What is given on a part of the boundary.
-  struct BoundaryCondition
-  {
-    enum class Kind
-    {
-      displacement, ///< of the components that are held [m]
-      symmetry,     ///< no motion along the normal of faces across the axes
-      traction,     ///< force per area [Pa]
-      pressure      ///< against the outward normal, the x of the value [Pa]
-    };
-    Kind kind = Kind::displacement;
-    std::set<dealii::types::boundary_id> boundaries;
-    std::array<bool, 3> held = {true, true, true};
-
-    /// The value at a point x [m] and t [s]; none: zero.
-    std::function<Coordinates(const Coordinates &x, double t)> value = {};
-    bool varies = false; ///< in time
-
-    std::string origin = {}; ///< path of its section in the parameter file, for messages
   };
 
   /**
@@ -96,6 +73,12 @@ namespace taut
     ElasticSolid(const std::string &name, std::shared_ptr<const SolidMesh<dim>> mesh,
                  const Options &options);
 
+    /// A part of a solid, of these cells; @p conditions are those of the whole.
+    using typename FEBody<dim>::Cell;
+    ElasticSolid(const std::string &name, std::shared_ptr<const SolidMesh<dim>> mesh,
+                 const Options &options, const SolidConditions<dim> &conditions,
+                 const std::vector<Cell> &part);
+
     /// Of a node of SolidMesh::surface().
     LinearForm node_displacement(unsigned int node, const Coordinates &direction) const override;
 
@@ -110,12 +93,12 @@ namespace taut
     struct Assembled;
     class StressField;
     ElasticSolid(const std::string &name, std::shared_ptr<const SolidMesh<dim>> mesh,
-                 const Options &options, const Assembled &assembled);
+                 const Options &options, const SolidConditions<dim> &conditions,
+                 const std::vector<Cell> &part, const Assembled &assembled);
     void add_boundary_loads();
 
     const std::shared_ptr<const SolidMesh<dim>> mesh;
     const Options options;
-    const typename SolidMesh<dim>::Surface boundary;
   };
 } // namespace taut
 

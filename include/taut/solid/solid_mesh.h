@@ -38,7 +38,7 @@ namespace taut
   {
   public:
     /// Throws UserError for a mesh without cells or of mixed shapes, and for another degree.
-    SolidMesh(std::unique_ptr<dealii::Triangulation<dim>> cells, unsigned int degree);
+    SolidMesh(std::unique_ptr<dealii::Triangulation<dim>> triangulation, unsigned int degree);
 
     const dealii::DoFHandler<dim> &dof_handler() const { return handler; }
     const dealii::Mapping<dim> &mapping() const { return *cell_mapping; }
@@ -70,14 +70,23 @@ namespace taut
     };
     Surface surface(const std::set<dealii::types::boundary_id> &boundaries) const;
 
+    /// The same of the whole boundary.
+    const Surface &whole_surface() const { return boundary; }
+
+    /// All active cells, by their number.
+    using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
+    const std::vector<Cell> &cells() const { return active_cells; }
+
   private:
-    std::unique_ptr<dealii::Triangulation<dim>> cells;
+    std::unique_ptr<dealii::Triangulation<dim>> triangulation;
     bool simplicial;
     std::unique_ptr<dealii::Mapping<dim>> cell_mapping;
     dealii::FESystem<dim> element;
     dealii::DoFHandler<dim> handler;
     std::vector<dealii::Point<dim>> support_points;
     std::vector<unsigned char> components;
+    std::vector<Cell> active_cells;
+    Surface boundary;
   };
 } // namespace taut
 

@@ -17,6 +17,12 @@
 #include <string>
 #include <vector>
 
+namespace dealii
+{
+  template <int dim, int spacedim>
+  class DataOut;
+}
+
 namespace taut
 {
   /**
@@ -33,6 +39,8 @@ namespace taut
   class FEBody : public Substructure
   {
   public:
+    using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
+
     struct Options
     {
       /// Path of the body's section in a parameter file, for messages.
@@ -51,13 +59,21 @@ namespace taut
 
       /// Places are found with it; none: straight cells.
       const dealii::Mapping<dim> *mapping = nullptr;
+
+      /// The active cells that the body consists of, if it is a part of a larger one; empty: all.
+      /// A part has the DoFs part_dofs() only: what has an entry a DoF has one for each of them.
+      std::vector<Cell> cells = {};
     };
+
+    /// DoFs of these cells, and those that they depend on, in ascending order.
+    static std::vector<dealii::types::global_dof_index>
+    part_dofs(const std::vector<Cell> &cells, const dealii::AffineConstraints<double> &constraints);
 
     /**
      * @p dof_handler and a mapping are kept by reference; matrices, constraints and load [N] are
-     * copied in the form that is needed. An empty damping matrix is none. Throws UserError for
-     * matrices or a load of another size, and for a constraint that both depends on DoFs and is
-     * inhomogeneous.
+     * copied in the form that is needed. Constraints are those of the whole DoFHandler in any case.
+     * An empty damping matrix is none. Throws UserError for matrices or a load of another size, and
+     * for a constraint that both depends on DoFs and is inhomogeneous.
      */
     FEBody(const std::string &name, const dealii::DoFHandler<dim> &dof_handler,
            const dealii::SparseMatrix<double> &mass, const dealii::SparseMatrix<double> &damping,
@@ -88,8 +104,17 @@ namespace taut
     /// others.
     LinearForm displacement_of_dof(dealii::types::global_dof_index dof) const;
 
-    /// All DoFs, those that depend on others too, from the displacement that a State has.
+    /// All DoFs of the DoFHandler, those that depend on others too, from the displacement that a
+    /// State has; zero outside of a part.
     dealii::Vector<double> all_dofs(const std::vector<double> &U) const;
+
+    /// Position in the vectors of the body of a DoF of the DoFHandler that it has.
+    unsigned int index(dealii::types::global_dof_index dof) const;
+    bool has_dof(dealii::types::global_dof_index dof) const;
+
+    /// The active cells of the body.
+    const std::vector<Cell> &cells() const { return own_cells; }
+    bool has_cell(const Cell &cell) const;
 
     void initial_state(std::vector<double> &U, std::vector<double> &V) const override;
     NullSpace null_space() const override { return own_null_space; }
@@ -98,6 +123,10 @@ namespace taut
     void write_vtu(const std::string &path, const std::vector<double> &U) const override;
 
     const dealii::DoFHandler<dim> &dof_handler() const { return handler; }
+
+  protected:
+    /// Leaves the cells out that a part does not have.
+    void show_own_cells(dealii::DataOut<dim, dim> &data) const;
 
   private:
     class Load;
@@ -111,7 +140,9 @@ namespace taut
     const dealii::DoFHandler<dim> &handler;
     const dealii::Mapping<dim> &mapping;
     const Coordinates scalar_direction;
-    std::vector<LinearForm> forms; ///< of each DoF on those that are kept
+    std::vector<Cell> own_cells;                           ///< in ascending order
+    std::vector<dealii::types::global_dof_index> own_dofs; ///< of a part; empty: all
+    std::vector<LinearForm> forms;                         ///< of each DoF on those that are kept
     dealii::Vector<double> U0, V0;
     NullSpace own_null_space;
   };

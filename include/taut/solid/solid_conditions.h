@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_solid_conditions_h
+#define taut_solid_conditions_h
+
+#include <taut/solid/solid_mesh.h>
+
+#include <deal.II/lac/affine_constraints.h>
+
+#include <array>
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace taut
+{
+  /// What is given on a part of the boundary.
+  struct BoundaryCondition
+  {
+    enum class Kind
+    {
+      displacement, ///< of the components that are held [m]
+      symmetry,     ///< no motion along the normal of faces across the axes
+      traction,     ///< force per area [Pa]
+      pressure      ///< against the outward normal, the x of the value [Pa]
+    };
+    Kind kind = Kind::displacement;
+    std::set<dealii::types::boundary_id> boundaries;
+    std::array<bool, 3> held = {true, true, true};
+
+    /// The value at a point x [m] and t [s]; none: zero.
+    std::function<Coordinates(const Coordinates &x, double t)> value = {};
+    bool varies = false; ///< in time
+
+    std::string origin = {}; ///< path of its section in the parameter file, for messages
+  };
+
+  /// The DoFs of a mesh that hang between others or whose displacement is given.
+  template <int dim>
+  class SolidConditions
+  {
+  public:
+    /// @p conditions are kept by reference. Throws EntryError about one with a boundary that the
+    /// mesh does not have.
+    SolidConditions(const SolidMesh<dim> &mesh, const std::vector<BoundaryCondition> &conditions);
+
+    /// Not closed, so that hanging nodes go on to depend on nodes whose displacement is given.
+    const dealii::AffineConstraints<double> &constraints() const { return all; }
+
+    /// A DoF whose displacement is not zero, and what gives it.
+    struct Prescribed
+    {
+      dealii::types::global_dof_index dof;
+      const BoundaryCondition *by;
+    };
+    const std::vector<Prescribed> &prescribed() const { return given; }
+
+  private:
+    void constrain(const SolidMesh<dim> &mesh, const BoundaryCondition &condition);
+
+    dealii::AffineConstraints<double> all;
+    std::vector<Prescribed> given;
+  };
+} // namespace taut
+
+#endif

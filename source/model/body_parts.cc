@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/about_entry.h>
+#include <taut/model/scene_bodies.h>
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+namespace taut
+{
+  namespace
+  {
+    std::string path(const std::string &origin, const std::string &entry)
+    {
+      return origin.empty() ? "" : origin + "/" + entry;
+    }
+
+    LinearForm displacement(const Substructure &body, const Attachment &at,
+                            const Coordinates &direction)
+    {
+      LinearForm form = body.displacement(at.place, direction);
+      if (form.index.empty())
+        throw UserError("body '" + body.name() +
+                        "' has no motion there along the direction; change the direction");
+      return form;
+    }
+
+    /// Cells of each part.
+    std::vector<std::vector<unsigned int>> cells_of_parts(const std::vector<unsigned int> &part,
+                                                          const std::size_t n_parts)
+    {
+      std::vector<std::vector<unsigned int>> cells(n_parts);
+      for (std::size_t c = 0; c < part.size(); ++c)
+        cells[part[c]].push_back(c);
+      return cells;
+    }
+  } // namespace
+
+  void SceneBodies::add_custom_bodies(const Scene &scene, const Partition &partition,
+                                      const std::vector<unsigned int> &owner)
+  {
+    custom_bodies.resize(scene.bodies.size());
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    {
+      const CustomBody &body = scene.bodies[i];
+      if (i < partition.bodies.size())
+        custom_bodies[i].division = partition.bodies[i];
+      if (custom_bodies[i].division.body)
+      {
+        custom_bodies[i].index = add_parts(scene, i, owner);
+        continue;
+      }
+      const auto make = [&]
+      {
+        std::unique_ptr<Substructure> made =
+            body.type->make({body.name, body.origin, scene.gravity});
+        if (!made)
+          throw EntryError(body.origin, "its type '" + body.type_name + "' made no body");
+        add_loads(scene, i, 0, *made);
+        return made;
+      };
+      custom_bodies[i].index = {
+          add(body.name, owner[owner.size() - scene.bodies.size() + i], make)};
+    }
+  }
+
+  /// The parts of a divided body, numbered anew without those that have no cell of it.
+  std::vector<std::size_t> SceneBodies::add_parts(const Scene &scene, const std::size_t body,
+                                                  const std::vector<unsigned int> &owner)
+  {
+    const CustomBody &custom = scene.bodies[body];
+    BodyParts &parts = custom_bodies[body];
+    std::map<unsigned int, unsigned int> position;
+    for (const unsigned int part : parts.division.part)
+      position.insert({part, 0});
+    std::vector<unsigned int> rank;
+    for (auto &[part, at] : position)
+    {
+      at = rank.size();
+      rank.push_back(owner[part]);
+    }
+    for (unsigned int &part : parts.division.part)
+      part = position.at(part);
+
+    const auto cells = cells_of_parts(parts.division.part, rank.size());
+    for (std::size_t p = 0; p < rank.size(); ++p)
+      parts.index.push_back(add(custom.name, rank[p],
+                                [&]
+                                {
+                                  auto made = parts.division.body->make_part(
+                                      {custom.name, custom.origin, scene.gravity}, cells[p]);
+                                  add_loads(scene, body, p, *made);
+                                  return made;
+                                }));
+    tie_parts(custom.name, parts, cells);
+    return parts.index;
+  }
+
+  void SceneBodies::tie_parts(const std::string &name, const BodyParts &body,
+                              const std::vector<std::vector<unsigned int>> &cells)
+  {
+    const BodyCells &all = body.division.body->cells();
+    std::vector<std::tuple<unsigned int, unsigned int, unsigned int>> copies; // DoF, part, own DoF
+    for (std::size_t p = 0; p < cells.size(); ++p)
+    {
+      std::vector<unsigned int> dofs;
+      for (const unsigned int cell : cells[p])
+        dofs.insert(dofs.end(), all.dofs.begin() + all.begin[cell],
+                    all.dofs.begin() + all.begin[cell + 1]);
+      std::sort(dofs.begin(), dofs.end());
+      dofs.erase(std::unique(dofs.begin(), dofs.end()), dofs.end());
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+        if (!all.is_determined[dofs[i]])
+          copies.emplace_back(dofs[i], p, i);
+    }
+    std::sort(copies.begin(), copies.end());
+    for (std::size_t c = 1; c < copies.size(); ++c)
+    {
+      const unsigned int dof = std::get<0>(copies[c]);
+      if (std::get<0>(copies[c - 1]) != dof)
+        continue;
+      CutConstraint constraint{name + " cut at DoF " + std::to_string(dof), false, {}};
+      for (const auto &[copy, sign] : {std::make_pair(c - 1, 1.), std::make_pair(c, -1.)})
+        if (const std::size_t k = body.index[std::get<1>(copies[copy])]; k != elsewhere)
+        {
+          constraint.terms.push_back({k, {}});
+          constraint.terms.back().form.add(std::get<2>(copies[copy]), sign);
+        }
+      cuts.push_back(std::move(constraint));
+    }
+  }
+
+  std::size_t SceneBodies::part_at(const std::size_t body, const Coordinates &place) const
+  {
+    const Partition::Division &division = custom_bodies[body].division;
+    return division.body ? division.part[division.body->cell_at(place)] : 0;
+  }
+
+  std::size_t SceneBodies::index_at(const std::size_t body, const Coordinates &place) const
+  {
+    return custom_bodies[body].index[part_at(body, place)];
+  }
+
+  std::size_t SceneBodies::index_at_node(const std::size_t body, const unsigned int node) const
+  {
+    const Partition::Division &division = custom_bodies[body].division;
+    return custom_bodies[body]
+        .index[division.body ? division.part[division.body->cell_at_node(node)] : 0];
+  }
+
+  void SceneBodies::add_loads(const Scene &scene, const std::size_t body, const std::size_t part,
+                              Substructure &made) const
+  {
+    for (const Load &load : scene.loads)
+    {
+      if (load.target.kind != Attachment::Kind::body || load.target.index != body)
+        continue;
+      const LinearForm form =
+          about_entry(path(load.origin, "On"),
+                      [&]
+                      {
+                        return part_at(body, load.target.place) == part
+                                   ? displacement(made, load.target, load.direction)
+                                   : LinearForm();
+                      });
+      if (form.index.empty())
+        continue;
+      if (load.magnitude.depends_on_time())
+        made.add_force(form, [f = load.magnitude](const double t) { return f(0., t); });
+      else
+        made.add_force(form, load.magnitude(0., 0.));
+    }
+  }
+
+  /// That all points at custom bodies are on them and move, on all ranks alike.
+  void SceneBodies::check_places(const Scene &scene) const
+  {
+    const auto check = [&](const Attachment &end, const Coordinates &direction,
+                           const std::string &origin, const std::string &entry)
+    {
+      if (end.kind == Attachment::Kind::body)
+        about_entry(path(origin, entry),
+                    [&]
+                    {
+                      const std::size_t k = index_at(end.index, end.place);
+                      if (k != elsewhere)
+                        displacement((*this)[k], end, direction);
+                    });
+    };
+    communicator().agree(
+        [&]
+        {
+          for (const Link &link : scene.links)
+          {
+            check(link.from, link.direction, link.origin, "From");
+            check(link.to, link.direction, link.origin, "To");
+          }
+          for (const Probe &probe : scene.probes)
+            check(probe.point, probe.direction, probe.origin, "Point");
+        });
+  }
+} // namespace taut

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
+#include <taut/solid/divisible_fe_body.h>
+#include <taut/substructure/fe_body.h>
+
+#include <deal.II/grid/grid_tools.h>
+
+#include <sstream>
+
+namespace taut
+{
+  template <int dim>
+  DivisibleFEBody<dim>::DivisibleFEBody(const dealii::DoFHandler<dim> &dof_handler,
+                                        const dealii::Mapping<dim> &mapping,
+                                        const dealii::AffineConstraints<double> &constraints)
+      : handler(dof_handler), mapping(mapping)
+  {
+    for (const auto &cell : handler.active_cell_iterators())
+    {
+      const unsigned int number = active_cells.size();
+      active_cells.push_back(cell);
+      for (const auto dof : FEBody<dim>::part_dofs({cell}, constraints))
+        body_cells.dofs.push_back(dof);
+      body_cells.begin.push_back(body_cells.dofs.size());
+      // A face between cells of different size is that of the smaller one.
+      for (const unsigned int f : cell->face_indices())
+        if (!cell->at_boundary(f) && cell->neighbor(f)->is_active() &&
+            (cell->neighbor_is_coarser(f) || cell->neighbor(f)->active_cell_index() < number))
+          body_cells.faces.emplace_back(number, cell->neighbor(f)->active_cell_index());
+    }
+    body_cells.is_determined.resize(handler.n_dofs());
+    for (dealii::types::global_dof_index dof = 0; dof < handler.n_dofs(); ++dof)
+      body_cells.is_determined[dof] = constraints.is_constrained(dof);
+  }
+
+  template <int dim>
+  std::size_t DivisibleFEBody<dim>::cell_at(const Coordinates &place) const
+  {
+    dealii::Point<dim> point;
+    for (unsigned int d = 0; d < dim; ++d)
+      point[d] = place[d];
+    try
+    {
+      const auto [cell, unit] =
+          dealii::GridTools::find_active_cell_around_point(mapping, handler, point);
+      if (cell != handler.end())
+        return cell->active_cell_index();
+    }
+    catch (const dealii::ExceptionBase &)
+    {
+    }
+    std::ostringstream out;
+    out << "the point " << point << " is not on the body";
+    throw UserError(out.str());
+  }
+
+  template <int dim>
+  std::size_t DivisibleFEBody<dim>::cell_at_node(const unsigned int) const
+  {
+    throw UserError("the body shows no surface to contacts");
+  }
+
+  template <int dim>
+  std::vector<typename DivisibleFEBody<dim>::Cell>
+  DivisibleFEBody<dim>::cells(const std::vector<unsigned int> &numbers) const
+  {
+    std::vector<Cell> result;
+    for (const unsigned int number : numbers)
+      result.push_back(active_cells[number]);
+    return result;
+  }
+
+  template class DivisibleFEBody<1>;
+  template class DivisibleFEBody<2>;
+  template class DivisibleFEBody<3>;
+} // namespace taut

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
+#include <taut/solid/solid_conditions.h>
+
+#include <deal.II/dofs/dof_tools.h>
+
+#include <deal.II/fe/fe_values.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace taut
+{
+  namespace
+  {
+    /// As far as a normal may be from an axis for a boundary along it.
+    constexpr double along_axis = 1e-8;
+
+    /// The axis that a face is across.
+    template <int dim>
+    unsigned int axis_of(const std::vector<dealii::Tensor<1, dim>> &normals)
+    {
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        if (std::all_of(normals.begin(), normals.end(),
+                        [axis](const dealii::Tensor<1, dim> &n)
+                        { return std::fabs(n[axis]) > 1. - along_axis; }))
+          return axis;
+      throw UserError("symmetry needs faces across an axis; the normal of one is (" +
+                      std::to_string(normals[0][0]) + ", " + std::to_string(normals[0][1]) +
+                      (dim == 3 ? ", " + std::to_string(normals[0][dim - 1]) : "") + ")");
+    }
+  } // namespace
+
+  template <int dim>
+  SolidConditions<dim>::SolidConditions(const SolidMesh<dim> &mesh,
+                                        const std::vector<BoundaryCondition> &conditions)
+  {
+    dealii::AffineConstraints<double> hanging;
+    dealii::DoFTools::make_hanging_node_constraints(mesh.dof_handler(), hanging);
+    hanging.close();
+    for (const auto &line : hanging.get_lines())
+    {
+      all.add_line(line.index);
+      all.add_entries(line.index, line.entries);
+    }
+    const auto ids = mesh.boundary_ids();
+    for (const BoundaryCondition &condition : conditions)
+    {
+      try
+      {
+        for (const auto id : condition.boundaries)
+          if (ids.count(id) == 0)
+            throw UserError(mesh.no_boundary(id));
+        constrain(mesh, condition);
+      }
+      catch (const UserError &e)
+      {
+        throw EntryError(condition.origin, e.what());
+      }
+    }
+  }
+
+  template <int dim>
+  void SolidConditions<dim>::constrain(const SolidMesh<dim> &mesh,
+                                       const BoundaryCondition &condition)
+  {
+    using Kind = BoundaryCondition::Kind;
+    if (condition.kind != Kind::displacement && condition.kind != Kind::symmetry)
+      return;
+    const dealii::FiniteElement<dim> &element = mesh.dof_handler().get_fe();
+    dealii::FEFaceValues<dim> values(mesh.mapping(), element, mesh.face_quadrature(2),
+                                     dealii::update_normal_vectors);
+    std::vector<dealii::types::global_dof_index> dofs(element.n_dofs_per_face(0));
+    for (const auto &cell : mesh.dof_handler().active_cell_iterators())
+      for (const unsigned int f : cell->face_indices())
+      {
+        if (!cell->face(f)->at_boundary() ||
+            condition.boundaries.count(cell->face(f)->boundary_id()) == 0)
+          continue;
+        std::array<bool, 3> held = condition.held;
+        if (condition.kind == Kind::symmetry)
+        {
+          values.reinit(cell, f);
+          held = {false, false, false};
+          held[axis_of<dim>(values.get_normal_vectors())] = true;
+        }
+        cell->face(f)->get_dof_indices(dofs);
+        for (const auto dof : dofs)
+        {
+          // The first condition that is written counts where two meet, as do hanging nodes.
+          if (!held[mesh.component(dof)] || all.is_constrained(dof))
+            continue;
+          all.add_line(dof);
+          if (condition.value)
+            given.push_back({dof, &condition});
+        }
+      }
+  }
+
+  template class SolidConditions<2>;
+  template class SolidConditions<3>;
+} // namespace taut

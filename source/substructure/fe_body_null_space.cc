@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/dot.h>
+#include <taut/substructure/fe_body.h>
+
+#include <deal.II/fe/fe.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace taut
+{
+  namespace
+  {
+    /// Part of itself below which a vector is a combination of others.
+    constexpr double dependent = 1e-10;
+  } // namespace
+
+  /// Motions without energy before the constraints.
+  template <int dim>
+  std::vector<std::vector<double>> FEBody<dim>::candidates(const Options &options) const
+  {
+    std::vector<std::vector<double>> modes;
+    for (const dealii::Vector<double> &given : options.null_space)
+    {
+      check_size(given.size(), "null space");
+      modes.emplace_back(given.begin(), given.end());
+    }
+    const dealii::FiniteElement<dim> &element = handler.get_fe();
+    if (!options.null_space.empty() || !options.rigid_body_modes || !element.has_support_points())
+      return modes;
+    const unsigned int n_components = element.n_components();
+    if (n_components != 1 && n_components != dim)
+      return modes;
+    std::vector<dealii::Point<dim>> points(forms.size());
+    std::vector<unsigned int> component(forms.size(), n_components);
+    std::vector<dealii::types::global_dof_index> on_cell(element.n_dofs_per_cell());
+    std::size_t n_known = 0;
+    const auto note = [&](const Cell &cell)
+    {
+      cell->get_dof_indices(on_cell);
+      for (unsigned int c = 0; c < on_cell.size(); ++c)
+      {
+        const unsigned int i = has_dof(on_cell[c]) ? index(on_cell[c]) : component.size();
+        if (i == component.size() || component[i] != n_components)
+          continue;
+        ++n_known;
+        component[i] = element.system_to_component_index(c).first;
+        points[i] = mapping.transform_unit_to_real_cell(cell, element.unit_support_point(c));
+      }
+    };
+    for (const Cell &cell : own_cells)
+      note(cell);
+    // Hanging nodes of a part depend on nodes of cells beside it.
+    if (n_known < forms.size())
+      for (const auto &cell : handler.active_cell_iterators())
+        note(cell);
+    for (unsigned int c = 0; c < n_components; ++c)
+      modes.emplace_back(forms.size(), 0.);
+    for (unsigned int i = 0; i < forms.size(); ++i)
+      modes[component[i]][i] = 1.;
+    if (n_components == 1)
+      return modes;
+    // Rotations about the middle, with the size of the body as the unit of length.
+    dealii::Point<dim> middle;
+    for (const auto &point : points)
+      middle += point / static_cast<double>(points.size());
+    double size = 0.;
+    for (const auto &point : points)
+      size = std::max(size, point.distance(middle));
+    for (unsigned int a = 0; a < dim; ++a)
+      for (unsigned int b = a + 1; b < dim; ++b)
+      {
+        modes.emplace_back(forms.size(), 0.);
+        for (unsigned int i = 0; i < forms.size(); ++i)
+          if (component[i] == a)
+            modes.back()[i] = -(points[i] - middle)[b] / size;
+          else if (component[i] == b)
+            modes.back()[i] = (points[i] - middle)[a] / size;
+      }
+    return modes;
+  }
+
+  /**
+   * The combinations of the candidates that vanish on all prescribed DoFs, and DoFs that fix them.
+   * The candidates are reduced by their values there, largest pivots first (a rank-revealing LU of
+   * a few columns); those that are left have none.
+   */
+  template <int dim>
+  void FEBody<dim>::find_null_space(const Options &options)
+  {
+    std::vector<std::vector<double>> modes = candidates(options);
+    std::vector<char> is_constrained(forms.size(), 0);
+    for (const ConstrainedDof &constraint : constrained)
+      is_constrained[constraint.dof] = 1;
+    std::vector<unsigned int> prescribed, kept;
+    for (unsigned int i = 0; i < forms.size(); ++i)
+      if (!is_constrained[i])
+        kept.push_back(i);
+      else if (forms[i].index == std::vector<unsigned int>{i})
+        prescribed.push_back(i);
+
+    /// Takes the mode and the DoF of the largest value out of the list; none above the bound:
+    /// false.
+    const auto eliminate = [](std::vector<std::vector<double>> &list,
+                              const std::vector<unsigned int> &dofs, unsigned int &dof,
+                              std::vector<double> &pivot_mode)
+    {
+      double largest = dependent;
+      std::size_t mode = list.size();
+      for (std::size_t m = 0; m < list.size(); ++m)
+        for (const unsigned int i : dofs)
+          if (std::fabs(list[m][i]) > largest)
+          {
+            largest = std::fabs(list[m][i]);
+            mode = m;
+            dof = i;
+          }
+      if (mode == list.size())
+        return false;
+      pivot_mode = list[mode];
+      list.erase(list.begin() + mode);
+      for (std::vector<double> &other : list)
+      {
+        const double factor = other[dof] / pivot_mode[dof];
+        for (std::size_t i = 0; i < other.size(); ++i)
+          other[i] -= factor * pivot_mode[i];
+        other[dof] = 0.;
+      }
+      return true;
+    };
+    unsigned int dof = 0;
+    std::vector<double> pivot;
+    while (eliminate(modes, prescribed, dof, pivot))
+      ;
+    for (std::vector<double> &mode : modes)
+      for (unsigned int i = 0; i < mode.size(); ++i)
+        if (is_constrained[i])
+          mode[i] = 0.;
+    // Only those that K does not resist.
+    std::vector<double> diagonal(forms.size(), 0.);
+    K->visit(
+        [&](const unsigned int i, const unsigned int j, const double value)
+        {
+          if (i == j)
+            diagonal[i] = value;
+        });
+    modes.erase(std::remove_if(modes.begin(), modes.end(),
+                               [&](const std::vector<double> &mode)
+                               {
+                                 std::vector<double> force(mode.size(), 0.);
+                                 K->vmult_add(1., mode.data(), force.data());
+                                 double scale = 0.;
+                                 for (std::size_t i = 0; i < mode.size(); ++i)
+                                   scale += diagonal[i] * mode[i] * mode[i];
+                                 return std::fabs(dot(force, mode)) > dependent * scale;
+                               }),
+                modes.end());
+    own_null_space = {};
+    std::vector<std::vector<double>> rest = modes;
+    while (eliminate(rest, kept, dof, pivot))
+    {
+      own_null_space.vectors.push_back(pivot);
+      own_null_space.fixing_dofs.push_back(dof);
+    }
+  }
+
+  template std::vector<std::vector<double>> FEBody<1>::candidates(const Options &) const;
+  template std::vector<std::vector<double>> FEBody<2>::candidates(const Options &) const;
+  template std::vector<std::vector<double>> FEBody<3>::candidates(const Options &) const;
+  template void FEBody<1>::find_null_space(const Options &);
+  template void FEBody<2>::find_null_space(const Options &);
+  template void FEBody<3>::find_null_space(const Options &);
+} // namespace taut
