@@ -1,16 +1,62 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "constraint_flexibilities.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace taut
 {
-  RowFlexibilities::RowFlexibilities(const FactoredStructure &solvers,
-                                     const BodyConstraints &constraints)
-      : solvers(solvers), constraints(constraints), parts(constraints.size()),
-        group_of(constraints.size()), n_groups(constraints.size(), 1)
+  namespace
   {
+    /// Cuts of a body from which on flexibilities are estimated, and from how many of them.
+    constexpr std::size_t most_exact = 100, n_samples = 16;
+
+    /// b^T diag(A)^-1 b.
+    double local_flexibility(const LinearForm &form, const std::vector<double> &diagonal)
+    {
+      double sum = 0.;
+      for (std::size_t e = 0; e < form.index.size(); ++e)
+        if (diagonal[form.index[e]] > 0.)
+          sum += form.value[e] * form.value[e] / diagonal[form.index[e]];
+      return sum;
+    }
+  } // namespace
+
+  RowFlexibilities::RowFlexibilities(const FactoredStructure &solvers,
+                                     const BodyConstraints &constraints, std::vector<char> is_cut)
+      : solvers(solvers), constraints(constraints), is_cut(std::move(is_cut)),
+        parts(constraints.size()), group_of(constraints.size()), n_groups(constraints.size(), 1)
+  {
+  }
+
+  std::vector<double> RowFlexibilities::diagonal_of(const std::size_t k) const
+  {
+    std::vector<double> diagonal(solvers.structure()[k].n_dofs(), 0.);
+    solvers.visit(k,
+                  [&](unsigned int i, unsigned int j, double value)
+                  {
+                    if (i == j)
+                      diagonal[i] += value;
+                  });
+    return diagonal;
+  }
+
+  /// True if the body has so many cuts that they are; some of them, spread over all.
+  bool RowFlexibilities::estimates(const std::size_t k,
+                                   std::vector<const BodyConstraints::Entry *> &samples) const
+  {
+    std::vector<const BodyConstraints::Entry *> cuts;
+    for (const BodyConstraints::Entry &entry : constraints[k])
+      if (is_cut[entry.constraint])
+        cuts.push_back(&entry);
+    if (cuts.size() <= most_exact || n_groups[k] > 1 ||
+        solvers.structure()[k].stiffness().block_size() > 0)
+      return false;
+    for (std::size_t s = 0; s < n_samples; ++s)
+      samples.push_back(cuts[s * cuts.size() / n_samples]);
+    return true;
   }
 
   void RowFlexibilities::find_coupling(const std::size_t k)
@@ -42,8 +88,20 @@ namespace taut
   void RowFlexibilities::compute(const std::size_t k)
   {
     parts[k].clear();
+    const std::vector<double> diagonal = diagonal_of(k);
+    std::vector<const BodyConstraints::Entry *> samples;
+    const bool has_estimates = estimates(k, samples);
+    double ratio = 0.;
+    for (const BodyConstraints::Entry *entry : samples)
+      if (const double local = local_flexibility(entry->form, diagonal); local > 0.)
+        ratio = std::max(ratio, solvers[k].flexibility(entry->form) / local);
     for (const BodyConstraints::Entry &entry : constraints[k])
     {
+      if (has_estimates && is_cut[entry.constraint])
+      {
+        parts[k].push_back({entry.constraint, 0, ratio * local_flexibility(entry.form, diagonal)});
+        continue;
+      }
       if (n_groups[k] <= 1)
       {
         parts[k].push_back({entry.constraint, 0, solvers[k].flexibility(entry.form)});
@@ -63,6 +121,16 @@ namespace taut
     for (const std::vector<Part> &of_body : parts)
       for (const Part &part : of_body)
         diagonal[part.constraint] += part.flexibility;
+  }
+
+  void RowFlexibilities::add_to_local_diagonal(std::vector<double> &diagonal) const
+  {
+    for (std::size_t k = 0; k < parts.size(); ++k)
+    {
+      const std::vector<double> own = diagonal_of(k);
+      for (const BodyConstraints::Entry &entry : constraints[k])
+        diagonal[entry.constraint] += local_flexibility(entry.form, own);
+    }
   }
 
   void RowFlexibilities::add_bound(const std::vector<double> &x, std::vector<double> &y) const

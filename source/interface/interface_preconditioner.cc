@@ -24,6 +24,13 @@ namespace taut
     /// within the group do not feel that motion, so that it is not excited.
     constexpr double null_space_shift = 1e-9;
 
+    /// Relative shift of Q, which is singular if rigid constraints depend on each other.
+    constexpr double dependence_shift = 1e-12;
+
+    /// DoFs of a body of any pattern up to which its Schur complement is formed: a solve for each,
+    /// where applying it costs one an iteration.
+    constexpr std::size_t most_formed = 100;
+
     constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
 
     /// Position of each DoF in a sorted list.
@@ -52,9 +59,10 @@ namespace taut
                                       const std::vector<double> &compliance,
                                       const std::vector<double> &diagonal)
   {
-    own.assign(active.size(), 0.);
-    for (std::size_t i = 0; is_diagonal && i < active.size(); ++i)
-      own[i] = active[i] && diagonal[i] > 0. ? 1. / diagonal[i] : 0.;
+    other.assign(active.size(), 0.);
+    for (std::size_t i = 0; i < active.size(); ++i)
+      other[i] = active[i] && diagonal[i] > 0. ? 1. / diagonal[i] : 0.;
+    own = other;
     if (is_diagonal)
       return;
     solvers.structure().communicator().agree(
@@ -66,35 +74,67 @@ namespace taut
         });
     gather_blocks(active);
     add_springs(active, diagonal, compliance);
-    set_scaling(active, diagonal);
+    set_scaling();
+  }
+
+  /// The DoFs of active constraints that may move.
+  std::vector<unsigned int>
+  InterfacePreconditioner::constrained_together(const std::size_t k,
+                                                const std::vector<char> &active) const
+  {
+    const std::vector<unsigned int> held = solvers.structure()[k].constrained_dofs();
+    std::vector<unsigned int> dofs;
+    for (const BodyConstraints::Entry &entry : body_constraints[k])
+      if (active[entry.constraint])
+        for (const unsigned int dof : entry.form.index)
+          if (!std::binary_search(held.begin(), held.end(), dof))
+            dofs.push_back(dof);
+    std::sort(dofs.begin(), dofs.end());
+    dofs.erase(std::unique(dofs.begin(), dofs.end()), dofs.end());
+    return dofs;
+  }
+
+  /// A_k on b.
+  void InterfacePreconditioner::set_entries(const std::size_t k, Block &block) const
+  {
+    const auto position = positions(block.dofs, solvers.structure()[k].n_dofs());
+    solvers.visit(k,
+                  [&](unsigned int i, unsigned int j, double value)
+                  {
+                    if (position[i] != nowhere && position[j] != nowhere)
+                      block.entries.add(position[i], position[j], value);
+                  });
   }
 
   void InterfacePreconditioner::compute_block(const std::size_t k, const std::vector<char> &active)
   {
-    const std::vector<unsigned int> constrained = solvers.structure()[k].constrained_dofs();
     Block block;
-    for (const BodyConstraints::Entry &entry : body_constraints[k])
-      if (active[entry.constraint])
-        for (const unsigned int dof : entry.form.index)
-          if (!std::binary_search(constrained.begin(), constrained.end(), dof))
-            block.dofs.push_back(dof);
-    std::sort(block.dofs.begin(), block.dofs.end());
-    block.dofs.erase(std::unique(block.dofs.begin(), block.dofs.end()), block.dofs.end());
-
-    const std::size_t n = block.dofs.size();
-    const auto position = positions(block.dofs, solvers.structure()[k].n_dofs());
-    std::vector<double> diagonal(n, 0.);
-    solvers.visit(k,
-                  [&](unsigned int i, unsigned int j, double value)
-                  {
-                    if (position[i] == nowhere || position[j] == nowhere)
-                      return;
-                    block.entries.add(position[i], position[j], value);
-                    if (i == j)
-                      diagonal[position[i]] += value;
-                  });
-    if (is_dirichlet && n > 0)
+    if (is_dirichlet && solvers.structure()[k].stiffness().block_size() == 0)
+    {
+      block.dofs = constrained_together(k, std::vector<char>(active.size(), 1));
+      if (block.dofs.size() > most_formed)
+      {
+        if (blocks[k].interior && blocks[k].dofs == block.dofs)
+          return;
+        block.interior = solvers.solver_with_held(k, block.dofs);
+        ++factorisations;
+        set_entries(k, block);
+        block.entries.compress();
+        blocks[k] = std::move(block);
+        return;
+      }
+    }
+    block.dofs = constrained_together(k, active);
+    set_entries(k, block);
+    std::vector<double> diagonal(block.dofs.size(), 0.);
+    for (std::size_t e = 0; e < block.entries.size(); ++e)
+      if (block.entries.row[e] == block.entries.column[e])
+        diagonal[block.entries.row[e]] += block.entries.value[e];
+    if (is_dirichlet && !block.dofs.empty())
+    {
       condense(k, block);
+      ++factorisations;
+    }
     block.entries.compress();
     for (std::size_t e = 0; e < block.entries.size(); ++e)
     {
@@ -103,7 +143,6 @@ namespace taut
           !(block.entries.value[e] > smallest_stiffness * diagonal[p]))
         block.entries.value[e] = 0.;
     }
-    factorisations += is_dirichlet && n > 0;
     blocks[k] = std::move(block);
   }
 
@@ -176,12 +215,15 @@ namespace taut
 
     T = {};
     B = {};
+    substitute = {};
     for (std::size_t k = 0; k < blocks.size(); ++k)
     {
-      const Block &block = blocks[k];
+      Block &block = blocks[k];
+      block.first = first;
+      SymmetricEntries &to = block.interior ? substitute : T;
       for (std::size_t e = 0; e < block.entries.size(); ++e)
-        T.add(first + block.entries.row[e], first + block.entries.column[e],
-              block.entries.value[e]);
+        to.add(first + block.entries.row[e], first + block.entries.column[e],
+               block.entries.value[e]);
       for (const BodyConstraints::Entry &entry : body_constraints[k])
         for (std::size_t e = 0; active[entry.constraint] && e < entry.form.index.size(); ++e)
         {
@@ -193,8 +235,10 @@ namespace taut
       first += block.dofs.size();
     }
     gather(processes, T);
+    gather(processes, substitute);
     gather(processes, B);
     B.compress();
+    has_substitute = substitute.size() > 0;
   }
 
   /// The elastic rows as springs between the DoFs, and the factor of T with them.
@@ -223,6 +267,9 @@ namespace taut
     if (!has_springs)
       return;
     SymmetricEntries shifted = T;
+    for (std::size_t e = 0; e < substitute.size(); ++e)
+      shifted.add(substitute.row[e], substitute.column[e], substitute.value[e]);
+    shifted.compress();
     std::vector<char> has_diagonal(n_dofs, 0);
     for (std::size_t e = 0; e < shifted.size(); ++e)
       if (shifted.row[e] == shifted.column[e] && shifted.value[e] > 0.)
@@ -236,27 +283,85 @@ namespace taut
     inverse_T.factor(n_dofs, shifted, 0.);
   }
 
-  /// D^-1 B_r Q^-1.
-  void InterfacePreconditioner::set_scaling(const std::vector<char> &active,
-                                            const std::vector<double> &diagonal)
+  /// D^-1 B_r, and Q from the rows that share a DoF.
+  void InterfacePreconditioner::set_scaling()
   {
-    std::vector<double> D(n_dofs, 0.), Q(active.size(), 0.);
-    for (std::size_t e = 0; e < T.size(); ++e)
-      if (T.row[e] == T.column[e])
-        D[T.row[e]] = T.value[e];
+    std::vector<double> D(n_dofs, 0.);
+    for (const SymmetricEntries *matrix : {&T, &substitute})
+      for (std::size_t e = 0; e < matrix->size(); ++e)
+        if (matrix->row[e] == matrix->column[e])
+          D[matrix->row[e]] += matrix->value[e];
     scaled_B = B;
+    std::vector<std::vector<std::size_t>> at_dof(n_dofs);
     for (std::size_t e = 0; e < B.size(); ++e)
     {
       const double d = D[B.column[e]];
       scaled_B.value[e] = d > 0. && stiffness[B.row[e]] == 0. ? B.value[e] / d : 0.;
-      Q[B.row[e]] += scaled_B.value[e] * B.value[e];
+      if (scaled_B.value[e] != 0.)
+        at_dof[B.column[e]].push_back(e);
     }
-    for (std::size_t e = 0; e < B.size(); ++e)
-      if (Q[B.row[e]] > 0.)
-        scaled_B.value[e] /= Q[B.row[e]];
-    for (std::size_t i = 0; i < active.size(); ++i)
-      if (active[i] && Q[i] == 0. && stiffness[i] == 0. && diagonal[i] > 0.)
-        own[i] = 1. / diagonal[i];
+    SymmetricEntries entries;
+    std::vector<double> diagonal(other.size(), 0.);
+    is_rigid.assign(other.size(), 0);
+    for (const auto &rows : at_dof)
+      for (std::size_t a = 0; a < rows.size(); ++a)
+      {
+        for (std::size_t b = 0; b < a; ++b)
+          entries.add(B.row[rows[a]], B.row[rows[b]], scaled_B.value[rows[a]] * B.value[rows[b]]);
+        diagonal[B.row[rows[a]]] += scaled_B.value[rows[a]] * B.value[rows[a]];
+      }
+    for (std::size_t i = 0; i < diagonal.size(); ++i)
+    {
+      entries.add(i, i, diagonal[i] > 0. ? diagonal[i] * (1. + dependence_shift) : 1.);
+      is_rigid[i] = diagonal[i] > 0.;
+      if (is_rigid[i])
+        other[i] = 0.;
+      own[i] = stiffness[i] == 0. ? other[i] : 0.;
+    }
+    entries.compress();
+    Q.factor(diagonal.size(), entries, 0.);
+  }
+
+  void InterfacePreconditioner::scale(std::vector<double> &r) const
+  {
+    if (is_diagonal)
+    {
+      for (std::size_t i = 0; i < r.size(); ++i)
+        r[i] *= other[i];
+      return;
+    }
+    scaled = r;
+    Q.solve(scaled);
+    for (std::size_t i = 0; i < r.size(); ++i)
+      r[i] = is_rigid[i] ? scaled[i] : other[i] * r[i];
+  }
+
+  /// f = (T + sum of the Schur complements that are not formed) u.
+  void InterfacePreconditioner::multiply(const std::vector<double> &u, std::vector<double> &f) const
+  {
+    f.assign(n_dofs, 0.);
+    if (has_substitute)
+    {
+      for (std::size_t k = 0; k < blocks.size(); ++k)
+      {
+        const Block &block = blocks[k];
+        if (!block.interior)
+          continue;
+        const std::size_t n = block.dofs.size();
+        whole.assign(solvers.structure()[k].n_dofs(), 0.);
+        for (std::size_t p = 0; p < n; ++p)
+          whole[block.dofs[p]] = u[block.first + p];
+        solvers.multiply(k, whole, image);
+        for (std::size_t p = 0; p < n; ++p)
+          f[block.first + p] = image[block.dofs[p]];
+        block.interior->solve(image);
+        solvers.multiply(k, image, whole);
+        for (std::size_t p = 0; p < n; ++p)
+          f[block.first + p] -= whole[block.dofs[p]];
+      }
+      solvers.structure().communicator().sum(f);
+    }
+    T.vmult_add(u, f);
   }
 
   void InterfacePreconditioner::apply(const std::vector<double> &r, std::vector<double> &z) const
@@ -278,13 +383,18 @@ namespace taut
     jump = r;
     for (std::size_t e = 0; e < B.size(); ++e)
       jump[B.row[e]] -= B.value[e] * force[B.column[e]];
+    Q.solve(jump);
     motion.assign(n_dofs, 0.);
     for (std::size_t e = 0; e < B.size(); ++e)
       motion[B.column[e]] += scaled_B.value[e] * jump[B.row[e]];
-    force.assign(n_dofs, 0.);
-    T.vmult_add(motion, force);
+    multiply(motion, force);
+    jump.assign(r.size(), 0.);
     for (std::size_t e = 0; e < B.size(); ++e)
-      z[B.row[e]] += scaled_B.value[e] * force[B.column[e]];
+      jump[B.row[e]] += scaled_B.value[e] * force[B.column[e]];
+    Q.solve(jump);
+    for (std::size_t i = 0; i < r.size(); ++i)
+      if (is_rigid[i])
+        z[i] += jump[i];
     if (!has_springs)
       return;
 

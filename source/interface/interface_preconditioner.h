@@ -6,6 +6,7 @@
 #include <taut/interface/body_constraints.h>
 #include <taut/substructure/factored_structure.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -30,10 +31,16 @@ namespace taut
    * constraints r, B_r^T T^-1 B_r, is approximated by the preconditioner of FETI, which splits a
    * jump between the two sides by their stiffness D = diag(T) (Rixen and Farhat 1999):
    *
-   *     Q^-1 B_r^T D^-1 T D^-1 B_r Q^-1,    Q = diag(B_r^T D^-1 B_r),
+   *     Q^-1 B_r^T D^-1 T D^-1 B_r Q^-1,    Q = B_r^T D^-1 B_r,
    *
-   * the (B^T B)^-1 scaling where D is the same on both sides and no two constraints share a DoF.
-   * Moving constraints are constraints like the others.
+   * the (B^T B)^-1 scaling where D is the same on all sides. Q is small blocks, one for the
+   * constraints at a node that several parts share. Moving constraints are constraints like the
+   * others.
+   *
+   * The Schur complement of a body with many such DoFs is not formed, but applied with a factor of
+   * the rest of the body. It is that of the DoFs of all constraints, active or not, so that the
+   * factor stays as long as A_k does; in the factor of T, for the elastic constraints, A_k on b
+   * stands for it.
    */
   class InterfacePreconditioner
   {
@@ -42,13 +49,20 @@ namespace taut
     InterfacePreconditioner(const std::string &name, const FactoredStructure &solvers,
                             const BodyConstraints &body_constraints);
 
+    /// All A_k are new.
+    void reset() { blocks = std::vector<Block>(blocks.size()); }
+
     /// For the active constraints. The bodies marked in @p is_changed have another A_k or other
     /// constraints than at the last call. @p diagonal is that of F.
     void setup(const std::vector<char> &active, const std::vector<char> &is_changed,
                const std::vector<double> &compliance, const std::vector<double> &diagonal);
 
-    /// z = M^-1 r; zero on constraints that are not active.
+    /// z = M^-1 r; zero on constraints that are not active. Called by all ranks together.
     void apply(const std::vector<double> &r, std::vector<double> &z) const;
+
+    /// r = Q^-1 r: the stiffness that a constraint feels beside it, without the bodies behind; on
+    /// elastic constraints and without T, 1 / F_ii. Zero on constraints that are not active.
+    void scale(std::vector<double> &r) const;
 
     /// Bodies factored for a Schur complement so far.
     long n_factorisations() const { return factorisations; }
@@ -59,14 +73,22 @@ namespace taut
     {
       std::vector<unsigned int> dofs;
       SymmetricEntries entries;
+      std::size_t first = 0; ///< position of its first DoF among those of all bodies
+
+      /// Of the other DoFs, if the Schur complement is applied and not formed.
+      std::unique_ptr<LocalSolver> interior;
     };
 
     void compute_block(std::size_t k, const std::vector<char> &active);
+    std::vector<unsigned int> constrained_together(std::size_t k,
+                                                   const std::vector<char> &active) const;
+    void set_entries(std::size_t k, Block &block) const;
     void condense(std::size_t k, Block &block) const;
+    void multiply(const std::vector<double> &u, std::vector<double> &f) const;
     void gather_blocks(const std::vector<char> &active);
     void add_springs(const std::vector<char> &active, const std::vector<double> &diagonal,
                      const std::vector<double> &compliance);
-    void set_scaling(const std::vector<char> &active, const std::vector<double> &diagonal);
+    void set_scaling();
 
     const FactoredStructure &solvers;
     const BodyConstraints &body_constraints;
@@ -75,15 +97,20 @@ namespace taut
     long factorisations = 0;
 
     // The same on all ranks.
-    std::size_t n_dofs = 0; ///< of all lists b
-    SymmetricEntries T;
+    std::size_t n_dofs = 0;      ///< of all lists b
+    SymmetricEntries T;          ///< of blocks that are formed, and of springs
+    SymmetricEntries substitute; ///< A_k on b for those that are not
+    bool has_substitute = false;
     SparseCholesky inverse_T;
     MatrixEntries B;               ///< row of F, DoF
-    MatrixEntries scaled_B;        ///< D^-1 B_r Q^-1, in the same order
-    std::vector<double> own;       ///< 1 / F_ii of constraints that nothing else is done for
+    MatrixEntries scaled_B;        ///< D^-1 B_r, in the same order
+    SparseCholesky Q;              ///< of the rigid rows, 1 on the others
+    std::vector<char> is_rigid;    ///< a row of Q
+    std::vector<double> other;     ///< 1 / F_ii of active constraints that are not in Q, else 0
+    std::vector<double> own;       ///< of those of them that nothing else is done for
     std::vector<double> stiffness; ///< 1 / S_i of elastic constraints, 0 of others
     bool has_springs = false;
-    mutable std::vector<double> motion, force, jump;
+    mutable std::vector<double> motion, force, jump, scaled, whole, image;
   };
 } // namespace taut
 

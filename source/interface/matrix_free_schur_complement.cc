@@ -20,6 +20,15 @@ namespace taut
     /// How often conjugate gradients start anew from the true residual.
     constexpr int most_restarts = 4;
 
+    std::vector<char> cuts(const Constraints &constraints)
+    {
+      std::vector<char> result;
+      for (std::size_t i = 0; i < constraints.size(); ++i)
+        result.push_back(!constraints[i].unilateral && !constraints[i].moving &&
+                         std::isinf(constraints[i].stiffness));
+      return result;
+    }
+
     /// The larger one; not-a-number if one is.
     double larger(const double a, const double b)
     {
@@ -42,7 +51,7 @@ namespace taut
         body_constraints(solvers.structure(), constraints),
         F(solvers, body_constraints, constraints.size()),
         preconditioner(parameters.preconditioner, solvers, body_constraints),
-        flexibilities(solvers, body_constraints), tolerance(smallest_residual),
+        flexibilities(solvers, body_constraints, cuts(constraints)), tolerance(smallest_residual),
         work(solvers.structure().zero())
   {
     if (parameters.coarse_space != "rigid body modes" && parameters.coarse_space != "none")
@@ -61,6 +70,7 @@ namespace taut
     F.set_compliance(S);
     if (parameters.coarse_space == "rigid body modes" && !solvers.is_generalised_inverse())
       coarse_space = std::make_unique<CoarseSpace>(solvers, body_constraints);
+    preconditioner.reset();
     is_changed.assign(body_constraints.size(), 1);
     is_stale = true;
     body_constraints.update();
@@ -102,8 +112,14 @@ namespace taut
     diagonal_entries.assign(constraints.size(), 0.);
     flexibilities.add_to_diagonal(diagonal_entries);
     solvers.structure().communicator().sum(diagonal_entries);
-    const std::vector<double> local =
-        solvers.is_generalised_inverse() ? local_flexibilities() : diagonal_entries;
+    std::vector<double> local = diagonal_entries;
+    if (solvers.is_generalised_inverse())
+    {
+      // The diagonal of F depends on how a generalised inverse holds the bodies, this does not.
+      local.assign(constraints.size(), 0.);
+      flexibilities.add_to_local_diagonal(local);
+      solvers.structure().communicator().sum(local);
+    }
     scale.assign(constraints.size(), 1.);
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
@@ -113,29 +129,6 @@ namespace taut
       if (size > 0.)
         scale[i] = 1. / std::sqrt(size);
     }
-  }
-
-  /// B^T diag(A)^-1 B: in statics the diagonal of F depends on how a generalised inverse holds the
-  /// bodies, this does not.
-  std::vector<double> MatrixFreeSchurComplement::local_flexibilities() const
-  {
-    std::vector<double> result(constraints.size(), 0.), diagonal;
-    for (std::size_t k = 0; k < body_constraints.size(); ++k)
-    {
-      diagonal.assign(solvers.structure()[k].n_dofs(), 0.);
-      solvers.visit(k,
-                    [&](unsigned int i, unsigned int j, double value)
-                    {
-                      if (i == j)
-                        diagonal[i] += value;
-                    });
-      for (const auto &[constraint, moving, form] : body_constraints[k])
-        for (std::size_t e = 0; e < form.index.size(); ++e)
-          if (diagonal[form.index[e]] > 0.)
-            result[constraint] += form.value[e] * form.value[e] / diagonal[form.index[e]];
-    }
-    solvers.structure().communicator().sum(result);
-    return result;
   }
 
   void MatrixFreeSchurComplement::contact_free_predictor(const BodyVectors &P,
@@ -205,6 +198,12 @@ namespace taut
     std::fill(is_changed.begin(), is_changed.end(), 0);
   }
 
+  void MatrixFreeSchurComplement::divide_by_scale(std::vector<double> &x) const
+  {
+    for (std::size_t i = 0; i < x.size(); ++i)
+      x[i] = active[i] ? x[i] / scale[i] : 0.;
+  }
+
   void MatrixFreeSchurComplement::scaled_apply(const std::vector<double> &x, std::vector<double> &y)
   {
     constraint_work.resize(x.size());
@@ -268,7 +267,13 @@ namespace taut
                                                         std::vector<double> &alpha)
   {
     prepare(set, shift);
-    const NaturalCoarseProblem coarse_problem(null_space, scale, active);
+    const NaturalCoarseProblem coarse_problem(null_space, scale, active,
+                                              [this](std::vector<double> &x)
+                                              {
+                                                divide_by_scale(x);
+                                                preconditioner.scale(x);
+                                                divide_by_scale(x);
+                                              });
     x.assign(constraints.size(), 0.);
     bool is_solved = coarse_problem.holds_the_bodies();
     if (is_solved)
@@ -300,18 +305,23 @@ namespace taut
       if (null_space)
         null_space->project(v);
     };
+    const auto project_residual = [&](std::vector<double> &v)
+    {
+      if (null_space)
+        null_space->project_residual(v);
+    };
     std::vector<double> projected;
     const RowOperator matrix = [&](const std::vector<double> &in, std::vector<double> &out)
     {
       projected = in;
       project(projected);
       scaled_apply(projected, out);
-      project(out);
+      project_residual(out);
     };
     const RowOperator inverse = [&](const std::vector<double> &in, std::vector<double> &out)
     {
       projected = in;
-      project(projected);
+      project_residual(projected);
       scaled_precondition(projected, out);
       project(out);
     };
@@ -322,7 +332,7 @@ namespace taut
       r.resize(b.size());
       for (std::size_t i = 0; i < b.size(); ++i)
         r[i] = b[i] - image[i];
-      project(r);
+      project_residual(r);
       return largest(r);
     };
     ++counts.n_systems;

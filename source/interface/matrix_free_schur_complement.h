@@ -55,8 +55,8 @@ namespace taut
     void set_tolerance(double wanted) override;
 
     void compute_diagonal();
-    std::vector<double> local_flexibilities() const;
     void prepare(const std::vector<std::size_t> &set, double shift);
+    void divide_by_scale(std::vector<double> &x) const;
     void scaled_apply(const std::vector<double> &x, std::vector<double> &y);
     void scaled_precondition(const std::vector<double> &r, std::vector<double> &z);
     bool refine(const NaturalCoarseProblem *null_space, const std::vector<double> &b,

@@ -7,33 +7,53 @@ namespace taut
 {
   namespace
   {
-    /// Smallest pivot of G G^T of independent motions, relative to its diagonal entry.
+    /// Smallest pivot of G Q^-1 G^T of independent motions, relative to its diagonal entry.
     constexpr double smallest_pivot = 1e-12;
+
+    std::vector<double> products(const std::vector<LinearForm> &forms, const std::vector<double> &x)
+    {
+      std::vector<double> result(forms.size());
+      for (std::size_t k = 0; k < forms.size(); ++k)
+        result[k] = forms[k].dot(x);
+      return result;
+    }
   } // namespace
 
-  NaturalCoarseProblem::NaturalCoarseProblem(const std::vector<LinearForm> &null_space,
-                                             const std::vector<double> &scale,
-                                             const std::vector<char> &active)
-      : G(null_space.size())
+  NaturalCoarseProblem::NaturalCoarseProblem(
+      const std::vector<LinearForm> &null_space, const std::vector<double> &scale,
+      const std::vector<char> &active, const std::function<void(std::vector<double> &)> &solve)
+      : G(null_space.size()), scaled_G(null_space.size())
   {
     // The motions at each row, so that products are formed only between those that meet.
     std::vector<std::vector<std::pair<std::size_t, double>>> at_row(active.size());
+    std::vector<double> row(active.size(), 0.);
     for (std::size_t k = 0; k < null_space.size(); ++k)
+    {
       for (std::size_t e = 0; e < null_space[k].index.size(); ++e)
       {
         const unsigned int i = null_space[k].index[e];
-        if (!active[i])
-          continue;
-        G[k].add(i, null_space[k].value[e] * scale[i]);
-        at_row[i].emplace_back(k, G[k].value.back());
+        if (active[i])
+          G[k].add(i, null_space[k].value[e] * scale[i]);
       }
+      row.assign(active.size(), 0.);
+      G[k].add_to(1., row);
+      solve(row);
+      for (std::size_t i = 0; i < row.size(); ++i)
+        if (row[i] != 0.)
+        {
+          scaled_G[k].add(i, row[i]);
+          at_row[i].emplace_back(k, row[i]);
+        }
+    }
     SymmetricEntries entries;
-    for (const auto &motions : at_row)
-      for (std::size_t a = 0; a < motions.size(); ++a)
-        for (std::size_t b = 0; b <= a; ++b)
-          entries.add(motions[a].first, motions[b].first, motions[a].second * motions[b].second);
     for (std::size_t k = 0; k < G.size(); ++k)
+    {
       entries.add(k, k, 0.);
+      for (std::size_t e = 0; e < G[k].index.size(); ++e)
+        for (const auto &[other, value] : at_row[G[k].index[e]])
+          if (other <= k)
+            entries.add(k, other, G[k].value[e] * value);
+    }
     entries.compress();
     is_definite = squares.factor(G.size(), entries, smallest_pivot) == G.size();
   }
@@ -43,27 +63,27 @@ namespace taut
     std::vector<double> amplitude = e;
     squares.solve(amplitude);
     for (std::size_t k = 0; k < G.size(); ++k)
-      G[k].add_to(amplitude[k], x);
-  }
-
-  std::vector<double> NaturalCoarseProblem::unbalance(const std::vector<double> &x) const
-  {
-    std::vector<double> result(G.size());
-    for (std::size_t k = 0; k < G.size(); ++k)
-      result[k] = G[k].dot(x);
-    return result;
+      scaled_G[k].add_to(amplitude[k], x);
   }
 
   void NaturalCoarseProblem::project(std::vector<double> &x) const
   {
-    std::vector<double> amplitude = amplitudes(x);
-    for (std::size_t k = 0; k < G.size(); ++k)
-      G[k].add_to(-amplitude[k], x);
+    std::vector<double> excess = products(G, x);
+    for (double &e : excess)
+      e = -e;
+    balance(excess, x);
   }
 
-  std::vector<double> NaturalCoarseProblem::amplitudes(const std::vector<double> &x) const
+  void NaturalCoarseProblem::project_residual(std::vector<double> &r) const
   {
-    std::vector<double> result = unbalance(x);
+    const std::vector<double> amplitude = amplitudes(r);
+    for (std::size_t k = 0; k < G.size(); ++k)
+      G[k].add_to(-amplitude[k], r);
+  }
+
+  std::vector<double> NaturalCoarseProblem::amplitudes(const std::vector<double> &r) const
+  {
+    std::vector<double> result = products(scaled_G, r);
     squares.solve(result);
     return result;
   }

@@ -5,45 +5,49 @@
 #include <taut/base/linear_form.h>
 #include <taut/base/sparse_cholesky.h>
 
+#include <functional>
 #include <vector>
 
 namespace taut
 {
   /**
    * The coarse problem of FETI in statics: the multipliers have to balance the loads on the free
-   * motions of the bodies, G x = e. With the orthogonal projector on their null space,
+   * motions of the bodies, G x = e. With the projector on their null space,
    *
-   *     P = 1 - G^T (G G^T)^-1 G,
+   *     P = 1 - Q^-1 G^T (G Q^-1 G^T)^-1 G,
    *
-   * an iteration on P F P keeps the balance that it starts from, and what it leaves of the gaps is
-   * G^T alpha (Farhat and Roux 1991).
+   * an iteration on P^T F P keeps the balance that it starts from, and what it leaves of the gaps
+   * is G^T alpha (Farhat and Roux 1991). Q, a flexibility like F, makes the projector one for
+   * bodies of any stiffness and for chains of constraints (Bhardwaj, Day, Farhat, Lesoinne, Pierson
+   * and Rixen 2000).
    */
   class NaturalCoarseProblem
   {
   public:
     /// @p null space has a row of G in each vector, and @p scale a factor for each of its columns;
-    /// only the columns of active rows count.
+    /// only the columns of active rows count. @p solve applies Q^-1, zero on other rows.
     NaturalCoarseProblem(const std::vector<LinearForm> &null_space,
-                         const std::vector<double> &scale, const std::vector<char> &active);
+                         const std::vector<double> &scale, const std::vector<char> &active,
+                         const std::function<void(std::vector<double> &)> &solve);
 
     /// False if the rows of G are dependent: the active rows do not hold a body.
     bool holds_the_bodies() const { return is_definite; }
 
-    /// x += G^T (G G^T)^-1 e.
+    /// x += Q^-1 G^T (G Q^-1 G^T)^-1 e.
     void balance(const std::vector<double> &e, std::vector<double> &x) const;
-
-    /// G x.
-    std::vector<double> unbalance(const std::vector<double> &x) const;
 
     /// x = P x.
     void project(std::vector<double> &x) const;
 
-    /// (G G^T)^-1 G x: the amplitudes that fit x best.
-    std::vector<double> amplitudes(const std::vector<double> &x) const;
+    /// r = P^T r.
+    void project_residual(std::vector<double> &r) const;
+
+    /// (G Q^-1 G^T)^-1 G Q^-1 r: the amplitudes that fit r best.
+    std::vector<double> amplitudes(const std::vector<double> &r) const;
 
   private:
-    std::vector<LinearForm> G;
-    SparseCholesky squares; ///< G G^T
+    std::vector<LinearForm> G, scaled_G; ///< G Q^-1
+    SparseCholesky squares;              ///< G Q^-1 G^T
     bool is_definite = false;
   };
 } // namespace taut

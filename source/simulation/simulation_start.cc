@@ -50,7 +50,7 @@ namespace taut
                              { return sum + body.n_dofs; })
           << " DoFs in all";
     if (!bodies.cut_constraints().empty())
-      log << "\n  wires cut in " << counted(bodies.cut_constraints().size(), "constraint");
+      log << "\n  cut in " << counted(bodies.cut_constraints().size(), "constraint");
     log << "\n  " << counted(links.size(), "multiplier") << ": " << n_unilateral << " unilateral, "
         << links.size() - n_unilateral << " bilateral; " << links.size() - links.n_fixed()
         << " moving; " << n_rigid << " rigid\n";

@@ -4,8 +4,7 @@
 #include <taut/base/about_entry.h>
 #include <taut/scene/body_type.h>
 #include <taut/scene/contact_surface.h>
-#include <taut/solid/divisible_fe_body.h>
-#include <taut/solid/elastic_solid.h>
+#include <taut/solid/divisible_solid.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -13,44 +12,6 @@ namespace taut
 {
   namespace
   {
-    /// A solid that is cut along its cells.
-    template <int dim>
-    class DivisibleSolid : public DivisibleFEBody<dim>
-    {
-    public:
-      using Options = typename ElasticSolid<dim>::Options;
-
-      DivisibleSolid(std::shared_ptr<const SolidMesh<dim>> mesh,
-                     std::shared_ptr<const Options> options,
-                     std::shared_ptr<const SolidConditions<dim>> conditions)
-          : DivisibleFEBody<dim>(mesh->dof_handler(), mesh->mapping(), conditions->constraints()),
-            mesh(mesh), options(options), conditions(conditions)
-      {
-        for (const auto &cell : mesh->cells())
-          for (std::size_t e = this->cells().begin[cell->active_cell_index()];
-               e < this->cells().begin[cell->active_cell_index() + 1]; ++e)
-            cell_of_dof[this->cells().dofs[e]] = cell->active_cell_index();
-      }
-
-      std::size_t cell_at_node(const unsigned int node) const override
-      {
-        return cell_of_dof[mesh->whole_surface().dofs[node][0]];
-      }
-
-      std::unique_ptr<Substructure> make_part(const BodySetting &setting,
-                                              const std::vector<unsigned int> &part) const override
-      {
-        return std::make_unique<ElasticSolid<dim>>(setting.name, mesh, *options, *conditions,
-                                                   this->DivisibleFEBody<dim>::cells(part));
-      }
-
-    private:
-      const std::shared_ptr<const SolidMesh<dim>> mesh;
-      const std::shared_ptr<const Options> options;
-      const std::shared_ptr<const SolidConditions<dim>> conditions;
-      std::vector<std::size_t> cell_of_dof = std::vector<std::size_t>(this->cells().n_dofs());
-    };
-
     /// What a solid of either dimension is to a scene.
     class SolidOf
     {
@@ -89,11 +50,7 @@ namespace taut
 
       std::shared_ptr<const DivisibleBody> division(const BodySetting &setting) const override
       {
-        const auto options = std::make_shared<const typename ElasticSolid<dim>::Options>(
-            entries.template options<dim>(setting));
-        return std::make_shared<DivisibleSolid<dim>>(
-            mesh, options,
-            std::make_shared<const SolidConditions<dim>>(*mesh, options->conditions));
+        return std::make_shared<DivisibleSolid<dim>>(mesh, entries.template options<dim>(setting));
       }
 
     private:

@@ -335,6 +335,14 @@ namespace taut
                     { visitor(i, j, factor * value); });
   }
 
+  void FactoredStructure::multiply(const std::size_t k, const std::vector<double> &x,
+                                   std::vector<double> &y) const
+  {
+    y.assign(x.size(), 0.);
+    for (const auto &[factor, matrix] : summands(k))
+      matrix->vmult_add(factor, x.data(), y.data());
+  }
+
   std::unique_ptr<LocalSolver>
   FactoredStructure::solver_with_held(const std::size_t k,
                                       const std::vector<unsigned int> &held) const

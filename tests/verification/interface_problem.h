@@ -25,8 +25,13 @@ namespace verification
     }
 
     /// The same with the cuts that the parameters say.
-    InterfaceProblem(taut::Scene model, const taut::PartitionParameters &cuts)
-        : scene(std::move(model)), structure(scene, make_partition(scene, cuts)),
+    InterfaceProblem(const taut::Scene &model, const taut::PartitionParameters &cuts)
+        : InterfaceProblem(model, make_partition(model, cuts))
+    {
+    }
+
+    InterfaceProblem(taut::Scene model, const taut::Partition &cuts)
+        : scene(std::move(model)), structure(scene, cuts),
           constraints(scene_constraints(scene, structure))
     {
       constraints.update(0.);

@@ -85,6 +85,9 @@ namespace taut
     /// Calls the visitor for the entries of A_k, without the springs of factor_stiffness().
     void visit(std::size_t k, const SymmetricMatrix::Visitor &visitor) const;
 
+    /// y = A_k x, without these springs; y is resized.
+    void multiply(std::size_t k, const std::vector<double> &x, std::vector<double> &y) const;
+
     /**
      * A solver for A_k with more DoFs held at zero. In statics springs hold it, as in
      * factor_stiffness(), only if a null space vector is left that moves none of these DoFs.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
-#include <taut/solid/divisible_fe_body.h>
+#include <taut/solid/cell_division.h>
 #include <taut/substructure/fe_body.h>
 
 #include <deal.II/grid/grid_tools.h>
@@ -10,15 +10,14 @@
 namespace taut
 {
   template <int dim>
-  DivisibleFEBody<dim>::DivisibleFEBody(const dealii::DoFHandler<dim> &dof_handler,
-                                        const dealii::Mapping<dim> &mapping,
-                                        const dealii::AffineConstraints<double> &constraints)
+  CellDivision<dim>::CellDivision(const dealii::DoFHandler<dim> &dof_handler,
+                                  const dealii::Mapping<dim> &mapping,
+                                  const dealii::AffineConstraints<double> &constraints)
       : handler(dof_handler), mapping(mapping)
   {
     for (const auto &cell : handler.active_cell_iterators())
     {
-      const unsigned int number = active_cells.size();
-      active_cells.push_back(cell);
+      const unsigned int number = cell->active_cell_index();
       for (const auto dof : FEBody<dim>::part_dofs({cell}, constraints))
         body_cells.dofs.push_back(dof);
       body_cells.begin.push_back(body_cells.dofs.size());
@@ -34,7 +33,7 @@ namespace taut
   }
 
   template <int dim>
-  std::size_t DivisibleFEBody<dim>::cell_at(const Coordinates &place) const
+  std::size_t CellDivision<dim>::cell_at(const Coordinates &place) const
   {
     dealii::Point<dim> point;
     for (unsigned int d = 0; d < dim; ++d)
@@ -54,23 +53,7 @@ namespace taut
     throw UserError(out.str());
   }
 
-  template <int dim>
-  std::size_t DivisibleFEBody<dim>::cell_at_node(const unsigned int) const
-  {
-    throw UserError("the body shows no surface to contacts");
-  }
-
-  template <int dim>
-  std::vector<typename DivisibleFEBody<dim>::Cell>
-  DivisibleFEBody<dim>::cells(const std::vector<unsigned int> &numbers) const
-  {
-    std::vector<Cell> result;
-    for (const unsigned int number : numbers)
-      result.push_back(active_cells[number]);
-    return result;
-  }
-
-  template class DivisibleFEBody<1>;
-  template class DivisibleFEBody<2>;
-  template class DivisibleFEBody<3>;
+  template class CellDivision<1>;
+  template class CellDivision<2>;
+  template class CellDivision<3>;
 } // namespace taut

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_cell_division_h
+#define taut_cell_division_h
+
+#include <taut/scene/divisible_body.h>
+
+#include <deal.II/dofs/dof_handler.h>
+
+#include <deal.II/fe/mapping.h>
+
+#include <deal.II/lac/affine_constraints.h>
+
+namespace taut
+{
+  /// The cells of an FEBody as a DivisibleBody wants them: the active ones of its triangulation, by
+  /// their number.
+  template <int dim>
+  class CellDivision
+  {
+  public:
+    /// @p dof_handler and @p mapping are kept by reference; @p constraints are those of the body.
+    CellDivision(const dealii::DoFHandler<dim> &dof_handler, const dealii::Mapping<dim> &mapping,
+                 const dealii::AffineConstraints<double> &constraints);
+
+    const BodyCells &cells() const { return body_cells; }
+
+    /// As DivisibleBody::cell_at().
+    std::size_t cell_at(const Coordinates &place) const;
+
+  private:
+    const dealii::DoFHandler<dim> &handler;
+    const dealii::Mapping<dim> &mapping;
+    BodyCells body_cells;
+  };
+} // namespace taut
+
+#endif
