@@ -39,7 +39,7 @@ namespace
         if (dim == 2 || n_parts(n) * elements * elements * elements <= 40000)
           run<dim>("statics", {n, elements}, 0., "Dirichlet");
       run<dim>("statics", {n, 8}, 0., "lumped");
-      run<dim>("METIS", {n, 8, 1., true}, 0., "Dirichlet");
+      run<dim>("METIS", {n, 8, 1., n_parts(n)}, 0., "Dirichlet");
       for (const double jump : {1e3, 1e6})
         run<dim>("jump", {n, 8, jump}, 0., "Dirichlet");
       for (const double step : {1., 10., 100., 1e4})

@@ -18,10 +18,10 @@ namespace box_in_parts
   /// A square or cube of elements of size 1, E = 1, nu = 0.3, density 1, in equal boxes.
   struct Box
   {
-    unsigned int n = 4;         ///< boxes in each direction
-    unsigned int elements = 8;  ///< in each direction of a box: H / h
-    double stiffness_jump = 1.; ///< E of every other box
-    bool by_metis = false;      ///< cut by METIS, into as many parts
+    unsigned int n = 4;           ///< boxes in each direction
+    unsigned int elements = 8;    ///< in each direction of a box: H / h
+    double stiffness_jump = 1.;   ///< E of every other box
+    unsigned int metis_parts = 0; ///< cut by METIS into as many; 0: into the boxes
   };
 
   /// It is fixed at x = 0 and hangs there by its weight, a unit of gravity along y.
@@ -91,11 +91,10 @@ namespace box_in_parts
   std::unique_ptr<verification::InterfaceProblem> problem(const Box &box)
   {
     const auto type = std::make_shared<const BoxType<dim>>(box);
-    const unsigned int n_parts = dim == 2 ? box.n * box.n : box.n * box.n * box.n;
-    if (box.by_metis)
-      return std::make_unique<verification::InterfaceProblem>(scene<dim>(type), n_parts);
+    if (box.metis_parts > 0)
+      return std::make_unique<verification::InterfaceProblem>(scene<dim>(type), box.metis_parts);
     taut::Partition partition;
-    partition.n_parts = n_parts;
+    partition.n_parts = dim == 2 ? box.n * box.n : box.n * box.n * box.n;
     partition.bodies = {{type->division({}), type->boxes}};
     return std::make_unique<verification::InterfaceProblem>(scene<dim>(type), partition);
   }

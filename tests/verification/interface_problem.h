@@ -7,6 +7,7 @@
 #include <taut/model/scene_constraints.h>
 #include <taut/partition/make_partition.h>
 
+#include <chrono>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -43,13 +44,17 @@ namespace verification
       taut::InterfaceStatistics statistics;
       std::string description;
       bool is_solved = false;
+      double set_up = 0.;  ///< factors and interface operator [s]
+      double first = 0.;   ///< the solution, with its preconditioner [s]
+      double further = 0.; ///< once more with the preconditioner at hand [s]
     };
 
     /// Solves F x = -d of a step by backward Euler [s], or with the null spaces in statics (step
     /// 0), to a relative residual of @p tolerance in constraints scaled to a unit diagonal.
     Solution solve(const double step, const taut::InterfaceParameters &parameters,
-                   const double tolerance) const
+                   const double tolerance, const bool measure_further = false) const
     {
+      const Clock::time_point begin = Clock::now();
       taut::FactoredStructure solvers(structure, "block tridiagonal");
       std::vector<taut::Substructure::NullSpace> null_spaces;
       for (std::size_t k = 0; step == 0. && k < structure.size(); ++k)
@@ -63,6 +68,7 @@ namespace verification
         S[i] = 1. / (constraints[i].stiffness + (step > 0. ? constraints[i].damping / step : 0.));
       const auto schur = taut::make_schur_complement(parameters, solvers, constraints);
       schur->setup(S);
+      const double set_up = seconds_since(begin);
 
       taut::BodyVectors P(structure.size());
       for (std::size_t k = 0; k < P.size(); ++k)
@@ -71,9 +77,18 @@ namespace verification
       problem.unilateral.assign(constraints.size(), 0);
       schur->contact_free_predictor(P, problem.free_gap, problem.gap_scale);
       set_null_space(null_spaces, P, problem);
+      const Clock::time_point first = Clock::now();
       Solution solution = solve(problem, schur->matrix(), tolerance);
+      solution.first = seconds_since(first);
+      solution.set_up = set_up;
       solution.statistics = schur->statistics();
       solution.description = schur->description();
+      if (measure_further)
+      {
+        const Clock::time_point further = Clock::now();
+        solve(problem, schur->matrix(), tolerance);
+        solution.further = seconds_since(further);
+      }
       return solution;
     }
 
@@ -81,6 +96,13 @@ namespace verification
     const taut::SceneBodies structure;
 
   private:
+    using Clock = std::chrono::steady_clock;
+
+    static double seconds_since(const Clock::time_point &begin)
+    {
+      return std::chrono::duration<double>(Clock::now() - begin).count();
+    }
+
     void set_null_space(const std::vector<taut::Substructure::NullSpace> &null_spaces,
                         const taut::BodyVectors &P,
                         taut::MixedComplementarityProblem &problem) const
