@@ -10,6 +10,7 @@
 #include <metis.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -19,6 +20,11 @@ namespace taut
 {
   namespace
   {
+    /// DoFs of a solid in space from which parts cost less than the whole, solutions up to which
+    /// they do, and DoFs of a part (doc/results/decomposition.md).
+    constexpr std::size_t least_cut_dofs = 10000, dofs_per_part = 1000;
+    constexpr double most_solves = 3.;
+
     std::size_t nearest_node(const std::vector<double> &nodes, const double s)
     {
       const auto after = std::lower_bound(nodes.begin(), nodes.end(), s);
@@ -238,6 +244,19 @@ namespace taut
       return partition;
     }
 
+    unsigned int number_of_parts(const std::string &text)
+    {
+      constexpr int most = 1000000;
+      const char *const end = text.data() + text.size();
+      int n = 0;
+      const auto [stop, error] = std::from_chars(text.data(), end, n);
+      if (error != std::errc() || stop != end || n < 1 || n > most)
+        throw EntryError("Partition/Number of substructures",
+                         "'" + text + "' is not a number n of parts, 1 <= n <= " +
+                             std::to_string(most) + ", nor 'automatic'");
+      return n;
+    }
+
     Partition by_wires(const Scene &scene)
     {
       Partition partition = whole(scene);
@@ -292,8 +311,9 @@ namespace taut
         "the positions of Cuts",
         Selection("METIS|wires|given"));
     prm.add_parameter("Number of substructures", n_substructures,
-                      "Parts that METIS cuts wires and solids into; 1: no cuts [1]",
-                      Integer(1, 1000000));
+                      "Parts that METIS cuts wires and solids into, 1: no cuts; 'automatic': large "
+                      "solids in space are cut for statics and a few steps [1]",
+                      Anything());
     prm.add_parameter("Cuts", cuts,
                       "For 'given': 'wire @ positions; other wire @ positions', numbers and ranges "
                       "first:step:last [m]",
@@ -301,10 +321,35 @@ namespace taut
     prm.leave_subsection();
   }
 
+  NumberOfParts automatic_number_of_parts(const Scene &scene, const double n_steps)
+  {
+    std::ostringstream reason;
+    std::size_t n_dofs = 0;
+    for (const CustomBody &body : scene.bodies)
+      if (const auto division = body.type->division({body.name, body.origin, scene.gravity}))
+        if (division->cells().dim == 3 && division->cells().n_dofs() >= least_cut_dofs)
+          n_dofs += division->cells().n_dofs();
+    if (n_dofs == 0)
+    {
+      reason << "no solid in space has " << least_cut_dofs
+             << " DoFs: a factor of the whole costs little";
+      return {1, reason.str()};
+    }
+    if (n_steps > most_solves)
+    {
+      reason << "more than " << most_solves << " steps use one factor of the whole";
+      return {1, reason.str()};
+    }
+    reason << n_dofs << " DoFs of solids in space: iterations of a few solutions cost less than a "
+           << "factor of the whole";
+    return {static_cast<unsigned int>(std::max<std::size_t>(2, n_dofs / dofs_per_part)),
+            reason.str()};
+  }
+
   Partition make_partition(const Scene &scene, const PartitionParameters &parameters)
   {
     if (parameters.method == "METIS")
-      return by_metis(scene, parameters.n_substructures);
+      return by_metis(scene, number_of_parts(parameters.n_substructures));
     if (parameters.method == "wires")
       return by_wires(scene);
     return by_list(scene, parameters.cuts);

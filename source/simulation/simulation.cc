@@ -46,7 +46,7 @@ namespace taut
                          const Communicator &processes, SharedParts *const shared)
       : parameters(parameters), log(log), processes(processes),
         model(prepare_scene(parameters, shared)),
-        bodies(model, make_partition(model, parameters.partition), processes, shared),
+        bodies(model, make_partition(model, choose_parts()), processes, shared),
         links(scene_constraints(model, bodies)), reactions(model, bodies),
         figures(parameters.statistics, model, links)
   {

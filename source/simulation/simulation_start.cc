@@ -25,6 +25,19 @@ namespace taut
     }
   } // namespace
 
+  PartitionParameters Simulation::choose_parts()
+  {
+    PartitionParameters chosen = parameters.partition;
+    if (chosen.method == "METIS" && chosen.n_substructures == "automatic")
+    {
+      const NumberOfParts parts =
+          automatic_number_of_parts(model, parameters.end_time / parameters.step);
+      chosen.n_substructures = std::to_string(parts.n);
+      parts_reason = counted(parts.n, "part") + ": " + parts.reason;
+    }
+    return chosen;
+  }
+
   void Simulation::describe() const
   {
     if (!parameters.accuracy_choice().empty())
@@ -49,6 +62,8 @@ namespace taut
                              [](const std::size_t sum, const Structure::Body &body)
                              { return sum + body.n_dofs; })
           << " DoFs in all";
+    if (!parts_reason.empty())
+      log << "\n  " << parts_reason;
     if (!bodies.cut_constraints().empty())
       log << "\n  cut in " << counted(bodies.cut_constraints().size(), "constraint");
     log << "\n  " << counted(links.size(), "multiplier") << ": " << n_unilateral << " unilateral, "

@@ -15,6 +15,7 @@ namespace taut
                                   const dealii::AffineConstraints<double> &constraints)
       : handler(dof_handler), mapping(mapping)
   {
+    body_cells.dim = dim;
     for (const auto &cell : handler.active_cell_iterators())
     {
       const unsigned int number = cell->active_cell_index();

@@ -204,7 +204,7 @@ namespace
   {
     const taut::Scene scene = string_scene(N0);
     taut::PartitionParameters parameters;
-    parameters.n_substructures = n;
+    parameters.n_substructures = std::to_string(n);
     const taut::SceneBodies structure(scene, make_partition(scene, parameters));
     return median_seconds(runs, [&] { solve_taut(scene, structure); });
   }

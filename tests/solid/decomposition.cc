@@ -24,7 +24,7 @@ namespace
     EXPECT_TRUE(solution.is_solved);
     std::string name = std::to_string(dim) + "-D, " + std::to_string(box.n) +
                        " boxes a side, H/h " + std::to_string(box.elements) +
-                       (box.by_metis               ? ", METIS"
+                       (box.metis_parts > 0        ? ", METIS"
                         : box.stiffness_jump != 1. ? ", jumps"
                                                    : "") +
                        (step > 0. ? ", c tau / h " + std::to_string(step) : ", statics") + ", " +

@@ -7,7 +7,7 @@
 #include <taut/model/scene_constraints.h>
 #include <taut/partition/make_partition.h>
 
-#include <chrono>
+#include <ctime>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -15,13 +15,19 @@
 
 namespace verification
 {
+  /// Processor time since @p begin [s]: that of a machine that others use, too.
+  inline double seconds_since(const std::clock_t begin)
+  {
+    return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  }
+
   /// A scene cut by METIS, all constraints closed, own weight as load: the linear system of the
   /// interface.
   class InterfaceProblem
   {
   public:
     InterfaceProblem(taut::Scene model, const unsigned int n_parts)
-        : InterfaceProblem(std::move(model), {"METIS", n_parts, ""})
+        : InterfaceProblem(std::move(model), {"METIS", std::to_string(n_parts), ""})
     {
     }
 
@@ -54,7 +60,7 @@ namespace verification
     Solution solve(const double step, const taut::InterfaceParameters &parameters,
                    const double tolerance, const bool measure_further = false) const
     {
-      const Clock::time_point begin = Clock::now();
+      const std::clock_t begin = std::clock();
       taut::FactoredStructure solvers(structure, "block tridiagonal");
       std::vector<taut::Substructure::NullSpace> null_spaces;
       for (std::size_t k = 0; step == 0. && k < structure.size(); ++k)
@@ -77,7 +83,7 @@ namespace verification
       problem.unilateral.assign(constraints.size(), 0);
       schur->contact_free_predictor(P, problem.free_gap, problem.gap_scale);
       set_null_space(null_spaces, P, problem);
-      const Clock::time_point first = Clock::now();
+      const std::clock_t first = std::clock();
       Solution solution = solve(problem, schur->matrix(), tolerance);
       solution.first = seconds_since(first);
       solution.set_up = set_up;
@@ -85,7 +91,7 @@ namespace verification
       solution.description = schur->description();
       if (measure_further)
       {
-        const Clock::time_point further = Clock::now();
+        const std::clock_t further = std::clock();
         solve(problem, schur->matrix(), tolerance);
         solution.further = seconds_since(further);
       }
@@ -96,13 +102,6 @@ namespace verification
     const taut::SceneBodies structure;
 
   private:
-    using Clock = std::chrono::steady_clock;
-
-    static double seconds_since(const Clock::time_point &begin)
-    {
-      return std::chrono::duration<double>(Clock::now() - begin).count();
-    }
-
     void set_null_space(const std::vector<taut::Substructure::NullSpace> &null_spaces,
                         const taut::BodyVectors &P,
                         taut::MixedComplementarityProblem &problem) const

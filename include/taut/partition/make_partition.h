@@ -17,7 +17,7 @@ namespace taut
   struct PartitionParameters
   {
     std::string method = "METIS";
-    unsigned int n_substructures = 1;
+    std::string n_substructures = "1"; ///< or "automatic"
     std::string cuts;
 
     /// Declares the members in subsection "Partition".
@@ -33,6 +33,18 @@ namespace taut
    * moved to the nearest node; every piece is a part. Bodies then stay whole. Throws EntryError.
    */
   Partition make_partition(const Scene &scene, const PartitionParameters &parameters);
+
+  /// A number of parts, and why.
+  struct NumberOfParts
+  {
+    unsigned int n = 1;
+    std::string reason;
+  };
+
+  /// What `Number of substructures = automatic` stands for in a run of @p n_steps steps, 0 in
+  /// statics (doc/decomposition.md): solids in space are cut where a few solutions cost less than
+  /// one factor of the whole.
+  NumberOfParts automatic_number_of_parts(const Scene &scene, double n_steps);
 } // namespace taut
 
 #endif

@@ -17,6 +17,8 @@ namespace taut
   /// The cells of a body, and the DoFs on them.
   struct BodyCells
   {
+    unsigned int dim = 0; ///< 2: in the plane, 3: in space
+
     /// Those of cell c are dofs[begin[c]] to dofs[begin[c + 1] - 1]: all on which a DoF of the cell
     /// depends, too.
     std::vector<std::size_t> begin = {0};

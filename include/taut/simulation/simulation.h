@@ -12,6 +12,7 @@
 
 #include <functional>
 #include <iosfwd>
+#include <string>
 #include <vector>
 
 namespace taut
@@ -95,11 +96,13 @@ namespace taut
     void show(const ObserverList &observers, const State &state, const Certificate &certificate);
     void add_guests(ObserverList &observers) const;
     void on_root(const std::function<void()> &work) const;
+    PartitionParameters choose_parts();
 
     const Parameters &parameters;
     std::ostream &log;
     const Communicator processes;
     const Scene model;
+    std::string parts_reason; ///< why the parts are so many, if that was left to Taut
     SceneBodies bodies;
     Constraints links;
 
