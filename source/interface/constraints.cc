@@ -41,13 +41,15 @@ namespace taut
       append(i);
   }
 
-  /// Entries and sizes of a constraint, behind those that are known.
+  /// Entries and sizes of a constraint, behind those that are known. At a node most are zero.
   void Constraints::append(const std::size_t i)
   {
     const std::size_t first_size = sizes.size();
     for (const auto &[k, form] : constraints[i].terms)
       for (std::size_t j = 0; j < form.index.size(); ++j)
       {
+        if (form.value[j] == 0.)
+          continue;
         const unsigned int body = static_cast<unsigned int>(k), dof = form.index[j],
                            kind = structure[k].kind(dof);
         entries.push_back({form.value[j], body, dof});
@@ -103,7 +105,7 @@ namespace taut
       {
         while (e >= begin[i + 1])
           ++i;
-        if (entries[e].body == k && entries[e].value != 0.)
+        if (entries[e].body == k)
           count[i] += std::binary_search(dofs.begin(), dofs.end(), entries[e].dof);
       }
     }
