@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "row_tiles.h"
+
 #include <taut/base/instruction_set.h>
 #include <taut/time/balance_certificate.h>
 
@@ -10,10 +12,6 @@ namespace taut
 {
   namespace
   {
-    /// Rows that are worked on at once: their part of all vectors stays in the nearest cache. A
-    /// multiple of all block sizes and of the widths of vector registers.
-    constexpr std::size_t tile = 480;
-
     /// Part of |K||dU| and of the other terms that their rounding may be; what is more is an
     /// error.
     constexpr double rounding_of_increment = 1e-10;
@@ -30,15 +28,15 @@ namespace taut
                        KindNorm(body, body.stiffness())});
       reference_force.push_back(largest(body, reference.force[k]));
       mean_A.resize(std::max<std::size_t>(mean_A.size(), body.n_dofs()));
-      const std::size_t at_once = body.mass().block_size() == 0 ? body.n_dofs() : tile;
-      inertia.resize(std::max(inertia.size(), at_once));
+      inertia.resize(std::max(inertia.size(), tile_size(body)));
     }
     damping.resize(inertia.size());
   }
 
   double BalanceCertificate::measure(const StepCoefficients &c, const StepForces &forces,
                                      const std::vector<double> &in_balance,
-                                     const std::vector<double> &impulsive, State &state)
+                                     const std::vector<double> &impulsive, State &state,
+                                     const SetRows &set_rows)
   {
     for (std::size_t k = 0; k < structure.size(); ++k)
       std::copy(forces.P[k].begin(), forces.P[k].end(), state.balance[k].begin());
@@ -58,7 +56,7 @@ namespace taut
     worst = 0;
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
-      const Sizes sizes = measure_body(k, c, forces, has_impulses, state);
+      const Sizes sizes = measure_body(k, c, forces, has_impulses, state, set_rows);
       const double relative = relative_residual(k, c, forces, sizes, state.time);
       if (!(relative <= result) && !std::isnan(result))
       {
@@ -72,39 +70,37 @@ namespace taut
   BalanceCertificate::Sizes BalanceCertificate::measure_body(const std::size_t k,
                                                              const StepCoefficients &c,
                                                              const StepForces &forces,
-                                                             const bool has_impulses, State &state)
+                                                             const bool has_impulses, State &state,
+                                                             const SetRows &set_rows)
   {
     const double kappa = c.old_balance(), old = c.old_inertia(), now = c.new_inertia();
     const Substructure &body = structure[k];
-    const std::size_t n = body.n_dofs(), at_once = body.mass().block_size() == 0 ? n : tile;
     const double *A = state.A[k].data(), *A0 = forces.old_A[k].data(),
                  *r0 = forces.old_balance[k].data();
-    double *r = state.balance[k].data(), *KU = state.KU[k].data(), *residual = inertia.data();
+    double *r = state.balance[k].data(), *KU = state.KU[k].data(), *residual = inertia.data(),
+           *a = mean_A.data();
     const double *CV = damping.data();
     auto constraint = body.constraints().begin();
     Largest<4> largest(body);
-    for (std::size_t begin = 0; begin < n; begin += at_once)
+    std::size_t done = 0;
+    const auto measure_tile =
+        [&](const std::size_t begin, const std::size_t end, const std::size_t reached)
     {
-      const std::size_t end = std::min(n, begin + at_once), size = end - begin;
+      const std::size_t size = end - begin;
+      if (set_rows)
+        set_rows(k, done, reached);
       body.stiffness().vmult_rows(begin, end, state.U[k].data(), KU + begin);
       body.damping().vmult_rows(begin, end, state.V[k].data(), damping.data());
-      if (old == 0.)
-        body.mass().vmult_rows(begin, end, A, inertia.data());
-      else
-      {
-        double *a = mean_A.data();
-        const std::size_t reach = 2 * body.mass().block_size(); // of a block-tridiagonal row
-        const std::size_t last = std::min(n, end + reach);
-        const std::size_t first = begin - std::min(begin, reach);
+      if (old != 0.)
         vectorised(
             [=]
             {
 #pragma omp simd
-              for (std::size_t i = first; i < last; ++i)
+              for (std::size_t i = done; i < reached; ++i)
                 a[i] = now * A[i] + old * A0[i];
             });
-        body.mass().vmult_rows(begin, end, a, inertia.data());
-      }
+      done = reached;
+      body.mass().vmult_rows(begin, end, old == 0. ? A : a, inertia.data());
       const double factor = old == 0. ? now : 1.;
       vectorised(
           [=]
@@ -138,7 +134,8 @@ namespace taut
       largest.add({residual, state.dU[k].data() + begin, state.V[k].data() + begin,
                    state.U[k].data() + begin},
                   size);
-    }
+    };
+    visit_tiles(body, measure_tile);
     const std::array<PerKind, 4> found = largest.result();
     return {found[0], found[1], found[2], found[3]};
   }

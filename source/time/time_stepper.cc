@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "row_tiles.h"
+
 #include <taut/base/instruction_set.h>
 #include <taut/time/time_stepper.h>
 
@@ -26,28 +28,29 @@ namespace taut
     class KnownMotion
     {
     public:
-      KnownMotion(const StepCoefficients &c, const State &state, const std::size_t k)
-          : c(c), V(state.V[k].data()), A(state.A[k].data()), dU(state.dU[k].data()),
-            V_old(state.V_old[k].data())
+      KnownMotion(const StepCoefficients &c, const std::vector<double> &V,
+                  const std::vector<double> &A, const std::vector<double> &dU,
+                  const std::vector<double> &V_old)
+          : c(c), V(V.data()), A(A.data()), dU(dU.data()), V_old(V_old.data())
       {
       }
 
-      /// Calls visit(i, v*, a*) for DoFs 0 to n - 1 and reads only what the scheme needs.
+      /// Calls visit(i, v*, a*) for DoFs begin to end - 1 and reads only what the scheme needs.
       template <typename Visitor>
-      void visit(const std::size_t n, const Visitor &visitor) const
+      void visit(const std::size_t begin, const std::size_t end, const Visitor &visitor) const
       {
         if (c.looks_back())
 #pragma omp simd
-          for (std::size_t i = 0; i < n; ++i)
+          for (std::size_t i = begin; i < end; ++i)
             visitor(i, c.v_V * V[i] + c.v_A * A[i] + c.v_dU * dU[i],
                     c.a_V * V[i] + c.a_A * A[i] + c.a_dU * dU[i] + c.a_V_old * V_old[i]);
         else if (c.v_A != 0. || c.a_A != 0.)
 #pragma omp simd
-          for (std::size_t i = 0; i < n; ++i)
+          for (std::size_t i = begin; i < end; ++i)
             visitor(i, c.v_V * V[i] + c.v_A * A[i], c.a_V * V[i] + c.a_A * A[i]);
         else
 #pragma omp simd
-          for (std::size_t i = 0; i < n; ++i)
+          for (std::size_t i = begin; i < end; ++i)
             visitor(i, c.v_V * V[i], c.a_V * V[i]);
       }
 
@@ -78,6 +81,8 @@ namespace taut
       set_external_force(k);
       for (std::vector<double> *v : {&work_v, &work_a})
         v->resize(std::max<std::size_t>(v->size(), body.n_dofs()));
+      for (std::vector<double> *v : {&damping_of_tile, &inertia_of_tile})
+        v->resize(std::max(v->size(), tile_size(body)));
     }
     const StepCoefficients c = integrator.coefficients(step);
     first_step_is_backward_euler = first_step_is_backward_euler && !c.starts_itself();
@@ -174,8 +179,7 @@ namespace taut
           system->find_multipliers(constraint_motions.problem(), check, last), current);
     system->find_increments(constraint_motions.applied().multiplier,
                             constraint_motions.applied().mode_amplitude, right_hand_side);
-    for (std::size_t k = 0; k < structure.size(); ++k)
-      accept(k);
+    accept_increments();
     constraint_motions.update(current);
     certify();
     if (c.velocity_projection)
@@ -244,8 +248,9 @@ namespace taut
     const double old = c.old_inertia(), now = c.new_inertia();
     const double *A = current.A[k].data(), *p = forces.P[k].data(), *KU = current.KU[k].data(),
                  *r = current.balance[k].data();
-    double *v = work_v.data(), *m = work_a.data(), *R = right_hand_side[k].data();
-    const KnownMotion known(c, current, k);
+    double *v = work_v.data(), *m = work_a.data(), *R = right_hand_side[k].data(),
+           *Cv = damping_of_tile.data(), *Mm = inertia_of_tile.data();
+    const KnownMotion known(c, current.V[k], current.A[k], current.dU[k], current.V_old[k]);
     const bool velocity_is_known = c.v_V != 0. || c.v_A != 0. || c.v_dU != 0.;
     const auto set = [&](const auto with_old_forces, const auto with_velocity)
     {
@@ -254,9 +259,29 @@ namespace taut
         if (with_velocity)
           v[i] = known_v;
         m[i] = with_old_forces ? now * known_a + old * A[i] : known_a;
-        R[i] = p[i] - KU[i] + (with_old_forces ? kappa * r[i] : 0.);
       };
-      vectorised([=, n = body.n_dofs()] { known.visit(n, visitor); });
+      std::size_t done = 0;
+      visit_tiles(body,
+                  [&](const std::size_t begin, const std::size_t end, const std::size_t reached)
+                  {
+                    vectorised([=] { known.visit(done, reached, visitor); });
+                    done = reached;
+                    if (with_velocity)
+                      body.damping().vmult_rows(begin, end, v, Cv);
+                    body.mass().vmult_rows(begin, end, m, Mm);
+                    vectorised(
+                        [=]
+                        {
+#pragma omp simd
+                          for (std::size_t i = begin; i < end; ++i)
+                          {
+                            double sum = p[i] - KU[i] + (with_old_forces ? kappa * r[i] : 0.);
+                            if (with_velocity)
+                              sum -= Cv[i - begin];
+                            R[i] = sum - Mm[i - begin];
+                          }
+                        });
+                  });
     };
     if (c.alpha_m != 0. || c.alpha_f != 0.)
       set(std::true_type(), std::true_type());
@@ -264,9 +289,6 @@ namespace taut
       set(std::false_type(), std::true_type());
     else
       set(std::false_type(), std::false_type());
-    if (velocity_is_known)
-      body.damping().vmult_add(-1., v, R);
-    body.mass().vmult_add(-1., m, R);
 
     if (body.has_moving_constraints())
     {
@@ -305,52 +327,67 @@ namespace taut
     hold_quasi_static_dofs();
   }
 
-  /// New displacement, velocity and acceleration of a body, from its increment.
-  void TimeStepper::accept(const std::size_t k)
+  /// New displacements, velocities and accelerations, and the balance with them.
+  void TimeStepper::accept_increments()
+  {
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      current.dU[k].swap(right_hand_side[k]);
+      current.V_old[k].swap(current.V[k]);
+      forces.old_A[k].swap(current.A[k]);
+      forces.old_balance[k].swap(current.balance[k]);
+      if (structure[k].has_moving_constraints())
+        for (const ConstrainedDof &constraint : structure[k].constraints())
+          current.dU[k][constraint.dof] = lift[k][constraint.dof];
+    }
+    measure_balance([this](const std::size_t k, const std::size_t begin, const std::size_t end)
+                    { accept(k, begin, end); });
+  }
+
+  /// Rows of the state, from its increment. Where V and the right-hand side will be is what the
+  /// scheme looks back at.
+  void TimeStepper::accept(const std::size_t k, const std::size_t begin, const std::size_t end)
   {
     const double velocity = coefficients.velocity, acceleration = coefficients.acceleration;
-    std::vector<double> &increment = right_hand_side[k];
-    if (structure[k].has_moving_constraints())
-      for (const ConstrainedDof &constraint : structure[k].constraints())
-        increment[constraint.dof] = lift[k][constraint.dof];
-
-    const double *dU = increment.data();
-    double *U = current.U[k].data(), *V = current.V_old[k].data(), *A = forces.old_A[k].data();
+    const double *dU = current.dU[k].data();
+    double *U = current.U[k].data(), *V = current.V[k].data(), *A = current.A[k].data();
     const auto visitor = [=](const std::size_t i, const double known_v, const double known_a)
     {
       U[i] += dU[i];
       V[i] = velocity * dU[i] + known_v;
       A[i] = acceleration * dU[i] + known_a;
     };
-    vectorised([known = KnownMotion(coefficients, current, k), visitor, n = increment.size()]
-               { known.visit(n, visitor); });
-    current.dU[k].swap(increment);
-    current.V_old[k].swap(current.V[k]);
-    forces.old_A[k].swap(current.A[k]);
-    forces.old_balance[k].swap(current.balance[k]);
+    const KnownMotion known(coefficients, current.V_old[k], forces.old_A[k], right_hand_side[k],
+                            current.V[k]);
+    vectorised([=] { known.visit(begin, end, visitor); });
+  }
+
+  void TimeStepper::measure_balance(const BalanceCertificate::SetRows &set_rows)
+  {
+    structure.communicator().agree(
+        [&]
+        {
+          own_balance = balance.measure(coefficients, forces, constraint_motions.in_balance(),
+                                        constraint_motions.impulsive(), current, set_rows);
+        });
+    last.balance = structure.communicator().max(own_balance);
   }
 
   void TimeStepper::certify()
   {
-    const Communicator &processes = structure.communicator();
-    double own_balance = 0.;
-    for (int refinements = 0;; ++refinements)
-    {
-      processes.agree(
-          [&]
-          {
-            own_balance = balance.measure(coefficients, forces, constraint_motions.in_balance(),
-                                          constraint_motions.impulsive(), current);
-          });
-      last.balance = processes.max(own_balance);
-      if (!(last.balance > refined_balance) || refinements == most_refinements ||
-          coefficients.mean_force || processes.max(balance.is_cancellation() ? 0. : 1.) > 0. ||
-          !refine())
-        break;
-    }
+    for (int refinements = 0; last.balance > refined_balance && refinements < most_refinements &&
+                              !coefficients.mean_force && is_cancellation() && refine();
+         ++refinements)
+      measure_balance();
     last.worst_body = balance.worst_body();
     certify_rows();
     check.check_balance(last, own_balance);
+  }
+
+  /// On all ranks.
+  bool TimeStepper::is_cancellation() const
+  {
+    return !(structure.communicator().max(balance.is_cancellation() ? 0. : 1.) > 0.);
   }
 
   void TimeStepper::certify_rows()

@@ -7,6 +7,7 @@
 #include <taut/time/matrix_norms.h>
 #include <taut/time/state.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -34,16 +35,20 @@ namespace taut
     BalanceCertificate(const Structure &structure, const Constraints &constraints,
                        const Reference &reference);
 
+    /// Sets rows begin to end - 1 of displacement, velocity and acceleration of body k.
+    using SetRows = std::function<void(std::size_t k, std::size_t begin, std::size_t end)>;
+
     /**
      * Forms K U and r = P + B N - C V - K U of the state of a step and returns the largest relative
      * residual of this rank's bodies; not-a-number if one is. @p in_balance are the multipliers in
      * r, @p impulsive those that are forces of this step only, empty: none. Coefficients of zero
-     * are those of an equilibrium at rest. Throws an EntryError on the section of a body whose
-     * numbers are beyond largest_number.
+     * are those of an equilibrium at rest. @p set_rows, if there is one, is called for all rows
+     * just before they are read first: their caches serve both. Throws an EntryError on the section
+     * of a body whose numbers are beyond largest_number.
      */
     double measure(const StepCoefficients &c, const StepForces &forces,
                    const std::vector<double> &in_balance, const std::vector<double> &impulsive,
-                   State &state);
+                   State &state, const SetRows &set_rows = {});
 
     /// dU . [(1 - alpha_f) r + alpha_f r0] of this rank's bodies after measure(), with mean forces:
     /// the work of all forces but the means of this step [J].
@@ -65,7 +70,7 @@ namespace taut
     };
 
     Sizes measure_body(std::size_t k, const StepCoefficients &c, const StepForces &forces,
-                       bool has_impulses, State &state);
+                       bool has_impulses, State &state, const SetRows &set_rows);
     double relative_residual(std::size_t k, const StepCoefficients &c, const StepForces &forces,
                              const Sizes &sizes, double time);
 
@@ -76,7 +81,7 @@ namespace taut
     std::vector<PerKind> contact_force;         ///< largest of one constraint on each body [N, N m]
     BodyVectors impulses;                       ///< forces of this step only
     std::vector<double> mean_A;                 ///< accelerations that M acts on, of one body
-    std::vector<double> inertia, damping;       ///< forces of a few constraints
+    std::vector<double> inertia, damping;       ///< forces of a tile
     double work_of_balance = 0.;
     std::size_t worst = 0;
     bool may_be_cancellation = true;

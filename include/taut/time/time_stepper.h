@@ -95,7 +95,10 @@ namespace taut
     void set_history(std::size_t k);
     void project_velocities();
     void measure_energy();
-    void accept(std::size_t k);
+    void accept_increments();
+    void accept(std::size_t k, std::size_t begin, std::size_t end);
+    void measure_balance(const BalanceCertificate::SetRows &set_rows = {});
+    bool is_cancellation() const;
     void start_balance();
     void hold_quasi_static_dofs();
     void certify();
@@ -123,6 +126,7 @@ namespace taut
     ConstraintMotions constraint_motions;
     bool supports_move = false; ///< of a body of some rank
     BalanceCertificate balance;
+    double own_balance = 0.; ///< of this rank
     StepCheck check;
     std::unique_ptr<VelocityProjection> projection; ///< of schemes with one
 
@@ -130,6 +134,7 @@ namespace taut
     BodyVectors right_hand_side;        ///< then the increments
     BodyVectors lift;                   ///< increments of moving supports
     std::vector<double> work_v, work_a; ///< as long as the longest body
+    std::vector<double> damping_of_tile, inertia_of_tile;
     std::vector<double> work_rows;
   };
 } // namespace taut
