@@ -178,8 +178,12 @@ namespace taut
   {
     if (n_calls++ % interval != 0 || lines.empty())
       return;
-    values.assign(forms.ends.size(), 0.);
-    forms.evaluate(step.reference.displacement, values.data());
+    if (at_reference.empty())
+    {
+      at_reference.assign(forms.ends.size(), 0.);
+      forms.evaluate(step.reference.displacement, at_reference.data());
+    }
+    values = at_reference;
     forms.evaluate(step.state.U, values.data());
     step.structure.communicator().sum(values);
     const auto keep = [&](Extreme &extreme, const double value, const double limit,

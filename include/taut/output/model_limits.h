@@ -96,7 +96,7 @@ namespace taut
     long interval, n_calls = 0;
     Forms forms;
     std::vector<Line> lines;
-    std::vector<double> values;
+    std::vector<double> at_reference, values;
     Extreme slope, distance;
     std::vector<ModelWarning> constant; ///< known before the first step
   };
