@@ -41,18 +41,18 @@ namespace taut
       append(i);
   }
 
-  /// Entries and sizes of a constraint, behind those that are known. At a node most are zero.
+  /// Entries and sizes of a constraint, behind those that are known. At a node most entries are
+  /// zero; their sizes count, where a multiplier may be not-a-number.
   void Constraints::append(const std::size_t i)
   {
     const std::size_t first_size = sizes.size();
     for (const auto &[k, form] : constraints[i].terms)
       for (std::size_t j = 0; j < form.index.size(); ++j)
       {
-        if (form.value[j] == 0.)
-          continue;
         const unsigned int body = static_cast<unsigned int>(k), dof = form.index[j],
                            kind = structure[k].kind(dof);
-        entries.push_back({form.value[j], body, dof});
+        if (form.value[j] != 0.)
+          entries.push_back({form.value[j], body, dof});
         const auto known =
             std::find_if(sizes.begin() + first_size, sizes.end(),
                          [&](const Size &s) { return s.body == body && s.kind == kind; });
