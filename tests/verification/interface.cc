@@ -100,7 +100,7 @@ TEST(Interface, every_option_gives_the_multipliers_of_the_dense_form)
 TEST(Interface, dirichlet_does_not_feel_the_elements_and_lumped_does)
 {
   // 32.6 m, between two droppers, is a node of both meshes.
-  const taut::PartitionParameters cuts = {"given", 1,
+  const taut::PartitionParameters cuts = {"given", "1",
                                           "contact @ 32.6:60:340; messenger @ 32.6:60:340"};
   const auto line = [](const std::string &size)
   {
