@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "boundary_mass.h"
+
 #include <taut/base/exceptions.h>
 #include <taut/solid/elastic_solid.h>
 
@@ -104,6 +106,11 @@ namespace taut
     load.reinit(dofs.size());
     add_stiffness(mesh, options);
     add_mass(mesh, options);
+    if (!options.without_mass.empty())
+    {
+      check_boundaries(options.without_mass);
+      take_mass_from_boundary(mesh, options.without_mass, hanging, options.keeps_inertia, M);
+    }
     if (options.mass_damping != 0. || options.stiffness_damping != 0.)
     {
       C.reinit(pattern);

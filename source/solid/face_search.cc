@@ -11,6 +11,7 @@
 #include <boost/geometry/index/rtree.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace taut
 {
@@ -36,9 +37,9 @@ namespace taut
 
     /// Faces by shells around a point, each twice as far as the one before. The tree's own
     /// queries for nearest entries one by one sort all that they have seen again and again.
-    template <std::size_t dim>
+    template <std::size_t dim, typename Visit>
     void visit_shells(const Tree<dim> &tree, const Point<dim> &x, const double first_radius,
-                      const std::function<bool(std::size_t, double)> &visit)
+                      const Visit &visit)
     {
       std::vector<std::pair<double, std::size_t>> shell;
       std::size_t n_seen = 0;
@@ -70,17 +71,20 @@ namespace taut
 
   FaceSearch::FaceSearch(const SurfaceGeometry &geometry)
   {
+    for (std::size_t f = 0; f < geometry.n_faces(); ++f)
+      mean_size += geometry.box(f).diagonal() / static_cast<double>(geometry.n_faces());
+    if (mean_size > 0.)
+      scale = std::ldexp(1., -std::ilogb(mean_size));
     std::vector<Entry<2>> plane;
     std::vector<Entry<3>> space;
     for (std::size_t f = 0; f < geometry.n_faces(); ++f)
     {
-      const Box b = geometry.box(f);
-      mean_size += b.diagonal() / static_cast<double>(geometry.n_faces());
+      const Box box = geometry.box(f);
+      const Coordinates a = scaled(scale, box.lower), b = scaled(scale, box.upper);
       if (geometry.surface().dim == 2)
-        plane.push_back({{{b.lower.x, b.lower.y}, {b.upper.x, b.upper.y}}, f});
+        plane.push_back({{{a.x, a.y}, {b.x, b.y}}, f});
       else
-        space.push_back(
-            {{{b.lower.x, b.lower.y, b.lower.z}, {b.upper.x, b.upper.y, b.upper.z}}, f});
+        space.push_back({{{a.x, a.y, a.z}, {b.x, b.y, b.z}}, f});
     }
     trees = std::make_unique<Trees>(Trees{Tree<2>(plane), Tree<3>(space)});
   }
@@ -91,7 +95,7 @@ namespace taut
   {
     bg::model::multi_point<Point<2>> corners;
     for (const Coordinates &x : points)
-      corners.push_back({x.x, x.y});
+      corners.push_back({scale * x.x, scale * x.y});
     bg::model::ring<Point<2>> hull;
     bg::convex_hull(corners, hull);
     std::vector<std::size_t> faces;
@@ -105,9 +109,12 @@ namespace taut
   void FaceSearch::visit_nearest(const Coordinates &x,
                                  const std::function<bool(std::size_t, double)> &visit) const
   {
+    const auto visit_scaled = [this, &visit](const std::size_t face, const double distance)
+    { return visit(face, distance / scale); };
+    const Coordinates y = scaled(scale, x);
     if (!trees->plane.empty())
-      visit_shells(trees->plane, Point<2>(x.x, x.y), mean_size, visit);
+      visit_shells(trees->plane, Point<2>(y.x, y.y), scale * mean_size, visit_scaled);
     else
-      visit_shells(trees->space, Point<3>(x.x, x.y, x.z), mean_size, visit);
+      visit_shells(trees->space, Point<3>(y.x, y.y, y.z), scale * mean_size, visit_scaled);
   }
 } // namespace taut

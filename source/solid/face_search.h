@@ -30,6 +30,7 @@ namespace taut
     struct Trees;
     std::unique_ptr<const Trees> trees;
     double mean_size = 0.; ///< of the boxes [m]
+    double scale = 1.;     ///< of lengths in the trees: Boost rounds as if all were about 1 [1/m]
   };
 } // namespace taut
 

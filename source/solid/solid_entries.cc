@@ -128,6 +128,15 @@ namespace taut
                       "consistent: integrated exactly; lumped: at the nodes; reduced: with one "
                       "Gauss point less in each direction",
                       Patterns::Selection("consistent|lumped|reduced"));
+    prm.add_parameter("Boundaries without mass", without_mass,
+                      "Ids of parts of the boundary, of a contact say, whose nodes have no mass: "
+                      "the nodes next to them take it. Forces of an impact then do not depend on "
+                      "the step");
+    prm.add_parameter("Redistributed mass", mass_kept,
+                      "Of boundaries without mass: total goes to the next nodes, so that the total "
+                      "mass stays; inertia to those of four layers of cells, so that also its "
+                      "centre and moments of inertia do",
+                      Patterns::Selection("total|inertia"));
     prm.add_parameter("Mass damping", mass_damping, "a in C = a M + b K [1/s]",
                       Patterns::Double(0.));
     prm.add_parameter("Stiffness damping", stiffness_damping, "b in C = a M + b K [s]",
@@ -206,6 +215,8 @@ namespace taut
     o.mass = mass_matrix == "lumped"    ? SolidMass::lumped
              : mass_matrix == "reduced" ? SolidMass::reduced
                                         : SolidMass::consistent;
+    o.without_mass = {without_mass.begin(), without_mass.end()};
+    o.keeps_inertia = mass_kept == "inertia";
     o.mass_damping = mass_damping;
     o.stiffness_damping = stiffness_damping;
     o.gravity = setting.gravity;

@@ -54,8 +54,8 @@ namespace taut
 
     double youngs_modulus = 0., poissons_ratio = .3, density = 0., mass_damping = 0.,
            stiffness_damping = 0.;
-    std::string materials, plane_state = "strain", mass_matrix = "consistent";
-    std::vector<unsigned int> fixed, symmetric;
+    std::string materials, plane_state = "strain", mass_matrix = "consistent", mass_kept = "total";
+    std::vector<unsigned int> fixed, symmetric, without_mass;
     std::string displacement, traction, pressure;
     std::vector<double> initial_velocity;
   };

@@ -121,12 +121,20 @@ namespace extremes
     return sum;
   }
 
-  std::size_t ExtendedModel::Component::dof(const std::size_t element, const unsigned int i) const
+  void ExtendedModel::resize(const std::size_t n_dofs)
+  {
+    M = C = K = Matrix(n_dofs);
+    held.assign(n_dofs, 0);
+    is_rotation.assign(n_dofs, 0);
+    given = initial_U = initial_V = Vector(n_dofs, Number(0));
+  }
+
+  std::size_t ExtendedWires::Component::dof(const std::size_t element, const unsigned int i) const
   {
     return first + (degree == 3 ? 2 : degree) * element + i;
   }
 
-  ExtendedModel::ExtendedModel(const taut::Scene &scene)
+  ExtendedWires::ExtendedWires(const taut::Scene &scene)
       : scene(scene), axial(scene.wires.size()), transverse(scene.wires.size())
   {
     for (std::size_t w = 0; w < scene.wires.size(); ++w)
@@ -152,10 +160,8 @@ namespace extremes
       for (const bool moves : mass.moves)
         n += moves;
     }
-    M = C = K = Matrix(n);
-    held.assign(n, 0);
-    is_rotation.assign(n, 0);
-    given = constant = initial_U = initial_V = Vector(n, Number(0));
+    resize(n);
+    constant = Vector(n, Number(0));
     for (std::size_t w = 0; w < scene.wires.size(); ++w)
       for (Component *c : {&axial[w], &transverse[w]})
         if (c->exists)
@@ -163,7 +169,7 @@ namespace extremes
     add_masses();
   }
 
-  Form ExtendedModel::shape(const std::size_t wire, const Component &component, const Number &s,
+  Form ExtendedWires::shape(const std::size_t wire, const Component &component, const Number &s,
                             const bool slope) const
   {
     const std::vector<double> &x = nodes[wire];
@@ -179,7 +185,7 @@ namespace extremes
     return form;
   }
 
-  void ExtendedModel::add_component(const std::size_t w, Component &component)
+  void ExtendedWires::add_component(const std::size_t w, Component &component)
   {
     const taut::Wire &wire = scene.wires[w];
     const taut::Coordinates axis = component.axial ? wire.tangent() : wire.normal();
@@ -262,7 +268,7 @@ namespace extremes
         }
   }
 
-  void ExtendedModel::add_masses()
+  void ExtendedWires::add_masses()
   {
     for (std::size_t m = 0; m < scene.masses.size(); ++m)
     {
@@ -298,7 +304,7 @@ namespace extremes
     }
   }
 
-  Form ExtendedModel::motion(const taut::Attachment &point, const bool rotational,
+  Form ExtendedWires::motion(const taut::Attachment &point, const bool rotational,
                              const taut::Coordinates &direction) const
   {
     Form form;
@@ -327,7 +333,7 @@ namespace extremes
     return form;
   }
 
-  Form ExtendedModel::constraint(const taut::Link &link, const Number &t) const
+  Form ExtendedWires::constraint(const taut::Link &link, const Number &t) const
   {
     const Number sign = link.kind == taut::LinkKind::dropper ? -1 : 1;
     Form form;
@@ -350,7 +356,7 @@ namespace extremes
     return form;
   }
 
-  Vector ExtendedModel::load(const Number &t) const
+  Vector ExtendedWires::load(const Number &t) const
   {
     Vector P = constant;
     for (const taut::Load &load : scene.loads)

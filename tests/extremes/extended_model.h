@@ -49,30 +49,45 @@ namespace extremes
   using Form = std::vector<std::pair<std::size_t, Number>>;
   Number dot(const Form &form, const Vector &x);
 
-  /**
-   * M, C, K and P of a small scene, assembled from its values alone: shape functions as
-   * polynomials, integrals exact. Of the library only the positions of the nodes are used, grid().
-   * Expressions are constants here; elements of strings and bars have degree 1 or 2.
-   */
+  /// M, C, K and P of a small scene, and where its constraints act.
   class ExtendedModel
   {
   public:
-    explicit ExtendedModel(const taut::Scene &scene);
+    virtual ~ExtendedModel() = default;
 
     std::size_t n_dofs() const { return M.size(); }
     /// A motion along a direction, or a slope or rotation, as Structure::motion.
-    Form motion(const taut::Attachment &point, bool rotational,
-                const taut::Coordinates &direction) const;
+    virtual Form motion(const taut::Attachment &point, bool rotational,
+                        const taut::Coordinates &direction) const = 0;
     /// B of a link at time t, without the gap.
-    Form constraint(const taut::Link &link, const Number &t) const;
+    virtual Form constraint(const taut::Link &link, const Number &t) const = 0;
     /// External forces at time t.
-    Vector load(const Number &t) const;
+    virtual Vector load(const Number &t) const = 0;
     /// True if the DoF is held; its value is in given.
     std::vector<char> held;
     Vector given;
     Vector initial_U, initial_V;
     std::vector<char> is_rotation;
     Matrix M, C, K;
+
+  protected:
+    /// All zero, nothing held.
+    void resize(std::size_t n_dofs);
+  };
+
+  /**
+   * A scene of wires and masses, assembled from its values alone: shape functions as polynomials,
+   * integrals exact. Of the library only the positions of the nodes are used, grid(). Expressions
+   * are constants here; elements of strings and bars have degree 1 or 2.
+   */
+  class ExtendedWires : public ExtendedModel
+  {
+  public:
+    explicit ExtendedWires(const taut::Scene &scene);
+    Form motion(const taut::Attachment &point, bool rotational,
+                const taut::Coordinates &direction) const override;
+    Form constraint(const taut::Link &link, const Number &t) const override;
+    Vector load(const Number &t) const override;
 
   private:
     struct Component

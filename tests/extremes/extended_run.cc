@@ -28,7 +28,8 @@ namespace extremes
     class ExtendedRun
     {
     public:
-      ExtendedRun(const Case &c, bool as_double);
+      ExtendedRun(const Case &c, const ExtendedModel &model,
+                  const std::vector<ObservedPoint> &points, bool as_double);
       Answer run();
 
     private:
@@ -43,7 +44,8 @@ namespace extremes
       void observe();
 
       const Case c;
-      ExtendedModel model;
+      const ExtendedModel &model;
+      Matrix M, C, K;
       const bool as_double;
       const taut::Scene &scene;
       const std::vector<ObservedPoint> points;
@@ -80,16 +82,17 @@ namespace extremes
       return Number(0x1p-53) * Number(i % 3 == 0 ? 1. : i % 3 == 1 ? .5 : 1.5);
     }
 
-    ExtendedRun::ExtendedRun(const Case &c, const bool as_double)
-        : c(c), model(c.scene), as_double(as_double), scene(this->c.scene),
-          points(observed_points(scene)), group(groups_of_links(scene)), tau(c.step),
+    ExtendedRun::ExtendedRun(const Case &c, const ExtendedModel &model,
+                             const std::vector<ObservedPoint> &points, const bool as_double)
+        : c(c), model(model), M(model.M), C(model.C), K(model.K), as_double(as_double),
+          scene(this->c.scene), points(points), group(groups_of_links(scene)), tau(c.step),
           N(scene.links.size(), Number(0)), D(scene.links.size(), Number(0)), B(scene.links.size())
     {
       for (std::size_t i = 0; i < model.n_dofs(); ++i)
         if (!model.held[i])
           free_dofs.push_back(i);
       if (as_double)
-        for (Matrix *matrix : {&model.M, &model.C, &model.K})
+        for (Matrix *matrix : {&M, &C, &K})
           for (std::size_t i = 0; i < matrix->size(); ++i)
             (*matrix)(i, i) *= 1 + last_place(i);
     }
@@ -178,7 +181,7 @@ namespace extremes
       if (scene.start == taut::Start::equilibrium)
       {
         is_static = true;
-        factor(model.K);
+        factor(K);
         find_multipliers(model.load(Number(0)), Number(0));
         is_static = false;
         scheme_name = c.scheme;
@@ -237,7 +240,7 @@ namespace extremes
       Matrix full(model.n_dofs());
       for (std::size_t i = 0; i < full.size(); ++i)
         for (std::size_t j = 0; j < full.size(); ++j)
-          full(i, j) = m * model.M(i, j) + scheme.velocity * model.C(i, j) + model.K(i, j);
+          full(i, j) = m * M(i, j) + scheme.velocity * C(i, j) + K(i, j);
       factor(full);
     }
 
@@ -277,8 +280,7 @@ namespace extremes
       const Number kappa = scheme.alpha_f / (1 - scheme.alpha_f),
                    now = (1 - scheme.alpha_m) / (1 - scheme.alpha_f),
                    old = scheme.alpha_m / (1 - scheme.alpha_f);
-      const Vector P = model.load(t), Cv = model.C.times(v),
-                   Ma = model.M.times(combine(now, a, old, m.A));
+      const Vector P = model.load(t), Cv = C.times(v), Ma = M.times(combine(now, a, old, m.A));
       Vector rhs(n);
       for (std::size_t k = 0; k < n; ++k)
         rhs[k] = P[k] + kappa * r[k] - Cv[k] - Ma[k];
@@ -292,7 +294,7 @@ namespace extremes
         motion.V[k] = scheme.velocity * motion.U[k] + v[k];
         motion.A[k] = scheme.acceleration * motion.U[k] + a[k];
       }
-      const Vector CV = model.C.times(motion.V), stiff = model.K.times(motion.U);
+      const Vector CV = C.times(motion.V), stiff = K.times(motion.U);
       for (std::size_t k = 0; k < n; ++k)
         r[k] = P[k] - CV[k] - stiff[k];
       for (std::size_t k = 0; k < B.size(); ++k)
@@ -466,7 +468,7 @@ namespace extremes
       {
         Number sum = 0;
         for (std::size_t j = 0; j < model.n_dofs(); ++j)
-          sum += abs(model.K(i, j) * motion.U[j]);
+          sum += abs(K(i, j) * motion.U[j]);
         double &largest = model.is_rotation[i] ? answer.elastic_moment : answer.elastic_force;
         largest = std::max(largest, static_cast<double>(sum));
       }
@@ -475,6 +477,12 @@ namespace extremes
 
   Answer extended_answer(const Case &c, const bool as_double)
   {
-    return ExtendedRun(c, as_double).run();
+    return ExtendedRun(c, ExtendedWires(c.scene), observed_points(c.scene), as_double).run();
+  }
+
+  Answer extended_answer(const Case &c, const ExtendedModel &model,
+                         const std::vector<ObservedPoint> &points, const bool as_double)
+  {
+    return ExtendedRun(c, model, points, as_double).run();
   }
 } // namespace extremes

@@ -6,6 +6,8 @@
 
 namespace extremes
 {
+  class ExtendedModel;
+
   /**
    * The answer of a small case in extended precision: total displacements (no increments), dense
    * factors, the active set by Murty's least-index principal pivoting, which ends for every
@@ -21,6 +23,10 @@ namespace extremes
    * adds up matrices and keeps contact forces in double precision.
    */
   Answer extended_answer(const Case &c, bool as_double = false);
+
+  /// The same of another model, whose constraints are the links of the case, observed at @p points.
+  Answer extended_answer(const Case &c, const ExtendedModel &model,
+                         const std::vector<ObservedPoint> &points, bool as_double = false);
 } // namespace extremes
 
 #endif

@@ -2,12 +2,11 @@
 // The dimensions of the matrix of extremes and the scenes that they span; see scene_matrix.h.
 #include "scene_matrix.h"
 
-#include "pairwise.h"
+#include "levels.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 namespace extremes
 {
@@ -15,42 +14,6 @@ namespace extremes
   {
     using taut::Attachment;
     using Kind = taut::Attachment::Kind;
-
-    /// A dimension of a matrix: its name and its levels as numbers.
-    struct Dimension
-    {
-      std::string name;
-      std::vector<double> levels;
-    };
-
-    /// One constraint of a cover: levels by the name of the dimension.
-    class Levels
-    {
-    public:
-      Levels(const std::vector<Dimension> &dimensions, const std::vector<std::size_t> &constraint)
-          : dimensions(dimensions), constraint(constraint)
-      {
-      }
-      double operator[](const std::string &name) const
-      {
-        for (std::size_t d = 0; d < dimensions.size(); ++d)
-          if (dimensions[d].name == name)
-            return dimensions[d].levels[constraint[d]];
-        throw std::logic_error("no dimension " + name);
-      }
-      std::string name() const
-      {
-        std::ostringstream out;
-        for (std::size_t d = 0; d < dimensions.size(); ++d)
-          out << (d > 0 ? ", " : "") << dimensions[d].name << ' '
-              << dimensions[d].levels[constraint[d]];
-        return out.str();
-      }
-
-    private:
-      const std::vector<Dimension> &dimensions;
-      const std::vector<std::size_t> &constraint;
-    };
 
     const Dimension steps = {"step", {1e-9, 1e-6, 1e-3, 1., 1e3, 1e6}},
                     schemes = {"scheme", {0, 1, 2}}, starts = {"start", {0, 1, 2}},
@@ -131,20 +94,17 @@ namespace extremes
     std::vector<Case> cover(const std::string &family, const std::vector<Dimension> &dimensions,
                             const unsigned int seed, const Make &make)
     {
-      std::vector<std::size_t> sizes;
-      for (const Dimension &d : dimensions)
-        sizes.push_back(d.levels.size());
       std::vector<Case> cases;
-      for (const std::vector<std::size_t> &constraint : pairwise(sizes, seed))
-      {
-        const Levels level(dimensions, constraint);
-        Case c;
-        c.family = family;
-        c.name = level.name();
-        c.scene.gravity = {0., 0.};
-        make(c, level);
-        cases.push_back(std::move(c));
-      }
+      extremes::cover(dimensions, seed,
+                      [&](const Levels &level)
+                      {
+                        Case c;
+                        c.family = family;
+                        c.name = level.name();
+                        c.scene.gravity = {0., 0.};
+                        make(c, level);
+                        cases.push_back(std::move(c));
+                      });
       return cases;
     }
 

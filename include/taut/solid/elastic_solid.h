@@ -59,6 +59,11 @@ namespace taut
       PlaneState plane_state = PlaneState::strain; ///< if dim = 2
       double thickness = 1.;                       ///< if dim = 2 [m]
       SolidMass mass = SolidMass::consistent;
+
+      /// Parts of the boundary whose nodes have no mass: those next to them have it instead,
+      /// such that the total mass stays, or also its centre and its moments of inertia.
+      std::set<dealii::types::boundary_id> without_mass = {};
+      bool keeps_inertia = false;
       double mass_damping = 0.;      ///< C = mass_damping M + stiffness_damping K [1/s]
       double stiffness_damping = 0.; ///< [s]
       Coordinates gravity = {};      ///< [m/s^2]
