@@ -89,7 +89,8 @@ namespace taut
     prm.add_parameter(
         "Additional shared libraries", shared_libraries,
         "Paths of libraries that are loaded before anything else; what they register, "
-        "generators, schemes, bodies and observers, has its entries here",
+        "generators, schemes, bodies and observers, has its entries here. A name without '/' is "
+        "sought beside libtaut.so and where the system keeps libraries",
         List(Anything()));
     prm.add_parameter("Generator", generator_name,
                       "What fills the scene. " +

@@ -16,8 +16,8 @@ namespace taut
         throw EntryError(entry, "cannot load '" + name +
                                     "': " + (reason ? reason : "no reason is given") +
                                     ". Give the path of the library, as seen from the folder where "
-                                    "the program runs; a name without '/' is sought where the "
-                                    "system keeps libraries");
+                                    "the program runs; a name without '/' is sought beside "
+                                    "libtaut.so and where the system keeps libraries");
       }
   }
 } // namespace taut

@@ -45,13 +45,17 @@ namespace taut
                       "subdivided_hyper_rectangle, 'numbers of cells : corner : opposite corner'; "
                       "hyper_ball, half_hyper_ball (x above that of the centre), "
                       "quarter_hyper_ball (a quarter, in space an eighth), 'centre : radius'; "
-                      "cylinder along x, 'radius : half length'",
+                      "cylinder along x, 'radius : half length'; plate_with_a_hole, 'radius of "
+                      "the hole : half side of a square around it : widths below, above, left and "
+                      "right of this square : centre', in space also ': thickness : layers of "
+                      "nodes along z'",
                       Patterns::Selection("subdivided_hyper_rectangle|hyper_ball|half_hyper_ball|"
-                                          "quarter_hyper_ball|cylinder"));
+                                          "quarter_hyper_ball|cylinder|plate_with_a_hole"));
     prm.add_parameter(
         "Arguments", arguments,
         "Of the generator, in m, with colons between them: e.g. '4, 2 : 0, 0 : 2, 1'. "
-        "A rectangle has the boundary ids 2d (left or lower) and 2d + 1 across axis d");
+        "A rectangle has the boundary ids 2d (left or lower) and 2d + 1 across axis d; so has a "
+        "plate, with 4 for its hole, and 5 and 6 across z");
     prm.add_parameter("Refinements", refinements, "Each halves all cells in each direction",
                       Patterns::Integer(0, 12));
     prm.add_parameter("Local refinements", local_refinements,
@@ -114,6 +118,8 @@ namespace taut
         throw EntryError(section + "Generator",
                          "a cylinder is in space; in the plane take hyper_ball");
     }
+    else if (generator == "plate_with_a_hole")
+      plate(cells, given);
     else
     {
       const dealii::Point<dim> centre = given.point("centre");
@@ -126,6 +132,34 @@ namespace taut
       else
         Generator::hyper_ball(cells, centre, radius);
     }
+  }
+
+  template <int dim>
+  void MeshEntries::plate(dealii::Triangulation<dim> &cells, MeshArguments<dim> &given)
+  {
+    const double radius = given.positive("radius of the hole"),
+                 half_side = given.positive("half side of the square around it");
+    if (!(half_side > radius))
+      throw given.error("the half side of the square must be more than the radius of the hole");
+    const std::vector<double> beside = given.numbers(4, "widths below, above, left and right");
+    if (std::any_of(beside.begin(), beside.end(), [](const double w) { return w < 0.; }))
+      throw given.error("the widths beside the square must not be negative");
+    const double longest = *std::max_element(beside.begin(), beside.end()) / half_side;
+    if (longest * longest > most_cells)
+      throw given.error("these are more than 1e7 cells; make the square larger");
+    const dealii::Point<dim> centre = given.point("centre");
+    double thickness = 1., layers = 2.;
+    if (dim == 3)
+    {
+      thickness = given.positive("thickness");
+      layers = given.positive("layers of nodes");
+      if (!(layers >= 2. && layers <= most_cells && layers == std::floor(layers)))
+        throw given.error("layers of nodes are a whole number of at least 2");
+    }
+    given.finish();
+    dealii::GridGenerator::plate_with_a_hole(cells, radius, half_side, beside[0], beside[1],
+                                             beside[2], beside[3], centre, 0, 1, thickness,
+                                             static_cast<unsigned int>(layers), true);
   }
 
   template <int dim>

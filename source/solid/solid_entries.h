@@ -13,6 +13,9 @@
 
 namespace taut
 {
+  template <int dim>
+  class MeshArguments;
+
   /// The mesh of a solid in a parameter file.
   struct MeshEntries
   {
@@ -25,6 +28,8 @@ namespace taut
   private:
     template <int dim>
     void generate(dealii::Triangulation<dim> &cells, const std::string &section) const;
+    template <int dim>
+    static void plate(dealii::Triangulation<dim> &cells, MeshArguments<dim> &given);
     template <int dim>
     void read(dealii::Triangulation<dim> &cells, const std::string &section) const;
     template <int dim>

@@ -163,3 +163,23 @@ TEST(SurfaceContacts, a_ball_is_pressed_as_by_hertz)
   EXPECT_NEAR(found.largest_pressure / p0, 1., 1.5e-2);
   EXPECT_LE(found.iterations, 15);
 }
+
+// deal.II's step-41: the nodes that a projected Gauss-Seidel method closes on the same matrix
+// (tests/install/library/membrane.cc).
+TEST(SurfaceContacts, a_membrane_lies_on_395_nodes_of_a_staircase)
+{
+  const Found found = equilibrium(verification::scene_file("membrane_over_obstacle"));
+  ASSERT_EQ(found.force.size(), 1089u);
+  unsigned int n_closed = 0;
+  double deepest = 0.;
+  for (std::size_t i = 0; i < found.force.size(); ++i)
+  {
+    n_closed += found.force[i] > 0.;
+    deepest = std::fmin(deepest, found.gap[i]);
+  }
+  verification::figure("membrane over a staircase, nodes in contact", n_closed);
+  verification::figure("membrane over a staircase, active sets", found.iterations);
+  EXPECT_EQ(n_closed, 395u);
+  EXPECT_GT(deepest, -1e-13);
+  EXPECT_LE(found.iterations, 15);
+}
