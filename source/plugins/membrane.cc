@@ -46,8 +46,8 @@ namespace
       dealii::MatrixCreator::create_mass_matrix(dofs, dealii::QGauss<2>(2), M);
       dealii::MatrixCreator::create_laplace_matrix(dofs, dealii::QGauss<2>(2), K);
       load.reinit(dofs.n_dofs());
-      dealii::VectorTools::create_right_hand_side(
-          dofs, dealii::QGauss<2>(2), dealii::Functions::ConstantFunction<2>(1.), load);
+      dealii::VectorTools::create_right_hand_side(dofs, dealii::QGauss<2>(2),
+                                                  dealii::Functions::ConstantFunction<2>(1.), load);
     }
 
     dealii::Triangulation<2> cells;

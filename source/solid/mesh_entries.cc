@@ -14,6 +14,7 @@
 #include <cmath>
 #include <fstream>
 #include <regex>
+#include <sstream>
 
 namespace taut
 {
@@ -31,6 +32,45 @@ namespace taut
       text.erase(std::min(text.find("Stacktrace"), text.size()));
       text = std::regex_replace(text, std::regex("[-\\s]*\\n[-\\s]*"), " ");
       return std::regex_replace(text, std::regex("^\\s+|\\s+$"), "");
+    }
+
+    /// Sine of the angle between the edges of a corner, or its like in space, below which a cell is
+    /// flat there.
+    constexpr double flat = 1e-8;
+
+    /// The smallest determinant of the edges at a corner of a cell, over their lengths: 1 for a
+    /// box, 0 for a flat corner, negative for one that is turned inside out.
+    template <typename Cell, int dim = Cell::AccessorType::dimension>
+    double smallest_corner(const Cell &cell)
+    {
+      const bool is_box = cell->reference_cell().is_hyper_cube();
+      double smallest = 1.;
+      for (unsigned int v = 0; v < (is_box ? cell->n_vertices() : 1u); ++v)
+      {
+        dealii::Tensor<2, dim> edges;
+        double lengths = 1.;
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          edges[d] = is_box ? cell->vertex(v | (1u << d)) - cell->vertex(v & ~(1u << d))
+                            : cell->vertex(d + 1) - cell->vertex(0);
+          lengths *= edges[d].norm();
+        }
+        smallest = std::min(smallest, lengths > 0. ? dealii::determinant(edges) / lengths : 0.);
+      }
+      return smallest;
+    }
+
+    template <int dim>
+    void check_cells(const dealii::Triangulation<dim> &cells, const std::string &entry)
+    {
+      for (const auto &cell : cells.active_cell_iterators())
+        if (!(smallest_corner(cell) > flat))
+        {
+          std::ostringstream out;
+          out << "the cell about (" << cell->center()
+              << ") is flat or turned inside out at a corner; mend the mesh where it is made";
+          throw EntryError(entry, out.str());
+        }
     }
   } // namespace
 
@@ -178,6 +218,7 @@ namespace taut
                                              std::to_string(dim) + " from '" + file +
                                              "': " + reason(e));
     }
+    check_cells(cells, section + "File");
   }
 
   template <int dim>

@@ -345,4 +345,13 @@ pull = 50 * 10**2 / (2 * 0.6 * 8)
 compare("guyed mast", start, [[pull, -pull / 1e5], [0, pull * (1 / 1e5 + 2 * 0.8**2 * 8 / 1e7)]], 0.01)
 check_pictures(results, ["static_links"], plot_script)
 
+# The pictures of a solid, and the pressure that is drawn.
+results = run("hertz_cylinder")
+check_pictures(results, ["contact_pressure", "stress"], plot_script)
+plot = load_plot(plot_script)
+(_, _, contact), = plot.last_fields(plot.Results(str(results)), "contact")
+with open(results / "contact_plate.csv", newline="", encoding="utf-8") as table:
+    said = float(list(csv.DictReader(table))[-1]["largest pressure [Pa]"])
+compare("Hertz: largest pressure", [contact["pressure"].max()], [said], said)
+
 sys.exit("\n".join(errors) or None)

@@ -19,7 +19,7 @@ ROOMS = {
     "interface": ["base", "complementarity", "substructure"],
     "time": ["base", "complementarity", "substructure", "interface"],
 }
-for room in ("model", "output", "simulation", "study"):
+for room in ("model", "output", "simulation", "study", "plugins"):
     ROOMS[room] = list(ROOMS)
 
 STANDARD = r"[a-z_0-9]+"  # <vector>

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: meshes of gmsh and of generators are what they say, and what is none ends in one error
+// with file, entry and remedy. Expected values: two materials under tension; the stress beside a
+// hole by R. C. J. Howland, Phil. Trans. R. Soc. A 229 (1930), and R. B. Heywood's formula for it.
+#include "verification/run.h"
+
+#include <taut/base/exceptions.h>
+#include <taut/scene/contact_surface.h>
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+namespace
+{
+  std::string scene(const std::string &body, const std::string &mesh, const std::string &more = "")
+  {
+    return "set Generator = network\nset Gravity = 0, 0\nset Start = equilibrium\n"
+           "set Bodies = plate\nsubsection Body plate\nset Type = solid\n" +
+           body + "\nsubsection Mesh\n" + mesh + "\nend\nend\n" + more +
+           "subsection Time\nset End = 0\nend\n";
+  }
+
+  std::string mesh_file(const std::string &name)
+  {
+    return std::string(TAUT_MESH_FOLDER) + "/" + name;
+  }
+
+  /// A file with one quadrilateral of these corners, in the format 2.2 of gmsh.
+  class OneCell
+  {
+  public:
+    explicit OneCell(const std::string &corners)
+        : path(std::filesystem::temp_directory_path() /
+               ("taut_cell_" + std::to_string(getpid()) + ".msh"))
+    {
+      std::ofstream(path) << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n"
+                          << corners
+                          << "$EndNodes\n$Elements\n2\n1 1 2 11 1 1 2\n2 3 2 1 1 1 2 3 4\n"
+                             "$EndElements\n";
+    }
+    ~OneCell() { std::filesystem::remove(path); }
+    const std::filesystem::path path;
+  };
+
+  void expect_error(const std::string &text, const std::vector<std::string> &parts)
+  {
+    try
+    {
+      verification::Session session(text);
+      session.run([](const taut::StepView &) {});
+      ADD_FAILURE() << "no error: " << text;
+    }
+    catch (const taut::UserError &e)
+    {
+      for (const std::string &part : parts)
+        EXPECT_NE(std::string(e.what()).find(part), std::string::npos)
+            << part << " in " << e.what();
+    }
+  }
+
+  /// Points of the boundary and their displacements along x in the equilibrium.
+  struct Sides
+  {
+    std::vector<taut::Coordinates> points;
+    std::vector<double> u;
+  };
+  Sides equilibrium(const std::string &text)
+  {
+    Sides sides;
+    verification::run_scene(
+        text, {},
+        [&](const taut::StepView &view)
+        {
+          const taut::CustomBody &body = view.scene.bodies[0];
+          sides.points =
+              body.type->surface({body.name, body.origin, view.scene.gravity}, {}).points;
+          for (unsigned int i = 0; i < sides.points.size(); ++i)
+            sides.u.push_back(verification::displacement(
+                view, {{0, view.structure[0].node_displacement(i, {1., 0., 0.})}}));
+        });
+    return sides;
+  }
+
+  const std::string one_material = "set Young's modulus = 1e9\nset Fixed boundaries = 11",
+                    two_materials = "set Materials = 1: 1e9, 0, 0; 2: 3e9, 0, 0";
+
+  /// At the top of a hole of radius 1 m in a plate of 80 m x 20 m under 1 MPa [MPa].
+  double stress_beside_hole(const int local_refinements)
+  {
+    const Sides sides = equilibrium(
+        scene("set Young's modulus = 1e9\nset Degree = 2\nset Plane state = stress\n"
+              "set Fixed boundaries = 0\nset Traction = 1: 1e6, 0",
+              "set Generator = plate_with_a_hole\nset Arguments = 1 : 2 : 8, 8, 38, 38 : 0, 0\n"
+              "set Local refinements = " +
+                  std::to_string(local_refinements) +
+                  "\nset Refine where = 1 + 4/2^t - sqrt(x^2 + y^2)"));
+    // The stress along the free rim is E times its strain, from the nodes left and right of its
+    // top.
+    double left = -1., right = 1., u_left = 0., u_right = 0.;
+    for (std::size_t i = 0; i < sides.points.size(); ++i)
+    {
+      const taut::Coordinates &x = sides.points[i];
+      if (x.y < 0. || std::fabs(std::hypot(x.x, x.y) - 1.) > 1e-6)
+        continue;
+      if (x.x < -1e-9 && x.x > left)
+      {
+        left = x.x;
+        u_left = sides.u[i];
+      }
+      if (x.x > 1e-9 && x.x < right)
+      {
+        right = x.x;
+        u_right = sides.u[i];
+      }
+    }
+    return 1e9 * (u_right - u_left) / (right - left) / 1e6;
+  }
+} // namespace
+
+// Half of the plate has a third of the compliance: u = p (1/E1 + 1/E2) at its end.
+TEST(SolidMeshes, of_gmsh_have_boundaries_and_materials)
+{
+  for (const std::string name : {"quadrilaterals.msh", "triangles.msh"})
+    for (const std::string degree : {"1", "2"})
+    {
+      const Sides sides = equilibrium(scene(two_materials + "\nset Degree = " + degree +
+                                                "\nset Symmetry boundaries = 11, 13"
+                                                "\nset Traction = 12: 1e6, 0",
+                                            "set File = " + mesh_file(name)));
+      unsigned int n_right = 0;
+      for (std::size_t i = 0; i < sides.points.size(); ++i)
+      {
+        const double x = sides.points[i].x;
+        n_right += x == 2.;
+        EXPECT_NEAR(sides.u[i], x < 1. ? 1e-3 * x : 1e-3 + 1e-3 / 3. * (x - 1.), 1e-14) << name;
+      }
+      EXPECT_GE(n_right, 4u) << name;
+    }
+}
+
+TEST(SolidMeshes, that_are_none_end_in_one_error)
+{
+  const std::string file = "set File = ", good = file + mesh_file("quadrilaterals.msh");
+  expect_error(scene(one_material, file + "/nowhere/plate.msh"),
+               {"Body plate/Mesh/File", "cannot read '/nowhere/plate.msh'"});
+  expect_error(scene(one_material + "\nset Dimension = 3", good),
+               {"Body plate/Mesh/File", "no mesh of dimension 3"});
+  expect_error(scene("set Young's modulus = 1e9\nset Fixed boundaries = 21", good),
+               {"Body plate/Fixed boundaries", "no boundary 21; it has 11 12 13 14"});
+  expect_error(scene("set Materials = 1: 1e9, 0, 0; 3: 1e9, 0, 0\nset Fixed boundaries = 11", good),
+               {"Body plate", "the mesh has cells of material 2, of which no material is given"});
+  for (const std::string corners :
+       {"1 0 0 0\n2 1 0 0\n3 2 0 0\n4 3 0 0\n", "1 0 0 0\n2 1 0 0\n3 0 1 0\n4 1 1 0\n",
+        "1 0 0 0\n2 1 0 0\n3 0.1 0.1 0\n4 0 1 0\n"})
+  {
+    const OneCell cell(corners);
+    expect_error(scene(one_material, file + cell.path.string()), {"Body plate/Mesh/File"});
+  }
+  // One that runs the other way round is turned.
+  const OneCell clockwise("1 0 0 0\n2 0 1 0\n3 1 1 0\n4 1 0 0\n");
+  EXPECT_EQ(equilibrium(scene(one_material, file + clockwise.path.string())).points.size(), 4u);
+}
+
+TEST(SolidMeshes, of_plates_with_a_hole_are_checked)
+{
+  const std::string generator = "set Generator = plate_with_a_hole\nset Arguments = ";
+  const auto wrong = [&](const std::string &arguments, const std::string &part) {
+    expect_error(scene(one_material, generator + arguments), {"Body plate/Mesh/Arguments", part});
+  };
+  wrong("0 : 2 : 1, 1, 1, 1 : 0, 0", "the radius of the hole must be positive");
+  wrong("2 : 1 : 1, 1, 1, 1 : 0, 0", "more than the radius of the hole");
+  wrong("1 : 2 : 1, -1, 1, 1 : 0, 0", "must not be negative");
+  wrong("1 : 2 : 1, 1, 1 : 0, 0", "takes 4 numbers");
+  wrong("1 : 2 : 1, 1, 1, 1", "it lacks the centre");
+  wrong("1e-6 : 2e-6 : 1, 1, 1, 1 : 0, 0", "more than 1e7 cells");
+  wrong("1 : 2 : 1, 1, 1, 1 : 0, 0 : 1", "more than it takes");
+}
+
+// Hole over width 0.1: the largest stress is 3.03 times that of the plate far away, where it is 3
+// in one without end. Heywood: (2 + (1 - d/W)^3) / (1 - d/W) = 3.032.
+TEST(SolidMeshes, a_hole_concentrates_stress)
+{
+  const double heywood = (2. + std::pow(.9, 3)) / .9, coarse = stress_beside_hole(4),
+               fine = stress_beside_hole(5);
+  verification::figure("stress beside a hole of 0.1 of the width, over that far away", fine);
+  verification::figure("the same with cells twice as large", coarse);
+  EXPECT_NEAR(fine, heywood, 5e-3 * heywood);
+  EXPECT_NEAR(fine, coarse, 1e-3);
+}
