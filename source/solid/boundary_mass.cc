@@ -199,10 +199,11 @@ namespace taut
   } // namespace
 
   template <int dim>
-  void take_mass_from_boundary(const SolidMesh<dim> &mesh,
-                               const std::set<dealii::types::boundary_id> &boundaries,
-                               const dealii::AffineConstraints<double> &hanging,
-                               const bool keeps_inertia, dealii::SparseMatrix<double> &M)
+  std::vector<double> factors_without_mass(const SolidMesh<dim> &mesh,
+                                           const std::set<dealii::types::boundary_id> &boundaries,
+                                           const dealii::AffineConstraints<double> &hanging,
+                                           const bool keeps_inertia,
+                                           const dealii::SparseMatrix<double> &M)
   {
     std::vector<double> D;
     for (int degree = keeps_inertia ? 2 : 0; degree >= 0; --degree)
@@ -227,21 +228,18 @@ namespace taut
             D[dofs[i]] = D[dofs[element.component_to_system_index(0, node)]];
         }
       }
-      for (unsigned int i = 0; i < M.m(); ++i)
-        for (auto entry = M.begin(i); entry != M.end(i); ++entry)
-          entry->value() *= D[i] * D[entry->column()];
-      return;
+      return D;
     }
     throw UserError("no node beside these boundaries can take the mass of theirs; make smaller "
                     "cells");
   }
 
-  template void take_mass_from_boundary<2>(const SolidMesh<2> &,
-                                           const std::set<dealii::types::boundary_id> &,
-                                           const dealii::AffineConstraints<double> &, bool,
-                                           dealii::SparseMatrix<double> &);
-  template void take_mass_from_boundary<3>(const SolidMesh<3> &,
-                                           const std::set<dealii::types::boundary_id> &,
-                                           const dealii::AffineConstraints<double> &, bool,
-                                           dealii::SparseMatrix<double> &);
+  template std::vector<double> factors_without_mass<2>(const SolidMesh<2> &,
+                                                       const std::set<dealii::types::boundary_id> &,
+                                                       const dealii::AffineConstraints<double> &,
+                                                       bool, const dealii::SparseMatrix<double> &);
+  template std::vector<double> factors_without_mass<3>(const SolidMesh<3> &,
+                                                       const std::set<dealii::types::boundary_id> &,
+                                                       const dealii::AffineConstraints<double> &,
+                                                       bool, const dealii::SparseMatrix<double> &);
 } // namespace taut

@@ -8,26 +8,28 @@
 #include <deal.II/lac/sparse_matrix.h>
 
 #include <set>
+#include <vector>
 
 namespace taut
 {
   /**
-   * Takes the mass from the nodes of parts of the boundary (H. B. Khenous, P. Laborde, Y. Renard,
-   * European Journal of Mechanics A/Solids 27 (2008)): M becomes D M D, semidefinite like M, with a
-   * diagonal D that is 0 at these nodes and larger than 1 next to them, such that the total mass
-   * stays. With @p keeps_inertia D is a quadratic polynomial at the nodes of the next four layers
-   * of cells, such that the centre and the moments of inertia stay, too. Where these do not allow
-   * that with positive entries of D, two layers keep the mass and its centre, or one the mass
-   * alone.
+   * How mass is taken from the nodes of parts of the boundary (H. B. Khenous, P. Laborde, Y.
+   * Renard, European Journal of Mechanics A/Solids 27 (2008)): M becomes D M D, semidefinite like
+   * M, with the diagonal D that is returned: it is 0 at these nodes and larger than 1 next to them,
+   * such that the total mass stays. With @p keeps_inertia D is a quadratic polynomial at the nodes
+   * of the next four layers of cells, such that the centre and the moments of inertia stay, too.
+   * Where these do not allow that with positive entries of D, two layers keep the mass and its
+   * centre, or one the mass alone.
    *
    * @p hanging are the constraints of hanging nodes; those that depend on such a node lose their
    * mass, too. Throws UserError if no node of the next layer has a mass.
    */
   template <int dim>
-  void take_mass_from_boundary(const SolidMesh<dim> &mesh,
-                               const std::set<dealii::types::boundary_id> &boundaries,
-                               const dealii::AffineConstraints<double> &hanging, bool keeps_inertia,
-                               dealii::SparseMatrix<double> &M);
+  std::vector<double> factors_without_mass(const SolidMesh<dim> &mesh,
+                                           const std::set<dealii::types::boundary_id> &boundaries,
+                                           const dealii::AffineConstraints<double> &hanging,
+                                           bool keeps_inertia,
+                                           const dealii::SparseMatrix<double> &M);
 } // namespace taut
 
 #endif

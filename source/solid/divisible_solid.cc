@@ -9,6 +9,7 @@ namespace taut
                                       const Options &chosen)
       : mesh(std::move(given)), options(chosen), conditions(*mesh, options.conditions),
         division(mesh->dof_handler(), mesh->mapping(), conditions.constraints()),
+        mass_factors(ElasticSolid<dim>::mass_factors(*mesh, options, conditions)),
         cell_of_dof(cells().n_dofs())
   {
     for (std::size_t c = 0; c < cells().size(); ++c)
@@ -30,7 +31,8 @@ namespace taut
     std::vector<typename FEBody<dim>::Cell> own;
     for (const unsigned int cell : part)
       own.push_back(mesh->cells()[cell]);
-    return std::make_unique<ElasticSolid<dim>>(setting.name, mesh, options, conditions, own);
+    return std::make_unique<ElasticSolid<dim>>(setting.name, mesh, options, conditions, own,
+                                               mass_factors);
   }
 
   template class DivisibleSolid<2>;

@@ -63,13 +63,15 @@ namespace taut
   template <int dim>
   struct ElasticSolid<dim>::Assembled
   {
-    /// Of the cells only; of none, of all.
+    /// Of the cells only, with mass_factors() of the whole; of none, of all.
     Assembled(const SolidMesh<dim> &mesh, const Options &options,
-              const dealii::AffineConstraints<double> &constraints, std::vector<Cell> part);
+              const dealii::AffineConstraints<double> &constraints, std::vector<Cell> part,
+              const std::vector<double> *part_factors);
 
     dealii::SparsityPattern pattern;
     dealii::SparseMatrix<double> M, C, K;
     dealii::Vector<double> load;
+    std::vector<double> factors; ///< of M, rows and columns; empty: none
 
   private:
     void add_stiffness(const SolidMesh<dim> &mesh, const Options &options);
@@ -82,7 +84,8 @@ namespace taut
   template <int dim>
   ElasticSolid<dim>::Assembled::Assembled(const SolidMesh<dim> &mesh, const Options &options,
                                           const dealii::AffineConstraints<double> &constraints,
-                                          std::vector<Cell> part)
+                                          std::vector<Cell> part,
+                                          const std::vector<double> *const part_factors)
       : cells(part.empty() ? mesh.cells() : std::move(part))
   {
     if (options.materials.empty())
@@ -106,11 +109,20 @@ namespace taut
     load.reinit(dofs.size());
     add_stiffness(mesh, options);
     add_mass(mesh, options);
-    if (!options.without_mass.empty())
+    if (part_factors)
+      factors = *part_factors;
+    else if (!options.without_mass.empty())
     {
-      check_boundaries(options.without_mass);
-      take_mass_from_boundary(mesh, options.without_mass, hanging, options.keeps_inertia, M);
+      const auto ids = mesh.boundary_ids();
+      for (const auto id : options.without_mass)
+        if (ids.count(id) == 0)
+          throw UserError(mesh.no_boundary(id));
+      factors =
+          factors_without_mass(mesh, options.without_mass, constraints, options.keeps_inertia, M);
     }
+    for (unsigned int i = 0; !factors.empty() && i < M.m(); ++i)
+      for (auto entry = M.begin(i); entry != M.end(i); ++entry)
+        entry->value() *= factors[dofs[i]] * factors[dofs[entry->column()]];
     if (options.mass_damping != 0. || options.stiffness_damping != 0.)
     {
       C.reinit(pattern);
@@ -229,7 +241,16 @@ namespace taut
   ElasticSolid<dim>::ElasticSolid(const std::string &name,
                                   std::shared_ptr<const SolidMesh<dim>> mesh,
                                   const Options &options)
-      : ElasticSolid(name, mesh, options, SolidConditions<dim>(*mesh, options.conditions), {})
+      : ElasticSolid(name, mesh, options, SolidConditions<dim>(*mesh, options.conditions))
+  {
+  }
+
+  template <int dim>
+  ElasticSolid<dim>::ElasticSolid(const std::string &name,
+                                  std::shared_ptr<const SolidMesh<dim>> mesh,
+                                  const Options &options, const SolidConditions<dim> &conditions)
+      : ElasticSolid(name, mesh, options, conditions, {},
+                     Assembled(*mesh, options, conditions.constraints(), {}, nullptr))
   {
   }
 
@@ -237,10 +258,21 @@ namespace taut
   ElasticSolid<dim>::ElasticSolid(const std::string &name,
                                   std::shared_ptr<const SolidMesh<dim>> mesh,
                                   const Options &options, const SolidConditions<dim> &conditions,
-                                  const std::vector<Cell> &part)
+                                  const std::vector<Cell> &part,
+                                  const std::vector<double> &mass_factors)
       : ElasticSolid(name, mesh, options, conditions, part,
-                     Assembled(*mesh, options, conditions.constraints(), part))
+                     Assembled(*mesh, options, conditions.constraints(), part, &mass_factors))
   {
+  }
+
+  template <int dim>
+  std::vector<double> ElasticSolid<dim>::mass_factors(const SolidMesh<dim> &mesh,
+                                                      const Options &options,
+                                                      const SolidConditions<dim> &conditions)
+  {
+    if (options.without_mass.empty())
+      return {};
+    return Assembled(mesh, options, conditions.constraints(), {}, nullptr).factors;
   }
 
   template <int dim>

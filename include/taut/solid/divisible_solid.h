@@ -34,6 +34,7 @@ namespace taut
     const Options options;
     const SolidConditions<dim> conditions;
     const CellDivision<dim> division;
+    const std::vector<double> mass_factors;
     std::vector<std::size_t> cell_of_dof;
   };
 } // namespace taut

@@ -78,11 +78,16 @@ namespace taut
     ElasticSolid(const std::string &name, std::shared_ptr<const SolidMesh<dim>> mesh,
                  const Options &options);
 
-    /// A part of a solid, of these cells; @p conditions are those of the whole.
+    /// A part of a solid, of these cells; @p conditions and mass_factors() are those of the whole.
     using typename FEBody<dim>::Cell;
     ElasticSolid(const std::string &name, std::shared_ptr<const SolidMesh<dim>> mesh,
                  const Options &options, const SolidConditions<dim> &conditions,
-                 const std::vector<Cell> &part);
+                 const std::vector<Cell> &part, const std::vector<double> &mass_factors);
+
+    /// Factors of the rows and columns of M that take the mass from Options::without_mass; empty
+    /// without them.
+    static std::vector<double> mass_factors(const SolidMesh<dim> &mesh, const Options &options,
+                                            const SolidConditions<dim> &conditions);
 
     /// Of a node of SolidMesh::surface().
     LinearForm node_displacement(unsigned int node, const Coordinates &direction) const override;
@@ -97,6 +102,8 @@ namespace taut
   private:
     struct Assembled;
     class StressField;
+    ElasticSolid(const std::string &name, std::shared_ptr<const SolidMesh<dim>> mesh,
+                 const Options &options, const SolidConditions<dim> &conditions);
     ElasticSolid(const std::string &name, std::shared_ptr<const SolidMesh<dim>> mesh,
                  const Options &options, const SolidConditions<dim> &conditions,
                  const std::vector<Cell> &part, const Assembled &assembled);
