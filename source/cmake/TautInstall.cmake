@@ -15,7 +15,7 @@ write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/package/tautConfigV
   COMPATIBILITY SameMinorVersion)
 
 # A Debug build adds its library, libtaut.g, to what a Release build installed.
-install(TARGETS taut-program CONFIGURATIONS Release)
+install(TARGETS taut-program taut_memory CONFIGURATIONS Release)
 install(TARGETS taut EXPORT taut)
 install(EXPORT taut NAMESPACE taut:: FILE tautTargets.cmake DESTINATION ${package_folder})
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/package/tautConfig.cmake

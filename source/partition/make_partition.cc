@@ -22,7 +22,7 @@ namespace taut
   {
     /// DoFs of a solid in space from which parts cost less than the whole, solutions up to which
     /// they do, and DoFs of a part (doc/results/decomposition.md).
-    constexpr std::size_t least_cut_dofs = 10000, dofs_per_part = 1000;
+    constexpr std::size_t least_cut_dofs = 10000, dofs_per_part = 500;
     constexpr double most_solves = 3.;
 
     std::size_t nearest_node(const std::vector<double> &nodes, const double s)

@@ -106,3 +106,24 @@ TEST(Partition, PartsOfSolidsHangTogether)
     EXPECT_LT(*std::max_element(sizes.begin(), sizes.end()), 1.3 * n / n_parts + 3.);
   }
 }
+
+// Claim: `automatic` cuts solids in space with many DoFs for statics, and nothing else. Expected:
+// the table of doc/decomposition.md, where parts are cheaper for up to three solutions.
+TEST(Partition, AutomaticNumbersFollowTheTable)
+{
+  const auto in_space = [](const unsigned int elements)
+  {
+    Box box;
+    box.n = 1;
+    box.elements = elements;
+    return box_in_parts::scene<3>(std::make_shared<const box_in_parts::BoxType<3>>(box));
+  };
+  EXPECT_EQ(taut::automatic_number_of_parts(in_space(8), 0.).n, 1u);   // 2187 DoFs
+  EXPECT_EQ(taut::automatic_number_of_parts(in_space(15), 0.).n, 24u); // 12 288 DoFs
+  EXPECT_EQ(taut::automatic_number_of_parts(in_space(15), 100.).n, 1u);
+  Box square;
+  square.n = 1;
+  square.elements = 100;
+  const auto type = std::make_shared<const box_in_parts::BoxType<2>>(square);
+  EXPECT_EQ(taut::automatic_number_of_parts(box_in_parts::scene<2>(type), 0.).n, 1u);
+}

@@ -847,6 +847,11 @@ end
          {{"subsection Statistics\n", "subsection Partition\nset Method = given\nset Cuts = line @ "
                                       "50 # here\nend\nsubsection Statistics\n"}},
          {"Partition/Cuts = 'line @ 50'", "line"}},
+        {"substructures_by_word",
+         network,
+         {{"subsection Statistics\n", "subsection Partition\nset Number of substructures = many # "
+                                      "here\nend\nsubsection Statistics\n"}},
+         {"Partition/Number of substructures = 'many'", "automatic"}},
         {"no_substructures",
          network,
          {{"subsection Statistics\n", "subsection Partition\nset Number of substructures = 0 # "
