@@ -265,6 +265,9 @@ int main(int argc, char **argv)
   {
     work(argc, argv, processes);
     std::cout.flush();
+    if (processes.is_root() && !std::cout)
+      return report(last_words, "cannot write the log: the disk is full, or its reader is gone; "
+                                "results are complete");
     return 0;
   }
   catch (const po::error &e)

@@ -339,6 +339,10 @@ namespace taut
       setting.n_steps = run.n_steps;
       compare(setting, run.quantities);
     }
+    catch (const NotWritten &)
+    {
+      throw; // so would the next setting
+    }
     catch (const UserError &e)
     {
       setting.message = on_one_line(e.what());
