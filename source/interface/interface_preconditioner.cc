@@ -5,7 +5,6 @@
 #include <taut/base/gather_entries.h>
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -13,10 +12,6 @@ namespace taut
 {
   namespace
   {
-    /// A Schur complement's diagonal below this part of the matrix's own is rounding: the body is
-    /// free to follow.
-    constexpr double smallest_stiffness = 1e-9;
-
     /// An elastic row below this part of F_ii is as good as rigid.
     constexpr double smallest_compliance = 1e-9;
 
@@ -26,21 +21,6 @@ namespace taut
 
     /// Relative shift of Q, which is singular if rigid constraints depend on each other.
     constexpr double dependence_shift = 1e-12;
-
-    /// DoFs of a body of any pattern up to which its Schur complement is formed: a solve for each,
-    /// where applying it costs one an iteration.
-    constexpr std::size_t most_formed = 100;
-
-    constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
-
-    /// Position of each DoF in a sorted list.
-    std::vector<std::size_t> positions(const std::vector<unsigned int> &dofs, const std::size_t n)
-    {
-      std::vector<std::size_t> result(n, nowhere);
-      for (std::size_t p = 0; p < dofs.size(); ++p)
-        result[dofs[p]] = p;
-      return result;
-    }
   } // namespace
 
   InterfacePreconditioner::InterfacePreconditioner(const std::string &name,
@@ -75,130 +55,6 @@ namespace taut
     gather_blocks(active);
     add_springs(active, diagonal, compliance);
     set_scaling();
-  }
-
-  /// The DoFs of active constraints that may move.
-  std::vector<unsigned int>
-  InterfacePreconditioner::constrained_together(const std::size_t k,
-                                                const std::vector<char> &active) const
-  {
-    const std::vector<unsigned int> held = solvers.structure()[k].constrained_dofs();
-    std::vector<unsigned int> dofs;
-    for (const BodyConstraints::Entry &entry : body_constraints[k])
-      if (active[entry.constraint])
-        for (const unsigned int dof : entry.form.index)
-          if (!std::binary_search(held.begin(), held.end(), dof))
-            dofs.push_back(dof);
-    std::sort(dofs.begin(), dofs.end());
-    dofs.erase(std::unique(dofs.begin(), dofs.end()), dofs.end());
-    return dofs;
-  }
-
-  /// A_k on b.
-  void InterfacePreconditioner::set_entries(const std::size_t k, Block &block) const
-  {
-    const auto position = positions(block.dofs, solvers.structure()[k].n_dofs());
-    solvers.visit(k,
-                  [&](unsigned int i, unsigned int j, double value)
-                  {
-                    if (position[i] != nowhere && position[j] != nowhere)
-                      block.entries.add(position[i], position[j], value);
-                  });
-  }
-
-  void InterfacePreconditioner::compute_block(const std::size_t k, const std::vector<char> &active)
-  {
-    Block block;
-    if (is_dirichlet && solvers.structure()[k].stiffness().block_size() == 0)
-    {
-      block.dofs = constrained_together(k, std::vector<char>(active.size(), 1));
-      if (block.dofs.size() > most_formed)
-      {
-        if (blocks[k].interior && blocks[k].dofs == block.dofs)
-          return;
-        block.interior = solvers.solver_with_held(k, block.dofs);
-        ++factorisations;
-        set_entries(k, block);
-        block.entries.compress();
-        blocks[k] = std::move(block);
-        return;
-      }
-    }
-    block.dofs = constrained_together(k, active);
-    set_entries(k, block);
-    std::vector<double> diagonal(block.dofs.size(), 0.);
-    for (std::size_t e = 0; e < block.entries.size(); ++e)
-      if (block.entries.row[e] == block.entries.column[e])
-        diagonal[block.entries.row[e]] += block.entries.value[e];
-    if (is_dirichlet && !block.dofs.empty())
-    {
-      condense(k, block);
-      ++factorisations;
-    }
-    block.entries.compress();
-    for (std::size_t e = 0; e < block.entries.size(); ++e)
-    {
-      const int p = block.entries.row[e];
-      if (p == block.entries.column[e] &&
-          !(block.entries.value[e] > smallest_stiffness * diagonal[p]))
-        block.entries.value[e] = 0.;
-    }
-    blocks[k] = std::move(block);
-  }
-
-  /// Subtracts A_bi A_ii^-1 A_ib, column by column: each lives near its DoF.
-  void InterfacePreconditioner::condense(const std::size_t k, Block &block) const
-  {
-    const std::size_t n = block.dofs.size();
-    const auto position = positions(block.dofs, solvers.structure()[k].n_dofs());
-    std::vector<char> is_constrained(solvers.structure()[k].n_dofs(), 0);
-    for (const unsigned int dof : solvers.structure()[k].constrained_dofs())
-      is_constrained[dof] = 1;
-    std::vector<LinearForm> couplings(n); // columns of A_ib
-    solvers.visit(k,
-                  [&](unsigned int i, unsigned int j, double value)
-                  {
-                    for (const auto &[to, from] : {std::make_pair(i, j), std::make_pair(j, i)})
-                      if (position[to] != nowhere && position[from] == nowhere &&
-                          !is_constrained[from] && value != 0.)
-                        couplings[position[to]].add(from, value);
-                  });
-    // A band: which columns a window meets follows from the distance of their DoFs.
-    unsigned int band = 0;
-    for (std::size_t p = 0; p < n; ++p)
-      for (const unsigned int i : couplings[p].index)
-        band = std::max(band, std::max(i, block.dofs[p]) - std::min(i, block.dofs[p]));
-
-    const std::unique_ptr<LocalSolver> interior = solvers.solver_with_held(k, block.dofs);
-    const unsigned int block_size = solvers.structure()[k].stiffness().block_size();
-    WindowedVector response;
-    for (std::size_t p = 0; p < n; ++p)
-    {
-      // A column's right-hand side lives on one element: one for each side of the node.
-      LinearForm sides[2];
-      for (std::size_t e = 0; e < couplings[p].index.size(); ++e)
-      {
-        const unsigned int i = couplings[p].index[e];
-        const bool is_right = block_size > 0 && i / block_size > block.dofs[p] / block_size;
-        sides[is_right].add(i, couplings[p].value[e]);
-      }
-      for (const LinearForm &side : sides)
-      {
-        if (side.index.empty())
-          continue;
-        interior->column(side, response);
-        const unsigned int end = response.first + static_cast<unsigned int>(response.value.size());
-        const unsigned int begin = response.first > band ? response.first - band : 0;
-        for (std::size_t q =
-                 std::lower_bound(block.dofs.begin(), block.dofs.end(), begin) - block.dofs.begin();
-             q <= p && block.dofs[q] < end + band; ++q)
-        {
-          const double product = response.dot(couplings[q]);
-          if (product != 0.)
-            block.entries.add(p, q, -product);
-        }
-      }
-    }
   }
 
   /// T without springs, and B, of all ranks.

@@ -1,31 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/exceptions.h>
+#include "check_parts.h"
+
 #include <taut/scene/scene.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
-#include <sstream>
 #include <tuple>
 
 namespace taut
 {
   namespace
   {
-    /// Throws an EntryError for an entry of an item; an item made without a parameter file has no
-    /// path.
-    template <typename Item, typename... Parts>
-    void fail(const Item &item, const std::string &entry, const Parts &...parts)
-    {
-      std::ostringstream out;
-      out.precision(12); // a position that is outside by little has to look so
-      (out << ... << parts);
-      throw EntryError(item.origin.empty() || entry.empty() ? item.origin
-                                                            : item.origin + "/" + entry,
-                       out.str());
-    }
-
     void check_wire(const Wire &wire)
     {
       const std::string what = "wire '" + wire.name + "': ";
@@ -293,87 +279,13 @@ namespace taut
           fail(link, "Speed", what, "Speed and Height profile are for a sliding contact");
       }
     }
-
-    template <typename Item>
-    void check_names(const std::vector<Item> &items, const std::string &kind)
-    {
-      std::set<std::string> names;
-      for (const Item &item : items)
-        if (item.name.empty() || !names.insert(item.name).second)
-          fail(item, "", "two ", kind, " are called '", item.name,
-               "'; names are unique and not empty");
-    }
-
-    /// A link says where it acts by a name alone.
-    void check_body_names(const Scene &scene)
-    {
-      for (const CustomBody &body : scene.bodies)
-      {
-        const auto is_same = [&](const auto &item) { return item.name == body.name; };
-        if (body.name == "ground" || std::any_of(scene.wires.begin(), scene.wires.end(), is_same) ||
-            std::any_of(scene.masses.begin(), scene.masses.end(), is_same))
-          fail(body, "", "the name '", body.name,
-               "' is taken by a wire, a mass or the ground; take another");
-      }
-    }
-
-    /// What numpy's genfromtxt(names=True) makes of a name in the head of a table.
-    std::string name_in_tables(const std::string &name)
-    {
-      const std::string dropped = "~!@#$%^&*()-=+\\|]}[{';:/?.>,<\"";
-      std::string result;
-      for (const char c : name)
-        if (dropped.find(c) == std::string::npos)
-          result += c == ' ' ? '_' : c;
-      return result;
-    }
-
-    /// Names that become one in the head of a table are one too many.
-    class TableNames
-    {
-    public:
-      explicit TableNames(std::string kind) : kind(std::move(kind)) {}
-
-      template <typename Item>
-      void add(const Item &item, const std::string &name)
-      {
-        const auto [known, is_new] = names.emplace(name_in_tables(name), name);
-        if (!is_new)
-          fail(item, "", "two ", kind, " are called '", known->second, "' and '", name,
-               "', which is one name for programs that read the tables and drop what is neither "
-               "letter nor digit; rename one");
-      }
-
-    private:
-      std::string kind;
-      std::map<std::string, std::string> names; ///< as written, by what is left of them
-    };
-
-    void check_names_in_tables(const Scene &scene)
-    {
-      TableNames links("links"), probes("probes"), supports("supports");
-      for (const Link &link : scene.links)
-        links.add(link, link.name);
-      for (const Probe &probe : scene.probes)
-        probes.add(probe, probe.name);
-      for (const Support &support : scene.supports)
-        for (std::size_t k = 0; k < support.positions.size(); ++k)
-          supports.add(support,
-                       support.name +
-                           (support.positions.size() > 1 ? " " + std::to_string(k + 1) : ""));
-    }
   } // namespace
 
   void check(const Scene &scene, const double end_time)
   {
     if (scene.wires.empty() && scene.masses.empty() && scene.bodies.empty())
       throw EntryError("", "the scene is empty: name at least one wire or mass");
-    check_names(scene.wires, "wires");
-    check_names(scene.bodies, "bodies");
-    check_body_names(scene);
-    check_names(scene.masses, "masses");
-    check_names(scene.links, "links");
-    check_names_in_tables(scene);
+    check_names(scene);
     for (const Wire &wire : scene.wires)
       check_wire(wire);
     check_supports(scene);

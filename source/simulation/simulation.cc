@@ -21,7 +21,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <filesystem>
 #include <ostream>
 #include <sstream>
 
@@ -347,40 +346,6 @@ namespace taut
             n_steps() * parameters.step,
             is_partial,
             warnings};
-  }
-
-  void Simulation::write_start() const
-  {
-    const std::vector<SupportPoint> supports = support_points(model);
-    if (parameters.end_time == 0. && !supports.empty())
-    {
-      // The only line; a run in time writes it with the others.
-      std::vector<std::string> columns = {"time [s]"};
-      for (const SupportPoint &point : supports)
-        columns.push_back(support_column(point));
-      CsvFile file(parameters.output.folder + "/supports.csv", columns);
-      file.begin_line(0.);
-      for (const double force : reactions.forces())
-        file << force;
-      file.end_line();
-      file.close();
-    }
-    if (model.links.empty())
-      return;
-    CsvFile file(parameters.output.folder + "/start.csv",
-                 {"link", "x [m]", "y [m]", "force [N or N m]", "gap [m or rad]", "length [m]"});
-    for (std::size_t i = 0; i < links.size(); ++i)
-    {
-      if (!links[i].is_link())
-        continue;
-      const Link &link = model.links[links[i].link];
-      const Attachment &end = link.to.kind == Attachment::Kind::ground ? link.from : link.to;
-      const Coordinates at = place(model, end);
-      file << links[i].name << at.x << at.y << start.multiplier[i] << start.geometric_gap[i]
-           << (link.length > 0. ? link.length : 0.);
-      file.end_line();
-    }
-    file.close();
   }
 
   StepView Simulation::view(const State &state, const Certificate &certificate) const

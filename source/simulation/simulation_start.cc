@@ -3,6 +3,9 @@
 #include <taut/base/instruction_set.h>
 #include <taut/model/form_finding.h>
 #include <taut/model/scene_constraints.h>
+#include <taut/output/csv_file.h>
+#include <taut/output/reactions.h>
+#include <taut/scene/entries.h>
 #include <taut/simulation/free_bodies.h>
 #include <taut/simulation/simulation.h>
 #include <taut/time/initial_state.h>
@@ -152,5 +155,39 @@ namespace taut
     for (std::size_t i = 0; i < probe_terms.size(); ++i)
       probe_rest[i] = evaluate(probe_terms[i], rest);
     processes.sum(probe_rest);
+  }
+
+  void Simulation::write_start() const
+  {
+    const std::vector<SupportPoint> supports = support_points(model);
+    if (parameters.end_time == 0. && !supports.empty())
+    {
+      // The only line; a run in time writes it with the others.
+      std::vector<std::string> columns = {"time [s]"};
+      for (const SupportPoint &point : supports)
+        columns.push_back(support_column(point));
+      CsvFile file(parameters.output.folder + "/supports.csv", columns);
+      file.begin_line(0.);
+      for (const double force : reactions.forces())
+        file << force;
+      file.end_line();
+      file.close();
+    }
+    if (model.links.empty())
+      return;
+    CsvFile file(parameters.output.folder + "/start.csv",
+                 {"link", "x [m]", "y [m]", "force [N or N m]", "gap [m or rad]", "length [m]"});
+    for (std::size_t i = 0; i < links.size(); ++i)
+    {
+      if (!links[i].is_link())
+        continue;
+      const Link &link = model.links[links[i].link];
+      const Attachment &end = link.to.kind == Attachment::Kind::ground ? link.from : link.to;
+      const Coordinates at = place(model, end);
+      file << links[i].name << at.x << at.y << start.multiplier[i] << start.geometric_gap[i]
+           << (link.length > 0. ? link.length : 0.);
+      file.end_line();
+    }
+    file.close();
   }
 } // namespace taut

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_check_parts_h
+#define taut_check_parts_h
+
+#include <taut/base/exceptions.h>
+#include <taut/scene/scene.h>
+
+#include <sstream>
+#include <string>
+
+namespace taut
+{
+  /// Throws an EntryError for an entry of an item; an item made without a parameter file has no
+  /// path.
+  template <typename Item, typename... Parts>
+  void fail(const Item &item, const std::string &entry, const Parts &...parts)
+  {
+    std::ostringstream out;
+    out.precision(12); // a position that is outside by little has to look so
+    (out << ... << parts);
+    throw EntryError(item.origin.empty() || entry.empty() ? item.origin : item.origin + "/" + entry,
+                     out.str());
+  }
+
+  /// Throws an EntryError for items of one kind with one name, or with names that tables cannot
+  /// tell apart.
+  void check_names(const Scene &scene);
+} // namespace taut
+
+#endif
