@@ -34,8 +34,8 @@ namespace taut
       std::unique_ptr<SymmetricMatrix> clone() const override;
 
     private:
-      static constexpr int width = 2 * b - 1; ///< diagonals below the main one
-      static constexpr int lanes = b == 3 ? 24 : 8;
+      static constexpr int width = 2 * b - 1;           ///< diagonals below the main one
+      static constexpr int lanes = b % 3 == 0 ? 24 : 8; ///< whole nodes
 
       /// Rows begin to end - 1 are those of `lanes` rows, again and again; whole nodes.
       struct Repetition
@@ -233,8 +233,10 @@ namespace taut
       return std::make_unique<BlockTridiagonalMatrix<3>>(n);
     case 4:
       return std::make_unique<BlockTridiagonalMatrix<4>>(n);
+    case 6:
+      return std::make_unique<BlockTridiagonalMatrix<6>>(n);
     default:
-      throw std::logic_error("block size of a wire outside 1..4");
+      throw std::logic_error("block size of a wire that is none of 1, 2, 3, 4, 6");
     }
   }
 } // namespace taut

@@ -396,8 +396,11 @@ namespace taut
       return std::make_unique<BlockTridiagonalSolver<3>>();
     case 4:
       return std::make_unique<BlockTridiagonalSolver<4>>();
+    case 6:
+      return std::make_unique<BlockTridiagonalSolver<6>>();
     default:
-      throw std::logic_error("block size of a block-tridiagonal solver outside 1..4");
+      throw std::logic_error(
+          "block size of a block-tridiagonal solver that is none of 1, 2, 3, 4, 6");
     }
   }
 } // namespace taut

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace taut
 {
@@ -68,6 +69,35 @@ namespace taut
   {
     U.assign(n_dofs(), 0.);
     V.assign(n_dofs(), 0.);
+  }
+
+  double Substructure::strain_energy(const std::vector<double> &U) const
+  {
+    std::vector<double> f(U.size(), 0.);
+    K->vmult_add(.5, U.data(), f.data());
+    return std::inner_product(U.begin(), U.end(), f.begin(), 0.);
+  }
+
+  void Substructure::internal_force(const std::vector<double> &U, const std::vector<double> &,
+                                    std::vector<double> &f) const
+  {
+    f.assign(U.size(), 0.);
+    K->vmult_add(1., U.data(), f.data());
+  }
+
+  void Substructure::mean_internal_force(const std::vector<double> &U0,
+                                         const std::vector<double> &U1, double,
+                                         std::vector<double> &f) const
+  {
+    f.assign(U0.size(), 0.);
+    K->vmult_add(.5, U0.data(), f.data());
+    K->vmult_add(.5, U1.data(), f.data());
+  }
+
+  std::unique_ptr<SymmetricMatrix> Substructure::tangent(const std::vector<double> &, double,
+                                                         bool) const
+  {
+    return K->clone();
   }
 
   void Substructure::external_force(const double t, std::vector<double> &P) const

@@ -15,6 +15,7 @@ ROOMS = {
     "wire": ["base", "scene", "substructure"],
     "mechanism": ["base", "scene", "substructure"],
     "solid": ["base", "scene", "substructure"],
+    "cable": ["base", "scene", "substructure"],
     "partition": ["base", "scene"],
     "interface": ["base", "complementarity", "substructure"],
     "time": ["base", "complementarity", "substructure", "interface"],

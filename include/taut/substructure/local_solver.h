@@ -52,8 +52,8 @@ namespace taut
 
   /**
    * Block-tridiagonal LDL^T, eliminated from both ends at once, for matrices with a block size of 1
-   * to 4. The factors of both directions are kept whole, so that a column of A^-1 follows from a
-   * local recurrence.
+   * to 4, or 6. The factors of both directions are kept whole, so that a column of A^-1 follows
+   * from a local recurrence.
    */
   std::unique_ptr<LocalSolver> make_block_tridiagonal_solver(unsigned int block_size);
 

@@ -38,9 +38,10 @@ namespace taut
   };
 
   /**
-   * One body between interfaces, discretised: M U" + C U' + K U = P + B N. Its DoFs are
-   * displacements [m] and slopes or rotations [rad], each of one kind: kind(i) numbers the kinds,
-   * because forces and moments are never compared.
+   * One body between interfaces, discretised: M U" + C U' + f(U, U') = P + B N. Of a linear body f
+   * is K U; of others, which move by large amounts, K is the tangent of f in the undeformed body,
+   * and they say what f is. Its DoFs are displacements [m] and slopes or rotations [rad], each of
+   * one kind: kind(i) numbers the kinds, because forces and moments are never compared.
    */
   class Substructure
   {
@@ -137,6 +138,33 @@ namespace taut
       std::vector<unsigned int> fixing_dofs;
     };
     virtual NullSpace null_space() const { return {}; }
+
+    /// True if the internal force is K U. If not, the functions that follow are the body's own.
+    virtual bool is_linear() const { return true; }
+
+    /// Energy of the internal force, zero at U = 0 or at another state of the body's choice [J].
+    virtual double strain_energy(const std::vector<double> &U) const;
+
+    /// f(U, V) for schemes that take forces at the end of a step, V [m/s] for the damping of the
+    /// material; empty: at rest. @p f is resized [N, N m].
+    virtual void internal_force(const std::vector<double> &U, const std::vector<double> &V,
+                                std::vector<double> &f) const;
+
+    /**
+     * A mean of f over a step [s] from U0 to U1, for energy-momentum schemes: f . (U1 - U0) is
+     * strain_energy(U1) - strain_energy(U0), and what the damping of the material took. @p f is
+     * resized [N, N m].
+     */
+    virtual void mean_internal_force(const std::vector<double> &U0, const std::vector<double> &U1,
+                                     double step, std::vector<double> &f) const;
+
+    /**
+     * The tangent df/dU + rate df/dV at U and V = 0, symmetric, with the pattern of K. @p definite:
+     * without the parts that may make it indefinite, such as the geometric stiffness of
+     * compression; for searches of an equilibrium.
+     */
+    virtual std::unique_ptr<SymmetricMatrix> tangent(const std::vector<double> &U, double rate,
+                                                     bool definite) const;
 
     /// Stores in a checkpoint what the body keeps from step to step beside displacements,
     /// velocities and accelerations, and reads it again: nothing, unless a body says otherwise.

@@ -108,7 +108,7 @@ namespace taut
     mutable std::vector<double> value;
   };
 
-  /// A zero block-tridiagonal matrix with @p n rows in blocks of @p block_size, 1 to 4: the
+  /// A zero block-tridiagonal matrix with @p n rows in blocks of @p block_size, 1 to 4 or 6: the
   /// matrices of a wire, its DoFs by nodes.
   std::unique_ptr<SymmetricMatrix> make_block_tridiagonal(unsigned int block_size, unsigned int n);
 } // namespace taut
