@@ -106,9 +106,14 @@ namespace taut
       product.assign(n, 0.);
       body.mass().vmult_add(1., state.V[k].data(), product.data());
       share.kinetic += .5 * dot(product, state.V[k]);
+      std::vector<double> U = step.reference.displacement[k];
       for (std::size_t i = 0; i < n; ++i)
-        share.strain += .5 * (step.reference.displacement[k][i] + state.U[k][i]) *
-                        (step.reference.force[k][i] + state.KU[k][i]);
+        U[i] += state.U[k][i];
+      if (body.is_linear())
+        for (std::size_t i = 0; i < n; ++i)
+          share.strain += .5 * U[i] * (step.reference.force[k][i] + state.KU[k][i]);
+      else
+        share.strain += body.strain_energy(U);
       if (P0.empty())
         continue;
 

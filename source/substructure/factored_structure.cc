@@ -91,7 +91,8 @@ namespace taut
   } // namespace
 
   FactoredStructure::FactoredStructure(const Structure &structure, const std::string &solver_name)
-      : bodies(structure), solver_name(solver_name), motions(structure.size())
+      : bodies(structure), solver_name(solver_name), tangents(structure.size()),
+        motions(structure.size())
   {
     for (std::size_t k = 0; k < structure.size(); ++k)
       solvers.push_back(solver_of(structure[k]));
@@ -106,12 +107,12 @@ namespace taut
   std::vector<ScaledMatrix> FactoredStructure::summands(const std::size_t k) const
   {
     if (kind == Kind::stiffness)
-      return {{1., &bodies[k].stiffness()}};
+      return {{1., &stiffness(k)}};
     if (kind == Kind::mass)
       return {{1., &bodies[k].mass()}};
     return {{mass_factor, &bodies[k].mass()},
             {damping_factor, &bodies[k].damping()},
-            {1., &bodies[k].stiffness()}};
+            {1., &stiffness(k)}};
   }
 
   void FactoredStructure::factor(const std::size_t k, LocalSolver &solver,
@@ -172,8 +173,10 @@ namespace taut
     throw EntryError(body.origin(), out.str());
   }
 
-  void FactoredStructure::factor(const double mass, const double damping, const bool use_amplitudes)
+  void FactoredStructure::factor(const double mass, const double damping,
+                                 const bool may_use_amplitudes)
   {
+    use_amplitudes = may_use_amplitudes;
     mass_factor = mass;
     damping_factor = damping;
     kind = Kind::step;
@@ -225,7 +228,7 @@ namespace taut
   {
     const Substructure &body = bodies[k];
     const Substructure::NullSpace null_space = body.null_space();
-    const auto held = with_springs(body.stiffness(), null_space.fixing_dofs);
+    const auto held = with_springs(stiffness(k), null_space.fixing_dofs);
     std::vector<ScaledMatrix> A = summands(k);
     A.back().second = held.get();
     auto solver = solver_of(body);
@@ -304,7 +307,7 @@ namespace taut
     for (std::size_t k = 0; k < solvers.size(); ++k)
     {
       Substructure::NullSpace null_space = bodies[k].null_space();
-      const auto held = with_springs(bodies[k].stiffness(), null_space.fixing_dofs);
+      const auto held = with_springs(stiffness(k), null_space.fixing_dofs);
       motions[k].resistance.assign(null_space.vectors.size(), 0.);
       motions[k].vectors = std::move(null_space.vectors);
       motions[k].fixing_dofs = std::move(null_space.fixing_dofs);
@@ -357,7 +360,7 @@ namespace taut
       const Substructure::NullSpace null_space = bodies[k].null_space();
       if (!are_held(null_space.vectors, held))
       {
-        const auto sprung = with_springs(bodies[k].stiffness(), null_space.fixing_dofs);
+        const auto sprung = with_springs(stiffness(k), null_space.fixing_dofs);
         std::vector<ScaledMatrix> A = summands(k);
         A.back().second = sprung.get();
         factor(k, *solver, A, all);

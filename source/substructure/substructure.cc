@@ -100,6 +100,17 @@ namespace taut
     return K->clone();
   }
 
+  std::unique_ptr<SymmetricMatrix> Substructure::mean_tangent(const std::vector<double> &U0,
+                                                              const std::vector<double> &U1,
+                                                              const double rate,
+                                                              const bool definite) const
+  {
+    std::vector<double> U = U0;
+    for (std::size_t i = 0; i < U.size(); ++i)
+      U[i] = .5 * (U0[i] + U1[i]);
+    return tangent(U, rate, definite);
+  }
+
   void Substructure::external_force(const double t, std::vector<double> &P) const
   {
     P = constant_force;

@@ -18,8 +18,10 @@ namespace taut
   } // namespace
 
   BalanceCertificate::BalanceCertificate(const Structure &structure, const Constraints &constraints,
-                                         const Reference &reference)
-      : structure(structure), constraints(constraints), impulses(structure.zero())
+                                         const Reference &reference,
+                                         const NonlinearBodies &nonlinear)
+      : structure(structure), constraints(constraints), nonlinear(nonlinear),
+        impulses(structure.zero())
   {
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
@@ -75,6 +77,13 @@ namespace taut
   {
     const double kappa = c.old_balance(), old = c.old_inertia(), now = c.new_inertia();
     const Substructure &body = structure[k];
+    const bool is_linear = body.is_linear();
+    if (!is_linear)
+    {
+      if (set_rows)
+        set_rows(k, 0, body.n_dofs());
+      nonlinear.set_end_force(k, c, state);
+    }
     const double *A = state.A[k].data(), *A0 = forces.old_A[k].data(),
                  *r0 = forces.old_balance[k].data();
     double *r = state.balance[k].data(), *KU = state.KU[k].data(), *residual = inertia.data(),
@@ -87,9 +96,12 @@ namespace taut
         [&](const std::size_t begin, const std::size_t end, const std::size_t reached)
     {
       const std::size_t size = end - begin;
-      if (set_rows)
-        set_rows(k, done, reached);
-      body.stiffness().vmult_rows(begin, end, state.U[k].data(), KU + begin);
+      if (is_linear)
+      {
+        if (set_rows)
+          set_rows(k, done, reached);
+        body.stiffness().vmult_rows(begin, end, state.U[k].data(), KU + begin);
+      }
       body.damping().vmult_rows(begin, end, state.V[k].data(), damping.data());
       if (old != 0.)
         vectorised(

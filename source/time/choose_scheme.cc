@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <sstream>
 
@@ -72,17 +73,30 @@ namespace taut
                                 "none. Set it to 0, or remove the Stiffness of a link");
     }
 
-    /// Name of a body whose mass matrix cannot be inverted; empty: none.
-    std::string body_without_definite_mass(const Structure &structure)
+    /// Name of a body, of some rank, of which this is true; empty: none.
+    std::string body_that(const Structure &structure,
+                          const std::function<bool(const Substructure &)> &is_so)
     {
       double index = -1.;
       for (std::size_t k = 0; k < structure.size(); ++k)
-        if (!structure[k].has_definite_mass())
+        if (is_so(structure[k]))
           for (std::size_t b = 0; b < structure.all_bodies().size(); ++b)
             if (structure.all_bodies()[b].name == structure[k].name())
               index = b;
       index = structure.communicator().max(index);
       return index < 0. ? "" : structure.all_bodies()[static_cast<std::size_t>(index)].name;
+    }
+
+    /// One whose mass matrix cannot be inverted.
+    std::string body_without_definite_mass(const Structure &structure)
+    {
+      return body_that(structure,
+                       [](const Substructure &body) { return !body.has_definite_mass(); });
+    }
+
+    std::string nonlinear_body(const Structure &structure)
+    {
+      return body_that(structure, [](const Substructure &body) { return !body.is_linear(); });
     }
   } // namespace
 
@@ -118,12 +132,17 @@ namespace taut
         rigid_constraints(structure, constraints, parameters, step);
     if (restitution > 0.)
       check_restitution(structure, constraints);
-    if (rigid.empty())
+    const std::string nonlinear = nonlinear_body(structure);
+    if (rigid.empty() && nonlinear.empty())
       return {"generalised-alpha",
               {{"Generalised-alpha/Spectral radius", "0.8"}},
               "no unilateral link is stiffer than the bodies in one step"};
-    const std::string reason = "unilateral link '" + constraints[rigid.front()].name +
-                               "' acts as rigid: it is stiffer than the bodies in one step";
+    const std::string reason =
+        rigid.empty() ? "body '" + nonlinear +
+                            "' moves by large amounts, and the mean forces of this scheme keep its "
+                            "energy"
+                      : "unilateral link '" + constraints[rigid.front()].name +
+                            "' acts as rigid: it is stiffer than the bodies in one step";
     const std::string body = body_without_definite_mass(structure);
     if (body.empty())
     {
@@ -169,6 +188,12 @@ namespace taut
     const double ringing = c.ringing();
     if (c.mean_force || ringing <= most_ringing)
       return;
+    const std::string nonlinear = nonlinear_body(structure);
+    if (!nonlinear.empty())
+      throw EntryError("Time/Scheme",
+                       integrator.description() + " gains energy in large motions, here of body '" +
+                           nonlinear + "'. Take 'automatic', 'Moreau-Jean' or 'backward Euler'" +
+                           anyway);
     const std::vector<std::size_t> rigid =
         rigid_constraints(structure, constraints, parameters, step);
     if (rigid.empty())

@@ -73,12 +73,18 @@ namespace taut
       StaticState rest = static_equilibrium(structure, constraints, parameters, 0.);
       result.reference.displacement = std::move(rest.displacement);
       for (std::size_t k = 0; k < structure.size(); ++k)
-        structure[k].stiffness().vmult_add(1., result.reference.displacement[k].data(),
-                                           result.reference.force[k].data());
+        structure[k].internal_force(result.reference.displacement[k], {},
+                                    result.reference.force[k]);
       state.multiplier = std::move(rest.multiplier);
       result.certificate = rest.certificate;
     }
-    else if (start == Start::given)
+    else
+      // A body may be under prestress as it is made.
+      for (std::size_t k = 0; k < structure.size(); ++k)
+        if (!structure[k].is_linear())
+          structure[k].internal_force(result.reference.displacement[k], {},
+                                      result.reference.force[k]);
+    if (start == Start::given)
       structure.communicator().agree(
           [&]
           {
@@ -87,7 +93,9 @@ namespace taut
               structure[k].initial_state(state.U[k], state.V[k]);
               for (const ConstrainedDof &constraint : structure[k].constraints())
                 state.U[k][constraint.dof] = constraint.at(0.);
-              structure[k].stiffness().vmult_add(1., state.U[k].data(), state.KU[k].data());
+              structure[k].internal_force(state.U[k], {}, state.KU[k]);
+              for (std::size_t i = 0; i < state.KU[k].size(); ++i)
+                state.KU[k][i] -= result.reference.force[k][i];
             }
           });
     set_rows(constraints, start, result);

@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
+#include <sstream>
 
 namespace taut
 {
@@ -21,13 +24,29 @@ namespace taut
       return x == 0. ? 0. : std::fabs(x) / size;
     }
 
-    /// The step from the undeformed state to K U = P + B N.
+    /// Newton's method for bodies that are not linear ends where the displacements change by this
+    /// part of themselves, or no longer by less and by no more than the second one.
+    constexpr double converged = 1e-12, stagnated = 1e-7;
+
+    /// Its iterations: with full steps first, then with a line search.
+    constexpr int most_full_steps = 20, most_iterations = 300;
+
+    /// Part of the expected decrease of the energy that a step has to make (L. Armijo, 1966).
+    constexpr double sufficient = 1e-4;
+    constexpr double shortest_step = 1e-6;
+
+    /// The step from a state U, at first the undeformed one, to f(U) + K dU = P + B N.
     class StaticStep
     {
     public:
       StaticStep(const Structure &structure, const Constraints &constraints,
-                 const SolverParameters &parameters, double t);
+                 const SolverParameters &parameters, double t, const NonlinearBodies &nonlinear,
+                 const BodyVectors &from);
       StaticState solve();
+      void certify(StaticState &state);
+
+      /// True if all tangents are those of the bodies and positive definite.
+      bool has_own_tangents() const { return system.has_own_tangents(); }
 
     private:
       void set_loads();
@@ -37,29 +56,36 @@ namespace taut
       StaticState displaced(const MixedComplementaritySolution &by) const;
       double find_remainder(const StaticState &state, MixedComplementarityProblem &remainder) const;
       void refine(StaticState &state);
-      void certify(StaticState &state);
 
       const Structure &structure;
       const Constraints &constraints;
+      const NonlinearBodies &nonlinear;
+      const BodyVectors &from;
       const Communicator &processes;
       const double time;
       StepCheck check;
       StepSystem system;
       std::vector<double> compliance;
       BodyVectors P, lift;
+      std::vector<double> work;
       MixedComplementarityProblem problem;
       MixedComplementaritySolution solution;
       Certificate certificate;
     };
 
     StaticStep::StaticStep(const Structure &structure, const Constraints &constraints,
-                           const SolverParameters &parameters, const double t)
-        : structure(structure), constraints(constraints), processes(structure.communicator()),
-          time(t), check(structure, constraints, parameters.contact_tolerance),
+                           const SolverParameters &parameters, const double t,
+                           const NonlinearBodies &nonlinear, const BodyVectors &from)
+        : structure(structure), constraints(constraints), nonlinear(nonlinear), from(from),
+          processes(structure.communicator()), time(t),
+          check(structure, constraints, parameters.contact_tolerance),
           system(structure, constraints, parameters)
     {
       for (std::size_t i = 0; i < constraints.size(); ++i)
         compliance.push_back(1. / constraints[i].stiffness);
+      if (!nonlinear.indices().empty())
+        system.set_nonlinear(nonlinear.indices(), [&](const std::size_t k, const int attempt)
+                             { return nonlinear.tangent_at(k, from[k], attempt); });
       system.prepare(StepCoefficients(), compliance);
       processes.agree([&] { set_loads(); });
       set_problem();
@@ -70,19 +96,21 @@ namespace taut
       find_multipliers();
       StaticState state = displaced(solution);
       refine(state);
-      certify(state);
       return state;
     }
 
-    /// P - K lift, and lift: the given displacements of supports.
+    /// P - f - K lift, and lift: what the given displacements of supports lack.
     void StaticStep::set_loads()
     {
       P = lift = structure.zero();
       for (std::size_t k = 0; k < structure.size(); ++k)
       {
         structure[k].external_force(time, P[k]);
+        structure[k].internal_force(from[k], {}, work);
+        for (std::size_t i = 0; i < work.size(); ++i)
+          P[k][i] -= work[i];
         for (const ConstrainedDof &constraint : structure[k].constraints())
-          lift[k][constraint.dof] = constraint.at(time);
+          lift[k][constraint.dof] = constraint.at(time) - from[k][constraint.dof];
         system.lift(k, lift[k], P[k]);
         for (const ConstrainedDof &constraint : structure[k].constraints())
           P[k][constraint.dof] = 0.;
@@ -94,12 +122,14 @@ namespace taut
       system.interface().contact_free_predictor(P, problem.free_gap, problem.gap_scale);
       processes.sum(problem.free_gap);
       processes.sum(problem.gap_scale);
-      const std::vector<double> lifted = constraints.motions(lift);
+      const std::vector<double> lifted = constraints.motions(lift),
+                                moved = constraints.motions(from);
       for (std::size_t i = 0; i < constraints.size(); ++i)
       {
         problem.unilateral.push_back(constraints[i].unilateral);
-        problem.gap_scale[i] += std::fabs(lifted[i]) + std::fabs(constraints[i].gap);
-        problem.free_gap[i] += lifted[i] + constraints[i].gap;
+        problem.gap_scale[i] +=
+            std::fabs(lifted[i]) + std::fabs(constraints[i].gap) + std::fabs(moved[i]);
+        problem.free_gap[i] += lifted[i] + constraints[i].gap + moved[i];
       }
       system.set_modes(P, problem);
     }
@@ -136,7 +166,7 @@ namespace taut
       system.find_increments(by.multiplier, by.mode_amplitude, state.displacement);
       for (std::size_t k = 0; k < structure.size(); ++k)
         for (std::size_t i = 0; i < lift[k].size(); ++i)
-          state.displacement[k][i] += lift[k][i];
+          state.displacement[k][i] += lift[k][i] + from[k][i];
       state.geometric_gap = constraints.motions(state.displacement);
       state.gap.resize(constraints.size());
       for (std::size_t i = 0; i < constraints.size(); ++i)
@@ -228,6 +258,7 @@ namespace taut
       State at_rest;
       at_rest.time = time;
       at_rest.U = at_rest.dU = state.displacement;
+      undeformed.displacement = structure.zero();
       at_rest.multiplier = state.multiplier;
       StepForces forces;
       for (BodyVectors *v : {&undeformed.force, &at_rest.V, &at_rest.A, &at_rest.KU,
@@ -242,7 +273,8 @@ namespace taut
               structure[k].external_force(time, forces.P[k]);
               forces.external_size.push_back(largest(structure[k], forces.P[k]));
             }
-            BalanceCertificate balance(structure, constraints, undeformed);
+            const NonlinearBodies undeformed_bodies(structure, undeformed);
+            BalanceCertificate balance(structure, constraints, undeformed, undeformed_bodies);
             own_balance =
                 balance.measure(StepCoefficients(), forces, state.multiplier, {}, at_rest);
             found.worst_body = balance.worst_body();
@@ -252,11 +284,158 @@ namespace taut
       check.check_balance(found, own_balance);
       state.certificate = found;
     }
+
+    /**
+     * Newton's method with the complementarity problem solved exactly in each iteration (N. H.
+     * Josephy, 1979), with full steps; if that ends nowhere, or where a tangent is not definite,
+     * with a line search on the energy and tangents that are made definite. An equilibrium whose
+     * own tangent is not definite is none that a structure stays in.
+     */
+    class NonlinearEquilibrium
+    {
+    public:
+      NonlinearEquilibrium(const Structure &structure, const Constraints &constraints,
+                           const SolverParameters &parameters, const double t,
+                           const NonlinearBodies &nonlinear)
+          : structure(structure), constraints(constraints), parameters(parameters), time(t),
+            nonlinear(nonlinear)
+      {
+      }
+
+      StaticState find()
+      {
+        StaticState state;
+        if (iterate(false, state) || iterate(true, state))
+          return state;
+        std::ostringstream out;
+        out << "static equilibrium: none that is stable was found; the displacements still change "
+            << "by " << change << " of themselves. Check lengths and supports for cables that "
+            << "nothing holds in tension, start from 'undeformed', or give them some bending "
+            << "stiffness";
+        throw UserError(out.str());
+      }
+
+    private:
+      bool iterate(const bool is_damped, StaticState &state)
+      {
+        BodyVectors U = structure.zero();
+        double before = std::numeric_limits<double>::infinity();
+        for (int iteration = 0; iteration < (is_damped ? most_iterations : most_full_steps);
+             ++iteration)
+        {
+          StaticStep step(structure, constraints, parameters, time, nonlinear, U);
+          state = step.solve();
+          change = relative_change(U, state.displacement);
+          if (!std::isfinite(change))
+            return false;
+          if (change <= converged || (change <= stagnated && change >= .5 * before))
+          {
+            if (structure.communicator().max(step.has_own_tangents() ? 0. : 1.) > 0.)
+              return false;
+            step.certify(state);
+            state.certificate.iterations = iteration + 1;
+            return true;
+          }
+          before = change;
+          if (is_damped)
+            shorten(U, state);
+          U = state.displacement;
+        }
+        return false;
+      }
+
+      double relative_change(const BodyVectors &from, const BodyVectors &to) const
+      {
+        PerKind moved = {0., 0.}, size = {0., 0.};
+        for (std::size_t k = 0; k < structure.size(); ++k)
+        {
+          std::vector<double> difference = to[k];
+          for (std::size_t i = 0; i < difference.size(); ++i)
+            difference[i] -= from[k][i];
+          const PerKind d = largest(structure[k], difference), u = largest(structure[k], to[k]);
+          for (int kind = 0; kind < 2; ++kind)
+          {
+            moved[kind] = std::isnan(d[kind]) ? std::numeric_limits<double>::infinity()
+                                              : std::max(moved[kind], d[kind]);
+            size[kind] = std::max(size[kind], u[kind]);
+          }
+        }
+        double result = 0.;
+        for (int kind = 0; kind < 2; ++kind)
+        {
+          const double d = structure.communicator().max(moved[kind]),
+                       u = structure.communicator().max(size[kind]);
+          if (d > 0.)
+            result = std::max(result, d / u);
+        }
+        return result;
+      }
+
+      /// Strain energy, minus the work of loads and of the forces of rigid constraints.
+      double energy(const BodyVectors &U, const std::vector<double> &N) const
+      {
+        double sum = 0.;
+        std::vector<double> P;
+        for (std::size_t k = 0; k < structure.size(); ++k)
+        {
+          structure[k].external_force(time, P);
+          sum += structure[k].strain_energy(U[k]) -
+                 std::inner_product(P.begin(), P.end(), U[k].begin(), 0.);
+        }
+        structure.communicator().sum(&sum, 1);
+        const std::vector<double> motions = constraints.motions(U);
+        for (std::size_t i = 0; i < constraints.size(); ++i)
+        {
+          const double gap = motions[i] + constraints[i].gap, k = constraints[i].stiffness;
+          if (std::isinf(k))
+            sum -= N[i] * gap;
+          else if (!constraints[i].unilateral || gap < 0.)
+            sum += .5 * k * gap * gap;
+        }
+        return sum;
+      }
+
+      /// Armijo's condition along the way from U.
+      void shorten(const BodyVectors &U, StaticState &state) const
+      {
+        const BodyVectors end = state.displacement;
+        const double start = energy(U, state.multiplier);
+        constexpr double difference = 1e-6;
+        const auto at = [&](const double s)
+        {
+          for (std::size_t k = 0; k < U.size(); ++k)
+            for (std::size_t i = 0; i < U[k].size(); ++i)
+              state.displacement[k][i] = U[k][i] + s * (end[k][i] - U[k][i]);
+          return energy(state.displacement, state.multiplier);
+        };
+        const double slope = (at(difference) - start) / difference;
+        for (double s = 1.; s > shortest_step; s *= .5)
+          if (at(s) <= start + sufficient * s * std::min(0., slope))
+            return;
+      }
+
+      const Structure &structure;
+      const Constraints &constraints;
+      const SolverParameters &parameters;
+      const double time;
+      const NonlinearBodies &nonlinear;
+      double change = 0.;
+    };
   } // namespace
 
   StaticState static_equilibrium(const Structure &structure, const Constraints &constraints,
                                  const SolverParameters &parameters, const double t)
   {
-    return StaticStep(structure, constraints, parameters, t).solve();
+    Reference undeformed;
+    undeformed.displacement = undeformed.force = structure.zero();
+    const NonlinearBodies nonlinear(structure, undeformed);
+    if (!(structure.communicator().max(nonlinear.indices().empty() ? 0. : 1.) > 0.))
+    {
+      StaticStep step(structure, constraints, parameters, t, nonlinear, undeformed.displacement);
+      StaticState state = step.solve();
+      step.certify(state);
+      return state;
+    }
+    return NonlinearEquilibrium(structure, constraints, parameters, t, nonlinear).find();
   }
 } // namespace taut

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
 #include <taut/time/step_control.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -7,6 +8,12 @@
 
 namespace taut
 {
+  namespace
+  {
+    /// How often a step is halved that Newton's method does not converge in.
+    constexpr unsigned int most_halvings = 8;
+  } // namespace
+
   void StepParameters::declare_parameters(dealii::ParameterHandler &prm)
   {
     using namespace dealii::Patterns;
@@ -32,11 +39,35 @@ namespace taut
   {
   }
 
+  void StepControl::advance_in_parts(TimeStepper &stepper, const double step,
+                                     const unsigned int n_halved)
+  {
+    const State before = stepper.state();
+    stepper.set_step(step);
+    try
+    {
+      stepper.advance();
+      return;
+    }
+    catch (const StepNotSolved &)
+    {
+      if (n_halved == most_halvings)
+        throw;
+    }
+    stepper.restore(before);
+    ++repeated;
+    advance_in_parts(stepper, .5 * step, n_halved + 1);
+    advance_in_parts(stepper, .5 * step, n_halved + 1);
+  }
+
   void StepControl::advance(TimeStepper &stepper)
   {
     if (!parameters.adaptive())
     {
-      stepper.advance();
+      if (stepper.all_bodies_are_linear())
+        stepper.advance();
+      else
+        advance_in_parts(stepper, shortest, 0);
       ++position;
       return;
     }

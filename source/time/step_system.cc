@@ -15,6 +15,9 @@ namespace taut
     /// Part of the largest multiplier by which refinement may make one negative, and of the terms
     /// of a gap by which it may close an open one.
     constexpr double admissible = 1e-12;
+
+    /// How often a tangent that is not definite is replaced by one that is closer to it.
+    constexpr int most_attempts = 9;
   } // namespace
 
   StepSystem::StepSystem(const Structure &structure, const Constraints &constraints,
@@ -29,16 +32,61 @@ namespace taut
   void StepSystem::prepare(const StepCoefficients &coefficients, const std::vector<double> &S)
   {
     c = coefficients;
+    compliance = S;
     structure.communicator().agree(
         [&]
         {
-          if (c.is_at_rest())
-            solvers.factor_stiffness();
-          else
-            solvers.factor(c.mass_factor(), c.velocity, parameters.interface.form != "matrix-free");
+          for (int attempt = 0;; ++attempt)
+            try
+            {
+              for (const std::size_t k : nonlinear)
+                solvers.set_tangent(k, tangent(k, attempt));
+              tangents_are_exact = attempt == 0;
+              if (c.is_at_rest())
+                solvers.factor_stiffness();
+              else
+                solvers.factor(c.mass_factor(), c.velocity,
+                               parameters.interface.form != "matrix-free");
+              break;
+            }
+            catch (const BodyNotHeld &)
+            {
+              if (nonlinear.empty() || attempt == most_attempts)
+                throw;
+            }
         });
     number_modes();
     schur->setup(S);
+  }
+
+  void StepSystem::set_nonlinear(const std::vector<std::size_t> &bodies, const Tangent &of_body)
+  {
+    nonlinear = bodies;
+    tangent = of_body;
+  }
+
+  void StepSystem::linearise()
+  {
+    structure.communicator().agree([&] { factor_nonlinear(); });
+    number_modes();
+    schur->setup(compliance);
+  }
+
+  void StepSystem::factor_nonlinear()
+  {
+    for (const std::size_t k : nonlinear)
+      for (int attempt = 0;; ++attempt)
+        try
+        {
+          solvers.set_tangent(k, tangent(k, attempt));
+          solvers.factor_again(k);
+          break;
+        }
+        catch (const BodyNotHeld &)
+        {
+          if (attempt == most_attempts)
+            throw;
+        }
   }
 
   /// Rank after rank, and body after body.
@@ -72,7 +120,7 @@ namespace taut
       structure[k].mass().vmult_add(-c.mass_factor(), L.data(), P.data());
       structure[k].damping().vmult_add(-c.velocity, L.data(), P.data());
     }
-    structure[k].stiffness().vmult_add(-1., L.data(), P.data());
+    solvers.stiffness(k).vmult_add(-1., L.data(), P.data());
   }
 
   void StepSystem::set_modes(const BodyVectors &P, MixedComplementarityProblem &problem) const

@@ -69,7 +69,8 @@ namespace taut
         segment_start(current.time),
         system(std::make_unique<StepSystem>(structure, constraints, this->parameters)),
         constraint_motions(structure, at_time(constraints, current.time), reference_state, current),
-        balance(structure, constraints, reference_state),
+        nonlinear(structure, reference_state),
+        balance(structure, constraints, reference_state, nonlinear),
         check(structure, constraints, this->parameters.contact_tolerance)
   {
     for (BodyVectors *v : {&forces.P, &right_hand_side, &lift, &forces.old_A, &forces.old_balance})
@@ -95,10 +96,14 @@ namespace taut
       current.kinetic_energy +=
           std::inner_product(current.V[k].begin(), current.V[k].end(), work_a.begin(), 0.);
     }
-    double sums[] = {moving_supports, current.kinetic_energy};
-    structure.communicator().sum(sums, 2);
+    double sums[] = {moving_supports, current.kinetic_energy,
+                     static_cast<double>(nonlinear.indices().size())};
+    structure.communicator().sum(sums, 3);
     supports_move = sums[0] > 0.;
     current.kinetic_energy = sums[1];
+    is_linear = sums[2] == 0.;
+    set_nonlinear();
+    nonlinear.begin(current, c, step);
     prepare(first_step_is_backward_euler ? backward_euler(step) : c);
     if (c.starts_itself())
     {
@@ -165,11 +170,30 @@ namespace taut
     constraints.update(current.time);
     system->interface().update_moving();
 
+    if (is_linear)
+      find_increments();
+    else
+      iterate();
+    accept_increments();
+    constraint_motions.update(current);
+    certify();
+    nonlinear.set_own_force(current);
+    if (c.velocity_projection)
+      project_velocities();
+    if (c.mean_force && !c.velocity_level && constraints.size() > 0)
+      measure_energy();
+  }
+
+  /// The right-hand side becomes dU.
+  void TimeStepper::find_increments()
+  {
     structure.communicator().agree(
         [&]
         {
           for (std::size_t k = 0; k < structure.size(); ++k)
             set_history(k);
+          for (const std::size_t k : nonlinear.indices())
+            nonlinear.add_remainder(k, system->bodies().stiffness(k), right_hand_side[k]);
         });
     if (const std::vector<double> &old = constraint_motions.old_place(current); !old.empty())
       constraints.add_forces(old, right_hand_side);
@@ -179,13 +203,6 @@ namespace taut
           system->find_multipliers(constraint_motions.problem(), check, last), current);
     system->find_increments(constraint_motions.applied().multiplier,
                             constraint_motions.applied().mode_amplitude, right_hand_side);
-    accept_increments();
-    constraint_motions.update(current);
-    certify();
-    if (c.velocity_projection)
-      project_velocities();
-    if (c.mean_force && !c.velocity_level && constraints.size() > 0)
-      measure_energy();
   }
 
   /**

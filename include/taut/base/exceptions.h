@@ -65,6 +65,13 @@ namespace taut
     std::vector<std::size_t> row_indices;
   };
 
+  /// A step of bodies that are not linear without an answer: a shorter one may have one.
+  class StepNotSolved : public UserError
+  {
+  public:
+    using UserError::UserError;
+  };
+
   /// A body that the equations do not hold: a singular matrix, or loads that no admissible contact
   /// force balances. The entry is the section of the body, once that is known.
   class BodyNotHeld : public EntryError

@@ -72,6 +72,21 @@ namespace taut
 
     const LocalSolver &operator[](std::size_t k) const { return *solvers[k]; }
 
+    /// K_k: the stiffness of the body, or the tangent that was set last.
+    const SymmetricMatrix &stiffness(std::size_t k) const
+    {
+      return tangents[k] ? *tangents[k] : bodies[k].stiffness();
+    }
+
+    /// Takes another K_k, for a body that is not linear; A_k stays until the next factor().
+    void set_tangent(std::size_t k, std::unique_ptr<SymmetricMatrix> tangent)
+    {
+      tangents[k] = std::move(tangent);
+    }
+
+    /// Factors A_k of one body again, with the factors of the last factor().
+    void factor_again(std::size_t k) { factor_body(k, use_amplitudes); }
+
     /// X_k = A_k^-1 X_k for all k.
     void solve(BodyVectors &X) const;
 
@@ -119,7 +134,9 @@ namespace taut
       mass
     };
     Kind kind = Kind::step;
-    double mass_factor = 0., damping_factor = 0.; ///< of A_k in a step
+    double mass_factor = 0., damping_factor = 0.;           ///< of A_k in a step
+    bool use_amplitudes = true;                             ///< of rigid body modes, in a step
+    std::vector<std::unique_ptr<SymmetricMatrix>> tangents; ///< of bodies that are not linear
     std::vector<std::unique_ptr<LocalSolver>> solvers;
     std::vector<RigidBodyModes> motions;
   };

@@ -166,6 +166,12 @@ namespace taut
     virtual std::unique_ptr<SymmetricMatrix> tangent(const std::vector<double> &U, double rate,
                                                      bool definite) const;
 
+    /// Twice the derivative of mean_internal_force() with respect to U1, or a symmetric matrix
+    /// close to it; unless a body says otherwise, the tangent in the middle.
+    virtual std::unique_ptr<SymmetricMatrix> mean_tangent(const std::vector<double> &U0,
+                                                          const std::vector<double> &U1,
+                                                          double rate, bool definite) const;
+
     /// Stores in a checkpoint what the body keeps from step to step beside displacements,
     /// velocities and accelerations, and reads it again: nothing, unless a body says otherwise.
     virtual void save(OutputArchive &) const {}

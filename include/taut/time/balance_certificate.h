@@ -5,6 +5,7 @@
 #include <taut/interface/constraints.h>
 #include <taut/time/integrator.h>
 #include <taut/time/matrix_norms.h>
+#include <taut/time/nonlinear_bodies.h>
 #include <taut/time/state.h>
 
 #include <functional>
@@ -33,7 +34,7 @@ namespace taut
   public:
     /// The arguments are kept by reference.
     BalanceCertificate(const Structure &structure, const Constraints &constraints,
-                       const Reference &reference);
+                       const Reference &reference, const NonlinearBodies &nonlinear);
 
     /// Sets rows begin to end - 1 of displacement, velocity and acceleration of body k.
     using SetRows = std::function<void(std::size_t k, std::size_t begin, std::size_t end)>;
@@ -76,6 +77,7 @@ namespace taut
 
     const Structure &structure;
     const Constraints &constraints;
+    const NonlinearBodies &nonlinear;
     std::vector<std::array<KindNorm, 3>> norms; ///< of M, C, K of each body
     std::vector<PerKind> reference_force;       ///< largest of K U_ref of each body [N, N m]
     std::vector<PerKind> contact_force;         ///< largest of one constraint on each body [N, N m]

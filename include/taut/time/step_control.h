@@ -63,6 +63,9 @@ namespace taut
   private:
     long length() const { return 1L << level; }
 
+    /// A step [s], in halves where it is too long for bodies that are not linear.
+    void advance_in_parts(TimeStepper &stepper, double step, unsigned int n_halved);
+
     const StepParameters parameters;
     const double shortest; ///< [s]
     const long end;        ///< in shortest steps

@@ -9,6 +9,7 @@
 #include <taut/time/solver_parameters.h>
 #include <taut/time/step_check.h>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -31,6 +32,18 @@ namespace taut
     /// The arguments are kept by reference.
     StepSystem(const Structure &structure, const Constraints &constraints,
                const SolverParameters &parameters);
+
+    /// The tangent of a body that is not linear, see NonlinearBodies::tangent().
+    using Tangent = std::function<std::unique_ptr<SymmetricMatrix>(std::size_t k, int attempt)>;
+
+    /// The bodies of this rank that are not linear.
+    void set_nonlinear(const std::vector<std::size_t> &bodies, const Tangent &tangent);
+
+    /// True if the tangents of this rank are exact.
+    bool has_own_tangents() const { return tangents_are_exact; }
+
+    /// Their tangents anew: only they are factored again. F is set up anew.
+    void linearise();
 
     /// Factors A for steps with these coefficients, and sets F up with the compliances @p S of the
     /// constraints [m/N, rad/(N m)].
@@ -78,6 +91,7 @@ namespace taut
                                const MixedComplementaritySolution &applied,
                                MixedComplementaritySolution &correction);
     void number_modes();
+    void factor_nonlinear();
 
     const Structure &structure;
     const Constraints &constraints;
@@ -86,6 +100,10 @@ namespace taut
     FactoredStructure solvers;
     std::unique_ptr<SchurComplement> schur;
     ComplementaritySolver complementarity;
+    std::vector<std::size_t> nonlinear; ///< bodies
+    Tangent tangent;
+    bool tangents_are_exact = true;
+    std::vector<double> compliance;
     std::size_t n_modes = 0;                ///< of all ranks
     std::vector<std::size_t> first_of_body; ///< amplitude of each body here, and the end
   };

@@ -8,6 +8,7 @@
 #include <taut/time/constraint_motions.h>
 #include <taut/time/integrator.h>
 #include <taut/time/matrix_norms.h>
+#include <taut/time/nonlinear_bodies.h>
 #include <taut/time/solver_parameters.h>
 #include <taut/time/state.h>
 #include <taut/time/step_check.h>
@@ -26,7 +27,8 @@ namespace taut
    *     -> velocities, with schemes that project them.
    *
    * Everything is in increments, A dU = P^ + B N; ConstraintMotions says what the constraints ask
-   * for.
+   * for. Where a body is not linear, Newton's method does so again and again, with the
+   * complementarity problem solved exactly each time (N. H. Josephy, 1979).
    */
   class TimeStepper
   {
@@ -82,6 +84,10 @@ namespace taut
     const StepCoefficients &scheme() const { return coefficients; }
     long n_steps_done() const { return n_steps; }
 
+    /// Solves of Newton's method so far; 0 if all bodies are linear.
+    long n_newton_iterations() const { return n_iterations; }
+    bool all_bodies_are_linear() const { return is_linear; }
+
     /// Form and size of the interface operator, for the log.
     std::string interface_description() const { return system->interface().description(); }
     InterfaceStatistics interface_statistics() const;
@@ -93,6 +99,10 @@ namespace taut
     void begin_anew(const std::vector<double> &largest_rates);
     void set_external_force(std::size_t k);
     void set_history(std::size_t k);
+    void find_increments();
+    void iterate();
+    void set_nonlinear();
+    double set_guess();
     void project_velocities();
     void measure_energy();
     void accept_increments();
@@ -117,13 +127,16 @@ namespace taut
     StepCoefficients coefficients;
     bool first_step_is_backward_euler;
     long n_steps = 0;
-    double segment_start; ///< time since which steps have this length
+    long n_iterations = 0; ///< of Newton's method, of all steps
+    double segment_start;  ///< time since which steps have this length
     long n_in_segment = 0;
     PerKind motion_size = {0., 0.}; ///< largest displacements so far
 
     std::unique_ptr<StepSystem> system;
     InterfaceStatistics earlier_systems; ///< of those before
     ConstraintMotions constraint_motions;
+    NonlinearBodies nonlinear;
+    bool is_linear = true;      ///< of all bodies of all ranks
     bool supports_move = false; ///< of a body of some rank
     BalanceCertificate balance;
     double own_balance = 0.; ///< of this rank

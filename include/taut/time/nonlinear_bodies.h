@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_nonlinear_bodies_h
+#define taut_nonlinear_bodies_h
+
+#include <taut/time/integrator.h>
+#include <taut/time/state.h>
+
+#include <memory>
+#include <vector>
+
+namespace taut
+{
+  /**
+   * The bodies of this rank whose internal force f is not K U, through one step. Their f at the end
+   * of the step takes the place of K U. With mean forces it is what makes its average with f0 the
+   * mean force of an energy-momentum scheme (J. C. Simo, N. Tarnow, Z. angew. Math. Phys. 43
+   * (1992); O. Gonzalez, J. Nonlinear Sci. 6 (1996)),
+   *
+   *     f = 2 f_mean(U0, U) - f0,
+   *
+   * so that the equation of motion reads as that of a linear body.
+   */
+  class NonlinearBodies
+  {
+  public:
+    /// Of no body.
+    NonlinearBodies() = default;
+
+    /// The references are kept.
+    NonlinearBodies(const Structure &structure, const Reference &reference);
+
+    /// Their indices among the bodies of this rank.
+    const std::vector<std::size_t> &indices() const { return bodies; }
+
+    /// Begins a step [s] from a state; the first guess of its increments is zero.
+    void begin(const State &before, const StepCoefficients &c, double step);
+
+    /**
+     * The tangent of f for the last guess. @p attempt 0 is the exact one, 1 the definite one, from
+     * 2 on with more and more of the mass matrix added.
+     */
+    std::unique_ptr<SymmetricMatrix> tangent(std::size_t k, int attempt) const;
+
+    /// The same at a displacement U from the undeformed body, at rest.
+    std::unique_ptr<SymmetricMatrix> tangent_at(std::size_t k, const std::vector<double> &U,
+                                                int attempt) const;
+
+    /// P += K dU - (f - f0) for the last guess, with the tangent K of the step: what Newton's
+    /// method makes of P^.
+    void add_remainder(std::size_t k, const SymmetricMatrix &K, std::vector<double> &P) const;
+
+    /// Takes @p dU as the next guess and evaluates f. Returns the largest change over the largest
+    /// entry, displacements and slopes each for themselves; not-a-number if f is.
+    double set_guess(std::size_t k, const std::vector<double> &dU);
+
+    /// KU = f - f_ref at the end of a step that ends in @p state.
+    void set_end_force(std::size_t k, const StepCoefficients &c, State &state) const;
+
+    /// After a step with mean forces: the internal force of the state itself, and the balance
+    /// with it.
+    void set_own_force(State &state) const;
+
+  private:
+    struct Step
+    {
+      std::vector<double> U0;      ///< from the undeformed body [m, rad]
+      std::vector<double> f0;      ///< minus that of the reference [N, N m]
+      std::vector<double> known_V; ///< velocity at the end without the increment's part
+      std::vector<double> dU;      ///< the guess
+      std::vector<double> f;       ///< with it
+    };
+    void shift(std::size_t k, int attempt, SymmetricMatrix &K) const;
+    void end_force(std::size_t k, const StepCoefficients &c, const Step &own,
+                   const std::vector<double> &dU, std::vector<double> &f) const;
+
+    const Structure *structure = nullptr;
+    const Reference *reference = nullptr;
+    std::vector<std::size_t> bodies;
+    std::vector<Step> steps; ///< of each body of this rank, linear ones too
+    StepCoefficients c;
+    double step = 0.;
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
+#include <taut/time/time_stepper.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace taut
+{
+  namespace
+  {
+    /// Change of the increments, of themselves, at which the iteration ends: what is left then is
+    /// less by the rate of convergence. Where it does not fall to that for rounding, it ends below
+    /// the second one.
+    constexpr double converged = 1e-11, stagnated = 1e-8;
+
+    /// A tangent is kept while the change falls by this factor an iteration.
+    constexpr double slow = .1;
+    constexpr int most_iterations = 30;
+  } // namespace
+
+  void TimeStepper::set_nonlinear()
+  {
+    if (!nonlinear.indices().empty())
+      system->set_nonlinear(nonlinear.indices(), [this](const std::size_t k, const int attempt)
+                            { return nonlinear.tangent(k, attempt); });
+  }
+
+  /// The largest change of the increments of all ranks.
+  double TimeStepper::set_guess()
+  {
+    double change = 0.;
+    for (const std::size_t k : nonlinear.indices())
+    {
+      if (structure[k].has_moving_constraints())
+        for (const ConstrainedDof &constraint : structure[k].constraints())
+          right_hand_side[k][constraint.dof] = lift[k][constraint.dof];
+      const double own = nonlinear.set_guess(k, right_hand_side[k]);
+      if (!(own <= change) && !std::isnan(change))
+        change = own;
+    }
+    return structure.communicator().max(std::isnan(change) ? std::numeric_limits<double>::infinity()
+                                                           : change);
+  }
+
+  /**
+   * Newton's method from dU = 0. The tangent of the start of the step is kept while it pays;
+   * a new one is that of the last guess.
+   */
+  void TimeStepper::iterate()
+  {
+    const std::vector<double> multiplier = current.multiplier;
+    nonlinear.begin(current, coefficients, step);
+    system->linearise();
+    double before = std::numeric_limits<double>::infinity();
+    for (int iteration = 0; iteration < most_iterations; ++iteration)
+    {
+      current.multiplier = multiplier;
+      try
+      {
+        find_increments();
+      }
+      catch (const UserError &e)
+      {
+        throw StepNotSolved(e.what());
+      }
+      ++n_iterations;
+      const double change = set_guess();
+      if (change <= converged || (change <= stagnated && change >= .5 * before))
+        return;
+      if (std::isinf(change))
+        break;
+      if (iteration > 0 && change > slow * before)
+        system->linearise();
+      before = change;
+    }
+    std::ostringstream out;
+    out << "at t = " << current.time << " s: Newton's method does not converge in a step of "
+        << step << " s. Take a smaller step";
+    throw StepNotSolved(out.str());
+  }
+} // namespace taut

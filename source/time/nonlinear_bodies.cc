@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/time/matrix_norms.h>
+#include <taut/time/nonlinear_bodies.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace taut
+{
+  namespace
+  {
+    /// Part of the largest stiffness over mass that is added as mass where a tangent is not
+    /// definite, and by how much it grows from attempt to attempt.
+    constexpr double first_shift = 1e-10, growth_of_shift = 30.;
+
+    double largest_on_diagonal(const SymmetricMatrix &matrix)
+    {
+      double largest = 0.;
+      matrix.visit(
+          [&](const unsigned int i, const unsigned int j, const double value)
+          {
+            if (i == j)
+              largest = std::max(largest, value);
+          });
+      return largest;
+    }
+  } // namespace
+
+  NonlinearBodies::NonlinearBodies(const Structure &structure, const Reference &reference)
+      : structure(&structure), reference(&reference), steps(structure.size())
+  {
+    for (std::size_t k = 0; k < structure.size(); ++k)
+      if (!structure[k].is_linear())
+        bodies.push_back(k);
+  }
+
+  void NonlinearBodies::begin(const State &before, const StepCoefficients &coefficients,
+                              const double length)
+  {
+    c = coefficients;
+    step = length;
+    for (const std::size_t k : bodies)
+    {
+      Step &own = steps[k];
+      own.U0 = reference->displacement[k];
+      own.known_V.resize(own.U0.size());
+      for (std::size_t i = 0; i < own.U0.size(); ++i)
+      {
+        own.U0[i] += before.U[k][i];
+        own.known_V[i] = c.v_V * before.V[k][i] + c.v_A * before.A[k][i] + c.v_dU * before.dU[k][i];
+      }
+      own.f0 = own.f = before.KU[k];
+      own.dU.assign(own.U0.size(), 0.);
+    }
+  }
+
+  std::unique_ptr<SymmetricMatrix> NonlinearBodies::tangent(const std::size_t k,
+                                                            const int attempt) const
+  {
+    const Substructure &body = (*structure)[k];
+    const Step &own = steps[k];
+    std::vector<double> U = own.U0;
+    for (std::size_t i = 0; i < U.size(); ++i)
+      U[i] += own.dU[i];
+    std::unique_ptr<SymmetricMatrix> K = c.mean_force
+                                             ? body.mean_tangent(own.U0, U, c.velocity, attempt > 0)
+                                             : body.tangent(U, c.velocity, attempt > 0);
+    shift(k, attempt, *K);
+    return K;
+  }
+
+  std::unique_ptr<SymmetricMatrix> NonlinearBodies::tangent_at(const std::size_t k,
+                                                               const std::vector<double> &U,
+                                                               const int attempt) const
+  {
+    std::unique_ptr<SymmetricMatrix> K = (*structure)[k].tangent(U, 0., attempt > 0);
+    shift(k, attempt, *K);
+    return K;
+  }
+
+  void NonlinearBodies::shift(const std::size_t k, const int attempt, SymmetricMatrix &K) const
+  {
+    if (attempt < 2)
+      return;
+    const SymmetricMatrix &M = (*structure)[k].mass();
+    K.add(first_shift * std::pow(growth_of_shift, attempt - 2) * largest_on_diagonal(K) /
+              largest_on_diagonal(M),
+          M);
+  }
+
+  void NonlinearBodies::add_remainder(const std::size_t k, const SymmetricMatrix &K,
+                                      std::vector<double> &P) const
+  {
+    const Step &own = steps[k];
+    for (std::size_t i = 0; i < P.size(); ++i)
+      P[i] -= own.f[i] - own.f0[i];
+    K.vmult_add(1., own.dU.data(), P.data());
+  }
+
+  double NonlinearBodies::set_guess(const std::size_t k, const std::vector<double> &dU)
+  {
+    Step &own = steps[k];
+    const Substructure &body = (*structure)[k];
+    for (std::size_t i = 0; i < dU.size(); ++i)
+      own.dU[i] = dU[i] - own.dU[i];
+    const PerKind change = largest(body, own.dU), size = largest(body, dU);
+    own.dU = dU;
+    end_force(k, c, own, dU, own.f);
+    double result = 0.;
+    for (int kind = 0; kind < 2; ++kind)
+      if (change[kind] > 0.)
+        result = std::max(result, change[kind] / size[kind]);
+    const PerKind force = largest(body, own.f);
+    for (int kind = 0; kind < 2; ++kind)
+      if (!(change[kind] <= largest_number) || !(force[kind] <= largest_number))
+        return std::nan("");
+    return result;
+  }
+
+  void NonlinearBodies::end_force(const std::size_t k, const StepCoefficients &coefficients,
+                                  const Step &own, const std::vector<double> &dU,
+                                  std::vector<double> &f) const
+  {
+    const Substructure &body = (*structure)[k];
+    std::vector<double> U = own.U0;
+    for (std::size_t i = 0; i < U.size(); ++i)
+      U[i] += dU[i];
+    const std::vector<double> &f_ref = reference->force[k];
+    if (coefficients.mean_force)
+    {
+      body.mean_internal_force(own.U0, U, step, f);
+      for (std::size_t i = 0; i < f.size(); ++i)
+        f[i] = 2. * (f[i] - f_ref[i]) - own.f0[i];
+      return;
+    }
+    std::vector<double> V = own.known_V;
+    for (std::size_t i = 0; i < V.size(); ++i)
+      V[i] += coefficients.velocity * dU[i];
+    body.internal_force(U, V, f);
+    for (std::size_t i = 0; i < f.size(); ++i)
+      f[i] -= f_ref[i];
+  }
+
+  void NonlinearBodies::set_end_force(const std::size_t k, const StepCoefficients &coefficients,
+                                      State &state) const
+  {
+    if (!coefficients.is_at_rest())
+    {
+      end_force(k, coefficients, steps[k], state.dU[k], state.KU[k]);
+      return;
+    }
+    std::vector<double> U = reference->displacement[k];
+    for (std::size_t i = 0; i < U.size(); ++i)
+      U[i] += state.U[k][i];
+    (*structure)[k].internal_force(U, {}, state.KU[k]);
+    for (std::size_t i = 0; i < U.size(); ++i)
+      state.KU[k][i] -= reference->force[k][i];
+  }
+
+  void NonlinearBodies::set_own_force(State &state) const
+  {
+    if (!c.mean_force)
+      return;
+    for (const std::size_t k : bodies)
+    {
+      std::vector<double> U = reference->displacement[k], f;
+      for (std::size_t i = 0; i < U.size(); ++i)
+        U[i] += state.U[k][i];
+      (*structure)[k].internal_force(U, {}, f);
+      for (std::size_t i = 0; i < U.size(); ++i)
+      {
+        f[i] -= reference->force[k][i];
+        state.balance[k][i] += state.KU[k][i] - f[i];
+        state.KU[k][i] = f[i];
+      }
+    }
+  }
+} // namespace taut
