@@ -189,6 +189,15 @@ namespace taut
       return false;
     }
 
+    /// Of the softest cable of a search, 2 to 20 times the tension unless EA is less.
+    double first_stiffness(const double EA, const double tension)
+    {
+      double stiffness = EA;
+      while (stiffness > 20. * tension)
+        stiffness *= .1;
+      return stiffness;
+    }
+
     /// A unit vector along @p a, or zero.
     Coordinates unit(const Coordinates &a)
     {
@@ -223,9 +232,11 @@ namespace taut
 
     constexpr unsigned int parabola_points = 1000;
 
-    /// The parabola of this length between two points, longer than their distance.
+    /// The parabola of this length between two points, or the line if that is longer.
     Parabola parabola(const Coordinates &chord, const Coordinates &down, const double length)
     {
+      if (length <= norm(chord))
+        return {chord, down, 0.};
       const auto excess = [&](const double depth)
       { return Parabola{chord, down, depth}.arc_lengths(parabola_points).back() - length; };
       std::uintmax_t n = 100;
@@ -261,12 +272,8 @@ namespace taut
     CableShape result;
     result.positions = start;
     const double EA = cable.section().axial_stiffness;
-    double soft = EA;
-    if (tension > 0.)
-      while (soft > 20. * tension)
-        soft *= .1;
     // A stage that fails is left out: the next one may be within reach.
-    for (double stiffness = soft; stiffness < .9 * EA; stiffness *= 10.)
+    for (double stiffness = tension > 0. ? first_stiffness(EA, tension) : EA; stiffness < .9 * EA; stiffness *= 10.)
       search.solve(cable.with_axial_stiffness(stiffness), 1e-3, result.positions);
     if (!search.solve(cable, 1e-10, result.positions))
       throw UserError("no stable equilibrium of the cable was found: after " +
@@ -292,19 +299,25 @@ namespace taut
     const Coordinates chord = to - from, down = unit(force);
     const double distance = norm(chord), length = cable.length(), w = norm(force),
                  span = norm(add_scaled(chord, -dot(chord, down), down));
-    if (length < distance)
+    // Tension of a line without slack that its own stretch lets down.
+    const double EA = cable.section().axial_stiffness,
+                 of_stretch = std::cbrt(EA * std::pow(w * span, 2) / 24.);
+    if (EA * (distance / length - 1.) > of_stretch)
       return find_shape(cable, positions(cable, from, {chord, down, 0.}), held, load);
     if (w == 0.)
       throw UserError("a cable of " + text_of(length) + " m between ends " + text_of(distance) +
                       " m apart has no shape of its own without weight or wind; make it shorter or "
                       "give it a load");
-    const Parabola start = parabola(chord, down, length);
-    // That of the parabola, or of a taut line that its own stretch lets down.
-    const double tension =
-        .5 * w * length + std::min(w * span * span / (8. * start.depth),
-                                   std::cbrt(cable.section().axial_stiffness *
-                                             std::pow(w * span, 2) / 24.));
-    return find_shape(cable, positions(cable, from, start), held, load, tension);
+    const double of_slack = w * span * span / (8. * parabola(chord, down, length).depth);
+    if (of_stretch < of_slack)
+      return find_shape(
+          cable, positions(cable, from, parabola(chord, down, length * (1. + of_stretch / EA))),
+          held, load);
+    // Stretched by its tension: without any, nothing would hold the first step.
+    const double tension = .5 * w * length + of_slack,
+                 stretched = length * (1. + tension / first_stiffness(EA, tension));
+    return find_shape(cable, positions(cable, from, parabola(chord, down, stretched)), held, load,
+                      tension);
   }
 
   double horizontal_tension(const CableElements &cable, const CableShape &shape,

@@ -21,10 +21,11 @@ public:
     const taut::Coordinates chord = to - from, level = add_scaled(chord, -dot(chord, down), down);
     across = add_scaled({}, 1. / norm(level), level);
     const double l = norm(level), depth = dot(chord, down), distance = norm(chord);
-    // A parabola, or a taut line.
-    H = length > distance ? w * l / std::sqrt(24. * (length / distance - 1.))
-                          : EA * (distance / length - 1.) * l / distance;
-    H = std::fmin(H, EA * std::cbrt(std::pow(w * l / EA, 2) / 24.) + EA * std::fmax(0., distance / length - 1.));
+    // A parabola, or a taut line that its own stretch lets down.
+    const double stretch = distance / length - 1.;
+    H = EA * (std::cbrt(std::pow(w * l / EA, 2) / 24.) + std::fmax(0., stretch));
+    if (stretch < 0.)
+      H = std::fmin(H, w * l / std::sqrt(-24. * stretch));
     V = .5 * w * length - H * depth / l;
     for (int k = 0; k < 200; ++k)
     {
