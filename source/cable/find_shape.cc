@@ -408,6 +408,8 @@ namespace taut
   {
     const double span = span_of(from, to, force), depth = norm(force) * span * span / (8. * tension);
     const Coordinates chord = to - from;
+    if (norm(force) == 0.) // a straight line
+      return length_of_parabola(make(span), chord, force, 0., tension);
     return find_length(
         [&](const double length)
         {
