@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_cable_h
+#define taut_cable_h
+
+#include <taut/base/coordinates.h>
+#include <taut/cable/cable_elements.h>
+#include <taut/cable/find_shape.h>
+#include <taut/substructure/substructure.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace taut
+{
+  /// What a cable is made of.
+  struct CableData
+  {
+    std::string name;
+    std::string origin;   ///< path of its section in the parameter file, for messages; may be empty
+    Coordinates from, to; ///< places of the ends of its found shape [m]
+    double length = 0.;   ///< unstressed [m]
+    CableSection section;
+    double mass_damping = 0.;    ///< a in C = a M [1/s]
+    Coordinates gravity;         ///< [m/s^2]
+    Coordinates force;           ///< per unstressed length, beside the weight [N/m]
+    unsigned int n_elements = 16;
+    CableElement element = CableElement::ancf;
+
+    bool holds_from = true, holds_to = true; ///< these ends do not move
+    bool clamped = false;                    ///< they keep r' of the found shape, too
+
+    /// Start = given begins with the unstressed cable in a straight line from `from` along
+    /// start_direction, not with the found shape.
+    bool starts_straight = false;
+    Coordinates start_direction;
+
+    bool linearised = false;     ///< small motions about the found shape
+    double largest_strain = .02; ///< of the found shape; more is an error [1]
+  };
+
+  /// The force per unstressed length on a cable: weight and the rest [N/m].
+  Coordinates force_per_length(const CableData &data);
+
+  /// Its elements, for an unstressed length of @p length [m].
+  CableElements make_elements(const CableData &data, double length);
+
+  /**
+   * A cable in space that moves by large amounts. U is the displacement from its found shape, the
+   * equilibrium under weight and constant force with both ends held at `from` and `to`, whatever is
+   * held later: see hang(). Positions are counted from `from`, so that a scene far from the origin
+   * rounds as one that is near.
+   *
+   * The internal force is that of CableElements at the positions found + U, and the external force
+   * is all of the load: at U = 0 they balance on all DoFs but those of the ends, where their
+   * difference is the force that holds the cable. A linearised cable has the tangent of the found
+   * shape as K, with the axial damping in C, and as load only what the found shape does not
+   * balance: zero but at the ends, where it is the load without the internal force of the found
+   * shape. So the forces that hold an end are whole ones in both cases, and an end that nothing
+   * holds starts to move in both.
+   */
+  class Cable : public Substructure
+  {
+  public:
+    /// Throws EntryError for data that make no cable, or no equilibrium that is stable.
+    explicit Cable(const CableData &data);
+    ~Cable() override;
+
+    const CableElements &elements() const { return element; }
+
+    /// The found shape; positions count from `from`.
+    const CableShape &shape() const { return found; }
+
+    /// Positions at U, counted from `from`.
+    std::vector<double> positions(const std::vector<double> &U) const;
+
+    /// At place[0], the unstressed arc length from `from`, along any direction in space.
+    LinearForm displacement(const Coordinates &place, const Coordinates &direction) const override;
+
+    bool is_linear() const override { return data.linearised; }
+
+    /// Of a cable that is not linearised, from the unstressed cable.
+    double strain_energy(const std::vector<double> &U) const override;
+    void internal_force(const std::vector<double> &U, const std::vector<double> &V,
+                        std::vector<double> &f) const override;
+    void mean_internal_force(const std::vector<double> &U0, const std::vector<double> &U1,
+                             double step, std::vector<double> &f) const override;
+    std::unique_ptr<SymmetricMatrix> tangent(const std::vector<double> &U, double rate,
+                                             bool definite) const override;
+
+    void initial_state(std::vector<double> &U, std::vector<double> &V) const override;
+
+    /// A line at the displaced positions with displacement, tension and unstressed arc length.
+    bool has_fields() const override { return true; }
+    void write_vtu(const std::string &path, const std::vector<double> &U) const override;
+
+  private:
+    void check() const;
+    void find();
+    void assemble();
+    void hold();
+
+    CableData data;
+    CableElements element;
+    CableShape found;
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_cable_elements_h
+#define taut_cable_elements_h
+
+#include <taut/base/coordinates.h>
+#include <taut/base/linear_form.h>
+#include <taut/substructure/symmetric_matrix.h>
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace taut
+{
+  /// How the positions of a cable are interpolated.
+  enum class CableElement
+  {
+    ancf, ///< cubic Hermite polynomials of position and derivative: bends
+    bar   ///< Lagrange polynomials of degree 2: axial force only
+  };
+
+  /// A cross section; lengths are unstressed.
+  struct CableSection
+  {
+    double axial_stiffness = 0.;   ///< EA [N]
+    double bending_stiffness = 0.; ///< EI [N m^2]; bars have none
+    double mass_per_length = 0.;   ///< [kg/m]
+    double axial_damping = 0.;     ///< eta in the axial force EA eps + eta eps' [N s]
+  };
+
+  /**
+   * Elements of a cable in space, of equal unstressed length h, with positions r(s) over the
+   * unstressed arc length s in [0, L]. All functions take absolute positions q. Node i has the DoFs
+   * 6 i to 6 i + 5, in this order:
+   *
+   * - ANCF: x, y, z [m] and the derivatives x', y', z' with respect to s [1];
+   * - bar: x, y, z of the node and of the middle of the element after it [m]. After the last node
+   *   there is none: its last three DoFs do not exist (unused_dofs()) and are to be held.
+   *
+   * The axial strain is eps = |r'| - 1, the curvature kappa = |r' x r''| / |r'|^2, the energy per
+   * unstressed length EA eps^2 / 2 + EI kappa^2 / 2. The beam without shear by absolute nodal
+   * coordinates (ANCF) is that of Shabana (Multibody System Dynamics 1, 1997, 339-348) and
+   * Gerstmayr & Shabana (Nonlinear Dynamics 45, 2006, 109-130); with |r'|^2 instead of |r'|^3 in
+   * kappa, EI kappa is the moment conjugate to the angle per unstressed length. The integrals have
+   * few points on purpose: axial forces and bending moments with more of them lock.
+   */
+  class CableElements
+  {
+  public:
+    static constexpr unsigned int dofs_per_node = 6;
+
+    /// Of unstressed length @p length [m].
+    CableElements(CableElement element, double length, unsigned int n_elements,
+                  const CableSection &section);
+
+    CableElement element() const { return kind; }
+    const CableSection &section() const { return material; }
+    double length() const { return h * n_elements(); }
+    unsigned int n_elements() const { return n; }
+    unsigned int n_dofs() const { return dofs_per_node * (n + 1); }
+    double element_length() const { return h; }
+
+    /// DoFs that no element has, sorted.
+    std::vector<unsigned int> unused_dofs() const;
+
+    /// Those of the position of the node at either end.
+    std::array<unsigned int, 3> end_dofs(bool last) const;
+
+    /// The same cable, as soft or stiff along its axis as given.
+    CableElements with_axial_stiffness(double EA) const;
+
+    /// [J]
+    double strain_energy(const std::vector<double> &q) const;
+
+    /// The gradient of the energy, and the force of the damping at the velocities @p v; empty: at
+    /// rest. @p f is resized [N, N m].
+    void internal_force(const std::vector<double> &q, const std::vector<double> &v,
+                        std::vector<double> &f) const;
+
+    /**
+     * A mean force over a step [s] from q0 to q1 with f . (q1 - q0) equal to the change of the
+     * energy and to the work that the damping takes, the integral of eta (eps1 - eps0)^2 / step.
+     * For eps it is the secant stress EA (1 - 2/(lambda0 + lambda1)), lambda = |r'|, on the mean
+     * r'; for kappa the discrete gradient in the invariants r'.r', r'.r'', r''.r'', which keeps the
+     * moment of momentum, too: Gonzalez (Journal of Nonlinear Science 6, 1996, 449-467). @p f is
+     * resized [N, N m].
+     */
+    void mean_force(const std::vector<double> &q0, const std::vector<double> &q1, double step,
+                    std::vector<double> &f) const;
+
+    /// A += the Hessian of the energy; @p definite: a semidefinite part of it, without the
+    /// geometric stiffness of compression and of moments.
+    void add_tangent(const std::vector<double> &q, bool definite, SymmetricMatrix &A) const;
+
+    /// A += @p factor times the derivative of the damping force with respect to velocities.
+    void add_damping(const std::vector<double> &q, double factor, SymmetricMatrix &A) const;
+
+    /// A += @p factor times the consistent mass matrix.
+    void add_mass(double factor, SymmetricMatrix &A) const;
+
+    /// f += a force per unstressed length [N/m] along the whole cable.
+    void add_load(const Coordinates &force, std::vector<double> &f) const;
+
+    /// The component of r(s) or r'(s) along @p direction; s in [0, L].
+    LinearForm position(double s, const Coordinates &direction) const;
+    LinearForm tangent(double s, const Coordinates &direction) const;
+    Coordinates position(const std::vector<double> &q, double s) const;
+    Coordinates tangent(const std::vector<double> &q, double s) const;
+
+    /// EA eps at s, interpolated between the points of the integral, where it is most accurate [N].
+    double tension(const std::vector<double> &q, double s) const;
+
+    /// Largest and smallest eps of all points of the integral.
+    double largest_strain(const std::vector<double> &q) const;
+    double smallest_strain(const std::vector<double> &q) const;
+
+    /// kappa at s [1/m]; of bars zero.
+    double curvature(const std::vector<double> &q, double s) const;
+
+    /// Positions from those of a function: r(s) and, for ANCF, r'(s).
+    template <typename Position, typename Derivative>
+    std::vector<double> interpolate(const Position &r, const Derivative &dr) const
+    {
+      std::vector<double> q(n_dofs(), 0.);
+      for (unsigned int i = 0; i <= n; ++i)
+      {
+        set(q, dofs_per_node * i, r(h * i));
+        if (kind == CableElement::ancf)
+          set(q, dofs_per_node * i + 3, dr(h * i));
+        else if (i < n)
+          set(q, dofs_per_node * i + 3, r(h * (i + .5)));
+      }
+      return q;
+    }
+
+  private:
+    static constexpr unsigned int element_dofs = 12; ///< bars use the first nine
+
+    /// A function of the four shape functions of an element; bars have three, and a zero.
+    using Shape = std::array<double, 4>;
+
+    struct Shapes
+    {
+      Shape value, slope, curvature; ///< derivatives with respect to s
+    };
+
+    /// A point of an integral over an element.
+    struct Point
+    {
+      double weight; ///< [m]
+      double xi;     ///< in [0, 1]
+      Shape slope, curvature;
+    };
+
+    using Local = std::array<double, element_dofs>;
+    using LocalMatrix = std::array<Local, element_dofs>;
+
+    Shapes shapes(double xi) const;
+    Local local(const std::vector<double> &q, unsigned int e) const;
+    template <typename Integrand>
+    void integrate_force(std::vector<double> &f, const Integrand &integrand) const;
+    void add(const LocalMatrix &K, unsigned int e, SymmetricMatrix &A) const;
+    void add_axial_tangent(const Local &x, bool definite, LocalMatrix &K) const;
+    void add_bending_tangent(const Local &x, bool definite, LocalMatrix &K) const;
+    std::pair<unsigned int, double> find(double s) const;
+    LinearForm form(double s, const Coordinates &direction, bool slope) const;
+    Coordinates vector(const std::vector<double> &q, double s, bool slope) const;
+    static void set(std::vector<double> &q, const unsigned int i, const Coordinates &r)
+    {
+      q[i] = r.x;
+      q[i + 1] = r.y;
+      q[i + 2] = r.z;
+    }
+
+    CableElement kind;
+    unsigned int n;
+    double h; ///< [m]
+    CableSection material;
+    std::vector<Point> axial_points, bending_points;
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_find_shape_h
+#define taut_find_shape_h
+
+#include <taut/cable/cable_elements.h>
+
+#include <functional>
+#include <vector>
+
+namespace taut
+{
+  /// A stable equilibrium of a cable.
+  struct CableShape
+  {
+    std::vector<double> positions;
+    unsigned int n_iterations = 0; ///< tangents that were factored
+    double residual = 0.;          ///< largest force that is not balanced [N, N m]
+  };
+
+  /**
+   * The equilibrium of a cable under dead loads [N, N m], with the DoFs @p held where @p start has
+   * them, sorted. Newton's method, from an axial stiffness of 2 to 20 times @p tension [N] upwards
+   * by factors of ten; zero: with its own alone. Full steps come first, then those that lower the
+   * energy enough (Armijo). Where the tangent is not definite, a semidefinite part of it with some
+   * mass makes a direction of descent. An equilibrium whose tangent is not positive definite, such
+   * as a straight line under compression, is no answer. Throws UserError if none is found.
+   */
+  CableShape find_shape(const CableElements &cable, const std::vector<double> &start,
+                        const std::vector<unsigned int> &held, const std::vector<double> &load,
+                        double tension = 0.);
+
+  /// The same between two places, with hinges there, under a force per unstressed length [N/m]:
+  /// from a parabola of the cable's length, or from the straight line if that is longer.
+  CableShape hang(const CableElements &cable, const Coordinates &from, const Coordinates &to,
+                  const Coordinates &force);
+
+  /// The component across @p force, along the chord, of the tension of a shape: the same all along
+  /// the cable, and under weight alone what is called its horizontal tension [N].
+  double horizontal_tension(const CableElements &cable, const CableShape &shape,
+                            const Coordinates &force);
+
+  /// The largest distance of a shape from its chord, measured along @p force [m].
+  double sag(const CableElements &cable, const CableShape &shape, const Coordinates &force);
+
+  /// Makes the elements of a cable of an unstressed length [m].
+  using MakeCable = std::function<CableElements(double length)>;
+
+  /// The unstressed length with which the cable has this horizontal tension [N] or sag [m] between
+  /// its ends. Throws UserError if there is none.
+  double length_for_tension(const MakeCable &make, const Coordinates &from, const Coordinates &to,
+                            const Coordinates &force, double tension);
+  double length_for_sag(const MakeCable &make, const Coordinates &from, const Coordinates &to,
+                        const Coordinates &force, double sag);
+} // namespace taut
+
+#endif

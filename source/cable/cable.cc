@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/about_entry.h>
+#include <taut/base/exceptions.h>
+#include <taut/base/memory.h>
+#include <taut/base/write_file.h>
+#include <taut/cable/cable.h>
+
+#include <deal.II/base/data_out_base.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace taut
+{
+  namespace
+  {
+    std::string text_of(const double value)
+    {
+      std::ostringstream text;
+      text << value;
+      return text.str();
+    }
+
+    std::string entry(const CableData &data, const std::string &name)
+    {
+      return data.origin.empty() ? name : data.origin + "/" + name;
+    }
+  } // namespace
+
+  Coordinates force_per_length(const CableData &data)
+  {
+    return add_scaled(data.force, data.section.mass_per_length, data.gravity);
+  }
+
+  CableElements make_elements(const CableData &data, const double length)
+  {
+    return {data.element, length, data.n_elements, data.section};
+  }
+
+  Cable::Cable(const CableData &given)
+      : Substructure(given.name, given.origin), data(given), element(make_elements(given, given.length))
+  {
+    check();
+    find();
+    assemble();
+    hold();
+    finish();
+  }
+
+  Cable::~Cable() = default;
+
+  void Cable::check() const
+  {
+    const auto require = [&](const bool holds, const std::string &name, const std::string &message)
+    {
+      if (!holds)
+        throw EntryError(entry(data, name), message);
+    };
+    require(data.length > 0., "Unstressed length", "a cable needs a positive one [m]");
+    require(data.section.axial_stiffness > 0., "Axial stiffness", "a cable needs a positive one [N]");
+    require(data.section.bending_stiffness >= 0., "Bending stiffness", "it is negative");
+    require(data.section.mass_per_length >= 0., "Mass per length", "it is negative");
+    require(data.section.axial_damping >= 0., "Axial damping", "it is negative");
+    require(data.n_elements > 0, "Elements", "a cable needs one at least");
+    require(data.element == CableElement::ancf || data.section.bending_stiffness == 0.,
+            "Bending stiffness", "bars have none; take Element = ANCF, or zero");
+    require(data.element == CableElement::ancf || !data.clamped, "Clamped",
+            "bars have no direction at their ends; take Element = ANCF");
+    require(!data.starts_straight || norm(data.start_direction) > 0., "Start direction",
+            "it has no length");
+  }
+
+  void Cable::find()
+  {
+    about_entry(origin(), [&]
+                { found = hang(element, {}, data.to - data.from, force_per_length(data)); });
+    const double strain = element.largest_strain(found.positions);
+    if (!(strain <= data.largest_strain))
+      throw EntryError(entry(data, "Largest strain"),
+                       "at rest the cable is stretched by " + text_of(strain) + ", more than " +
+                           text_of(data.largest_strain) +
+                           "; make it longer or stiffer, or allow more");
+    if (data.linearised && element.smallest_strain(found.positions) <= 0.)
+      throw EntryError(entry(data, "Geometry"),
+                       "at rest the cable is slack somewhere, and has no small motions there; take "
+                       "nonlinear, or a shorter cable");
+  }
+
+  void Cable::assemble()
+  {
+    if (data.element == CableElement::ancf)
+      kinds = {0, 0, 0, 1, 1, 1};
+    const auto zero = [&]
+    { return make_block_tridiagonal(CableElements::dofs_per_node, element.n_dofs()); };
+    M = zero();
+    C = zero();
+    K = zero();
+    element.add_mass(1., *M);
+    element.add_mass(data.mass_damping, *C);
+    element.add_tangent(found.positions, false, *K);
+    constant_force.assign(element.n_dofs(), 0.);
+    element.add_load(force_per_length(data), constant_force);
+    if (!data.linearised)
+      return;
+    element.add_damping(found.positions, 1., *C);
+    std::vector<double> f, load(element.n_dofs(), 0.);
+    element.internal_force(found.positions, {}, f);
+    for (const bool last : {false, true})
+      for (const unsigned int i : element.end_dofs(last))
+        load[i] = constant_force[i] - f[i];
+    constant_force = load;
+  }
+
+  void Cable::hold()
+  {
+    for (const unsigned int i : element.unused_dofs())
+      constrained.push_back({i});
+    for (const bool last : {false, true})
+      if (last ? data.holds_to : data.holds_from)
+        for (const unsigned int i : element.end_dofs(last))
+        {
+          constrained.push_back({i});
+          if (data.clamped)
+            constrained.push_back({i + 3});
+        }
+  }
+
+  std::vector<double> Cable::positions(const std::vector<double> &U) const
+  {
+    std::vector<double> q = found.positions;
+    for (std::size_t i = 0; i < q.size(); ++i)
+      q[i] += U[i];
+    return q;
+  }
+
+  LinearForm Cable::displacement(const Coordinates &place, const Coordinates &direction) const
+  {
+    const double length = data.length, same = 1e-12 * length;
+    if (!(place.x >= -same && place.x <= length + same))
+      throw UserError("cable '" + name() + "' has no place " + text_of(place.x) +
+                      " m along its unstressed length, only 0 to " + text_of(length) + " m");
+    return element.position(place.x, direction);
+  }
+
+  double Cable::strain_energy(const std::vector<double> &U) const
+  {
+    return data.linearised ? Substructure::strain_energy(U) : element.strain_energy(positions(U));
+  }
+
+  void Cable::internal_force(const std::vector<double> &U, const std::vector<double> &V,
+                             std::vector<double> &f) const
+  {
+    if (data.linearised)
+      Substructure::internal_force(U, V, f);
+    else
+      element.internal_force(positions(U), V, f);
+  }
+
+  void Cable::mean_internal_force(const std::vector<double> &U0, const std::vector<double> &U1,
+                                  const double step, std::vector<double> &f) const
+  {
+    if (data.linearised)
+      Substructure::mean_internal_force(U0, U1, step, f);
+    else
+      element.mean_force(positions(U0), positions(U1), step, f);
+  }
+
+  std::unique_ptr<SymmetricMatrix> Cable::tangent(const std::vector<double> &U, const double rate,
+                                                  const bool definite) const
+  {
+    if (data.linearised)
+      return Substructure::tangent(U, rate, definite);
+    auto A = make_block_tridiagonal(CableElements::dofs_per_node, element.n_dofs());
+    const std::vector<double> q = positions(U);
+    element.add_tangent(q, definite, *A);
+    element.add_damping(q, rate, *A);
+    return A;
+  }
+
+  void Cable::initial_state(std::vector<double> &U, std::vector<double> &V) const
+  {
+    Substructure::initial_state(U, V);
+    if (!data.starts_straight)
+      return;
+    const Coordinates along = add_scaled({}, 1. / norm(data.start_direction), data.start_direction);
+    U = element.interpolate([&](const double s) { return add_scaled({}, s, along); },
+                            [&](double) { return along; });
+    for (std::size_t i = 0; i < U.size(); ++i)
+      U[i] -= found.positions[i];
+  }
+
+  void Cable::write_vtu(const std::string &path, const std::vector<double> &U) const
+  {
+    constexpr unsigned int pieces = 4; ///< of an element
+    const std::vector<std::string> names = {"displacement", "displacement", "displacement",
+                                            "unstressed_arc_length", "tension"};
+    const std::vector<double> q = positions(U);
+    std::vector<dealii::DataOutBase::Patch<1, 3>> patches(element.n_elements());
+    for (unsigned int e = 0; e < patches.size(); ++e)
+    {
+      dealii::DataOutBase::Patch<1, 3> &patch = patches[e];
+      patch.patch_index = e;
+      patch.n_subdivisions = pieces;
+      patch.points_are_available = true;
+      patch.data.reinit(names.size() + 3, pieces + 1);
+      for (unsigned int k = 0; k <= pieces; ++k)
+      {
+        const double s = std::min(element.element_length() * (e + double(k) / pieces), data.length);
+        const Coordinates r = element.position(q, s),
+                          u = r - element.position(found.positions, s),
+                          place = add_scaled(data.from, 1., r);
+        const double row[] = {u.x, u.y, u.z, s, element.tension(q, s), place.x, place.y, place.z};
+        for (unsigned int c = 0; c < names.size() + 3; ++c)
+          patch.data(c, k) = static_cast<float>(row[c]);
+        if (k == 0 || k == pieces)
+          patch.vertices[k / pieces] = dealii::Point<3>(place.x, place.y, place.z);
+      }
+    }
+    dealii::DataOutBase::VtkFlags flags;
+    flags.print_date_and_time = false; // the same bytes from run to run
+    std::ostringstream file;
+    dealii::DataOutBase::write_vtu(
+        patches, names,
+        {{0, 2, "displacement",
+          dealii::DataComponentInterpretation::component_is_part_of_vector}},
+        flags, file);
+    check_memory();
+    write_file(path, file.str());
+  }
+} // namespace taut
