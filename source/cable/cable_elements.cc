@@ -326,6 +326,33 @@ namespace taut
     }
   }
 
+  void CableElements::add_mean_tangent(const std::vector<double> &q0,
+                                       const std::vector<double> &q1, const bool definite,
+                                       SymmetricMatrix &A) const
+  {
+    for (unsigned int e = 0; e < n; ++e)
+    {
+      const Local x0 = local(q0, e), x1 = local(q1, e);
+      Local x;
+      for (unsigned int i = 0; i < element_dofs; ++i)
+        x[i] = .5 * (x0[i] + x1[i]);
+      LocalMatrix K{};
+      for (const Point &p : axial_points)
+      {
+        const Vector u = combine(p.slope, x);
+        const double end = combine(p.slope, x1).norm(), sum = combine(p.slope, x0).norm() + end;
+        const double geometric = material.axial_stiffness * (1. - 2. / sum),
+                     along = 4. * material.axial_stiffness / (sum * sum * end);
+        distribute(p.slope,
+                   p.weight * (along * outer_product(u, u) +
+                               (definite ? std::max(geometric, 0.) : geometric) * identity),
+                   p.slope, K);
+      }
+      add_bending_tangent(x, definite, K);
+      add(K, e, A);
+    }
+  }
+
   void CableElements::add_damping(const std::vector<double> &q, const double factor,
                                   SymmetricMatrix &A) const
   {

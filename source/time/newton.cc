@@ -51,6 +51,25 @@ namespace taut
    */
   void TimeStepper::iterate()
   {
+    bool is_solved = false;
+    try
+    {
+      is_solved = solve_by_newton();
+    }
+    catch (const UserError &e)
+    {
+      throw StepNotSolved(e.what());
+    }
+    if (is_solved)
+      return;
+    std::ostringstream out;
+    out << "at t = " << current.time << " s: Newton's method does not converge in a step of "
+        << step << " s. Take a smaller step";
+    throw StepNotSolved(out.str());
+  }
+
+  bool TimeStepper::solve_by_newton()
+  {
     const std::vector<double> multiplier = current.multiplier;
     nonlinear.begin(current, coefficients, step);
     system->linearise();
@@ -58,27 +77,17 @@ namespace taut
     for (int iteration = 0; iteration < most_iterations; ++iteration)
     {
       current.multiplier = multiplier;
-      try
-      {
-        find_increments();
-      }
-      catch (const UserError &e)
-      {
-        throw StepNotSolved(e.what());
-      }
+      find_increments();
       ++n_iterations;
       const double change = set_guess();
       if (change <= converged || (change <= stagnated && change >= .5 * before))
-        return;
+        return true;
       if (std::isinf(change))
-        break;
+        return false;
       if (iteration > 0 && change > slow * before)
         system->linearise();
       before = change;
     }
-    std::ostringstream out;
-    out << "at t = " << current.time << " s: Newton's method does not converge in a step of "
-        << step << " s. Take a smaller step";
-    throw StepNotSolved(out.str());
+    return false;
   }
 } // namespace taut

@@ -85,7 +85,7 @@ namespace
         for (unsigned int j = 0; j <= i; ++j)
         {
           const double mi = at[i] + .5 * (U0[i] + U1[i]), mj = at[j] + .5 * (U0[j] + U1[j]),
-                       t = .5 * axial * (mi * (at[j] + U1[j]) + mj * (at[i] + U1[i]));
+                       t = axial * mi * mj;
           result->add(i, j, t + (i == j ? geometric : 0.));
         }
       return result;
@@ -135,7 +135,7 @@ namespace
     system.add("pendulum",
                [&]
                {
-                 auto body = std::make_unique<ElasticPendulum>(amplitude, 1e7);
+                 auto body = std::make_unique<ElasticPendulum>(amplitude, 1e6);
                  pendulum = body.get();
                  return body;
                });

@@ -92,6 +92,14 @@ namespace taut
     /// geometric stiffness of compression and of moments.
     void add_tangent(const std::vector<double> &q, bool definite, SymmetricMatrix &A) const;
 
+    /**
+     * A += a symmetric matrix close to twice the derivative of mean_force() with respect to q1: the
+     * secant stress on the middle of the step, where the stretch itself is that of no end. The
+     * stress of a middle that rotation has shortened would be a compression.
+     */
+    void add_mean_tangent(const std::vector<double> &q0, const std::vector<double> &q1,
+                          bool definite, SymmetricMatrix &A) const;
+
     /// A += @p factor times the derivative of the damping force with respect to velocities.
     void add_damping(const std::vector<double> &q, double factor, SymmetricMatrix &A) const;
 

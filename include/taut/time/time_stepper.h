@@ -101,6 +101,7 @@ namespace taut
     void set_history(std::size_t k);
     void find_increments();
     void iterate();
+    bool solve_by_newton();
     void set_nonlinear();
     double set_guess();
     void project_velocities();
