@@ -41,8 +41,8 @@ namespace taut
   }
 
   Cable::Cable(const CableData &given)
-      : Substructure(given.name, given.origin), data(given), element(make_elements(given, given.length)),
-        frames(std::make_unique<EndFrames>())
+      : Substructure(given.name, given.origin), data(given),
+        element(make_elements(given, given.length)), frames(std::make_unique<EndFrames>())
   {
     check();
     find();
@@ -61,7 +61,8 @@ namespace taut
         throw EntryError(entry(data, name), message);
     };
     require(data.length > 0., "Unstressed length", "a cable needs a positive one [m]");
-    require(data.section.axial_stiffness > 0., "Axial stiffness", "a cable needs a positive one [N]");
+    require(data.section.axial_stiffness > 0., "Axial stiffness",
+            "a cable needs a positive one [N]");
     require(data.section.bending_stiffness >= 0., "Bending stiffness", "it is negative");
     require(data.section.mass_per_length >= 0., "Mass per length", "it is negative");
     require(data.section.axial_damping >= 0., "Axial damping", "it is negative");
@@ -76,8 +77,8 @@ namespace taut
 
   void Cable::find()
   {
-    about_entry(origin(), [&]
-                { found = hang(element, {}, data.to - data.from, force_per_length(data)); });
+    about_entry(origin(),
+                [&] { found = hang(element, {}, data.to - data.from, force_per_length(data)); });
     const double strain = element.largest_strain(found.positions);
     if (!(strain <= data.largest_strain))
       throw EntryError(entry(data, "Largest strain"),
@@ -227,8 +228,7 @@ namespace taut
       for (unsigned int k = 0; k <= pieces; ++k)
       {
         const double s = std::min(element.element_length() * (e + double(k) / pieces), data.length);
-        const Coordinates r = element.position(q, s),
-                          u = r - element.position(found.positions, s),
+        const Coordinates r = element.position(q, s), u = r - element.position(found.positions, s),
                           place = add_scaled(data.from, 1., r);
         const double row[] = {u.x, u.y, u.z, s, element.tension(q, s), place.x, place.y, place.z};
         for (unsigned int c = 0; c < names.size() + 3; ++c)
@@ -242,8 +242,7 @@ namespace taut
     std::ostringstream file;
     dealii::DataOutBase::write_vtu(
         patches, names,
-        {{0, 2, "displacement",
-          dealii::DataComponentInterpretation::component_is_part_of_vector}},
+        {{0, 2, "displacement", dealii::DataComponentInterpretation::component_is_part_of_vector}},
         flags, file);
     check_memory();
     write_file(path, file.str());

@@ -31,7 +31,8 @@ namespace taut
     public:
       Search(const CableElements &cable, const std::vector<unsigned int> &held,
              const std::vector<double> &load)
-          : held(held), load(load), solver(make_block_tridiagonal_solver(CableElements::dofs_per_node))
+          : held(held), load(load),
+            solver(make_block_tridiagonal_solver(CableElements::dofs_per_node))
       {
         const std::vector<unsigned int> unused = cable.unused_dofs();
         this->held.insert(this->held.end(), unused.begin(), unused.end());
@@ -237,8 +238,9 @@ namespace taut
     {
       if (length <= norm(chord))
         return {chord, down, 0.};
-      const auto excess = [&](const double depth)
-      { return Parabola{chord, down, depth}.arc_lengths(parabola_points).back() - length; };
+      const auto excess = [&](const double depth) {
+        return Parabola{chord, down, depth}.arc_lengths(parabola_points).back() - length;
+      };
       std::uintmax_t n = 100;
       const auto depth = boost::math::tools::toms748_solve(
           excess, 0., length, boost::math::tools::eps_tolerance<double>(30), n);
@@ -273,7 +275,8 @@ namespace taut
     result.positions = start;
     const double EA = cable.section().axial_stiffness;
     // A stage that fails is left out: the next one may be within reach.
-    for (double stiffness = tension > 0. ? first_stiffness(EA, tension) : EA; stiffness < .9 * EA; stiffness *= 10.)
+    for (double stiffness = tension > 0. ? first_stiffness(EA, tension) : EA; stiffness < .9 * EA;
+         stiffness *= 10.)
       search.solve(cable.with_axial_stiffness(stiffness), 1e-3, result.positions);
     if (!search.solve(cable, 1e-10, result.positions))
       throw UserError("no stable equilibrium of the cable was found: after " +
@@ -349,9 +352,8 @@ namespace taut
     for (unsigned int i = 1; i <= cable.n_elements(); ++i)
       if (height(i * h) < height(lowest * h))
         lowest = i;
-    return -boost::math::tools::brent_find_minima(
-                height, std::max(0., (lowest - 1.) * h),
-                std::min(cable.length(), (lowest + 1.) * h), 40)
+    return -boost::math::tools::brent_find_minima(height, std::max(0., (lowest - 1.) * h),
+                                                  std::min(cable.length(), (lowest + 1.) * h), 40)
                 .second;
   }
 
@@ -406,7 +408,8 @@ namespace taut
   double length_for_tension(const MakeCable &make, const Coordinates &from, const Coordinates &to,
                             const Coordinates &force, const double tension)
   {
-    const double span = span_of(from, to, force), depth = norm(force) * span * span / (8. * tension);
+    const double span = span_of(from, to, force),
+                 depth = norm(force) * span * span / (8. * tension);
     const Coordinates chord = to - from;
     if (norm(force) == 0.) // a straight line
       return length_of_parabola(make(span), chord, force, 0., tension);
@@ -418,8 +421,7 @@ namespace taut
           const double H = horizontal_tension(cable, hang(cable, from, to, force), force);
           return std::log(std::max(H / tension, 1e-300));
         },
-        length_of_parabola(make(norm(chord)), chord, force, depth, tension),
-        "horizontal tension");
+        length_of_parabola(make(norm(chord)), chord, force, depth, tension), "horizontal tension");
   }
 
   double length_for_sag(const MakeCable &make, const Coordinates &from, const Coordinates &to,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: a cable as a body of a scene is in balance in its found shape, moves as closed forms say,
-// linearised and not, and refuses what makes no cable. Expected values: closed forms; the element of
-// the other kind.
+// linearised and not, and refuses what makes no cable. Expected values: closed forms; the element
+// of the other kind.
 #include "cable/elastic_catenary.h"
 #include "verification/run.h"
 
@@ -281,13 +281,14 @@ namespace
     cable.internal_force(behind, {}, g);
     for (std::size_t i = 0; i < U.size(); ++i)
       EXPECT_NEAR(Kd[i], .5 * (f[i] - g[i]), 1e-6 * largest_of(Kd, {}));
-    EXPECT_NEAR(.5 * (cable.strain_energy(ahead) - cable.strain_energy(behind)),
-                [&]
-                {
-                  cable.internal_force(U, {}, f);
-                  return dot(f, direction);
-                }(),
-                1e-6 * std::fabs(dot(f, direction)) + 1e-9);
+    EXPECT_NEAR(
+        .5 * (cable.strain_energy(ahead) - cable.strain_energy(behind)),
+        [&]
+        {
+          cable.internal_force(U, {}, f);
+          return dot(f, direction);
+        }(),
+        1e-6 * std::fabs(dot(f, direction)) + 1e-9);
   }
 
   TEST(CableBodies, StartsStraight)
@@ -339,10 +340,11 @@ end
     const ElasticCatenary exact({}, {60., 0., 0.}, {0., -1.07 * 9.81, 0.}, 1.3e7, 78.);
     const double sag = -exact.position(39.).y;
     for (const std::string &entry :
-         {std::string("Unstressed length=78"), "Horizontal tension=" + std::to_string(exact.horizontal()),
-          "Sag=" + std::to_string(sag)})
+         {std::string("Unstressed length=78"),
+          "Horizontal tension=" + std::to_string(exact.horizontal()), "Sag=" + std::to_string(sag)})
       verification::run_scene(
-          scene, {"Body cable/Elements=32", "Body cable/Geometry=linearised", "Body cable/" + entry},
+          scene,
+          {"Body cable/Elements=32", "Body cable/Geometry=linearised", "Body cable/" + entry},
           [&](const StepView &view)
           {
             const auto &cable = dynamic_cast<const Cable &>(view.structure[0]);

@@ -23,9 +23,9 @@ namespace taut
     Coordinates from, to; ///< places of the ends of its found shape [m]
     double length = 0.;   ///< unstressed [m]
     CableSection section;
-    double mass_damping = 0.;    ///< a in C = a M [1/s]
-    Coordinates gravity;         ///< [m/s^2]
-    Coordinates force;           ///< per unstressed length, beside the weight [N/m]
+    double mass_damping = 0.; ///< a in C = a M [1/s]
+    Coordinates gravity;      ///< [m/s^2]
+    Coordinates force;        ///< per unstressed length, beside the weight [N/m]
     unsigned int n_elements = 16;
     CableElement element = CableElement::ancf;
 
