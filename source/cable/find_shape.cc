@@ -61,6 +61,9 @@ namespace taut
       unsigned int iterations() const { return n_iterations; }
       double residual() const { return last_residual; }
 
+      /// True if the last equilibrium was one, stable or not.
+      bool is_balanced() const { return balanced; }
+
       /// True if the tangent is positive definite.
       bool is_stable(const CableElements &cable, const std::vector<double> &q)
       {
@@ -135,6 +138,7 @@ namespace taut
       std::vector<double> r;
       unsigned int n_iterations = 0;
       double last_residual = 0.;
+      bool balanced = false;
     };
 
     bool Search::iterate(const CableElements &cable, const double relative_tolerance,
@@ -149,7 +153,8 @@ namespace taut
       for (unsigned int k = 0; k < most_iterations; ++k)
       {
         last_residual = size;
-        if (size <= std::max(relative_tolerance * scale, rounding(cable, q)))
+        balanced = size <= std::max(relative_tolerance * scale, rounding(cable, q));
+        if (balanced)
           return is_stable(cable, q);
         ++n_iterations;
         if (!step(cable, downhill, size, q))
@@ -238,13 +243,15 @@ namespace taut
     {
       if (length <= norm(chord))
         return {chord, down, 0.};
-      const auto excess = [&](const double depth) {
-        return Parabola{chord, down, depth}.arc_lengths(parabola_points).back() - length;
-      };
-      std::uintmax_t n = 100;
-      const auto depth = boost::math::tools::toms748_solve(
-          excess, 0., length, boost::math::tools::eps_tolerance<double>(30), n);
-      return {chord, down, depth.first};
+      double low = 0., high = length;
+      for (int k = 0; k < 50; ++k)
+      {
+        const double depth = .5 * (low + high);
+        const bool is_short =
+            Parabola{chord, down, depth}.arc_lengths(parabola_points).back() < length;
+        (is_short ? low : high) = depth;
+      }
+      return {chord, down, high};
     }
 
     std::vector<double> positions(const CableElements &cable, const Coordinates &from,
@@ -282,8 +289,11 @@ namespace taut
       throw UserError("no stable equilibrium of the cable was found: after " +
                       std::to_string(search.iterations()) + " iterations a force of " +
                       text_of(search.residual()) +
-                      " N was not balanced; take more elements, a little more bending stiffness, "
-                      "or ends that are further apart across the load");
+                      (search.is_balanced() ? " N is not balanced, which is good enough, but the "
+                                              "least push would move the cable away"
+                                            : " N is not balanced") +
+                      "; take more elements, a little bending stiffness, or ends that are further "
+                      "apart across the load");
     result.n_iterations = search.iterations();
     result.residual = search.residual();
     return result;
@@ -374,6 +384,8 @@ namespace taut
         at_low = quantity(low);
         at_high = quantity(high);
       }
+      if (!std::isfinite(at_low * at_high))
+        throw UserError("the " + name + " is beyond the range of numbers; take less extreme values");
       if (at_low == 0.)
         return low;
       if (at_high == 0.)
