@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "end_frames.h"
+
 #include <taut/base/about_entry.h>
 #include <taut/base/exceptions.h>
 #include <taut/base/memory.h>
@@ -39,12 +41,13 @@ namespace taut
   }
 
   Cable::Cable(const CableData &given)
-      : Substructure(given.name, given.origin), data(given), element(make_elements(given, given.length))
+      : Substructure(given.name, given.origin), data(given),
+        element(make_elements(given, given.length)), frames(std::make_unique<EndFrames>())
   {
     check();
     find();
-    assemble();
     hold();
+    assemble();
     finish();
   }
 
@@ -58,7 +61,8 @@ namespace taut
         throw EntryError(entry(data, name), message);
     };
     require(data.length > 0., "Unstressed length", "a cable needs a positive one [m]");
-    require(data.section.axial_stiffness > 0., "Axial stiffness", "a cable needs a positive one [N]");
+    require(data.section.axial_stiffness > 0., "Axial stiffness",
+            "a cable needs a positive one [N]");
     require(data.section.bending_stiffness >= 0., "Bending stiffness", "it is negative");
     require(data.section.mass_per_length >= 0., "Mass per length", "it is negative");
     require(data.section.axial_damping >= 0., "Axial damping", "it is negative");
@@ -73,8 +77,8 @@ namespace taut
 
   void Cable::find()
   {
-    about_entry(origin(), [&]
-                { found = hang(element, {}, data.to - data.from, force_per_length(data)); });
+    about_entry(origin(),
+                [&] { found = hang(element, {}, data.to - data.from, force_per_length(data)); });
     const double strain = element.largest_strain(found.positions);
     if (!(strain <= data.largest_strain))
       throw EntryError(entry(data, "Largest strain"),
@@ -101,8 +105,15 @@ namespace taut
     element.add_tangent(found.positions, false, *K);
     constant_force.assign(element.n_dofs(), 0.);
     element.add_load(force_per_length(data), constant_force);
-    if (!data.linearised)
-      return;
+    if (data.linearised)
+      linearise();
+    for (auto *matrix : {&M, &C, &K})
+      *matrix = frames->turn(std::move(*matrix));
+    frames->turn(constant_force);
+  }
+
+  void Cable::linearise()
+  {
     element.add_damping(found.positions, 1., *C);
     std::vector<double> f, load(element.n_dofs(), 0.);
     element.internal_force(found.positions, {}, f);
@@ -118,19 +129,25 @@ namespace taut
       constrained.push_back({i});
     for (const bool last : {false, true})
       if (last ? data.holds_to : data.holds_from)
-        for (const unsigned int i : element.end_dofs(last))
-        {
+      {
+        const auto dofs = element.end_dofs(last);
+        for (const unsigned int i : dofs)
           constrained.push_back({i});
-          if (data.clamped)
-            constrained.push_back({i + 3});
-        }
+        if (!data.clamped)
+          continue;
+        const unsigned int along = dofs[0] + 3; // r' along the cable; then the two across it
+        frames->add(along, element.tangent(found.positions, last ? data.length : 0.));
+        constrained.push_back({along + 1});
+        constrained.push_back({along + 2});
+      }
   }
 
   std::vector<double> Cable::positions(const std::vector<double> &U) const
   {
-    std::vector<double> q = found.positions;
+    std::vector<double> q = U;
+    frames->turn(q);
     for (std::size_t i = 0; i < q.size(); ++i)
-      q[i] += U[i];
+      q[i] += found.positions[i];
     return q;
   }
 
@@ -140,7 +157,7 @@ namespace taut
     if (!(place.x >= -same && place.x <= length + same))
       throw UserError("cable '" + name() + "' has no place " + text_of(place.x) +
                       " m along its unstressed length, only 0 to " + text_of(length) + " m");
-    return element.position(place.x, direction);
+    return frames->turn(element.position(place.x, direction));
   }
 
   double Cable::strain_energy(const std::vector<double> &U) const
@@ -152,18 +169,21 @@ namespace taut
                              std::vector<double> &f) const
   {
     if (data.linearised)
-      Substructure::internal_force(U, V, f);
-    else
-      element.internal_force(positions(U), V, f);
+      return Substructure::internal_force(U, V, f);
+    std::vector<double> velocity = V;
+    if (!V.empty())
+      frames->turn(velocity);
+    element.internal_force(positions(U), velocity, f);
+    frames->turn(f);
   }
 
   void Cable::mean_internal_force(const std::vector<double> &U0, const std::vector<double> &U1,
                                   const double step, std::vector<double> &f) const
   {
     if (data.linearised)
-      Substructure::mean_internal_force(U0, U1, step, f);
-    else
-      element.mean_force(positions(U0), positions(U1), step, f);
+      return Substructure::mean_internal_force(U0, U1, step, f);
+    element.mean_force(positions(U0), positions(U1), step, f);
+    frames->turn(f);
   }
 
   std::unique_ptr<SymmetricMatrix> Cable::tangent(const std::vector<double> &U, const double rate,
@@ -175,7 +195,7 @@ namespace taut
     const std::vector<double> q = positions(U);
     element.add_tangent(q, definite, *A);
     element.add_damping(q, rate, *A);
-    return A;
+    return frames->turn(std::move(A));
   }
 
   void Cable::initial_state(std::vector<double> &U, std::vector<double> &V) const
@@ -188,6 +208,7 @@ namespace taut
                             [&](double) { return along; });
     for (std::size_t i = 0; i < U.size(); ++i)
       U[i] -= found.positions[i];
+    frames->turn(U);
   }
 
   void Cable::write_vtu(const std::string &path, const std::vector<double> &U) const
@@ -207,8 +228,7 @@ namespace taut
       for (unsigned int k = 0; k <= pieces; ++k)
       {
         const double s = std::min(element.element_length() * (e + double(k) / pieces), data.length);
-        const Coordinates r = element.position(q, s),
-                          u = r - element.position(found.positions, s),
+        const Coordinates r = element.position(q, s), u = r - element.position(found.positions, s),
                           place = add_scaled(data.from, 1., r);
         const double row[] = {u.x, u.y, u.z, s, element.tension(q, s), place.x, place.y, place.z};
         for (unsigned int c = 0; c < names.size() + 3; ++c)
@@ -222,8 +242,7 @@ namespace taut
     std::ostringstream file;
     dealii::DataOutBase::write_vtu(
         patches, names,
-        {{0, 2, "displacement",
-          dealii::DataComponentInterpretation::component_is_part_of_vector}},
+        {{0, 2, "displacement", dealii::DataComponentInterpretation::component_is_part_of_vector}},
         flags, file);
     check_memory();
     write_file(path, file.str());

@@ -157,8 +157,8 @@ namespace taut
     {
       const Local x = local(q, e);
       for (const Point &p : axial_points)
-        energy += .5 * p.weight * material.axial_stiffness *
-                  std::pow(combine(p.slope, x).norm() - 1., 2);
+        energy +=
+            .5 * p.weight * material.axial_stiffness * std::pow(combine(p.slope, x).norm() - 1., 2);
       for (const Point &p : bending_points)
         energy += .5 * p.weight * material.bending_stiffness *
                   curvature_squared(combine(p.slope, x), combine(p.curvature, x));
@@ -185,33 +185,33 @@ namespace taut
                                      std::vector<double> &f) const
   {
     const bool damped = !velocity.empty() && material.axial_damping != 0.;
-    integrate_force(
-        f,
-        [&](const unsigned int e, Local &sum)
-        {
-          const Local x = local(q, e);
-          const Local rate = damped ? local(velocity, e) : Local{};
-          for (const Point &p : axial_points)
-          {
-            const Vector u = combine(p.slope, x);
-            const double stretch = u.norm();
-            double force = material.axial_stiffness * (stretch - 1.);
-            if (damped)
-              force += material.axial_damping * (u * combine(p.slope, rate)) / stretch;
-            distribute(p.slope, p.weight * force / stretch * u, sum);
-          }
-          for (const Point &p : bending_points)
-          {
-            // kappa^2 = |w|^2 / a^2 with w = u x v and a = u . u
-            const Vector u = combine(p.slope, x), v = combine(p.curvature, x),
-                         w = cross_product_3d(u, v);
-            const double a = u.norm_square(),
-                         factor = p.weight * material.bending_stiffness / (a * a);
-            distribute(p.slope,
-                       factor * (cross_product_3d(v, w) - 2. * w.norm_square() / a * u), sum);
-            distribute(p.curvature, factor * cross_product_3d(w, u), sum);
-          }
-        });
+    integrate_force(f,
+                    [&](const unsigned int e, Local &sum)
+                    {
+                      const Local x = local(q, e);
+                      const Local rate = damped ? local(velocity, e) : Local{};
+                      for (const Point &p : axial_points)
+                      {
+                        const Vector u = combine(p.slope, x);
+                        const double stretch = u.norm();
+                        double force = material.axial_stiffness * (stretch - 1.);
+                        if (damped)
+                          force += material.axial_damping * (u * combine(p.slope, rate)) / stretch;
+                        distribute(p.slope, p.weight * force / stretch * u, sum);
+                      }
+                      for (const Point &p : bending_points)
+                      {
+                        // kappa^2 = |w|^2 / a^2 with w = u x v and a = u . u
+                        const Vector u = combine(p.slope, x), v = combine(p.curvature, x),
+                                     w = cross_product_3d(u, v);
+                        const double a = u.norm_square(),
+                                     factor = p.weight * material.bending_stiffness / (a * a);
+                        distribute(p.slope,
+                                   factor * (cross_product_3d(v, w) - 2. * w.norm_square() / a * u),
+                                   sum);
+                        distribute(p.curvature, factor * cross_product_3d(w, u), sum);
+                      }
+                    });
   }
 
   void CableElements::mean_force(const std::vector<double> &q0, const std::vector<double> &q1,
@@ -226,11 +226,10 @@ namespace taut
           {
             const Vector u0 = combine(p.slope, x0), u1 = combine(p.slope, x1);
             const double stretch0 = u0.norm(), stretch1 = u1.norm(), twice = stretch0 + stretch1;
-            const double force =
-                material.axial_stiffness * (.5 * twice - 1.) +
-                (material.axial_damping == 0.
-                     ? 0.
-                     : material.axial_damping * (stretch1 - stretch0) / step);
+            const double force = material.axial_stiffness * (.5 * twice - 1.) +
+                                 (material.axial_damping == 0.
+                                      ? 0.
+                                      : material.axial_damping * (stretch1 - stretch0) / step);
             distribute(p.slope, p.weight * force / twice * (u0 + u1), sum);
           }
           for (const Point &p : bending_points)
@@ -261,9 +260,8 @@ namespace taut
       const double geometric = material.axial_stiffness * (stretch - 1.) / stretch,
                    kept = definite ? std::max(geometric, 0.) : geometric;
       const Matrix along = outer_product(u, u) / (stretch * stretch);
-      distribute(p.slope,
-                 p.weight * (material.axial_stiffness * along + kept * (identity - along)), p.slope,
-                 K);
+      distribute(p.slope, p.weight * (material.axial_stiffness * along + kept * (identity - along)),
+                 p.slope, K);
     }
   }
 
@@ -292,8 +290,8 @@ namespace taut
                      G_aa = (c / a - 3. * B * B) / (a * a), G_ab = 2. * B / (a * a),
                      G_bb = -1. / (a * a), G_ac = -.5 / (a * a);
         const Matrix u_u = outer_product(u, u), u_v = outer_product(u, v);
-        uu = 4. * G_aa * u_u + 2. * G_ab * (u_v + transpose(u_v)) +
-             G_bb * outer_product(v, v) + 2. * G_a * identity;
+        uu = 4. * G_aa * u_u + 2. * G_ab * (u_v + transpose(u_v)) + G_bb * outer_product(v, v) +
+             2. * G_a * identity;
         uv = 2. * G_ab * u_u + G_bb * transpose(u_v) + 4. * G_ac * u_v + G_b * identity;
         vv = G_bb * u_u + 2. * G_c * identity;
       }

@@ -19,7 +19,10 @@ namespace taut
     {
     public:
       void declare_parameters(dealii::ParameterHandler &prm) override;
-      std::size_t n_dofs() const override { return CableElements::dofs_per_node * (n_elements + 1); }
+      std::size_t n_dofs() const override
+      {
+        return CableElements::dofs_per_node * (n_elements + 1);
+      }
       std::unique_ptr<Substructure> make(const BodySetting &setting) const override;
 
     private:
@@ -70,8 +73,8 @@ namespace taut
                         "Per unstressed length, beside the weight, as of wind: x, y, z; empty: "
                         "none [N/m]",
                         List(Double(), 0, 3));
-      prm.add_parameter("Largest strain", largest_strain, "A cable at rest with more is an error [1]",
-                        Double(0.));
+      prm.add_parameter("Largest strain", largest_strain,
+                        "A cable at rest with more is an error [1]", Double(0.));
       prm.add_parameter("Geometry", geometry,
                         "nonlinear: motions of any size; linearised: small ones about the shape at "
                         "rest",
@@ -149,8 +152,7 @@ namespace taut
       if (norm(load) == 0.)
         throw EntryError(origin + "Sag", "without weight or wind a cable has none; give the "
                                          "Unstressed length");
-      return about_entry(origin + "Sag",
-                         [&] { return length_for_sag(make, {}, span, load, sag); });
+      return about_entry(origin + "Sag", [&] { return length_for_sag(make, {}, span, load, sag); });
     }
 
     std::unique_ptr<Substructure> CableType::make(const BodySetting &setting) const

@@ -31,7 +31,8 @@ namespace taut
     public:
       Search(const CableElements &cable, const std::vector<unsigned int> &held,
              const std::vector<double> &load)
-          : held(held), load(load), solver(make_block_tridiagonal_solver(CableElements::dofs_per_node))
+          : held(held), load(load),
+            solver(make_block_tridiagonal_solver(CableElements::dofs_per_node))
       {
         const std::vector<unsigned int> unused = cable.unused_dofs();
         this->held.insert(this->held.end(), unused.begin(), unused.end());
@@ -59,6 +60,9 @@ namespace taut
 
       unsigned int iterations() const { return n_iterations; }
       double residual() const { return last_residual; }
+
+      /// True if the last equilibrium was one, stable or not.
+      bool is_balanced() const { return balanced; }
 
       /// True if the tangent is positive definite.
       bool is_stable(const CableElements &cable, const std::vector<double> &q)
@@ -134,6 +138,7 @@ namespace taut
       std::vector<double> r;
       unsigned int n_iterations = 0;
       double last_residual = 0.;
+      bool balanced = false;
     };
 
     bool Search::iterate(const CableElements &cable, const double relative_tolerance,
@@ -148,7 +153,8 @@ namespace taut
       for (unsigned int k = 0; k < most_iterations; ++k)
       {
         last_residual = size;
-        if (size <= std::max(relative_tolerance * scale, rounding(cable, q)))
+        balanced = size <= std::max(relative_tolerance * scale, rounding(cable, q));
+        if (balanced)
           return is_stable(cable, q);
         ++n_iterations;
         if (!step(cable, downhill, size, q))
@@ -237,12 +243,15 @@ namespace taut
     {
       if (length <= norm(chord))
         return {chord, down, 0.};
-      const auto excess = [&](const double depth)
-      { return Parabola{chord, down, depth}.arc_lengths(parabola_points).back() - length; };
-      std::uintmax_t n = 100;
-      const auto depth = boost::math::tools::toms748_solve(
-          excess, 0., length, boost::math::tools::eps_tolerance<double>(30), n);
-      return {chord, down, depth.first};
+      double low = 0., high = length;
+      for (int k = 0; k < 50; ++k)
+      {
+        const double depth = .5 * (low + high);
+        const bool is_short =
+            Parabola{chord, down, depth}.arc_lengths(parabola_points).back() < length;
+        (is_short ? low : high) = depth;
+      }
+      return {chord, down, high};
     }
 
     std::vector<double> positions(const CableElements &cable, const Coordinates &from,
@@ -273,14 +282,18 @@ namespace taut
     result.positions = start;
     const double EA = cable.section().axial_stiffness;
     // A stage that fails is left out: the next one may be within reach.
-    for (double stiffness = tension > 0. ? first_stiffness(EA, tension) : EA; stiffness < .9 * EA; stiffness *= 10.)
+    for (double stiffness = tension > 0. ? first_stiffness(EA, tension) : EA; stiffness < .9 * EA;
+         stiffness *= 10.)
       search.solve(cable.with_axial_stiffness(stiffness), 1e-3, result.positions);
     if (!search.solve(cable, 1e-10, result.positions))
       throw UserError("no stable equilibrium of the cable was found: after " +
                       std::to_string(search.iterations()) + " iterations a force of " +
                       text_of(search.residual()) +
-                      " N was not balanced; take more elements, a little more bending stiffness, "
-                      "or ends that are further apart across the load");
+                      (search.is_balanced() ? " N is not balanced, which is good enough, but the "
+                                              "least push would move the cable away"
+                                            : " N is not balanced") +
+                      "; take more elements, a little bending stiffness, or ends that are further "
+                      "apart across the load");
     result.n_iterations = search.iterations();
     result.residual = search.residual();
     return result;
@@ -349,9 +362,8 @@ namespace taut
     for (unsigned int i = 1; i <= cable.n_elements(); ++i)
       if (height(i * h) < height(lowest * h))
         lowest = i;
-    return -boost::math::tools::brent_find_minima(
-                height, std::max(0., (lowest - 1.) * h),
-                std::min(cable.length(), (lowest + 1.) * h), 40)
+    return -boost::math::tools::brent_find_minima(height, std::max(0., (lowest - 1.) * h),
+                                                  std::min(cable.length(), (lowest + 1.) * h), 40)
                 .second;
   }
 
@@ -372,6 +384,8 @@ namespace taut
         at_low = quantity(low);
         at_high = quantity(high);
       }
+      if (!std::isfinite(at_low * at_high))
+        throw UserError("the " + name + " is beyond the range of numbers; take less extreme values");
       if (at_low == 0.)
         return low;
       if (at_high == 0.)
@@ -406,7 +420,8 @@ namespace taut
   double length_for_tension(const MakeCable &make, const Coordinates &from, const Coordinates &to,
                             const Coordinates &force, const double tension)
   {
-    const double span = span_of(from, to, force), depth = norm(force) * span * span / (8. * tension);
+    const double span = span_of(from, to, force),
+                 depth = norm(force) * span * span / (8. * tension);
     const Coordinates chord = to - from;
     if (norm(force) == 0.) // a straight line
       return length_of_parabola(make(span), chord, force, 0., tension);
@@ -418,8 +433,7 @@ namespace taut
           const double H = horizontal_tension(cable, hang(cable, from, to, force), force);
           return std::log(std::max(H / tension, 1e-300));
         },
-        length_of_parabola(make(norm(chord)), chord, force, depth, tension),
-        "horizontal tension");
+        length_of_parabola(make(norm(chord)), chord, force, depth, tension), "horizontal tension");
   }
 
   double length_for_sag(const MakeCable &make, const Coordinates &from, const Coordinates &to,

@@ -1,0 +1,402 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: a cable as a body of a scene is in balance in its found shape, moves as closed forms say,
+// linearised and not, and refuses what makes no cable. Expected values: closed forms; the element
+// of the other kind.
+#include "cable/elastic_catenary.h"
+#include "verification/run.h"
+
+#include <taut/base/dot.h>
+#include <taut/base/exceptions.h>
+#include <taut/cable/cable.h>
+#include <taut/substructure/local_solver.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+namespace
+{
+  using namespace taut;
+
+  const double pi = std::acos(-1.);
+
+  CableData slack_cable(const CableElement element = CableElement::ancf)
+  {
+    CableData data;
+    data.name = "cable";
+    data.origin = "Body cable";
+    data.from = {100., 20., -3.};
+    data.to = {160., 20., -3.};
+    data.length = 78.;
+    data.section = {1.3e7, 0., 1.07, 0.};
+    data.gravity = {0., -9.81, 0.};
+    data.n_elements = 32;
+    data.element = element;
+    return data;
+  }
+
+  std::vector<double> unbalanced(const Cable &cable, const std::vector<double> &U)
+  {
+    std::vector<double> f, P;
+    cable.internal_force(U, {}, f);
+    cable.external_force(0., P);
+    for (std::size_t i = 0; i < P.size(); ++i)
+      P[i] -= f[i];
+    return P;
+  }
+
+  double largest_of(std::vector<double> x, const std::vector<unsigned int> &left_out)
+  {
+    for (const unsigned int i : left_out)
+      x[i] = 0.;
+    double size = 0.;
+    for (const double value : x)
+      size = std::max(size, std::fabs(value));
+    return size;
+  }
+
+  /// Newton's method from the found shape.
+  std::vector<double> equilibrium(const Cable &cable)
+  {
+    std::vector<double> U(cable.n_dofs(), 0.);
+    const auto solver = make_local_solver("block tridiagonal", cable.stiffness());
+    for (int k = 0; k < 100; ++k)
+    {
+      std::vector<double> step = unbalanced(cable, U);
+      if (largest_of(step, cable.constrained_dofs()) < 1e-6)
+        return U;
+      const auto K = cable.tangent(U, 0., true);
+      solver->factor({{1., K.get()}, {k < 20 ? 1. : 0., &cable.mass()}}, cable.constrained_dofs());
+      solver->solve(step);
+      for (std::size_t i = 0; i < U.size(); ++i)
+        U[i] += step[i];
+    }
+    ADD_FAILURE() << "no equilibrium";
+    return U;
+  }
+
+  /// The lowest natural frequencies by subspace iteration one after the other [rad/s].
+  std::vector<double> frequencies(const Substructure &body, const unsigned int n)
+  {
+    const auto solver = make_local_solver("block tridiagonal", body.stiffness());
+    solver->factor({{1., &body.stiffness()}}, body.constrained_dofs());
+    std::vector<std::vector<double>> modes;
+    std::vector<double> result;
+    for (unsigned int mode = 0; mode < n; ++mode)
+    {
+      std::vector<double> x(body.n_dofs());
+      for (std::size_t i = 0; i < x.size(); ++i)
+        x[i] = std::sin(1. + 1.7 * i * (mode + 1));
+      for (const unsigned int i : body.constrained_dofs())
+        x[i] = 0.;
+      double omega = 0.;
+      for (int iteration = 0; iteration < 300; ++iteration)
+      {
+        const auto times_mass = [&](const std::vector<double> &v)
+        {
+          std::vector<double> Mv(v.size(), 0.);
+          body.mass().vmult_add(1., v.data(), Mv.data());
+          return Mv;
+        };
+        for (const auto &other : modes)
+        {
+          const double part = dot(times_mass(other), x);
+          for (std::size_t i = 0; i < x.size(); ++i)
+            x[i] -= part * other[i];
+        }
+        const double size = std::sqrt(dot(times_mass(x), x));
+        for (double &value : x)
+          value /= size;
+        std::vector<double> y = times_mass(x);
+        const std::vector<double> Mx = y;
+        solver->solve(y);
+        omega = 1. / std::sqrt(dot(y, Mx));
+        if (iteration < 299)
+          x = y;
+      }
+      modes.push_back(x);
+      result.push_back(omega);
+    }
+    return result;
+  }
+
+  TEST(CableBodies, FoundShapeIsInBalance)
+  {
+    for (const CableElement element : {CableElement::ancf, CableElement::bar})
+    {
+      CableData data = slack_cable(element);
+      data.force = {0., 0., 8.};
+      const Cable cable(data);
+      const std::vector<double> U(cable.n_dofs(), 0.), r = unbalanced(cable, U);
+      EXPECT_FALSE(cable.is_linear());
+      EXPECT_LT(largest_of(r, cable.constrained_dofs()), 1e-6);
+      // Where it is held the forces are whole.
+      const ElasticCatenary exact({}, {60., 0., 0.}, {0., -1.07 * 9.81, 8.}, 1.3e7, 78.);
+      EXPECT_NEAR(std::hypot(std::hypot(r[0], r[1]), r[2]) / exact.end_force(), 1., 1e-6);
+      EXPECT_GT(cable.strain_energy(U), 0.);
+    }
+  }
+
+  TEST(CableBodies, WeightInTheMiddle)
+  {
+    // Two halves of catenaries with V = (w L + F) / 2 at the ends; a kink is for bars.
+    const double w = 1.07 * 9.81, L = 78., F = 100., V = .5 * (w * L + F), EA = 1.3e7;
+    double low = 1., high = 1e5;
+    for (int k = 0; k < 200; ++k)
+    {
+      const double H = .5 * (low + high);
+      (.5 * H * L / EA + H / w * (std::asinh(V / H) - std::asinh((V - .5 * w * L) / H)) < 30.
+           ? low
+           : high) = H;
+    }
+    const double depth = .5 * L / EA * (V - .25 * w * L) +
+                         (std::hypot(low, V) - std::hypot(low, V - .5 * w * L)) / w;
+    const ElasticCatenary before({}, {60., 0., 0.}, {0., -w, 0.}, EA, L);
+    const double sinking = depth + before.position(39.).y;
+    EXPECT_NEAR(sinking, 1.045262, 1e-6);
+    Cable cable(slack_cable(CableElement::bar));
+    const LinearForm middle = cable.displacement({39., 0.}, {0., -1., 0.});
+    cable.add_force(middle, F);
+    const double found = middle.dot(equilibrium(cable));
+    verification::figure("error of a cable sinking by 1.045 m under a weight", found - sinking,
+                         "m");
+    EXPECT_NEAR(found, sinking, 1e-5);
+  }
+
+  TEST(CableBodies, ElementsAgreeOnAPull)
+  {
+    // A force in space on a third of the cable; ANCF rounds the kink.
+    std::vector<Coordinates> places;
+    for (const CableElement element : {CableElement::ancf, CableElement::bar})
+    {
+      CableData data = slack_cable(element);
+      data.n_elements = 96;
+      Cable cable(data);
+      cable.add_force(cable.displacement({26., 0.}, {1., 2., 3.}), 20.);
+      const std::vector<double> q = cable.positions(equilibrium(cable));
+      places.push_back(cable.elements().position(q, 52.));
+    }
+    EXPECT_LT(norm(places[0] - places[1]), .02);
+    EXPECT_GT(places[0].z, 1.);
+  }
+
+  TEST(CableBodies, LinearisedCableSwings)
+  {
+    CableData data = slack_cable();
+    data.linearised = true;
+    data.n_elements = 64;
+    const MakeCable make = [&](const double length) { return make_elements(data, length); };
+    const double H = 16e3, m = 1.07, l = 60., w = m * 9.81;
+    data.length = length_for_tension(make, data.from, data.to, force_per_length(data), H);
+    const Cable cable(data);
+    EXPECT_TRUE(cable.is_linear());
+    std::vector<double> P;
+    cable.external_force(0., P);
+    EXPECT_EQ(largest_of(P, cable.constrained_dofs()), 0.);
+    EXPECT_NEAR(std::hypot(P[0], P[1]), std::hypot(H, .5 * w * data.length), 1e-3);
+
+    // Irvine 1981, chapter 3: across the plane and antisymmetric n pi / l sqrt(H/m); symmetric ones
+    // in the plane tan(x) = x - 4 x^3 / lambda^2 with x = omega l / 2 sqrt(m/H).
+    const double sag_ratio = w * l / (8. * H), stretched = l * (1. + 8. * sag_ratio * sag_ratio),
+                 lambda2 = std::pow(w * l / H, 2) * l * 1.3e7 / (H * stretched);
+    double low = .5 * pi + 1e-6, high = 1.5 * pi - 1e-6;
+    for (int k = 0; k < 200; ++k)
+    {
+      const double x = .5 * (low + high);
+      (std::tan(x) - x + 4. * x * x * x / lambda2 < 0. ? low : high) = x;
+    }
+    const double string = pi / l * std::sqrt(H / m), symmetric = 2. * low / l * std::sqrt(H / m);
+    std::vector<double> expected = {string, 2. * string, 2. * string, symmetric};
+    std::sort(expected.begin(), expected.end());
+    const std::vector<double> found = frequencies(cable, 4);
+    for (int k = 0; k < 4; ++k)
+    {
+      verification::figure("frequency " + std::to_string(k + 1) +
+                               " of a cable over that of a shallow one",
+                           found[k] / expected[k]);
+      EXPECT_NEAR(found[k] / expected[k], 1., 3e-3);
+    }
+  }
+
+  TEST(CableBodies, LinearisedOnlyUnderTension)
+  {
+    // So stiff in bending that the weight does not take all of its compression.
+    CableData data = slack_cable();
+    data.to = {110., 20., -3.};
+    data.length = 10.05;
+    data.section.bending_stiffness = 1e4;
+    EXPECT_NO_THROW(Cable{data});
+    data.linearised = true;
+    try
+    {
+      const Cable cable(data);
+      ADD_FAILURE() << "was taken";
+    }
+    catch (const EntryError &e)
+    {
+      EXPECT_EQ(e.entry(), "Body cable/Geometry");
+    }
+  }
+
+  TEST(CableBodies, ClampsHoldTheDirectionAndNotTheStrain)
+  {
+    CableData data = slack_cable();
+    data.length = 60.5;
+    data.section.bending_stiffness = 2e4;
+    data.clamped = true;
+    data.force = {0., 0., 5.};
+    Cable cable(data);
+    const LinearForm middle = cable.displacement({.5 * data.length, 0.}, {0., -1., 0.});
+    cable.add_force(middle, 5e3);
+    const std::vector<double> U = equilibrium(cable), rest(U.size(), 0.);
+    for (const double s : {0., data.length})
+    {
+      const Coordinates before = cable.elements().tangent(cable.positions(rest), s),
+                        after = cable.elements().tangent(cable.positions(U), s);
+      EXPECT_NEAR(dot(before, after) / (norm(before) * norm(after)), 1., 1e-14);
+      EXPECT_GT(norm(after) - norm(before), 1e-4);
+      EXPECT_NEAR(cable.elements().tension(cable.positions(U), s) /
+                      cable.elements().tension(cable.positions(U), .25 * data.length),
+                  1., .02);
+    }
+    // The tangent is the derivative of the force in these axes, too.
+    const auto K = cable.tangent(U, 0., false);
+    std::vector<double> direction(U.size()), Kd(U.size(), 0.), f, g;
+    for (std::size_t i = 0; i < U.size(); ++i)
+      direction[i] = std::cos(3. * i) * 1e-6;
+    K->vmult_add(1., direction.data(), Kd.data());
+    std::vector<double> ahead = U, behind = U;
+    for (std::size_t i = 0; i < U.size(); ++i)
+    {
+      ahead[i] += direction[i];
+      behind[i] -= direction[i];
+    }
+    cable.internal_force(ahead, {}, f);
+    cable.internal_force(behind, {}, g);
+    for (std::size_t i = 0; i < U.size(); ++i)
+      EXPECT_NEAR(Kd[i], .5 * (f[i] - g[i]), 1e-6 * largest_of(Kd, {}));
+    EXPECT_NEAR(
+        .5 * (cable.strain_energy(ahead) - cable.strain_energy(behind)),
+        [&]
+        {
+          cable.internal_force(U, {}, f);
+          return dot(f, direction);
+        }(),
+        1e-6 * std::fabs(dot(f, direction)) + 1e-9);
+  }
+
+  TEST(CableBodies, StartsStraight)
+  {
+    CableData data = slack_cable();
+    data.holds_to = false;
+    data.starts_straight = true;
+    data.start_direction = {0., 0., 2.};
+    const Cable cable(data);
+    EXPECT_EQ(cable.constrained_dofs(), (std::vector<unsigned int>{0, 1, 2}));
+    std::vector<double> U, V;
+    cable.initial_state(U, V);
+    EXPECT_NEAR(cable.strain_energy(U), 0., 1e-12);
+    const Coordinates tip = cable.elements().position(cable.positions(U), 78.);
+    EXPECT_NEAR(norm(tip - Coordinates{0., 0., 78.}), 0., 1e-12);
+  }
+
+  TEST(CableBodies, PlacesAndFields)
+  {
+    const Cable cable(slack_cable());
+    EXPECT_THROW(cable.displacement({78.1, 0.}, {0., 1., 0.}), UserError);
+    EXPECT_THROW(cable.displacement({-.1, 0.}, {0., 1., 0.}), UserError);
+    const std::string path = testing::TempDir() + "taut_cable.vtu";
+    cable.write_vtu(path, std::vector<double>(cable.n_dofs(), 0.));
+    std::ifstream file(path);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    for (const char *name : {"tension", "unstressed_arc_length", "displacement"})
+      EXPECT_NE(text.find(std::string("Name=\"") + name), std::string::npos) << name;
+    std::remove(path.c_str());
+  }
+
+  const std::string scene = R"(set Generator = network
+set Bodies = cable
+subsection Body cable
+  set Type = cable
+  set From = 0, 0
+  set To = 60, 0, 0
+  set Axial stiffness = 1.3e7
+  set Mass per length = 1.07
+end
+subsection Time
+  set End = 0
+end
+)";
+
+  TEST(CableEntries, LengthTensionOrSag)
+  {
+    // Horizontal tension and sag of the same cable of 78 m.
+    const ElasticCatenary exact({}, {60., 0., 0.}, {0., -1.07 * 9.81, 0.}, 1.3e7, 78.);
+    const double sag = -exact.position(39.).y;
+    for (const std::string &entry :
+         {std::string("Unstressed length=78"),
+          "Horizontal tension=" + std::to_string(exact.horizontal()), "Sag=" + std::to_string(sag)})
+      verification::run_scene(
+          scene,
+          {"Body cable/Elements=32", "Body cable/Geometry=linearised", "Body cable/" + entry},
+          [&](const StepView &view)
+          {
+            const auto &cable = dynamic_cast<const Cable &>(view.structure[0]);
+            EXPECT_NEAR(cable.elements().length(), 78., 1e-5) << entry;
+            EXPECT_NEAR(cable.elements().position(cable.shape().positions, 39.).y, -sag, 1e-4);
+          });
+  }
+
+  TEST(CableEntries, WhatMakesNoCable)
+  {
+    struct Case
+    {
+      std::vector<std::string> overrides;
+      std::string entry, text;
+    };
+    const std::vector<Case> cases = {
+        {{}, "Unstressed length", "exactly one"},
+        {{"Unstressed length=78", "Sag=3"}, "Unstressed length", "exactly one"},
+        {{"Unstressed length=-78"}, "Unstressed length", "negative"},
+        {{"Horizontal tension=-1"}, "Horizontal tension", "negative"},
+        {{"Unstressed length=58"}, "Largest strain", "longer or stiffer"},
+        {{"Horizontal tension=1e6"}, "Largest strain", "longer or stiffer"},
+        {{"Horizontal tension=1e3", "To=0,0"}, "To", "one place"},
+        {{"Sag=3", "To=0,-10"}, "Sag", "not apart"},
+        {{"Sag=3", "Mass per length=0"}, "Sag", "without weight"},
+        {{"Unstressed length=78", "Mass per length=0"}, "", "without weight or wind"},
+        {{"Unstressed length=78", "To=0,-70"}, "", "no stable equilibrium"},
+        {{"Unstressed length=78", "Axial stiffness=0"}, "Axial stiffness", "positive"},
+        {{"Unstressed length=78", "Element=bar", "Bending stiffness=1"},
+         "Bending stiffness",
+         "ANCF"},
+        {{"Unstressed length=78", "Element=bar", "Clamped=true"}, "Clamped", "ANCF"},
+        {{"Unstressed length=78", "Force per length=3"}, "Force per length", "one component"},
+        {{"Unstressed length=10.05", "To=10,0", "Bending stiffness=1e4", "Geometry=linearised"},
+         "Geometry",
+         "slack"},
+    };
+    for (const Case &c : cases)
+    {
+      std::vector<std::string> overrides;
+      for (const std::string &text : c.overrides)
+        overrides.push_back("Body cable/" + text);
+      try
+      {
+        verification::Session session(scene, overrides);
+        ADD_FAILURE() << c.text << ": was taken";
+      }
+      catch (const EntryError &e)
+      {
+        EXPECT_EQ(e.entry(), "Body cable" + (c.entry.empty() ? "" : "/" + c.entry));
+        EXPECT_NE(e.message().find(c.text), std::string::npos) << e.message();
+      }
+    }
+  }
+} // namespace

@@ -39,9 +39,9 @@ namespace
       {
         const double theta = alpha - u * u,
                      // sin(alpha) - sin(theta), over u^2
-            difference = u < 1e-6 ? std::cos(alpha)
-                                  : 2. * std::cos(.5 * (alpha + theta)) * std::sin(.5 * u * u) /
-                                        (u * u),
+            difference = u < 1e-6
+                             ? std::cos(alpha)
+                             : 2. * std::cos(.5 * (alpha + theta)) * std::sin(.5 * u * u) / (u * u),
                      sum = 1. + P / (2. * EA) * (std::sin(alpha) + std::sin(theta));
         return 2. / std::sqrt(2. * P / EI * difference * sum) * f(theta);
       };
@@ -67,21 +67,29 @@ namespace
       unsigned int n;
       double limit;
     };
-    for (const Case &c : {Case{1., 2, 5e-4}, {1., 8, 2e-6}, {5., 4, 2e-4}, {5., 8, 2e-5},
-                          {10., 4, 5e-4}, {10., 8, 4e-5}, {10., 16, 2e-6}})
+    for (const Case &c : {Case{1., 2, 5e-4},
+                          {1., 8, 2e-6},
+                          {5., 4, 2e-4},
+                          {5., 8, 2e-5},
+                          {10., 4, 5e-4},
+                          {10., 8, 4e-5},
+                          {10., 16, 2e-6}})
     {
       const CableElements cable = make(c.n);
-      const std::vector<double> start =
-          cable.interpolate([](const double s) { return Coordinates{s, 0., 0.}; },
-                            [](double) { return Coordinates{1., 0., 0.}; });
+      const std::vector<double> start = cable.interpolate(
+          [](const double s) {
+            return Coordinates{s, 0., 0.};
+          },
+          [](double) {
+            return Coordinates{1., 0., 0.};
+          });
       std::vector<double> load(cable.n_dofs(), 0.);
       cable.position(length, {0., 1., 0.}).add_to(c.P, load);
       // The clamp keeps the direction, and leaves the strain free.
       const CableShape shape = find_shape(cable, start, {0, 1, 2, 4, 5}, load);
       const double error = norm(cable.position(shape.positions, length) - elastica_tip(c.P));
-      const std::string what =
-          "elastica, P L^2/EI = " + std::to_string(int(c.P)) + ", " + std::to_string(c.n) +
-          " elements";
+      const std::string what = "elastica, P L^2/EI = " + std::to_string(int(c.P)) + ", " +
+                               std::to_string(c.n) + " elements";
       verification::figure("tip error of an " + what, error, "L");
       verification::figure("iterations of an " + what, shape.n_iterations);
       EXPECT_LT(error, 1.5 * c.limit) << what;
@@ -110,8 +118,9 @@ namespace
             }
             return r;
           },
-          [&](const double s)
-          { return Coordinates{std::cos(angle(s)), std::sin(angle(s)), 0.}; });
+          [&](const double s) {
+            return Coordinates{std::cos(angle(s)), std::sin(angle(s)), 0.};
+          });
       // In the plane; the directions of both ends are held.
       std::vector<unsigned int> held = {0, 1, 4, 6 * n + 4};
       for (unsigned int i = 2; i < cable.n_dofs(); i += 3)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: the forces of cable elements are gradients of their energy, their tangents are derivatives
-// of the forces, and the mean force over a step does the work that the energy says. Expected values:
-// differences, and the identities themselves.
+// of the forces, and the mean force over a step does the work that the energy says. Expected
+// values: differences, and the identities themselves.
 #include <taut/base/dot.h>
 #include <taut/cable/cable_elements.h>
 
@@ -132,8 +132,12 @@ namespace
     }
     // A straight line under tension has nothing to leave out.
     const std::vector<double> line = cable.interpolate(
-        [](const double s) { return Coordinates{1.01 * s, 0., 0.}; },
-        [](double) { return Coordinates{1.01, 0., 0.}; });
+        [](const double s) {
+          return Coordinates{1.01 * s, 0., 0.};
+        },
+        [](double) {
+          return Coordinates{1.01, 0., 0.};
+        });
     const auto exact = make_block_tridiagonal(6, cable.n_dofs()), definite = exact->clone();
     cable.add_tangent(line, false, *exact);
     cable.add_tangent(line, true, *definite);
@@ -176,8 +180,13 @@ namespace
   {
     const auto line = [&](const double stretch)
     {
-      return cable.interpolate([=](const double s) { return Coordinates{0., 0., stretch * s}; },
-                               [=](double) { return Coordinates{0., 0., stretch}; });
+      return cable.interpolate(
+          [=](const double s) {
+            return Coordinates{0., 0., stretch * s};
+          },
+          [=](double) {
+            return Coordinates{0., 0., stretch};
+          });
     };
     const std::vector<double> q0 = line(1.), q1 = line(1.03);
     std::vector<double> f, increment(q0.size());
@@ -218,10 +227,18 @@ namespace
     std::vector<double> load(cable.n_dofs(), 0.);
     cable.add_load({0., -3., 2.}, load);
     // Unit translation along y; rotation about the first end.
-    const auto shift = cable.interpolate([](double) { return Coordinates{0., 1., 0.}; },
-                                         [](double) { return Coordinates{}; }),
-               turn = cable.interpolate([](const double s) { return Coordinates{0., s, 0.}; },
-                                        [](double) { return Coordinates{0., 1., 0.}; });
+    const auto shift = cable.interpolate(
+                   [](double) {
+                     return Coordinates{0., 1., 0.};
+                   },
+                   [](double) { return Coordinates{}; }),
+               turn = cable.interpolate(
+                   [](const double s) {
+                     return Coordinates{0., s, 0.};
+                   },
+                   [](double) {
+                     return Coordinates{0., 1., 0.};
+                   });
     const auto energy = [&](const std::vector<double> &v)
     {
       std::vector<double> p(v.size(), 0.);
@@ -238,8 +255,12 @@ namespace
   {
     // Both elements have polynomials of degree 2.
     const std::vector<double> q = cable.interpolate(
-        [](const double s) { return Coordinates{s * s, 1. - s, 2. + s * s}; },
-        [](const double s) { return Coordinates{2. * s, -1., 2. * s}; });
+        [](const double s) {
+          return Coordinates{s * s, 1. - s, 2. + s * s};
+        },
+        [](const double s) {
+          return Coordinates{2. * s, -1., 2. * s};
+        });
     for (const double s : {0., .7, 2.5, 3.99, 5.})
     {
       EXPECT_NEAR(cable.position(s, {0., 0., 1.}).dot(q), 2. + s * s, 1e-12);
@@ -266,16 +287,19 @@ namespace
   TEST_P(Elements, TensionOfAUniformStretch)
   {
     const std::vector<double> q = cable.interpolate(
-        [](const double s) { return Coordinates{0., 1.02 * s, 0.}; },
-        [](double) { return Coordinates{0., 1.02, 0.}; });
+        [](const double s) {
+          return Coordinates{0., 1.02 * s, 0.};
+        },
+        [](double) {
+          return Coordinates{0., 1.02, 0.};
+        });
     for (const double s : {0., 1., 5.})
       EXPECT_NEAR(cable.tension(q, s), 2e4 * .02, 1e-9);
     EXPECT_NEAR(cable.largest_strain(q), .02, 1e-13);
     EXPECT_NEAR(cable.smallest_strain(q), .02, 1e-13);
   }
 
-  INSTANTIATE_TEST_SUITE_P(Both, Elements,
-                           testing::Values(CableElement::ancf, CableElement::bar),
+  INSTANTIATE_TEST_SUITE_P(Both, Elements, testing::Values(CableElement::ancf, CableElement::bar),
                            [](const auto &info)
                            { return info.param == CableElement::ancf ? "ANCF" : "bar"; });
 } // namespace

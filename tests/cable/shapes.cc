@@ -21,7 +21,7 @@ namespace
   using namespace taut;
 
   constexpr double EA = 1.3e7, mass = 1.07, gravity = 9.81;
-  const Coordinates weight = {0., -mass * gravity, 0.};
+  const Coordinates weight = {0., -mass *gravity, 0.};
 
   CableElements make(const CableElement element, const double length, const unsigned int n,
                      const double EI = 0.)
@@ -45,8 +45,7 @@ namespace
     for (unsigned int i = 0; i <= cable.n_elements(); ++i)
     {
       const double s = i * cable.element_length();
-      error = std::fmax(error,
-                        norm(cable.position(shape.positions, s) - exact.position(s)));
+      error = std::fmax(error, norm(cable.position(shape.positions, s) - exact.position(s)));
     }
     return error;
   }
@@ -221,8 +220,12 @@ namespace
     const auto start = [&](const double slack)
     {
       return cable.interpolate(
-          [&](const double s) { return Coordinates{(1. - slack) * s, 0., 0.}; },
-          [&](double) { return Coordinates{1. - slack, 0., 0.}; });
+          [&](const double s) {
+            return Coordinates{(1. - slack) * s, 0., 0.};
+          },
+          [&](double) {
+            return Coordinates{1. - slack, 0., 0.};
+          });
     };
     std::vector<unsigned int> held;
     for (const bool last : {false, true})

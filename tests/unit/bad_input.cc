@@ -295,7 +295,7 @@ end
          network,
          {{"set Generator = network", "set Generator = network\nset Bodies = plate\nsubsection "
                                       "Body plate\n  set Type = plait # here\nend"}},
-         {"Body plate/Type = 'plait'", "there is no such type; known are: solid",
+         {"Body plate/Type = 'plait'", "there is no such type; known are: cable, solid",
           "Additional shared libraries"}},
         {"solid_without_stiffness",
          network,

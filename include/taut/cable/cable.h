@@ -13,6 +13,8 @@
 
 namespace taut
 {
+  class EndFrames;
+
   /// What a cable is made of.
   struct CableData
   {
@@ -21,14 +23,14 @@ namespace taut
     Coordinates from, to; ///< places of the ends of its found shape [m]
     double length = 0.;   ///< unstressed [m]
     CableSection section;
-    double mass_damping = 0.;    ///< a in C = a M [1/s]
-    Coordinates gravity;         ///< [m/s^2]
-    Coordinates force;           ///< per unstressed length, beside the weight [N/m]
+    double mass_damping = 0.; ///< a in C = a M [1/s]
+    Coordinates gravity;      ///< [m/s^2]
+    Coordinates force;        ///< per unstressed length, beside the weight [N/m]
     unsigned int n_elements = 16;
     CableElement element = CableElement::ancf;
 
     bool holds_from = true, holds_to = true; ///< these ends do not move
-    bool clamped = false;                    ///< they keep r' of the found shape, too
+    bool clamped = false;                    ///< they keep their direction in it, too
 
     /// Start = given begins with the unstressed cable in a straight line from `from` along
     /// start_direction, not with the found shape.
@@ -57,7 +59,8 @@ namespace taut
    * shape as K, with the axial damping in C, and as load only what the found shape does not
    * balance: zero but at the ends, where it is the load without the internal force of the found
    * shape. So the forces that hold an end are whole ones in both cases, and an end that nothing
-   * holds starts to move in both.
+   * holds starts to move in both. The DoFs of r' at a clamped end are components along the cable
+   * and across it, not along x, y, z; use displacement() and positions().
    */
   class Cable : public Substructure
   {
@@ -97,12 +100,14 @@ namespace taut
   private:
     void check() const;
     void find();
-    void assemble();
     void hold();
+    void assemble();
+    void linearise();
 
     CableData data;
     CableElements element;
     CableShape found;
+    std::unique_ptr<EndFrames> frames;
   };
 } // namespace taut
 

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_end_frames_h
+#define taut_end_frames_h
+
+#include <taut/base/linear_form.h>
+#include <taut/substructure/symmetric_matrix.h>
+
+#include <array>
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace taut
+{
+  struct Coordinates;
+
+  /**
+   * Axes of their own for the derivatives r' of clamped ends of a cable, with the first one along
+   * the cable: a clamp holds the other two and leaves the strain free. The axes are mirror images
+   * of x, y, z (Householder), so that the way there is also the way back.
+   */
+  class EndFrames
+  {
+  public:
+    /// For the three DoFs from @p first_dof on, with the first axis along @p direction.
+    void add(unsigned int first_dof, const Coordinates &direction);
+
+    bool empty() const { return mirrors.empty(); }
+
+    /// From x, y, z to these axes, or back.
+    void turn(std::vector<double> &x) const;
+    LinearForm turn(const LinearForm &form) const;
+    std::unique_ptr<SymmetricMatrix> turn(std::unique_ptr<SymmetricMatrix> A) const;
+
+  private:
+    using Mirror = std::array<std::array<double, 3>, 3>;
+
+    /// A unit vector of DoF i in the other axes.
+    LinearForm turned(unsigned int i) const;
+
+    std::map<unsigned int, Mirror> mirrors; ///< by the first DoF
+  };
+} // namespace taut
+
+#endif
