@@ -145,7 +145,7 @@ namespace taut
     prm.add_parameter("To", to, "A mass or 'ground'");
     prm.add_parameter("Direction", direction, "'x, y' or 'x, y, z'; the length does not matter",
                       coordinates());
-    prm.add_parameter("Rotational", rotational, "Acts between rotations instead");
+    prm.add_parameter("Rotational", rotational, "Acts between rotations about z instead");
     prm.add_parameter("Stiffness", stiffness, "[N/m, N m/rad]", not_negative());
     prm.add_parameter("Damping", damping, "[N s/m, N m s/rad]", not_negative());
   }
@@ -168,7 +168,7 @@ namespace taut
         "along the straight line between the ends",
         List(Double(), 0, 3));
     prm.add_parameter("Rotational", rotational,
-                      "Acts between slopes or rotations: moments and angular gaps");
+                      "Acts between slopes or rotations about z: moments and angular gaps");
     prm.add_parameter("Stiffness", stiffness, "A number or 'rigid' [N/m, N m/rad]");
     prm.add_parameter("Damping", damping, "Beside the stiffness (Kelvin-Voigt) [N s/m, N m s/rad]",
                       not_negative());
@@ -204,7 +204,7 @@ namespace taut
         "On", on, "A mass or 'wire @ position'; of a distributed load the position is not used");
     prm.add_parameter("Direction", direction, "'x, y' or 'x, y, z'; the length does not matter",
                       coordinates());
-    prm.add_parameter("Rotational", rotational, "A moment instead of a force");
+    prm.add_parameter("Rotational", rotational, "A moment about z instead of a force");
     prm.add_parameter("Magnitude", magnitude, "A formula in s and t [N, N/m, N m]");
     prm.add_parameter("Speed", speed, "Of a moving load [m/s]", any_number());
   }
