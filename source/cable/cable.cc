@@ -198,6 +198,28 @@ namespace taut
     return frames->turn(std::move(A));
   }
 
+  std::unique_ptr<SymmetricMatrix> Cable::mean_tangent(const std::vector<double> &U0,
+                                                       const std::vector<double> &U1,
+                                                       const double rate,
+                                                       const bool definite) const
+  {
+    if (data.linearised)
+      return Substructure::mean_tangent(U0, U1, rate, definite);
+    auto A = make_block_tridiagonal(CableElements::dofs_per_node, element.n_dofs());
+    const std::vector<double> q0 = positions(U0), q1 = positions(U1);
+    std::vector<double> q = q0;
+    for (std::size_t i = 0; i < q.size(); ++i)
+      q[i] = .5 * (q0[i] + q1[i]);
+    element.add_mean_tangent(q0, q1, definite, *A);
+    element.add_damping(q, rate, *A);
+    return A;
+  }
+
+  LinearForm Cable::node_displacement(const unsigned int node, const Coordinates &direction) const
+  {
+    return displacement({node * element.element_length()}, direction);
+  }
+
   void Cable::initial_state(std::vector<double> &U, std::vector<double> &V) const
   {
     Substructure::initial_state(U, V);

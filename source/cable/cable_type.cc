@@ -3,10 +3,12 @@
 #include <taut/base/exceptions.h>
 #include <taut/cable/cable.h>
 #include <taut/scene/body_type.h>
+#include <taut/scene/contact_surface.h>
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/patterns.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -24,6 +26,8 @@ namespace taut
         return CableElements::dofs_per_node * (n_elements + 1);
       }
       std::unique_ptr<Substructure> make(const BodySetting &setting) const override;
+      ContactSurface surface(const BodySetting &setting,
+                             const std::vector<unsigned int> &boundaries) const override;
 
     private:
       CableData data(const BodySetting &setting) const;
@@ -160,6 +164,30 @@ namespace taut
       CableData result = data(setting);
       result.length = find_length(result);
       return std::make_unique<Cable>(result);
+    }
+
+    /// Its nodes, with edges whose outer side is where weight and wind point: what it lies down on.
+    ContactSurface CableType::surface(const BodySetting &setting,
+                                      const std::vector<unsigned int> &boundaries) const
+    {
+      if (!boundaries.empty())
+        throw EntryError(setting.origin, "a cable has one boundary, the whole of it; name none");
+      CableData result = data(setting);
+      result.length = find_length(result);
+      const Cable cable(result);
+      ContactSurface surface;
+      for (unsigned int i = 0; i <= cable.elements().n_elements(); ++i)
+        surface.points.push_back(
+            add_scaled(result.from, 1.,
+                       cable.elements().position(cable.shape().positions,
+                                                 std::min(i * cable.elements().element_length(),
+                                                          result.length))));
+      for (unsigned int i = 0; i < cable.elements().n_elements(); ++i)
+      {
+        surface.faces.push_back({i, i + 1});
+        surface.outward.push_back(force_per_length(result));
+      }
+      return surface;
     }
 
     const Register<BodyType, CableType> cable("cable",

@@ -15,7 +15,7 @@ namespace taut
       : Substructure(name_of(scene, members), scene.masses[members.front()].origin)
   {
     for (const std::size_t m : members)
-      for (unsigned int motion = 0; motion < 3; ++motion)
+      for (unsigned int motion = 0; motion < 4; ++motion)
         if (scene.masses[m].moves[motion])
           dofs.push_back(
               {m, motion, scene.masses[m].displacement[motion], scene.masses[m].velocity[motion]});
@@ -31,8 +31,10 @@ namespace taut
     {
       const Mass &mass = scene.masses[dofs[i].mass];
       M->add(i, i, dofs[i].motion == 2 ? mass.inertia : mass.mass);
-      if (mass.weight && dofs[i].motion < 2)
-        constant_force[i] += mass.mass * (dofs[i].motion == 0 ? scene.gravity.x : scene.gravity.y);
+      if (mass.weight && dofs[i].motion != 2)
+        constant_force[i] += mass.mass * (dofs[i].motion == 0   ? scene.gravity.x
+                                          : dofs[i].motion == 1 ? scene.gravity.y
+                                                                : scene.gravity.z);
     }
     add_springs(scene);
     add_loads(scene);
@@ -89,8 +91,8 @@ namespace taut
                          const Coordinates &direction, LinearForm &result) const
   {
     result = {};
-    const double factor[3] = {rotational ? 0. : direction.x, rotational ? 0. : direction.y,
-                              rotational ? 1. : 0.};
+    const double factor[4] = {rotational ? 0. : direction.x, rotational ? 0. : direction.y,
+                              rotational ? 1. : 0., rotational ? 0. : direction.z};
     for (unsigned int i = 0; i < dofs.size(); ++i)
       if (dofs[i].mass == mass && factor[dofs[i].motion] != 0.)
         result.add(i, factor[dofs[i].motion]);

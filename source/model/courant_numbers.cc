@@ -25,7 +25,9 @@ namespace taut
 
   bool bends(const Wire &wire, const Coordinates &direction)
   {
-    return wire.transverse == TransverseKind::beam && has_part(direction, wire.normal());
+    return wire.transverse == TransverseKind::beam &&
+           (has_part(direction, wire.normal()) ||
+            (wire.has_lateral && has_part(direction, wire.binormal())));
   }
 
   CourantNumbers::CourantNumbers(const Scene &scene, const double step) : scene(scene), step(step)
@@ -54,7 +56,8 @@ namespace taut
     double speed_squared = 0.;
     if (wire.has_axial && has_part(link.direction, wire.tangent()))
       speed_squared = wire.axial_stiffness / wire.mass_per_length;
-    if (wire.transverse != TransverseKind::none && has_part(link.direction, wire.normal()))
+    if ((wire.has(WireMotion::transverse) && has_part(link.direction, wire.normal())) ||
+        (wire.has(WireMotion::lateral) && has_part(link.direction, wire.binormal())))
       speed_squared = std::max(speed_squared, transverse_speed_squared(wire, shortest));
     return std::sqrt(speed_squared) * step / shortest;
   }

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <sstream>
 
@@ -17,14 +18,6 @@ namespace taut
 {
   namespace
   {
-    unsigned int n_dofs_per_node(const Wire &wire)
-    {
-      return (wire.has_axial ? wire.degree : 0) + (wire.transverse == TransverseKind::beam ? 2
-                                                   : wire.transverse == TransverseKind::string
-                                                       ? wire.degree
-                                                       : 0);
-    }
-
     bool is_divided(const Partition &partition, const std::size_t body)
     {
       return body < partition.bodies.size() && partition.bodies[body].body;
@@ -43,7 +36,7 @@ namespace taut
         const std::size_t n_nodes = grid(scene, i).size();
         for (std::size_t p = 0; p < pieces.size(); ++p)
           n_dofs[pieces[p].part] +=
-              n_dofs_per_node(scene.wires[i]) *
+              scene.wires[i].n_dofs_per_node() *
               ((p + 1 < pieces.size() ? pieces[p + 1].first + 1 : n_nodes) - pieces[p].first);
       }
       for (const std::vector<std::size_t> &members : mechanisms)
@@ -100,8 +93,7 @@ namespace taut
     for (std::size_t i = 0; i < scene.wires.size(); ++i)
     {
       const Wire &wire = scene.wires[i];
-      tangents.push_back(wire.tangent());
-      normals.push_back(wire.normal());
+      axes.push_back({wire.tangent(), wire.normal(), wire.binormal()});
       lengths.push_back(wire.length());
       const std::vector<double> nodes = grid(scene, i);
       for (const Partition::Piece &piece : partition.wires[i])
@@ -109,11 +101,10 @@ namespace taut
         wires[i].begins.push_back(nodes[piece.first]);
         wires[i].part.push_back(piece.part);
       }
-      if (wire.has_axial)
-        add_pieces(scene, i, WireMotion::axial, partition.wires[i], owner, shared, wires[i].axial);
-      if (wire.transverse != TransverseKind::none)
-        add_pieces(scene, i, WireMotion::transverse, partition.wires[i], owner, shared,
-                   wires[i].transverse);
+      for (unsigned int c = 0; c < 3; ++c)
+        if (wire.has(wire_components[c]))
+          add_pieces(scene, i, wire_components[c], partition.wires[i], owner, shared,
+                     wires[i].components[c]);
     }
     for (std::size_t m = 0; m < mechanisms.size(); ++m)
     {
@@ -136,7 +127,7 @@ namespace taut
     const Scene part = wire_part(scene, wire);
     const std::string name = WireComponent::name_of(scene, wire, motion);
     const bool has_slopes =
-        motion == WireMotion::transverse && scene.wires[wire].transverse == TransverseKind::beam;
+        motion != WireMotion::axial && scene.wires[wire].transverse == TransverseKind::beam;
     const WireComponent *left = nullptr;
     for (std::size_t p = 0; p < pieces.size(); ++p)
     {
@@ -212,38 +203,42 @@ namespace taut
     else if (point.kind == Attachment::Kind::wire)
     {
       const WireParts &parts = wires[point.index];
-      const double along = dot(direction, tangents[point.index]),
-                   across = dot(direction, normals[point.index]);
       const auto wire = [&](const std::size_t k) -> const WireComponent &
       { return static_cast<const WireComponent &>((*this)[k]); };
       const std::size_t p = piece(parts, point.position);
-      const bool has_axial = !parts.axial.empty() && parts.axial[p] != elsewhere,
-                 has_transverse = !parts.transverse.empty() && parts.transverse[p] != elsewhere;
-      if (rotational && !has_transverse)
-        return;
-      if (rotational)
+      for (unsigned int c = 0; c < 3; ++c)
       {
-        wire(parts.transverse[p]).slope_at(point.position, form);
-        append(parts.transverse[p], factor, form);
-        return;
-      }
-      const auto evaluate = [&](const std::size_t k)
-      {
-        if (derivative)
+        const std::size_t k = parts.index(c, p);
+        // Moments and angular gaps are about z.
+        const double part = !rotational ? dot(direction, axes[point.index][c])
+                            : wire_components[c] == WireMotion::transverse ? 1.
+                                                                           : 0.;
+        if (k == elsewhere || part == 0.)
+          continue;
+        if (rotational || derivative)
           wire(k).slope_at(point.position, form);
         else
           wire(k).value_at(point.position, form);
-      };
-      if (has_axial && along != 0.)
-      {
-        evaluate(parts.axial[p]);
-        append(parts.axial[p], factor * along, form);
-      }
-      if (has_transverse && across != 0.)
-      {
-        evaluate(parts.transverse[p]);
-        append(parts.transverse[p], factor * across, form);
+        append(k, factor * part, form);
       }
     }
+  }
+
+  void SceneBodies::motion(const std::size_t wire, const double s, const WireMotion motion,
+                           std::vector<Term> &terms) const
+  {
+    const auto component =
+        std::find(std::begin(wire_components), std::end(wire_components), component_of(motion));
+    const std::size_t k =
+        wires[wire].index(component - std::begin(wire_components), piece(wires[wire], s));
+    if (k == elsewhere)
+      return;
+    LinearForm form;
+    const auto &body = static_cast<const WireComponent &>((*this)[k]);
+    if (is_slope(motion))
+      body.slope_at(s, form);
+    else
+      body.value_at(s, form);
+    terms.push_back({k, std::move(form)});
   }
 } // namespace taut

@@ -111,7 +111,8 @@ namespace taut
         for (const double s : thinned(grid(scene, a), most_distances))
         {
           const double s_above = (lower.at(s).x - upper.a.x) / slope_b;
-          if (s_above < 0. || s_above > upper.length())
+          // Wires beside each other pass.
+          if (s_above < 0. || s_above > upper.length() || upper.at(s_above).z != lower.at(s).z)
             continue;
           line.positions.push_back(s);
           line.distances.push_back(upper.at(s_above).y - lower.at(s).y);

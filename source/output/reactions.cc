@@ -47,7 +47,7 @@ namespace taut
       const bool several = support.positions.size() > 1;
       for (std::size_t k = 0; k < support.positions.size(); ++k)
         points.push_back({support.name + (several ? " " + std::to_string(k + 1) : ""), i,
-                          support.positions[k], support.motion == WireMotion::slope});
+                          support.positions[k], is_slope(support.motion)});
     }
     return points;
   }
@@ -57,11 +57,8 @@ namespace taut
     for (const SupportPoint &point : support_points(scene))
     {
       const Support &support = scene.supports[point.support];
-      const Wire &wire = scene.wires[support.wire];
       std::vector<Term> terms;
-      structure.motion({Attachment::Kind::wire, support.wire, point.position}, point.is_moment,
-                       support.motion == WireMotion::axial ? wire.tangent() : wire.normal(), 1.,
-                       terms);
+      structure.motion(support.wire, point.position, support.motion, terms);
       Place place;
       place.is_here = !terms.empty();
       place.fixed = support.fixed;

@@ -94,7 +94,7 @@ namespace taut
       if (wire.transverse != TransverseKind::none)
         list += (list.empty() ? "" : ", ") +
                 std::string(wire.transverse == TransverseKind::beam ? "beam" : "string");
-      return list;
+      return list + (wire.has_lateral ? ", lateral" : "");
     }
 
     std::string direction(const bool rotational, const Coordinates &n)
@@ -115,7 +115,7 @@ namespace taut
       }
       wires.print("Wires", out);
 
-      const char *motions[] = {"axial", "transverse", "slope"};
+      const char *motions[] = {"axial", "transverse", "slope", "lateral", "lateral slope"};
       Table supports({"name", "wire", "s [m]", "motion", "held by"});
       for (const Support &s : scene.supports)
       {
@@ -139,7 +139,7 @@ namespace taut
       for (const Mass &m : scene.masses)
         masses.add(m.name, text(m.position),
                    std::string(m.moves[0] ? "x " : "") + (m.moves[1] ? "y " : "") +
-                       (m.moves[2] ? "rotation" : ""),
+                       (m.moves[2] ? "rotation " : "") + (m.moves[3] ? "z" : ""),
                    m.mass, m.inertia, m.weight ? "yes" : "no");
       masses.print("Masses", out);
 

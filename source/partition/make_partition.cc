@@ -76,11 +76,7 @@ namespace taut
         first.push_back(neighbours.size());
         is_attachment.emplace_back(nodes[w].size(), 0);
         neighbours.resize(neighbours.size() + nodes[w].size());
-        const idx_t dofs = (wire.has_axial ? wire.degree : 0) +
-                           (wire.transverse == TransverseKind::beam     ? 2
-                            : wire.transverse == TransverseKind::string ? wire.degree
-                                                                        : 0);
-        work.resize(neighbours.size(), dofs);
+        work.resize(neighbours.size(), wire.n_dofs_per_node());
         for (std::size_t i = 0; i + 1 < nodes[w].size(); ++i)
           connect(first[w] + i, first[w] + i + 1, element_weight);
       }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <tuple>
 
@@ -18,14 +19,14 @@ namespace taut
       const double length = wire.length();
       if (!(length > 0.))
         fail(wire, "To", what, "its two ends are at one place; give it a length");
-      if (wire.a.z != wire.b.z)
-        fail(wire, "To", what, "its ends are at z = ", wire.a.z, " and ", wire.b.z,
-             " m; a wire moves in a plane of one z, give both ends the same");
       constexpr double longest = 1e12;
       if (!(length <= longest))
         fail(wire, "To", what, "it is ", length, " m long; at most ", longest, " m are possible");
       if (!wire.has_axial && wire.transverse == TransverseKind::none)
         fail(wire, "Components", what, "it has none; name at least one of bar, string, beam");
+      if (wire.has_lateral && wire.transverse == TransverseKind::none)
+        fail(wire, "Components", what,
+             "'lateral' is a string's or a beam's second motion across it; add one of them");
       if (!(wire.mass_per_length > 0.))
         fail(wire, "Mass per length", what, "it must be positive");
       if (!(wire.element_size > 0.))
@@ -138,7 +139,10 @@ namespace taut
         if (support.motion == WireMotion::transverse && wire.transverse == TransverseKind::none)
           fail(support, "Motion", what, "wire '", wire.name,
                "' has no component string or beam to hold across it");
-        if (support.motion == WireMotion::slope && wire.transverse != TransverseKind::beam)
+        if (component_of(support.motion) == WireMotion::lateral && !wire.has_lateral)
+          fail(support, "Motion", what, "wire '", wire.name,
+               "' has no component lateral to hold across it");
+        if (is_slope(support.motion) && wire.transverse != TransverseKind::beam)
           fail(support, "Motion", what, "wire '", wire.name,
                "' has no slope; only the component beam has");
         if (!support.fixed && support.stiffness == 0. && support.damping == 0.)
@@ -170,7 +174,8 @@ namespace taut
             const Mass &mass = scene.masses[end];
             const bool moves = spring.rotational ? mass.moves[2]
                                                  : ((mass.moves[0] && spring.direction.x != 0.) ||
-                                                    (mass.moves[1] && spring.direction.y != 0.));
+                                                    (mass.moves[1] && spring.direction.y != 0.) ||
+                                                    (mass.moves[3] && spring.direction.z != 0.));
             if (!moves)
               fail(spring, "Direction", what, "mass '", mass.name,
                    "' cannot move in the direction of the spring");
@@ -195,12 +200,15 @@ namespace taut
         const Mass &mass = scene.masses[end.index];
         return rotational
                    ? mass.moves[2]
-                   : (mass.moves[0] && along({1., 0.})) || (mass.moves[1] && along({0., 1.}));
+                   : (mass.moves[0] && along({1., 0.})) || (mass.moves[1] && along({0., 1.})) ||
+                         (mass.moves[3] && along({0., 0., 1.}));
       }
       const Wire &wire = scene.wires[end.index];
-      return rotational ? wire.transverse == TransverseKind::beam
-                        : (wire.has_axial && along(wire.tangent())) ||
-                              (wire.transverse != TransverseKind::none && along(wire.normal()));
+      if (rotational)
+        return wire.has(WireMotion::slope);
+      return std::any_of(std::begin(wire_components), std::end(wire_components),
+                         [&](const WireMotion motion)
+                         { return wire.has(motion) && along(wire.axis(motion)); });
     }
 
     /// Fixed links that act on the same two points would have no effect at all.

@@ -19,7 +19,53 @@ namespace taut
 
   Coordinates Wire::normal() const
   {
-    return {-tangent().y, tangent().x, 0.};
+    const Coordinates t = tangent();
+    if (t.z == 0.)
+      return {-t.y, t.x, 0.};
+    const double in_plane = std::hypot(t.x, t.y);
+    constexpr double rounding = 1e-12;
+    if (in_plane <= rounding)
+      return {0., 1., 0.};
+    return {-t.y / in_plane, t.x / in_plane, 0.};
+  }
+
+  Coordinates Wire::binormal() const
+  {
+    const Coordinates t = tangent(), n = normal();
+    return {-t.z * n.y, t.z * n.x, t.x * n.y - t.y * n.x};
+  }
+
+  Coordinates Wire::axis(const WireMotion motion) const
+  {
+    const WireMotion component = component_of(motion);
+    return component == WireMotion::axial        ? tangent()
+           : component == WireMotion::transverse ? normal()
+                                                 : binormal();
+  }
+
+  bool Wire::has(const WireMotion motion) const
+  {
+    if (motion == WireMotion::axial)
+      return has_axial;
+    return (component_of(motion) == WireMotion::transverse || has_lateral) &&
+           (is_slope(motion) ? transverse == TransverseKind::beam
+                             : transverse != TransverseKind::none);
+  }
+
+  unsigned int Wire::n_dofs_per_node() const
+  {
+    const unsigned int across = transverse == TransverseKind::beam     ? 2
+                                : transverse == TransverseKind::string ? degree
+                                                                       : 0;
+    return (has_axial ? degree : 0) + (has_lateral ? 2 : 1) * across;
+  }
+
+  const char *component_name(const WireMotion motion)
+  {
+    const WireMotion component = component_of(motion);
+    return component == WireMotion::axial        ? "axial"
+           : component == WireMotion::transverse ? "transverse"
+                                                 : "lateral";
   }
 
   Coordinates Wire::at(const double s) const

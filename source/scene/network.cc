@@ -71,6 +71,7 @@ namespace taut
         wire.transverse = TransverseKind::string;
       if (contains(item.components, "beam"))
         wire.transverse = TransverseKind::beam;
+      wire.has_lateral = contains(item.components, "lateral");
       wire.tension = item.tension;
       wire.bending_stiffness = item.bending_stiffness;
       wire.degree = item.degree;
@@ -80,15 +81,19 @@ namespace taut
       wire.element_size = item.element_size;
       wire.damping = {item.mass_damping, item.stiffness_damping};
       wire.weight = item.weight;
-      wire.axial_start = {Expression(item.axial_displacement, title + "/Initial axial displacement",
-                                     Expression::Variables::position),
-                          Expression(item.axial_velocity, title + "/Initial axial velocity",
-                                     Expression::Variables::position)};
-      wire.transverse_start = {
-          Expression(item.transverse_displacement, title + "/Initial transverse displacement",
-                     Expression::Variables::position),
-          Expression(item.transverse_velocity, title + "/Initial transverse velocity",
-                     Expression::Variables::position)};
+      const auto start =
+          [&](const WireMotion motion, const std::string &displacement, const std::string &velocity)
+      {
+        const std::string entry = title + "/Initial " + component_name(motion);
+        return InitialMotion{
+            Expression(displacement, entry + " displacement", Expression::Variables::position),
+            Expression(velocity, entry + " velocity", Expression::Variables::position)};
+      };
+      wire.axial_start = start(WireMotion::axial, item.axial_displacement, item.axial_velocity);
+      wire.transverse_start =
+          start(WireMotion::transverse, item.transverse_displacement, item.transverse_velocity);
+      wire.lateral_start =
+          start(WireMotion::lateral, item.lateral_displacement, item.lateral_velocity);
       scene.wires.push_back(wire);
     }
     for (std::size_t i = 0; i < supports.items.size(); ++i)
@@ -100,9 +105,11 @@ namespace taut
       support.origin = title;
       support.wire = wire_index(scene, item.wire, title);
       support.positions = parse_positions(item.positions, title + "/Positions");
-      support.motion = item.motion == "axial"   ? WireMotion::axial
-                       : item.motion == "slope" ? WireMotion::slope
-                                                : WireMotion::transverse;
+      support.motion = item.motion == "axial"           ? WireMotion::axial
+                       : item.motion == "slope"         ? WireMotion::slope
+                       : item.motion == "lateral"       ? WireMotion::lateral
+                       : item.motion == "lateral slope" ? WireMotion::lateral_slope
+                                                        : WireMotion::transverse;
       support.fixed = item.kind == "fixed";
       support.prescribed =
           Expression(item.displacement, title + "/Displacement", Expression::Variables::time);
@@ -139,13 +146,11 @@ namespace taut
       mass.mass = item.mass;
       mass.inertia = item.inertia;
       mass.weight = item.weight;
-      const char *motions[3] = {"x", "y", "rotation"};
-      for (int k = 0; k < 3; ++k)
-      {
+      const char *motions[4] = {"x", "y", "rotation", "z"};
+      for (int k = 0; k < 4; ++k)
         mass.moves[k] = contains(item.motions, motions[k]);
-        mass.displacement[k] = item.displacement[k];
-        mass.velocity[k] = item.velocity[k];
-      }
+      std::copy(item.displacement.begin(), item.displacement.end(), mass.displacement);
+      std::copy(item.velocity.begin(), item.velocity.end(), mass.velocity);
       scene.masses.push_back(mass);
     }
     for (std::size_t i = 0; i < springs.items.size(); ++i)
@@ -209,7 +214,7 @@ namespace taut
           if (link.from.kind == Attachment::Kind::ground ||
               link.to.kind == Attachment::Kind::ground)
             throw EntryError(title + "/Direction",
-                             "give 'x, y', the ground has no place of its own");
+                             "give 'x, y' or 'x, y, z', the ground has no place of its own");
           link.direction =
               unit(place(scene, link.to) - place(scene, link.from), title + "/Direction");
         }

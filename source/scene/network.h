@@ -29,6 +29,7 @@ namespace taut
       bool weight = true;
       std::string axial_displacement = "0", axial_velocity = "0";
       std::string transverse_displacement = "0", transverse_velocity = "0";
+      std::string lateral_displacement = "0", lateral_velocity = "0";
       void declare(dealii::ParameterHandler &prm);
     };
     struct SupportItem

@@ -55,10 +55,12 @@ namespace taut
     prm.add_parameter("From", from, "First end 'x, y' or 'x, y, z' [m]", coordinates());
     prm.add_parameter("To", to, "Last end; positions on the wire are counted from the first [m]",
                       coordinates());
-    prm.add_parameter("Components", components,
-                      "What the wire resists: 'bar' (along it), and 'string' (tension) or 'beam' "
-                      "(bending, with or without tension) across it",
-                      List(Selection("bar|string|beam"), 0, 2));
+    prm.add_parameter(
+        "Components", components,
+        "What the wire resists: 'bar' (along it), and 'string' (tension) or 'beam' "
+        "(bending, with or without tension) across it in the plane of x and y; 'lateral': "
+        "the string or beam resists motion out of this plane, too",
+        List(Selection("bar|string|beam|lateral"), 0, 3));
     prm.add_parameter("Mass per length", mass_per_length, "[kg/m]", not_negative());
     prm.add_parameter("Axial stiffness", axial_stiffness, "EA, for a bar [N]", not_negative());
     prm.add_parameter("Tension", tension, "T, for a string or beam [N]", not_negative());
@@ -85,6 +87,11 @@ namespace taut
     prm.add_parameter("Initial transverse displacement", transverse_displacement,
                       "Positive to the left of the way from the first to the last end [m]");
     prm.add_parameter("Initial transverse velocity", transverse_velocity, "[m/s]");
+    prm.add_parameter(
+        "Initial lateral displacement", lateral_displacement,
+        "Positive along the tangent x the normal, +z for a wire in the plane of x and "
+        "y [m]");
+    prm.add_parameter("Initial lateral velocity", lateral_velocity, "[m/s]");
   }
 
   void Network::SupportItem::declare(dealii::ParameterHandler &prm)
@@ -92,9 +99,11 @@ namespace taut
     prm.add_parameter("Wire", wire, "Name of the wire");
     prm.add_parameter("Positions", positions,
                       "Where on the wire: numbers and ranges first:step:last [m]");
-    prm.add_parameter("Motion", motion,
-                      "Which motion of the wire is supported: 'transverse', 'axial' or 'slope'",
-                      Selection("transverse|axial|slope"));
+    prm.add_parameter(
+        "Motion", motion,
+        "Which motion of the wire is supported: 'transverse', 'axial', 'slope' (of the "
+        "transverse motion), 'lateral' or 'lateral slope'",
+        Selection("transverse|axial|slope|lateral|lateral slope"));
     prm.add_parameter("Type", kind,
                       "'fixed': displacement prescribed; 'elastic': spring and damper",
                       Selection("fixed|elastic"));
@@ -117,16 +126,17 @@ namespace taut
   void Network::MassItem::declare(dealii::ParameterHandler &prm)
   {
     prm.add_parameter("Position", position, "'x, y' or 'x, y, z' [m]", coordinates());
-    prm.add_parameter("Motions", motions, "Free motions: x, y, rotation",
-                      List(Selection("x|y|rotation"), 1, 3));
+    prm.add_parameter("Motions", motions, "Free motions: x, y, rotation (about z), z",
+                      List(Selection("x|y|rotation|z"), 1, 4));
     prm.add_parameter("Mass", mass, "[kg]", not_negative());
-    prm.add_parameter("Inertia", inertia, "About the plane's normal [kg m^2]", not_negative());
+    prm.add_parameter("Inertia", inertia, "About z [kg m^2]", not_negative());
     prm.add_parameter("Weight", weight, "Whether gravity acts on it");
     prm.add_parameter("Initial displacement", displacement,
-                      "x, y, rotation at t = 0 if 'Start = given' [m, m, rad]",
-                      List(Double(), 3, 3));
-    prm.add_parameter("Initial velocity", velocity, "x, y, rotation [m/s, m/s, rad/s]",
-                      List(Double(), 3, 3));
+                      "x, y, rotation and, if not 0, z at t = 0 if 'Start = given' [m, m, rad, m]",
+                      List(Double(), 3, 4));
+    prm.add_parameter("Initial velocity", velocity,
+                      "x, y, rotation and, if not 0, z [m/s, m/s, rad/s, m/s]",
+                      List(Double(), 3, 4));
   }
 
   void Network::SpringItem::declare(dealii::ParameterHandler &prm)
@@ -135,7 +145,7 @@ namespace taut
     prm.add_parameter("To", to, "A mass or 'ground'");
     prm.add_parameter("Direction", direction, "'x, y' or 'x, y, z'; the length does not matter",
                       coordinates());
-    prm.add_parameter("Rotational", rotational, "Acts between rotations instead");
+    prm.add_parameter("Rotational", rotational, "Acts between rotations about z instead");
     prm.add_parameter("Stiffness", stiffness, "[N/m, N m/rad]", not_negative());
     prm.add_parameter("Damping", damping, "[N s/m, N m s/rad]", not_negative());
   }
@@ -154,11 +164,11 @@ namespace taut
     prm.add_parameter("To", to, "As From; for a sliding contact 'wire @ start'");
     prm.add_parameter(
         "Direction", direction,
-        "'x, y' from From to To; a stop or sliding contact pushes To along it. Empty: "
+        "'x, y' or 'x, y, z' from From to To; a stop or sliding contact pushes To along it. Empty: "
         "along the straight line between the ends",
-        List(Double(), 0, 2));
+        List(Double(), 0, 3));
     prm.add_parameter("Rotational", rotational,
-                      "Acts between slopes or rotations: moments and angular gaps");
+                      "Acts between slopes or rotations about z: moments and angular gaps");
     prm.add_parameter("Stiffness", stiffness, "A number or 'rigid' [N/m, N m/rad]");
     prm.add_parameter("Damping", damping, "Beside the stiffness (Kelvin-Voigt) [N s/m, N m s/rad]",
                       not_negative());
@@ -194,7 +204,7 @@ namespace taut
         "On", on, "A mass or 'wire @ position'; of a distributed load the position is not used");
     prm.add_parameter("Direction", direction, "'x, y' or 'x, y, z'; the length does not matter",
                       coordinates());
-    prm.add_parameter("Rotational", rotational, "A moment instead of a force");
+    prm.add_parameter("Rotational", rotational, "A moment about z instead of a force");
     prm.add_parameter("Magnitude", magnitude, "A formula in s and t [N, N/m, N m]");
     prm.add_parameter("Speed", speed, "Of a moving load [m/s]", any_number());
   }

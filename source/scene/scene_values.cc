@@ -51,8 +51,9 @@ namespace taut
       void write(const Wire &w)
       {
         all(w.name, w.origin, w.a, w.b, w.mass_per_length, w.has_axial, w.axial_stiffness,
-            w.transverse, w.tension, w.bending_stiffness, w.degree, w.mass_matrix, w.element_size,
-            w.damping.mass, w.damping.stiffness, w.weight, w.axial_start, w.transverse_start);
+            w.transverse, w.has_lateral, w.tension, w.bending_stiffness, w.degree, w.mass_matrix,
+            w.element_size, w.damping.mass, w.damping.stiffness, w.weight, w.axial_start,
+            w.transverse_start, w.lateral_start);
       }
       void write(const Support &s)
       {
@@ -66,7 +67,7 @@ namespace taut
       void write(const Mass &m)
       {
         all(m.name, m.origin, m.position, m.mass, m.inertia, m.weight);
-        for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int i = 0; i < 4; ++i)
           all(m.moves[i], m.displacement[i], m.velocity[i]);
       }
       void write(const Spring &s)

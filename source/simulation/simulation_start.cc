@@ -78,7 +78,8 @@ namespace taut
     if (!model.wires.empty() &&
         !any_wire([](const Wire &w) { return w.transverse == TransverseKind::beam; }))
       log << "  no bending: no slope DoFs\n";
-    if (!model.wires.empty() && !any_wire([](const Wire &w) { return w.has_axial; }))
+    if (!model.wires.empty() &&
+        !any_wire([](const Wire &w) { return w.has_axial || w.has_lateral; }))
       log << "  no axial motion: one DoF per point of a wire across it\n";
     if (links.size() == 0)
       log << "  no links: the bodies move independently\n";

@@ -40,7 +40,7 @@ namespace taut
     std::vector<dealii::Point<3>> vertices;
     std::vector<dealii::CellData<1>> cells(nodes.size() - 1);
     for (const double s : nodes)
-      vertices.emplace_back(wire.at(s).x, 0., wire.at(s).y);
+      vertices.emplace_back(wire.at(s).x, wire.at(s).z, wire.at(s).y);
     for (unsigned int i = 0; i < cells.size(); ++i)
       cells[i].vertices = {i, i + 1};
     triangulation.create_triangulation(vertices, cells, dealii::SubCellData());
@@ -86,15 +86,17 @@ namespace taut
     wire_length = grid.back();
     is_last = last_node + 1 == grid.size();
     nodes = {grid.begin() + first_node, grid.begin() + last_node + 1};
-    axis = motion == WireMotion::axial ? wire.tangent() : wire.normal();
-    beam = motion == WireMotion::transverse && wire.transverse == TransverseKind::beam;
+    axis = wire.axis(motion);
+    beam = motion != WireMotion::axial && wire.transverse == TransverseKind::beam;
     if (beam)
       kinds = {0, 1};
     bends_freely = beam && wire.tension == 0.;
     degree = beam ? 3 : wire.degree;
     dofs_per_node = beam ? 2 : degree;
     mass_matrix = wire.mass_matrix;
-    start = motion == WireMotion::axial ? wire.axial_start : wire.transverse_start;
+    start = motion == WireMotion::axial        ? wire.axial_start
+            : motion == WireMotion::transverse ? wire.transverse_start
+                                               : wire.lateral_start;
     discretisation = std::make_unique<Discretisation>(wire, nodes, beam, degree);
 
     const unsigned int n = dofs_per_node * nodes.size();
@@ -122,7 +124,7 @@ namespace taut
                                           std::vector<PointMass> point_masses,
                                           std::vector<Load> loads, const Coordinates &gravity)
   {
-    if (motion == WireMotion::axial ? !wire.has_axial : wire.transverse == TransverseKind::none)
+    if (!wire.has(motion))
       throw EntryError(wire.origin, "wire '" + wire.name + "' lacks the motion that is asked for");
     Scene scene;
     scene.gravity = gravity;
@@ -142,7 +144,7 @@ namespace taut
   std::string WireComponent::name_of(const Scene &scene, const std::size_t wire,
                                      const WireMotion motion)
   {
-    return scene.wires[wire].name + (motion == WireMotion::axial ? " (axial)" : " (transverse)");
+    return scene.wires[wire].name + " (" + component_name(motion) + ")";
   }
 
   bool WireComponent::owns(const double s) const
@@ -158,7 +160,7 @@ namespace taut
     {
       if (link.contact_mass == ContactMass::stays || !link.rigid())
         continue;
-      if (link.rotational ? !beam : component(link.direction) == 0.)
+      if (link.rotational ? !turns() : component(link.direction) == 0.)
         continue;
       for (const Attachment &end : {link.from, link.to})
       {

@@ -14,11 +14,9 @@ namespace taut
     LinearForm row;
     for (const Support &support : scene.supports)
     {
-      const bool mine = motion == WireMotion::axial ? support.motion == WireMotion::axial
-                                                    : support.motion != WireMotion::axial;
-      if (support.wire != wire || !mine)
+      if (support.wire != wire || component_of(support.motion) != motion)
         continue;
-      const unsigned int offset = support.motion == WireMotion::slope ? 1 : 0;
+      const unsigned int offset = is_slope(support.motion) ? 1 : 0;
       for (const double s : support.positions)
       {
         if (!owns(s))
@@ -145,7 +143,7 @@ namespace taut
     {
       if (load.target.kind != Attachment::Kind::wire || load.target.index != wire)
         continue;
-      if (load.rotational && motion == WireMotion::axial)
+      if (load.rotational && !turns())
         continue;
       if (load.kind == Load::Kind::point && !owns(load.target.position))
         continue;

@@ -91,6 +91,13 @@ namespace taut
     std::unique_ptr<SymmetricMatrix> tangent(const std::vector<double> &U, double rate,
                                              bool definite) const override;
 
+    std::unique_ptr<SymmetricMatrix> mean_tangent(const std::vector<double> &U0,
+                                                  const std::vector<double> &U1, double rate,
+                                                  bool definite) const override;
+
+    /// Of node k of the surface, the node between elements k - 1 and k.
+    LinearForm node_displacement(unsigned int node, const Coordinates &direction) const override;
+
     void initial_state(std::vector<double> &U, std::vector<double> &V) const override;
 
     /// A line at the displaced positions with displacement, tension and unstressed arc length.

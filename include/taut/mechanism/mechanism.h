@@ -21,7 +21,7 @@ namespace taut
     void initial_state(std::vector<double> &U, std::vector<double> &V) const override;
     bool is_lumped() const override { return true; }
 
-    /// Of the mass whose number among those of this body is place[0]; x and y of the direction.
+    /// Of the mass whose number among those of this body is place[0].
     LinearForm displacement(const Coordinates &place, const Coordinates &direction) const override;
     NullSpace null_space() const override;
 
@@ -31,7 +31,7 @@ namespace taut
                 LinearForm &result) const;
 
   private:
-    /// One scalar motion: 0 x, 1 y, 2 rotation of a mass.
+    /// One scalar motion: 0 x, 1 y, 2 rotation, 3 z of a mass.
     struct Dof
     {
       std::size_t mass;

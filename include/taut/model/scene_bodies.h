@@ -6,6 +6,7 @@
 #include <taut/scene/scene.h>
 #include <taut/substructure/structure.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,9 @@ namespace taut
       append_motion(point, false, direction, factor, true, terms);
     }
 
+    /// A motion of a point of a wire, whichever way the wire runs.
+    void motion(std::size_t wire, double s, WireMotion motion, std::vector<Term> &terms) const;
+
     /**
      * Of wires one constraint a cut for each motion that is continuous there: displacement, and
      * slope of a beam. Of bodies one fewer for each DoF than parts have it, from part to part: the
@@ -85,7 +89,13 @@ namespace taut
     {
       std::vector<double> begins; ///< position of the first node of each piece [m]
       std::vector<unsigned int> part;
-      std::vector<std::size_t> axial, transverse;
+      std::array<std::vector<std::size_t>, 3> components; ///< in the order of wire_components
+
+      /// The substructure of a piece's component; `elsewhere` also if the wire lacks it.
+      std::size_t index(const std::size_t component, const std::size_t piece) const
+      {
+        return components[component].empty() ? elsewhere : components[component][piece];
+      }
     };
 
     /// A custom body, whole or in parts.
@@ -112,7 +122,7 @@ namespace taut
     std::size_t piece(const WireParts &parts, double s) const;
 
     std::vector<WireParts> wires;
-    std::vector<Coordinates> tangents, normals;
+    std::vector<std::array<Coordinates, 3>> axes; ///< of the components of each wire
     std::vector<double> lengths;
     std::vector<std::size_t> mechanism_of_mass;
     std::vector<BodyParts> custom_bodies;

@@ -31,10 +31,10 @@ namespace taut
 
   /**
    * The forces with which supports act on their wires [N], or moments [N m]: positive from the
-   * wire's first end to its second (axial), to the left of that way (transverse),
-   * counterclockwise (slope). Of a support that prescribes the motion u it is what the equation of
-   * motion lacks along it, M u" + C u' + K u - P - B N with the state at the time in question; of
-   * an elastic one -(k u + c u').
+   * wire's first end to its second (axial), along its normal, to the left of that way (transverse),
+   * or its binormal (lateral), and as the slope of these. Of a support that prescribes the motion u
+   * it is what the equation of motion lacks along it, M u" + C u' + K u - P - B N with the state at
+   * the time in question; of an elastic one -(k u + c u').
    */
   class Reactions
   {

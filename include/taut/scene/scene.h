@@ -15,14 +15,36 @@
 
 namespace taut
 {
-  /// A scalar motion a wire point can have: along the wire, normal to it (to the left of the way
-  /// from a to b), slope.
+  /// A scalar motion a wire point can have: along the wire, along its normal, the slope of that,
+  /// along its binormal, the slope of that.
   enum class WireMotion
   {
     axial,
     transverse,
-    slope
+    slope,
+    lateral,
+    lateral_slope
   };
+
+  /// The components that a wire can have, each named by its displacement.
+  constexpr WireMotion wire_components[] = {WireMotion::axial, WireMotion::transverse,
+                                            WireMotion::lateral};
+
+  constexpr bool is_slope(const WireMotion motion)
+  {
+    return motion == WireMotion::slope || motion == WireMotion::lateral_slope;
+  }
+
+  /// The component that has a motion.
+  constexpr WireMotion component_of(const WireMotion motion)
+  {
+    return motion == WireMotion::slope           ? WireMotion::transverse
+           : motion == WireMotion::lateral_slope ? WireMotion::lateral
+                                                 : motion;
+  }
+
+  /// Of the component of a motion, for people.
+  const char *component_name(WireMotion motion);
 
   /// What a wire resists transverse motion with. A string has tension only (C0 elements), a beam
   /// bends (Hermite).
@@ -67,6 +89,7 @@ namespace taut
     bool has_axial = false;      ///< an elastic bar along the wire
     double axial_stiffness = 0.; ///< EA [N]
     TransverseKind transverse = TransverseKind::none;
+    bool has_lateral = false;      ///< resists lateral motion as it does transverse motion
     double tension = 0.;           ///< T [N]
     double bending_stiffness = 0.; ///< EI [N m^2]
     unsigned int degree = 2;       ///< of the elements of bar and string
@@ -74,11 +97,20 @@ namespace taut
     double element_size = 1.; ///< largest element [m]
     RayleighDamping damping;
     bool weight = true; ///< gravity acts
-    InitialMotion axial_start, transverse_start;
+    InitialMotion axial_start, transverse_start, lateral_start;
 
     double length() const;
     Coordinates tangent() const; ///< unit vector from a to b
-    Coordinates normal() const;  ///< tangent turned by +90 degrees
+
+    /// Across the wire in the plane of x and y: the tangent's part in this plane, turned by +90
+    /// degrees; y for a wire along z.
+    Coordinates normal() const;
+    Coordinates binormal() const; ///< tangent x normal: +z for a wire in the plane
+
+    /// Unit vector of the component of a motion.
+    Coordinates axis(WireMotion motion) const;
+    bool has(WireMotion motion) const;
+    unsigned int n_dofs_per_node() const; ///< of all components
     Coordinates at(double s) const;
   };
 
@@ -107,18 +139,18 @@ namespace taut
     bool weight = true;            ///< false: inertia only, its weight is carried elsewhere
   };
 
-  /// A lumped body: up to three scalar motions, in the order x, y, rotation.
+  /// A lumped body: up to four scalar motions, in the order x, y, rotation, z.
   struct Mass
   {
     std::string name;
     std::string origin; ///< path of its section in the parameter file, for messages; may be empty
     Coordinates position;
     double mass = 0.;    ///< [kg]; 0: a massless node
-    double inertia = 0.; ///< about the plane's normal [kg m^2]
-    bool moves[3] = {false, true, false};
+    double inertia = 0.; ///< about z [kg m^2]
+    bool moves[4] = {false, true, false, false};
     bool weight = true;
-    double displacement[3] = {0., 0., 0.}; ///< at t = 0 [m, m, rad]
-    double velocity[3] = {0., 0., 0.};     ///< at t = 0 [m/s, m/s, rad/s]
+    double displacement[4] = {0., 0., 0., 0.}; ///< at t = 0 [m, m, rad, m]
+    double velocity[4] = {0., 0., 0., 0.};     ///< at t = 0 [m/s, m/s, rad/s, m/s]
   };
 
   /// Index of the ground in a spring.
@@ -131,7 +163,7 @@ namespace taut
     std::string name;
     std::string origin; ///< path of its section in the parameter file, for messages; may be empty
     std::size_t from = ground, to = ground; ///< masses
-    bool rotational = false;                ///< about the plane's normal
+    bool rotational = false;                ///< about z
     Coordinates direction = {0., 1.};       ///< unit vector, if not rotational
     double stiffness = 0.;                  ///< [N/m, N m/rad]
     double damping = 0.;                    ///< [N s/m, N m s/rad]

@@ -13,10 +13,10 @@
 namespace taut
 {
   /**
-   * One scalar problem of a straight wire: a bar (axial), a string or a beam (transverse). DoFs are
-   * numbered along the wire, in blocks of one node: for a beam displacement w and slope dw/ds; for
-   * a bar or string of degree p the value at the node and at the p - 1 inner points of the element
-   * that follows. Positions s run from 0 to the length [m].
+   * One scalar problem of a straight wire: a bar (axial), a string or a beam (transverse, lateral).
+   * DoFs are numbered along the wire, in blocks of one node: for a beam displacement w and slope
+   * dw/ds; for a bar or string of degree p the value at the node and at the p - 1 inner points of
+   * the element that follows. Positions s run from 0 to the length [m].
    *
    *     bar     M = rho,  K = EA u'v'
    *     string  M = rho,  K = T w'v'
@@ -25,7 +25,7 @@ namespace taut
   class WireComponent : public Substructure
   {
   public:
-    /// The whole wire; @p motion is axial or transverse.
+    /// The whole wire; @p motion is axial, transverse or lateral.
     WireComponent(const Scene &scene, std::size_t wire, WireMotion motion);
 
     /**
@@ -59,8 +59,7 @@ namespace taut
     /// One Gauss point fewer than nodes sees next to nothing of the shortest wave.
     bool has_definite_mass() const override { return mass_matrix != MassMatrix::reduced || beam; }
 
-    /// At position place[0] on the wire; the direction's part along the motion of this component, x
-    /// and y in the plane.
+    /// At position place[0] on the wire; the direction's part along the motion of this component.
     LinearForm displacement(const Coordinates &place, const Coordinates &direction) const override;
 
     void initial_state(std::vector<double> &U, std::vector<double> &V) const override;
@@ -82,10 +81,13 @@ namespace taut
     void evaluate(double s, bool slope, LinearForm &result) const;
     double component(const Coordinates &direction) const;
 
+    /// True if moments and angular gaps, which are about z, turn it: the transverse slope.
+    bool turns() const { return beam && motion == WireMotion::transverse; }
+
     std::vector<double> nodes; ///< of this piece, s on the whole wire
     double wire_length;
     bool is_last;     ///< the piece with the wire's end
-    Coordinates axis; ///< unit vector of the motion in the plane
+    Coordinates axis; ///< unit vector of the motion
     WireMotion motion;
     bool beam = false;
     bool bends_freely = false; ///< no tension: a rigid rotation costs nothing
