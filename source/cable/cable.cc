@@ -200,8 +200,7 @@ namespace taut
 
   std::unique_ptr<SymmetricMatrix> Cable::mean_tangent(const std::vector<double> &U0,
                                                        const std::vector<double> &U1,
-                                                       const double rate,
-                                                       const bool definite) const
+                                                       const double rate, const bool definite) const
   {
     if (data.linearised)
       return Substructure::mean_tangent(U0, U1, rate, definite);

@@ -324,9 +324,8 @@ namespace taut
     }
   }
 
-  void CableElements::add_mean_tangent(const std::vector<double> &q0,
-                                       const std::vector<double> &q1, const bool definite,
-                                       SymmetricMatrix &A) const
+  void CableElements::add_mean_tangent(const std::vector<double> &q0, const std::vector<double> &q1,
+                                       const bool definite, SymmetricMatrix &A) const
   {
     for (unsigned int e = 0; e < n; ++e)
     {

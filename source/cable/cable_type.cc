@@ -179,9 +179,9 @@ namespace taut
       for (unsigned int i = 0; i <= cable.elements().n_elements(); ++i)
         surface.points.push_back(
             add_scaled(result.from, 1.,
-                       cable.elements().position(cable.shape().positions,
-                                                 std::min(i * cable.elements().element_length(),
-                                                          result.length))));
+                       cable.elements().position(
+                           cable.shape().positions,
+                           std::min(i * cable.elements().element_length(), result.length))));
       for (unsigned int i = 0; i < cable.elements().n_elements(); ++i)
       {
         surface.faces.push_back({i, i + 1});

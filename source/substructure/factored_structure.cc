@@ -83,6 +83,9 @@ namespace taut
     /// Part of a motion that rounding may lose.
     constexpr double largest_loss = 1e-6;
 
+    /// The same of a body that is not linear: the next iteration of Newton's method corrects it.
+    constexpr double largest_loss_of_iteration = 1e-2;
+
     /// The same where the rigid body modes of a body can be unknowns of their own.
     constexpr double largest_loss_beside_amplitudes = 1e-8;
 
@@ -155,7 +158,7 @@ namespace taut
   void FactoredStructure::check_digits(const std::size_t k, const double loss) const
   {
     const Substructure &body = bodies[k];
-    if (loss <= largest_loss)
+    if (loss <= (body.is_linear() ? largest_loss : largest_loss_of_iteration))
       return;
     std::ostringstream out;
     const std::string uneven = body.uneven_elements();

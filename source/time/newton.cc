@@ -14,7 +14,7 @@ namespace taut
     /// Change of the increments, of themselves, at which the iteration ends: what is left then is
     /// less by the rate of convergence. Where it does not fall to that for rounding, it ends below
     /// the second one.
-    constexpr double converged = 1e-11, stagnated = 1e-8;
+    constexpr double converged = 1e-9, stagnated = 1e-7;
 
     /// A tangent is kept while the change falls by this factor an iteration.
     constexpr double slow = .1;

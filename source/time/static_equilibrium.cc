@@ -333,7 +333,6 @@ namespace taut
             if (structure.communicator().max(step.has_own_tangents() ? 0. : 1.) > 0.)
               return false;
             step.certify(state);
-            state.certificate.iterations = iteration + 1;
             return true;
           }
           before = change;

@@ -12,6 +12,27 @@ namespace taut
   {
     /// How often a step is halved that Newton's method does not converge in.
     constexpr unsigned int most_halvings = 8;
+
+    long advance_in_parts(TimeStepper &stepper, const double step, const unsigned int n_halved)
+    {
+      const State before = stepper.state();
+      stepper.set_step(step);
+      try
+      {
+        stepper.advance();
+        return 0;
+      }
+      catch (const StepNotSolved &)
+      {
+        if (n_halved == most_halvings)
+          throw;
+      }
+      stepper.restore(before);
+      long repeated = 1;
+      for (int half = 0; half < 2; ++half)
+        repeated += advance_in_parts(stepper, .5 * step, n_halved + 1);
+      return repeated;
+    }
   } // namespace
 
   void StepParameters::declare_parameters(dealii::ParameterHandler &prm)
@@ -39,35 +60,19 @@ namespace taut
   {
   }
 
-  void StepControl::advance_in_parts(TimeStepper &stepper, const double step,
-                                     const unsigned int n_halved)
+  long advance_in_parts(TimeStepper &stepper, const double step)
   {
-    const State before = stepper.state();
-    stepper.set_step(step);
-    try
-    {
-      stepper.advance();
-      return;
-    }
-    catch (const StepNotSolved &)
-    {
-      if (n_halved == most_halvings)
-        throw;
-    }
-    stepper.restore(before);
-    ++repeated;
-    advance_in_parts(stepper, .5 * step, n_halved + 1);
-    advance_in_parts(stepper, .5 * step, n_halved + 1);
+    if (!stepper.all_bodies_are_linear())
+      return advance_in_parts(stepper, step, 0);
+    stepper.advance();
+    return 0;
   }
 
   void StepControl::advance(TimeStepper &stepper)
   {
     if (!parameters.adaptive())
     {
-      if (stepper.all_bodies_are_linear())
-        stepper.advance();
-      else
-        advance_in_parts(stepper, shortest, 0);
+      repeated += advance_in_parts(stepper, shortest);
       ++position;
       return;
     }

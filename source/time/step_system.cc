@@ -49,7 +49,7 @@ namespace taut
                                parameters.interface.form != "matrix-free");
               break;
             }
-            catch (const BodyNotHeld &)
+            catch (const EntryError &) // singular, or next to it
             {
               if (nonlinear.empty() || attempt == most_attempts)
                 throw;
@@ -82,7 +82,7 @@ namespace taut
           solvers.factor_again(k);
           break;
         }
-        catch (const BodyNotHeld &)
+        catch (const EntryError &) // singular, or next to it
         {
           if (attempt == most_attempts)
             throw;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/time/choose_scheme.h>
+#include <taut/time/step_control.h>
 #include <taut/time/stepper.h>
 
 namespace taut
 {
   Stepper::Stepper(const System &system, const StepperOptions &options)
-      : system(system), constraints(system.constraints()),
+      : system(system), step(options.step), constraints(system.constraints()),
         start(find_initial_state(system.structure(), constraints, options.solver, options.start)),
         contact_measures(system.structure(), constraints, start.reference, start.state)
   {
@@ -36,7 +37,7 @@ namespace taut
 
   void Stepper::advance()
   {
-    stepper->advance();
+    advance_in_parts(*stepper, step);
     contact_measures.record(stepper->state(), stepper->scheme(), stepper->certificate());
   }
 

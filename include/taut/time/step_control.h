@@ -33,6 +33,12 @@ namespace taut
   };
 
   /**
+   * A step [s] of the stepper, in halves where it is too long for bodies that are not linear.
+   * Returns how often a step was repeated. Throws StepNotSolved if the shortest is too long, too.
+   */
+  long advance_in_parts(TimeStepper &stepper, double step);
+
+  /**
    * Steps of a length times a power of two, so that matrices are factored anew only at a change and
    * times are multiples of the shortest step. A step is repeated at half its length if its local
    * error is above the tolerance, down to the shortest one, which counts as it is; the error is not
@@ -62,9 +68,6 @@ namespace taut
 
   private:
     long length() const { return 1L << level; }
-
-    /// A step [s], in halves where it is too long for bodies that are not linear.
-    void advance_in_parts(TimeStepper &stepper, double step, unsigned int n_halved);
 
     const StepParameters parameters;
     const double shortest; ///< [s]

@@ -72,6 +72,9 @@ namespace taut
     /// Displacement of a body of this rank from the undeformed system, one entry a DoF [m, rad].
     std::vector<double> displacement(std::size_t body) const;
 
+    /// Solves of Newton's method so far, for bodies that are not linear; otherwise 0.
+    long n_newton_iterations() const { return stepper->n_newton_iterations(); }
+
     /// Name of the scheme with its parameters, and why it was chosen.
     const std::string &scheme() const { return scheme_description; }
 
@@ -79,6 +82,7 @@ namespace taut
     const TimeIntegrator &choose(const StepperOptions &options);
 
     const System &system;
+    const double step;
     Constraints constraints;
     std::unique_ptr<TimeIntegrator> integrator;
     std::string scheme_description;

@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: cables that swing, go slack, snap and lie down on a floor keep their energy and have the
+// forces of closed forms. Expected values: conservation of energy; waves after Saint-Venant; the
+// catenary; a second element and a second scheme.
+#include "cable/elastic_catenary.h"
+
+#include <taut/base/exceptions.h>
+#include <taut/cable/cable.h>
+#include <taut/time/stepper.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+namespace
+{
+  using namespace taut;
+
+  const double pi = std::acos(-1.);
+
+  /// A cable that starts from its shape turned about the x axis, and moves through large angles.
+  class TurnedCable : public Cable
+  {
+  public:
+    TurnedCable(const CableData &data, const double angle) : Cable(data), angle(angle) {}
+    void initial_state(std::vector<double> &U, std::vector<double> &V) const override
+    {
+      U = shape().positions;
+      V.assign(U.size(), 0.);
+      for (std::size_t i = 0; i < U.size(); i += 3)
+      {
+        const double y = U[i + 1], z = U[i + 2];
+        U[i + 1] = std::cos(angle) * y - std::sin(angle) * z;
+        U[i + 2] = std::sin(angle) * y + std::cos(angle) * z;
+      }
+      for (std::size_t i = 0; i < U.size(); ++i)
+        U[i] -= shape().positions[i];
+    }
+
+  private:
+    double angle;
+  };
+
+  CableData slack_span(const double axial_damping = 0.)
+  {
+    CableData data;
+    data.name = "cable";
+    data.to = {8., 0., 0.};
+    data.length = 10.;
+    data.section = {1e6, 1., 1., axial_damping};
+    data.gravity = {0., -9.81, 0.};
+    data.n_elements = 32;
+    return data;
+  }
+
+  struct Motion
+  {
+    double energy_change = 0.; ///< largest rise over the first energy above that at rest
+    double energy_loss = 0.;
+    double iterations = 0.; ///< a step
+    double middle = 0.;     ///< y of the middle at the end
+  };
+
+  double energy(const Cable &cable, const std::vector<double> &U, const std::vector<double> &V)
+  {
+    std::vector<double> P, MV(V.size(), 0.);
+    cable.external_force(0., P);
+    cable.mass().vmult_add(.5, V.data(), MV.data());
+    double sum = cable.strain_energy(U);
+    for (std::size_t i = 0; i < U.size(); ++i)
+      sum += V[i] * MV[i] - P[i] * U[i];
+    return sum;
+  }
+
+  Motion swing(const CableData &data, const double angle, const double step, const double end,
+               const std::string &scheme = "automatic")
+  {
+    const Cable *cable = nullptr;
+    System system;
+    system.add("cable",
+               [&]
+               {
+                 auto made = std::make_unique<TurnedCable>(data, angle);
+                 cable = made.get();
+                 return made;
+               });
+    StepperOptions options;
+    options.step = step;
+    options.start = Start::given;
+    options.scheme = scheme;
+    options.allow_unsuitable_scheme = true;
+    Stepper stepper(system, options);
+    std::vector<double> U, V;
+    cable->initial_state(U, V);
+    const double start = energy(*cable, U, V),
+                 scale = start - energy(*cable, std::vector<double>(U.size(), 0.), V);
+    Motion motion;
+    int n = 0;
+    for (; stepper.time() < end - .5 * step; ++n)
+    {
+      stepper.advance();
+      const double change =
+          (energy(*cable, stepper.displacement(0), stepper.state().V[0]) - start) / scale;
+      motion.energy_change = std::max(motion.energy_change, change);
+      motion.energy_loss = std::max(motion.energy_loss, -change);
+    }
+    motion.iterations = static_cast<double>(stepper.n_newton_iterations()) / n;
+    motion.middle =
+        stepper.displacement({{0, cable->displacement({.5 * data.length, 0., 0.}, {0., 1., 0.})}});
+    return motion;
+  }
+} // namespace
+
+// Released from the horizontal plane; it goes slack and snaps at each turn.
+TEST(CableMotions, slack_span_keeps_its_energy)
+{
+  for (const auto &[step, most] : {std::pair{.01, 11.}, {.005, 8.5}, {.002, 7.}})
+  {
+    const Motion motion = swing(slack_span(), .5 * pi, step, 3.);
+    EXPECT_LE(std::max(motion.energy_change, motion.energy_loss), 1e-7) << step;
+    EXPECT_LE(motion.iterations, most) << step;
+  }
+}
+
+TEST(CableMotions, axial_damping_only_takes_energy)
+{
+  const Motion motion = swing(slack_span(1e3), .5 * pi, .005, 3.);
+  EXPECT_LE(motion.energy_change, 1e-9);
+  EXPECT_GT(motion.energy_loss, 1e-4);
+  EXPECT_LT(motion.energy_loss, .5);
+}
+
+TEST(CableMotions, values_at_the_end_of_a_step_gain_energy)
+{
+  double gain = 0.;
+  try
+  {
+    gain = swing(slack_span(), .5 * pi, .01, 6., "Newmark").energy_change;
+  }
+  catch (const UserError &)
+  {
+    gain = 1.; // no answer any more
+  }
+  EXPECT_GT(gain, .1);
+}
+
+// Small angle, before any chaos: second order, and the other scheme tends to the same motion.
+TEST(CableMotions, order_in_time_and_a_second_scheme)
+{
+  CableData data = slack_span();
+  data.section.axial_stiffness = 1e4;
+  const auto middle = [&](const double step, const std::string &scheme)
+  { return swing(data, .3, step, .4, scheme).middle; };
+  const double a = middle(4e-3, "automatic"), b = middle(2e-3, "automatic"),
+               c = middle(1e-3, "automatic"), limit = c + (c - b) / 3.;
+  EXPECT_NEAR((a - b) / (b - c), 4., 1.);
+  const double d = middle(1e-3, "backward Euler"), e = middle(5e-4, "backward Euler");
+  EXPECT_NEAR(2. * e - d, limit, .1 * std::fabs(e - d));
+  EXPECT_NEAR((d - limit) / (e - limit), 2., .2);
+}
+
+// A mass at the end of a straight cable pulls at it with F = EA v / c, so that its speed falls as
+// exp(-(EA / c) t / mass) until the first wave is back (Saint-Venant; Love, Treatise on the
+// Mathematical Theory of Elasticity, section 281).
+TEST(CableMotions, waves_of_an_impact)
+{
+  constexpr double length = 10., EA = 1e5, mass_per_length = 1., v = .1;
+  const double wave = std::sqrt(EA / mass_per_length);
+  for (const double ratio : {1., .1, .01})
+  {
+    CableData data;
+    data.name = "cable";
+    data.to = {1.01 * length, 0., 0.};
+    data.length = length;
+    data.section = {EA, 0., mass_per_length, 0.};
+    data.n_elements = 100;
+    data.element = CableElement::bar;
+    data.holds_to = false;
+    const Cable *cable = nullptr;
+    const double mass = length * mass_per_length / ratio;
+    class Struck : public Cable
+    {
+    public:
+      Struck(const CableData &data, const double mass, const double v) : Cable(data), v(v)
+      {
+        for (const unsigned int i : elements().end_dofs(true))
+          M->add(i, i, mass);
+        std::vector<double> f;
+        elements().internal_force(shape().positions, {}, f);
+        for (const unsigned int i : elements().end_dofs(true))
+          constant_force[i] = f[i]; // the pull that it stands under
+      }
+      void initial_state(std::vector<double> &U, std::vector<double> &V) const override
+      {
+        Cable::initial_state(U, V);
+        V[elements().end_dofs(true)[0]] = v;
+      }
+
+    private:
+      double v;
+    };
+    System system;
+    system.add("cable",
+               [&]
+               {
+                 auto made = std::make_unique<Struck>(data, mass, v);
+                 cable = made.get();
+                 return made;
+               });
+    StepperOptions options;
+    options.step = .25 * length / 100. / wave;
+    options.start = Start::given;
+    Stepper stepper(system, options);
+    const unsigned int end = cable->elements().end_dofs(true)[0];
+    while (stepper.time() < 1.9 * length / wave)
+    {
+      stepper.advance();
+      const double exact = v * std::exp(-EA / wave / mass * stepper.time());
+      EXPECT_NEAR(stepper.displacement(0)[end], (v - exact) * mass * wave / EA,
+                  2e-3 * v * length / wave)
+          << ratio;
+    }
+    const double exact = v * std::exp(-EA / wave / mass * stepper.time());
+    EXPECT_NEAR(stepper.state().V[0][end], exact, .02 * v) << ratio;
+  }
+}
+
+namespace
+{
+  /// Half of a symmetric cable on a floor: horizontal force from the free part of length a, depth
+  /// H / w (cosh - 1), and the rest on the floor under H (Irvine 1981, with elastic stretch).
+  double horizontal_on_floor(const double EA, const double w, const double half_length,
+                             const double half_span, const double depth)
+  {
+    const auto span_at = [&](const double H)
+    {
+      // Free length from the depth: y = s w s / (2 EA) + (sqrt(H^2 + w^2 s^2) - H) / w.
+      double low = 0., high = half_length;
+      for (int k = 0; k < 200; ++k)
+      {
+        const double s = .5 * (low + high),
+                     y = .5 * w * s * s / EA + (std::hypot(H, w * s) - H) / w;
+        (y < depth ? low : high) = s;
+      }
+      const double s = low;
+      return H * s / EA + H / w * std::asinh(w * s / H) + (half_length - s) * (1. + H / EA);
+    };
+    double low = 1e-3, high = 1e6;
+    for (int k = 0; k < 200; ++k)
+    {
+      const double H = std::sqrt(low * high);
+      (span_at(H) < half_span ? low : high) = H;
+    }
+    return std::sqrt(low * high);
+  }
+} // namespace
+
+TEST(CableMotions, floor_takes_what_hangs_too_low)
+{
+  int found = 0;
+  for (const double length : {70., 74., 78., 80.})
+    for (const double EA : {1.3e5, 1.3e7})
+      for (const int n : {16, 32, 64})
+      {
+        CableData data;
+        data.name = "cable";
+        data.to = {60., 0., 0.};
+        data.length = length;
+        data.section = {EA, 0., 1.07, 0.};
+        data.gravity = {0., -9.81, 0.};
+        data.n_elements = n;
+        const Cable *cable = nullptr;
+        System system;
+        system.add("cable",
+                   [&]
+                   {
+                     auto made = std::make_unique<Cable>(data);
+                     cable = made.get();
+                     return made;
+                   });
+        const double depth = 12.;
+        for (int k = 1; k < n; ++k)
+        {
+          const double s = length * k / n;
+          system.add(Constraint::unilateral("floor " + std::to_string(k),
+                                            system.displacement(0, {s, 0., 0.}, {0., 1., 0.}))
+                         .gap(depth + cable->elements().position(cable->shape().positions, s).y));
+        }
+        SCOPED_TRACE(std::to_string(length) + " m, EA " + std::to_string(EA) + ", elements " +
+                     std::to_string(n));
+        try
+        {
+          const Stepper stepper(system);
+          ++found;
+          std::vector<double> f, P;
+          cable->internal_force(stepper.displacement(0), {}, f);
+          cable->external_force(0., P);
+          const double H = -(f[0] - P[0]);
+          const double exact = horizontal_on_floor(EA, 1.07 * 9.81, .5 * length, 30., depth);
+          EXPECT_NEAR(H, exact, .1 * 1.07 * 9.81 * length / n);
+          EXPECT_LE(stepper.certificate().balance, 1e-8);
+        }
+        catch (const std::exception &e)
+        {
+          ADD_FAILURE() << e.what();
+        }
+      }
+  EXPECT_EQ(found, 24);
+}
+
+// The difference of nonlinear and linearised statics falls with the square of the load.
+TEST(CableMotions, small_loads_make_linearised_motions)
+{
+  const auto lowered = [](const bool linearised, const double load)
+  {
+    CableData data;
+    data.name = "cable";
+    data.to = {60., 0., 0.};
+    data.length = 60.1;
+    data.section = {1.3e7, 0., 1.07, 0.};
+    data.gravity = {0., -9.81, 0.};
+    data.n_elements = 32;
+    data.linearised = linearised;
+    const Cable *cable = nullptr;
+    System system;
+    system.add("cable",
+               [&]
+               {
+                 auto made = std::make_unique<Cable>(data);
+                 made->add_force(made->displacement({30.05, 0., 0.}, {0., -1., 0.}), load);
+                 cable = made.get();
+                 return made;
+               });
+    const Stepper stepper(system);
+    return stepper.displacement(system.displacement(0, {30.05, 0., 0.}, {0., -1., 0.}));
+  };
+  double before = 0.;
+  for (const double load : {8., 4., 2., 1.})
+  {
+    const double difference = std::fabs(lowered(false, load) - lowered(true, load));
+    if (before > 0.)
+    {
+      EXPECT_GT(before / difference, 3.5) << load;
+    }
+    before = difference;
+  }
+}
