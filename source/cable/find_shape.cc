@@ -385,7 +385,8 @@ namespace taut
         at_high = quantity(high);
       }
       if (!std::isfinite(at_low * at_high))
-        throw UserError("the " + name + " is beyond the range of numbers; take less extreme values");
+        throw UserError("the " + name +
+                        " is beyond the range of numbers; take less extreme values");
       if (at_low == 0.)
         return low;
       if (at_high == 0.)
