@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/instruction_set.h>
 #include <taut/cable/cable_elements.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -39,16 +40,36 @@ namespace taut
           f[3 * a + c] += shape[a] * g[c];
     }
 
-    /// Blocks (a, b) += first[a] H second[b].
+    /// Blocks (a, b) += slope[a] (uu slope[b] + uv curvature[b]) + curvature[a] (uv^T slope[b] + vv
+    /// curvature[b]); only those with a >= b, as the rest follows from symmetry.
     template <typename LocalMatrix>
-    void distribute(const std::array<double, 4> &first, const Matrix &H,
-                    const std::array<double, 4> &second, LocalMatrix &K)
+    void distribute(const std::array<double, 4> &slope, const std::array<double, 4> &curvature,
+                    const Matrix &uu, const Matrix &uv, const Matrix &vv, LocalMatrix &K)
     {
-      for (unsigned int a = 0; a < 4; ++a)
-        for (unsigned int c = 0; c < 3; ++c)
-          for (unsigned int b = 0; b < 4; ++b)
+      for (unsigned int b = 0; b < 4; ++b)
+      {
+        const Matrix by_slope = slope[b] * uu + curvature[b] * uv,
+                     by_curvature = slope[b] * transpose(uv) + curvature[b] * vv;
+        for (unsigned int a = b; a < 4; ++a)
+          for (unsigned int c = 0; c < 3; ++c)
             for (unsigned int d = 0; d < 3; ++d)
-              K[3 * a + c][3 * b + d] += first[a] * H[c][d] * second[b];
+              K[3 * a + c][3 * b + d] +=
+                  slope[a] * by_slope[c][d] + curvature[a] * by_curvature[c][d];
+      }
+    }
+
+    /// Blocks (a, b) += shape[a] H shape[b], with a >= b.
+    template <typename LocalMatrix>
+    void distribute(const std::array<double, 4> &shape, const Matrix &H, LocalMatrix &K)
+    {
+      for (unsigned int b = 0; b < 4; ++b)
+      {
+        const Matrix column = shape[b] * H;
+        for (unsigned int a = b; a < 4; ++a)
+          for (unsigned int c = 0; c < 3; ++c)
+            for (unsigned int d = 0; d < 3; ++d)
+              K[3 * a + c][3 * b + d] += shape[a] * column[c][d];
+      }
     }
 
     const Matrix identity(dealii::unit_symmetric_tensor<3>());
@@ -171,13 +192,17 @@ namespace taut
   void CableElements::integrate_force(std::vector<double> &f, const Integrand &integrand) const
   {
     f.assign(n_dofs(), 0.);
-    for (unsigned int e = 0; e < n; ++e)
-    {
-      Local sum{};
-      integrand(e, sum);
-      for (unsigned int i = 0; i < element_dofs; ++i)
-        f[dofs_per_node * e + i] += sum[i];
-    }
+    vectorised(
+        [this, &integrand, all = f.data()]
+        {
+          for (unsigned int e = 0; e < n; ++e)
+          {
+            Local sum{};
+            integrand(e, sum);
+            for (unsigned int i = 0; i < element_dofs; ++i)
+              all[dofs_per_node * e + i] += sum[i];
+          }
+        });
   }
 
   void CableElements::internal_force(const std::vector<double> &q,
@@ -185,70 +210,65 @@ namespace taut
                                      std::vector<double> &f) const
   {
     const bool damped = !velocity.empty() && material.axial_damping != 0.;
-    integrate_force(f,
-                    [&](const unsigned int e, Local &sum)
-                    {
-                      const Local x = local(q, e);
-                      const Local rate = damped ? local(velocity, e) : Local{};
-                      for (const Point &p : axial_points)
-                      {
-                        const Vector u = combine(p.slope, x);
-                        const double stretch = u.norm();
-                        double force = material.axial_stiffness * (stretch - 1.);
-                        if (damped)
-                          force += material.axial_damping * (u * combine(p.slope, rate)) / stretch;
-                        distribute(p.slope, p.weight * force / stretch * u, sum);
-                      }
-                      for (const Point &p : bending_points)
-                      {
-                        // kappa^2 = |w|^2 / a^2 with w = u x v and a = u . u
-                        const Vector u = combine(p.slope, x), v = combine(p.curvature, x),
-                                     w = cross_product_3d(u, v);
-                        const double a = u.norm_square(),
-                                     factor = p.weight * material.bending_stiffness / (a * a);
-                        distribute(p.slope,
-                                   factor * (cross_product_3d(v, w) - 2. * w.norm_square() / a * u),
-                                   sum);
-                        distribute(p.curvature, factor * cross_product_3d(w, u), sum);
-                      }
-                    });
+    const auto integrand = [&](const unsigned int e, Local &sum)
+    {
+      const Local x = local(q, e);
+      const Local rate = damped ? local(velocity, e) : Local{};
+      for (const Point &p : axial_points)
+      {
+        const Vector u = combine(p.slope, x);
+        const double stretch = u.norm();
+        double force = material.axial_stiffness * (stretch - 1.);
+        if (damped)
+          force += material.axial_damping * (u * combine(p.slope, rate)) / stretch;
+        distribute(p.slope, p.weight * force / stretch * u, sum);
+      }
+      for (const Point &p : bending_points)
+      {
+        // kappa^2 = |w|^2 / a^2 with w = u x v and a = u . u
+        const Vector u = combine(p.slope, x), v = combine(p.curvature, x),
+                     w = cross_product_3d(u, v);
+        const double a = u.norm_square(), factor = p.weight * material.bending_stiffness / (a * a);
+        distribute(p.slope, factor * (cross_product_3d(v, w) - 2. * w.norm_square() / a * u), sum);
+        distribute(p.curvature, factor * cross_product_3d(w, u), sum);
+      }
+    };
+    integrate_force(f, integrand);
   }
 
   void CableElements::mean_force(const std::vector<double> &q0, const std::vector<double> &q1,
                                  const double step, std::vector<double> &f) const
   {
-    integrate_force(
-        f,
-        [&](const unsigned int e, Local &sum)
-        {
-          const Local x0 = local(q0, e), x1 = local(q1, e);
-          for (const Point &p : axial_points)
-          {
-            const Vector u0 = combine(p.slope, x0), u1 = combine(p.slope, x1);
-            const double stretch0 = u0.norm(), stretch1 = u1.norm(), twice = stretch0 + stretch1;
-            const double force = material.axial_stiffness * (.5 * twice - 1.) +
-                                 (material.axial_damping == 0.
-                                      ? 0.
-                                      : material.axial_damping * (stretch1 - stretch0) / step);
-            distribute(p.slope, p.weight * force / twice * (u0 + u1), sum);
-          }
-          for (const Point &p : bending_points)
-          {
-            // kappa^2 = c A - (b A)^2 with a = u . u, b = u . v, c = v . v and A = 1 / a:
-            // differences of products, with means of the factors.
-            const Vector u0 = combine(p.slope, x0), u1 = combine(p.slope, x1),
-                         v0 = combine(p.curvature, x0), v1 = combine(p.curvature, x1);
-            const Vector u = .5 * (u0 + u1), v = .5 * (v0 + v1);
-            const double A0 = 1. / u0.norm_square(), A1 = 1. / u1.norm_square(), b0 = u0 * v0,
-                         b1 = u1 * v1, A = .5 * (A0 + A1), b = .5 * (b0 + b1),
-                         c = .5 * (v0.norm_square() + v1.norm_square()),
-                         bA = .5 * (b0 * A0 + b1 * A1);
-            const double by_a = (2. * b * bA - c) * A0 * A1, by_b = -2. * bA * A, by_c = A;
-            const double factor = .5 * p.weight * material.bending_stiffness;
-            distribute(p.slope, factor * (2. * by_a * u + by_b * v), sum);
-            distribute(p.curvature, factor * (by_b * u + 2. * by_c * v), sum);
-          }
-        });
+    const auto integrand = [&](const unsigned int e, Local &sum)
+    {
+      const Local x0 = local(q0, e), x1 = local(q1, e);
+      for (const Point &p : axial_points)
+      {
+        const Vector u0 = combine(p.slope, x0), u1 = combine(p.slope, x1);
+        const double stretch0 = u0.norm(), stretch1 = u1.norm(), twice = stretch0 + stretch1;
+        const double force =
+            material.axial_stiffness * (.5 * twice - 1.) +
+            (material.axial_damping == 0. ? 0.
+                                          : material.axial_damping * (stretch1 - stretch0) / step);
+        distribute(p.slope, p.weight * force / twice * (u0 + u1), sum);
+      }
+      for (const Point &p : bending_points)
+      {
+        // kappa^2 = c A - (b A)^2 with a = u . u, b = u . v, c = v . v and A = 1 / a:
+        // differences of products, with means of the factors.
+        const Vector u0 = combine(p.slope, x0), u1 = combine(p.slope, x1),
+                     v0 = combine(p.curvature, x0), v1 = combine(p.curvature, x1);
+        const Vector u = .5 * (u0 + u1), v = .5 * (v0 + v1);
+        const double A0 = 1. / u0.norm_square(), A1 = 1. / u1.norm_square(), b0 = u0 * v0,
+                     b1 = u1 * v1, A = .5 * (A0 + A1), b = .5 * (b0 + b1),
+                     c = .5 * (v0.norm_square() + v1.norm_square()), bA = .5 * (b0 * A0 + b1 * A1);
+        const double by_a = (2. * b * bA - c) * A0 * A1, by_b = -2. * bA * A, by_c = A;
+        const double factor = .5 * p.weight * material.bending_stiffness;
+        distribute(p.slope, factor * (2. * by_a * u + by_b * v), sum);
+        distribute(p.curvature, factor * (by_b * u + 2. * by_c * v), sum);
+      }
+    };
+    integrate_force(f, integrand);
   }
 
   void CableElements::add_axial_tangent(const Local &x, const bool definite, LocalMatrix &K) const
@@ -261,7 +281,7 @@ namespace taut
                    kept = definite ? std::max(geometric, 0.) : geometric;
       const Matrix along = outer_product(u, u) / (stretch * stretch);
       distribute(p.slope, p.weight * (material.axial_stiffness * along + kept * (identity - along)),
-                 p.slope, K);
+                 K);
     }
   }
 
@@ -296,10 +316,7 @@ namespace taut
         vv = G_bb * u_u + 2. * G_c * identity;
       }
       const double factor = p.weight * material.bending_stiffness;
-      distribute(p.slope, factor * uu, p.slope, K);
-      distribute(p.slope, factor * uv, p.curvature, K);
-      distribute(p.curvature, factor * transpose(uv), p.slope, K);
-      distribute(p.curvature, factor * vv, p.curvature, K);
+      distribute(p.slope, p.curvature, factor * uu, factor * uv, factor * vv, K);
     }
   }
 
@@ -314,14 +331,18 @@ namespace taut
   void CableElements::add_tangent(const std::vector<double> &q, const bool definite,
                                   SymmetricMatrix &A) const
   {
-    for (unsigned int e = 0; e < n; ++e)
-    {
-      const Local x = local(q, e);
-      LocalMatrix K{};
-      add_axial_tangent(x, definite, K);
-      add_bending_tangent(x, definite, K);
-      add(K, e, A);
-    }
+    vectorised(
+        [this, &q, definite, &A]
+        {
+          for (unsigned int e = 0; e < n; ++e)
+          {
+            const Local x = local(q, e);
+            LocalMatrix K{};
+            add_axial_tangent(x, definite, K);
+            add_bending_tangent(x, definite, K);
+            add(K, e, A);
+          }
+        });
   }
 
   void CableElements::add_mean_tangent(const std::vector<double> &q0, const std::vector<double> &q1,
@@ -343,7 +364,7 @@ namespace taut
         distribute(p.slope,
                    p.weight * (along * outer_product(u, u) +
                                (definite ? std::max(geometric, 0.) : geometric) * identity),
-                   p.slope, K);
+                   K);
       }
       add_bending_tangent(x, definite, K);
       add(K, e, A);
@@ -362,10 +383,9 @@ namespace taut
       for (const Point &p : axial_points)
       {
         const Vector u = combine(p.slope, x);
-        distribute(p.slope,
-                   p.weight * factor * material.axial_damping / u.norm_square() *
-                       outer_product(u, u),
-                   p.slope, K);
+        distribute(
+            p.slope,
+            p.weight * factor * material.axial_damping / u.norm_square() * outer_product(u, u), K);
       }
       add(K, e, A);
     }
@@ -378,8 +398,7 @@ namespace taut
     for (unsigned int k = 0; k < quadrature.size(); ++k)
     {
       const Shape value = shapes(quadrature.point(k)[0]).value;
-      distribute(value, factor * material.mass_per_length * h * quadrature.weight(k) * identity,
-                 value, K);
+      distribute(value, factor * material.mass_per_length * h * quadrature.weight(k) * identity, K);
     }
     for (unsigned int e = 0; e < n; ++e)
       add(K, e, A);
