@@ -37,7 +37,7 @@ namespace taut
       if (structure[k].has_moving_constraints())
         for (const ConstrainedDof &constraint : structure[k].constraints())
           right_hand_side[k][constraint.dof] = lift[k][constraint.dof];
-      const double own = nonlinear.set_guess(k, right_hand_side[k]);
+      const double own = nonlinear.set_guess(k, right_hand_side[k], system->bodies());
       if (!(own <= change) && !std::isnan(change))
         change = own;
     }

@@ -13,6 +13,9 @@ namespace taut
     /// definite, and by how much it grows from attempt to attempt.
     constexpr double first_shift = 1e-10, growth_of_shift = 30.;
 
+    /// Of a relative force beside a relative displacement.
+    constexpr double weight_of_force = 100.;
+
     double largest_on_diagonal(const SymmetricMatrix &matrix)
     {
       double largest = 0.;
@@ -97,23 +100,31 @@ namespace taut
     K.vmult_add(1., own.dU.data(), P.data());
   }
 
-  double NonlinearBodies::set_guess(const std::size_t k, const std::vector<double> &dU)
+  double NonlinearBodies::set_guess(const std::size_t k, const std::vector<double> &dU,
+                                    const FactoredStructure &solvers)
   {
     Step &own = steps[k];
     const Substructure &body = (*structure)[k];
+    std::vector<double> difference = dU, unbalanced;
     for (std::size_t i = 0; i < dU.size(); ++i)
-      own.dU[i] = dU[i] - own.dU[i];
-    const PerKind change = largest(body, own.dU), size = largest(body, dU);
+      difference[i] -= own.dU[i];
+    solvers.multiply(k, difference, unbalanced);
     own.dU = dU;
     end_force(k, c, own, dU, own.f);
+    std::vector<double> whole = own.f;
+    for (std::size_t i = 0; i < whole.size(); ++i)
+      whole[i] += reference->force[k][i];
+    const PerKind change = largest(body, difference), size = largest(body, dU),
+                  lack = largest(body, unbalanced), force = largest(body, whole);
     double result = 0.;
     for (int kind = 0; kind < 2; ++kind)
-      if (change[kind] > 0.)
-        result = std::max(result, change[kind] / size[kind]);
-    const PerKind force = largest(body, own.f);
-    for (int kind = 0; kind < 2; ++kind)
+    {
       if (!(change[kind] <= largest_number) || !(force[kind] <= largest_number))
         return std::nan("");
+      if (change[kind] > 0.)
+        result = std::max(result, std::min(change[kind] / size[kind],
+                                           weight_of_force * lack[kind] / force[kind]));
+    }
     return result;
   }
 

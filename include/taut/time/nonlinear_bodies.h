@@ -2,6 +2,7 @@
 #ifndef taut_nonlinear_bodies_h
 #define taut_nonlinear_bodies_h
 
+#include <taut/substructure/factored_structure.h>
 #include <taut/time/integrator.h>
 #include <taut/time/state.h>
 
@@ -49,9 +50,14 @@ namespace taut
     /// method makes of P^.
     void add_remainder(std::size_t k, const SymmetricMatrix &K, std::vector<double> &P) const;
 
-    /// Takes @p dU as the next guess and evaluates f. Returns the largest change over the largest
-    /// entry, displacements and slopes each for themselves; not-a-number if f is.
-    double set_guess(std::size_t k, const std::vector<double> &dU);
+    /**
+     * Takes @p dU as the next guess and evaluates f. Returns how much it differs from the last one:
+     * the largest change over the largest entry, or, if that is less, a hundred times the force
+     * A times the change over the largest internal force, which is what counts in a body at rest.
+     * Displacements and slopes each for themselves; not-a-number if f is.
+     */
+    double set_guess(std::size_t k, const std::vector<double> &dU,
+                     const FactoredStructure &solvers);
 
     /// KU = f - f_ref at the end of a step that ends in @p state.
     void set_end_force(std::size_t k, const StepCoefficients &c, State &state) const;
