@@ -170,9 +170,11 @@ namespace taut
       if (!factor(cable, q, false, 0.))
       {
         double mu = 1e-8 * cable.section().axial_stiffness / std::pow(cable.element_length(), 2);
-        while (!factor(cable, q, true, mu))
-          if (!std::isfinite(mu *= 10.))
-            return false;
+        int trials = 0;
+        for (; trials < 30 && !factor(cable, q, true, mu); ++trials)
+          mu *= 10.;
+        if (trials == 30)
+          return false;
       }
       std::vector<double> direction = r;
       solver->solve(direction);
@@ -199,7 +201,7 @@ namespace taut
     double first_stiffness(const double EA, const double tension)
     {
       double stiffness = EA;
-      while (stiffness > 20. * tension)
+      for (int decades = 0; decades < 15 && stiffness > 20. * tension; ++decades)
         stiffness *= .1;
       return stiffness;
     }
@@ -285,18 +287,23 @@ namespace taut
     for (double stiffness = tension > 0. ? first_stiffness(EA, tension) : EA; stiffness < .9 * EA;
          stiffness *= 10.)
       search.solve(cable.with_axial_stiffness(stiffness), 1e-3, result.positions);
-    if (!search.solve(cable, 1e-10, result.positions))
-      throw UserError("no stable equilibrium of the cable was found: after " +
-                      std::to_string(search.iterations()) + " iterations a force of " +
-                      text_of(search.residual()) +
-                      (search.is_balanced() ? " N is not balanced, which is good enough, but the "
-                                              "least push would move the cable away"
-                                            : " N is not balanced") +
-                      "; take more elements, a little bending stiffness, or ends that are further "
-                      "apart across the load");
-    result.n_iterations = search.iterations();
-    result.residual = search.residual();
-    return result;
+    if (search.solve(cable, 1e-10, result.positions))
+    {
+      result.n_iterations = search.iterations();
+      result.residual = search.residual();
+      return result;
+    }
+    if (!std::isfinite(search.residual()))
+      throw UserError("its length, stiffness or load is beyond the range of numbers; take less "
+                      "extreme values");
+    throw UserError("no stable equilibrium of the cable was found: after " +
+                    std::to_string(search.iterations()) + " iterations a force of " +
+                    text_of(search.residual()) +
+                    (search.is_balanced() ? " N is not balanced, which is good enough, but the "
+                                            "least push would move the cable away"
+                                          : " N is not balanced") +
+                    "; take more elements, a little bending stiffness, or ends that are further "
+                    "apart across the load");
   }
 
   CableShape hang(const CableElements &cable, const Coordinates &from, const Coordinates &to,

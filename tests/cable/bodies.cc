@@ -372,6 +372,8 @@ end
         {{"Sag=3", "Mass per length=0"}, "Sag", "without weight"},
         {{"Unstressed length=78", "Mass per length=0"}, "", "without weight or wind"},
         {{"Unstressed length=78", "To=0,-70"}, "", "no stable equilibrium"},
+        {{"Unstressed length=1e300"}, "", "beyond the range"},
+        {{"Unstressed length=78", "Mass per length=1e300"}, "", "beyond the range"},
         {{"Unstressed length=78", "Axial stiffness=0"}, "Axial stiffness", "positive"},
         {{"Unstressed length=78", "Element=bar", "Bending stiffness=1"},
          "Bending stiffness",
