@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace taut
@@ -175,6 +176,18 @@ namespace taut
       frames->turn(velocity);
     element.internal_force(positions(U), velocity, f);
     frames->turn(f);
+  }
+
+  /// Positions round with the length of the cable, strains with positions over elements.
+  double Cable::rounding_of_force(const unsigned int kind) const
+  {
+    if (data.linearised)
+      return 0.;
+    constexpr double operations = 8.;
+    const double h = element.element_length(), stiffness = data.section.axial_stiffness +
+                                                           data.section.bending_stiffness / (h * h);
+    return operations * std::numeric_limits<double>::epsilon() * stiffness *
+           (1. + data.length / h) * (kind == 0 ? 1. : h);
   }
 
   void Cable::mean_internal_force(const std::vector<double> &U0, const std::vector<double> &U1,

@@ -15,6 +15,9 @@ namespace taut
     /// Part of |K||dU| and of the other terms that their rounding may be; what is more is an
     /// error.
     constexpr double rounding_of_increment = 1e-10;
+
+    /// Residual that a body's own rounding counts as.
+    constexpr double residual_of_rounding = 1e-10;
   } // namespace
 
   BalanceCertificate::BalanceCertificate(const Structure &structure, const Constraints &constraints,
@@ -183,7 +186,8 @@ namespace taut
     double result = 0.;
     for (int kind = 0; kind < 2; ++kind)
     {
-      double size = force[kind] + by_mass[kind] + by_damping[kind] + by_stiffness[kind];
+      double size = force[kind] + by_mass[kind] + by_damping[kind] + by_stiffness[kind] +
+                    structure[k].rounding_of_force(kind) / residual_of_rounding;
       if (sizes.residual[kind] > rounding_of_increment * (size + of_increment[kind]))
         may_be_cancellation = false;
       // With mean forces nothing is refined.

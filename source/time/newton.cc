@@ -12,9 +12,11 @@ namespace taut
   namespace
   {
     /// Change of the increments, of themselves, at which the iteration ends: what is left then is
-    /// less by the rate of convergence. Where it does not fall to that for rounding, it ends below
-    /// the second one.
-    constexpr double converged = 1e-9, stagnated = 1e-7;
+    /// less by the rate of convergence. Where it stays above for rounding, the iteration ends below
+    /// the second one after so many iterations that do not halve it; the balance of the step then
+    /// says what it is worth.
+    constexpr double converged = 1e-9, stagnated = 1e-5;
+    constexpr int most_stagnant = 2;
 
     /// A tangent is kept while the change falls by this factor an iteration.
     constexpr double slow = .1;
@@ -74,13 +76,15 @@ namespace taut
     nonlinear.begin(current, coefficients, step);
     system->linearise();
     double before = std::numeric_limits<double>::infinity();
+    int stagnant = 0;
     for (int iteration = 0; iteration < most_iterations; ++iteration)
     {
       current.multiplier = multiplier;
       find_increments();
       ++n_iterations;
       const double change = set_guess();
-      if (change <= converged || (change <= stagnated && change >= .5 * before))
+      stagnant = change >= .5 * before ? stagnant + 1 : 0;
+      if (change <= converged || (change <= stagnated && stagnant == most_stagnant))
         return true;
       if (std::isinf(change))
         return false;

@@ -86,6 +86,7 @@ namespace taut
     double strain_energy(const std::vector<double> &U) const override;
     void internal_force(const std::vector<double> &U, const std::vector<double> &V,
                         std::vector<double> &f) const override;
+    double rounding_of_force(unsigned int kind) const override;
     void mean_internal_force(const std::vector<double> &U0, const std::vector<double> &U1,
                              double step, std::vector<double> &f) const override;
     std::unique_ptr<SymmetricMatrix> tangent(const std::vector<double> &U, double rate,

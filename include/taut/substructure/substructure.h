@@ -150,6 +150,11 @@ namespace taut
     virtual void internal_force(const std::vector<double> &U, const std::vector<double> &V,
                                 std::vector<double> &f) const;
 
+    /// About what rounding leaves of the balance of forces of this kind, see kind(), where the
+    /// internal force is a difference of large terms; a balance to that is as good as any
+    /// [N, N m].
+    virtual double rounding_of_force(unsigned int) const { return 0.; }
+
     /**
      * A mean of f over a step [s] from U0 to U1, for energy-momentum schemes: f . (U1 - U0) is
      * strain_energy(U1) - strain_energy(U0), and what the damping of the material took. @p f is
