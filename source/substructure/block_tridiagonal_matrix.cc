@@ -1,225 +1,174 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "block_tridiagonal_matrix.h"
+
 #include <taut/base/instruction_set.h>
-#include <taut/substructure/symmetric_matrix.h>
 
 #include <algorithm>
-#include <array>
 #include <stdexcept>
 
 namespace taut
 {
-  namespace
+
+  template <int b>
+  BlockTridiagonalMatrix<b>::BlockTridiagonalMatrix(const unsigned int n) : n(n)
   {
-    /**
-     * Blocks of b x b on the diagonal and beside it: the matrices of a wire, b DoFs a node. Stored
-     * by diagonals, so that products run over many rows at once. Where elements are alike, rows
-     * repeat themselves from node to node: a product there reads them once.
-     */
-    template <int b>
-    class BlockTridiagonalMatrix : public SymmetricMatrix
+    if (n % b != 0)
+      throw std::logic_error(
+          "the size of a block-tridiagonal matrix is a multiple of its block size");
+    for (auto &entries : diagonals)
+      entries.assign(n + width, 0.);
+  }
+
+  template <int b>
+  void BlockTridiagonalMatrix<b>::add(const unsigned int i, const unsigned int j,
+                                      const double value)
+  {
+    const unsigned int row = std::max(i, j), column = std::min(i, j);
+    if (row / b > column / b + 1)
+      throw std::logic_error("entry outside the band of a block-tridiagonal matrix");
+    diagonals[row - column][row] += value;
+    repetitions.clear();
+  }
+
+  /// A(i, i + offset), at the third node and before the last two.
+  template <int b>
+  double BlockTridiagonalMatrix<b>::entry(const std::size_t i, const int offset) const
+  {
+    return offset > 0 ? diagonals[offset][i + offset] : diagonals[-offset][i];
+  }
+
+  template <int b>
+  void BlockTridiagonalMatrix<b>::find_repetitions()
+  {
+    repetitions.clear();
+    const auto is_as_before = [this](const std::size_t node)
     {
-    public:
-      /// @p n is a multiple of b.
-      explicit BlockTridiagonalMatrix(unsigned int n);
-
-      using SymmetricMatrix::add;
-      unsigned int size() const override { return n; }
-      unsigned int block_size() const override { return b; }
-      void add(unsigned int i, unsigned int j, double value) override;
-      void find_repetitions() override;
-      void vmult_add(double factor, const double *x, double *y) const override;
-      void vmult_rows(std::size_t begin, std::size_t end, const double *x,
-                      double *y) const override;
-      void visit(const Visitor &visitor) const override;
-      std::unique_ptr<SymmetricMatrix> clone() const override;
-
-    private:
-      static constexpr int width = 2 * b - 1;           ///< diagonals below the main one
-      static constexpr int lanes = b % 3 == 0 ? 24 : 8; ///< whole nodes
-
-      /// Rows begin to end - 1 are those of `lanes` rows, again and again; whole nodes.
-      struct Repetition
-      {
-        std::size_t begin, end;
-        std::array<std::array<double, lanes>, 2 * width + 1> rows;
-      };
-
-      double entry(std::size_t i, int offset) const;
-      template <typename Result>
-      void product(std::size_t begin, std::size_t end, const double *x, double *y,
-                   const Result &result) const;
-      template <typename Result>
-      void product_at_end(std::size_t i, const double *x, double *y, const Result &result) const;
-
-      std::size_t n;
-      std::array<std::vector<double>, width + 1> diagonals; ///< [o][i] = A(i, i - o), then zeros
-      std::vector<Repetition> repetitions;
+      for (std::size_t i = b * node; i < b * (node + 1); ++i)
+        for (int o = -width; o <= width; ++o)
+          if (entry(i, o) != entry(i - b, o))
+            return false;
+      return true;
     };
-
-    template <int b>
-    BlockTridiagonalMatrix<b>::BlockTridiagonalMatrix(const unsigned int n) : n(n)
+    constexpr std::size_t least = 4 * lanes / b; // fewer nodes are read as fast as repeated
+    const std::size_t last = n / b - std::min<std::size_t>(n / b, 2);
+    for (std::size_t begin = 2; begin < last;)
     {
-      if (n % b != 0)
-        throw std::logic_error(
-            "the size of a block-tridiagonal matrix is a multiple of its block size");
-      for (auto &entries : diagonals)
-        entries.assign(n + width, 0.);
-    }
-
-    template <int b>
-    void BlockTridiagonalMatrix<b>::add(const unsigned int i, const unsigned int j,
-                                        const double value)
-    {
-      const unsigned int row = std::max(i, j), column = std::min(i, j);
-      if (row / b > column / b + 1)
-        throw std::logic_error("entry outside the band of a block-tridiagonal matrix");
-      diagonals[row - column][row] += value;
-      repetitions.clear();
-    }
-
-    /// A(i, i + offset), at the third node and before the last two.
-    template <int b>
-    double BlockTridiagonalMatrix<b>::entry(const std::size_t i, const int offset) const
-    {
-      return offset > 0 ? diagonals[offset][i + offset] : diagonals[-offset][i];
-    }
-
-    template <int b>
-    void BlockTridiagonalMatrix<b>::find_repetitions()
-    {
-      repetitions.clear();
-      const auto is_as_before = [this](const std::size_t node)
+      std::size_t end = begin + 1;
+      while (end < last && is_as_before(end))
+        ++end;
+      if (end - begin >= least)
       {
-        for (std::size_t i = b * node; i < b * (node + 1); ++i)
-          for (int o = -width; o <= width; ++o)
-            if (entry(i, o) != entry(i - b, o))
-              return false;
-        return true;
-      };
-      constexpr std::size_t least = 4 * lanes / b; // fewer nodes are read as fast as repeated
-      const std::size_t last = n / b - std::min<std::size_t>(n / b, 2);
-      for (std::size_t begin = 2; begin < last;)
-      {
-        std::size_t end = begin + 1;
-        while (end < last && is_as_before(end))
-          ++end;
-        if (end - begin >= least)
-        {
-          Repetition repetition{b * begin, b * end, {}};
-          for (int o = -width; o <= width; ++o)
-            for (int k = 0; k < lanes; ++k)
-              repetition.rows[o + width][k] = entry(b * begin + k % b, o);
-          repetitions.push_back(repetition);
-        }
-        begin = end;
-      }
-    }
-
-    template <int b>
-    void BlockTridiagonalMatrix<b>::vmult_add(const double factor, const double *x, double *y) const
-    {
-      vectorised(
-          [=]
-          {
-            product(0, n, x, y,
-                    [factor](const double before, const double sum)
-                    { return before + factor * sum; });
-          });
-    }
-
-    template <int b>
-    void BlockTridiagonalMatrix<b>::vmult_rows(const std::size_t begin, const std::size_t end,
-                                               const double *x, double *y) const
-    {
-      vectorised(
-          [=] { product(begin, end, x, y - begin, [](double, const double sum) { return sum; }); });
-    }
-
-    /// The same for one of the first or last rows.
-    template <int b>
-    template <typename Result>
-    void BlockTridiagonalMatrix<b>::product_at_end(const std::size_t i, const double *x, double *y,
-                                                   const Result &result) const
-    {
-      double sum = diagonals[0][i] * x[i];
-      for (std::size_t o = 1; o <= width; ++o)
-      {
-        if (o <= i)
-          sum += diagonals[o][i] * x[i - o];
-        if (i + o < n)
-          sum += diagonals[o][i + o] * x[i + o];
-      }
-      y[i] = result(y[i], sum);
-    }
-
-    /// y_i = result(y_i, (A x)_i) for i = begin to end - 1, both multiples of b.
-    template <int b>
-    template <typename Result>
-    void BlockTridiagonalMatrix<b>::product(const std::size_t begin, const std::size_t end,
-                                            const double *x, double *y, const Result &result) const
-    {
-      const double *d[width + 1];
-      for (int o = 0; o <= width; ++o)
-        d[o] = diagonals[o].data();
-      const auto read = [&](const std::size_t from, const std::size_t to)
-      {
-#pragma omp simd
-        for (std::size_t i = from; i < to; ++i)
-        {
-          double sum = d[0][i] * x[i];
-          for (int o = 1; o <= width; ++o)
-            sum += d[o][i] * x[i - o] + d[o][i + o] * x[i + o];
-          y[i] = result(y[i], sum);
-        }
-      };
-      const std::size_t first = std::min<std::size_t>(n, 2 * b),
-                        last = std::max(first, n - std::min<std::size_t>(n, 2 * b));
-      std::size_t done = begin;
-      for (; done < std::min(first, end); ++done)
-        product_at_end(done, x, y, result);
-      for (const Repetition &repetition : repetitions)
-      {
-        if (repetition.end <= done || repetition.begin >= end)
-          continue;
-        if (done < repetition.begin)
-          read(done, repetition.begin);
-        done = std::max(done, repetition.begin);
-        const auto rows = repetition.rows;
-        const std::size_t stop = std::min(end, repetition.end);
-        for (; done + lanes <= stop; done += lanes)
-#pragma omp simd
+        Repetition repetition{b * begin, b * end, {}};
+        for (int o = -width; o <= width; ++o)
           for (int k = 0; k < lanes; ++k)
-          {
-            double sum = 0.;
-            for (int o = 0; o <= 2 * width; ++o)
-              sum += rows[o][k] * x[done + k + o - width];
-            y[done + k] = result(y[done + k], sum);
-          }
+            repetition.rows[o + width][k] = entry(b * begin + k % b, o);
+        repetitions.push_back(repetition);
       }
-      if (done < std::min(last, end))
+      begin = end;
+    }
+  }
+
+  template <int b>
+  void BlockTridiagonalMatrix<b>::vmult_add(const double factor, const double *x, double *y) const
+  {
+    vectorised(
+        [=]
+        {
+          product(0, n, x, y,
+                  [factor](const double before, const double sum)
+                  { return before + factor * sum; });
+        });
+  }
+
+  template <int b>
+  void BlockTridiagonalMatrix<b>::vmult_rows(const std::size_t begin, const std::size_t end,
+                                             const double *x, double *y) const
+  {
+    vectorised(
+        [=] { product(begin, end, x, y - begin, [](double, const double sum) { return sum; }); });
+  }
+
+  /// The same for one of the first or last rows.
+  template <int b>
+  template <typename Result>
+  void BlockTridiagonalMatrix<b>::product_at_end(const std::size_t i, const double *x, double *y,
+                                                 const Result &result) const
+  {
+    double sum = diagonals[0][i] * x[i];
+    for (std::size_t o = 1; o <= width; ++o)
+    {
+      if (o <= i)
+        sum += diagonals[o][i] * x[i - o];
+      if (i + o < n)
+        sum += diagonals[o][i + o] * x[i + o];
+    }
+    y[i] = result(y[i], sum);
+  }
+
+  /// y_i = result(y_i, (A x)_i) for i = begin to end - 1, both multiples of b.
+  template <int b>
+  template <typename Result>
+  void BlockTridiagonalMatrix<b>::product(const std::size_t begin, const std::size_t end,
+                                          const double *x, double *y, const Result &result) const
+  {
+    const double *d[width + 1];
+    for (int o = 0; o <= width; ++o)
+      d[o] = diagonals[o].data();
+    const auto read = [&](const std::size_t from, const std::size_t to)
+    {
+#pragma omp simd
+      for (std::size_t i = from; i < to; ++i)
       {
-        read(done, std::min(last, end));
-        done = std::min(last, end);
+        double sum = d[0][i] * x[i];
+        for (int o = 1; o <= width; ++o)
+          sum += d[o][i] * x[i - o] + d[o][i + o] * x[i + o];
+        y[i] = result(y[i], sum);
       }
-      for (; done < end; ++done)
-        product_at_end(done, x, y, result);
-    }
-
-    template <int b>
-    void BlockTridiagonalMatrix<b>::visit(const Visitor &visitor) const
+    };
+    const std::size_t first = std::min<std::size_t>(n, 2 * b),
+                      last = std::max(first, n - std::min<std::size_t>(n, 2 * b));
+    std::size_t done = begin;
+    for (; done < std::min(first, end); ++done)
+      product_at_end(done, x, y, result);
+    for (const Repetition &repetition : repetitions)
     {
-      for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t j = i < b ? 0 : (i / b - 1) * b; j <= i; ++j)
-          visitor(i, j, diagonals[i - j][i]);
+      if (repetition.end <= done || repetition.begin >= end)
+        continue;
+      if (done < repetition.begin)
+        read(done, repetition.begin);
+      done = std::max(done, repetition.begin);
+      const auto rows = repetition.rows;
+      const std::size_t stop = std::min(end, repetition.end);
+      for (; done + lanes <= stop; done += lanes)
+#pragma omp simd
+        for (int k = 0; k < lanes; ++k)
+        {
+          double sum = 0.;
+          for (int o = 0; o <= 2 * width; ++o)
+            sum += rows[o][k] * x[done + k + o - width];
+          y[done + k] = result(y[done + k], sum);
+        }
     }
-
-    template <int b>
-    std::unique_ptr<SymmetricMatrix> BlockTridiagonalMatrix<b>::clone() const
+    if (done < std::min(last, end))
     {
-      return std::make_unique<BlockTridiagonalMatrix<b>>(*this);
+      read(done, std::min(last, end));
+      done = std::min(last, end);
     }
-  } // namespace
+    for (; done < end; ++done)
+      product_at_end(done, x, y, result);
+  }
 
+  template <int b>
+  void BlockTridiagonalMatrix<b>::visit(const Visitor &visitor) const
+  {
+    visit_entries(visitor);
+  }
+
+  template <int b>
+  std::unique_ptr<SymmetricMatrix> BlockTridiagonalMatrix<b>::clone() const
+  {
+    return std::make_unique<BlockTridiagonalMatrix<b>>(*this);
+  }
   std::unique_ptr<SymmetricMatrix> make_block_tridiagonal(const unsigned int block_size,
                                                           const unsigned int n)
   {

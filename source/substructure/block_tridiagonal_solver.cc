@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "block_elimination.h"
+#include "block_tridiagonal_matrix.h"
 
 #include <taut/base/instruction_set.h>
 #include <taut/substructure/local_solver.h>
@@ -65,20 +66,25 @@ namespace taut
       D.assign(n, {});
       L.assign(n, {});
       for (const auto &[factor, matrix] : summands)
-        matrix->visit(
-            [&, factor = factor](unsigned int i, unsigned int j, double value)
-            {
-              if (is_constrained[i] || is_constrained[j])
-                return;
-              if (i / b != j / b)
-                L[i / b][(i % b) * b + j % b] += factor * value;
-              else
-              {
-                D[i / b][(i % b) * b + j % b] += factor * value;
-                if (i != j)
-                  D[i / b][(j % b) * b + i % b] += factor * value;
-              }
-            });
+      {
+        const auto add = [&, factor = factor](unsigned int i, unsigned int j, double value)
+        {
+          if (is_constrained[i] || is_constrained[j])
+            return;
+          if (i / b != j / b)
+            L[i / b][(i % b) * b + j % b] += factor * value;
+          else
+          {
+            D[i / b][(i % b) * b + j % b] += factor * value;
+            if (i != j)
+              D[i / b][(j % b) * b + i % b] += factor * value;
+          }
+        };
+        if (const auto *const own = dynamic_cast<const BlockTridiagonalMatrix<b> *>(matrix))
+          own->visit_entries(add);
+        else
+          matrix->visit(add);
+      }
       for (const unsigned int dof : constrained)
         D[dof / b][(dof % b) * (b + 1)] = 1.;
 

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_block_tridiagonal_matrix_h
+#define taut_block_tridiagonal_matrix_h
+
+#include <taut/substructure/symmetric_matrix.h>
+
+#include <array>
+#include <vector>
+
+namespace taut
+{
+  /**
+   * Blocks of b x b on the diagonal and beside it: the matrices of a wire, b DoFs a node. Stored
+   * by diagonals, so that products run over many rows at once. Where elements are alike, rows
+   * repeat themselves from node to node: a product there reads them once.
+   */
+  template <int b>
+  class BlockTridiagonalMatrix : public SymmetricMatrix
+  {
+  public:
+    /// @p n is a multiple of b.
+    explicit BlockTridiagonalMatrix(unsigned int n);
+
+    using SymmetricMatrix::add;
+    unsigned int size() const override { return n; }
+    unsigned int block_size() const override { return b; }
+    void add(unsigned int i, unsigned int j, double value) override;
+    void find_repetitions() override;
+    void vmult_add(double factor, const double *x, double *y) const override;
+    void vmult_rows(std::size_t begin, std::size_t end, const double *x, double *y) const override;
+    void visit(const Visitor &visitor) const override;
+    std::unique_ptr<SymmetricMatrix> clone() const override;
+
+    /// visit() without a call for each entry: a matrix that changes is read in each step.
+    template <typename AnyVisitor>
+    void visit_entries(const AnyVisitor &visitor) const
+    {
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = i < b ? 0 : (i / b - 1) * b; j <= i; ++j)
+          visitor(i, j, diagonals[i - j][i]);
+    }
+
+  private:
+    static constexpr int width = 2 * b - 1;           ///< diagonals below the main one
+    static constexpr int lanes = b % 3 == 0 ? 24 : 8; ///< whole nodes
+
+    /// Rows begin to end - 1 are those of `lanes` rows, again and again; whole nodes.
+    struct Repetition
+    {
+      std::size_t begin, end;
+      std::array<std::array<double, lanes>, 2 * width + 1> rows;
+    };
+
+    double entry(std::size_t i, int offset) const;
+    template <typename Result>
+    void product(std::size_t begin, std::size_t end, const double *x, double *y,
+                 const Result &result) const;
+    template <typename Result>
+    void product_at_end(std::size_t i, const double *x, double *y, const Result &result) const;
+
+    std::size_t n;
+    std::array<std::vector<double>, width + 1> diagonals; ///< [o][i] = A(i, i - o), then zeros
+    std::vector<Repetition> repetitions;
+  };
+} // namespace taut
+
+#endif
