@@ -204,8 +204,8 @@ namespace taut
         << " x real time; without output " << 1e6 * seconds / n_steps << " us a step, "
         << until / seconds << " x real time\n";
     if (!stepper.all_bodies_are_linear())
-      log << "Newton's method: "
-          << static_cast<double>(stepper.n_newton_iterations()) / n_steps << " solves a step\n";
+      log << "Newton's method: " << static_cast<double>(stepper.n_newton_iterations()) / n_steps
+          << " solves a step\n";
     const InterfaceStatistics solves = stepper.interface_statistics();
     if (solves.n_systems > 0)
       log << "Conjugate gradients: " << static_cast<double>(solves.n_iterations) / solves.n_systems
