@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: the scenes of cables in prm/ have the numbers that their heads expect. Expected values:
+// closed forms that the heads name.
+#include "verification/run.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+namespace
+{
+  using verification::run_scene;
+  using verification::scene_file;
+
+  double moved(const taut::StepView &step, const taut::Attachment &point,
+               const taut::Coordinates &direction)
+  {
+    std::vector<taut::Term> terms;
+    step.structure.motion(point, false, direction, 1., terms);
+    return verification::displacement(step, terms);
+  }
+} // namespace
+
+TEST(CableScenes, weight_on_a_slack_cable)
+{
+  run_scene(scene_file("hanging_cable"), {},
+            [](const taut::StepView &step) {
+              EXPECT_NEAR(moved(step, step.scene.probes[0].point, {0., -1.}), 1.04526, 1e-5);
+            });
+}
+
+TEST(CableScenes, elastica)
+{
+  run_scene(scene_file("elastica"), {},
+            [](const taut::StepView &step)
+            {
+              const taut::Attachment &tip = step.scene.probes[0].point;
+              EXPECT_NEAR(moved(step, tip, {0., -1.}), .8106, 2e-4);
+              EXPECT_NEAR(moved(step, tip, {-1., 0.}), .5550, 2e-4);
+            });
+}
+
+TEST(CableScenes, pendulum)
+{
+  double below = 0., farthest = 0., height = 0., x = 0., t = 0., pull = 0.;
+  int n = 0;
+  run_scene(scene_file("pendulum_cable"), {},
+            [&](const taut::StepView &step)
+            {
+              const taut::Attachment &mass = step.scene.probes[0].point;
+              const double now = moved(step, mass, {1., 0.});
+              if (x > 0. && now <= 0.)
+                below = t + (step.state.time - t) * x / (x - now);
+              if (now < farthest)
+              {
+                farthest = now;
+                height = moved(step, mass, {0., 1.}) - 10.001;
+              }
+              if (std::fabs(now) < 1.)
+              {
+                pull += std::fabs(step.state.multiplier[1]);
+                ++n;
+              }
+              x = now;
+              t = step.state.time;
+            });
+  EXPECT_NEAR(below, 1.872, .01);
+  EXPECT_NEAR(farthest, -10., .02);
+  EXPECT_NEAR(height, 0., .3); // flat there: 10 mm of x are 250 mm of y
+  EXPECT_NEAR(pull / n, 3. * 10. * 9.81, 8.);
+}
+
+TEST(CableScenes, floor)
+{
+  bool is_start = true;
+  double lifted = 0.;
+  run_scene(scene_file("cable_on_floor"), {},
+            [&](const taut::StepView &step)
+            {
+              const std::vector<double> &N = step.state.multiplier;
+              if (is_start)
+              {
+                EXPECT_NEAR(std::accumulate(N.begin(), N.end(), 0.), 535.5, 3.);
+              }
+              is_start = false;
+              lifted = std::max(lifted, moved(step, step.scene.probes[0].point, {0., 1.}));
+              for (const double gap : step.state.gap)
+                EXPECT_GE(gap, -1e-12);
+            });
+  EXPECT_GT(lifted, 12. - 10.1); // from its own shape to the floor is 10.1 m
+}
