@@ -132,6 +132,15 @@ namespace taut
         damping.assign(n, 0.);
         body.damping().vmult_add(1., a.data(), damping.data());
       }
+      if (!body.is_linear())
+      {
+        // What the damping of the material takes.
+        std::vector<double> before = U, f;
+        for (std::size_t i = 0; i < n; ++i)
+          before[i] -= dU[i];
+        body.mean_internal_force(before, U, state.last_step, f);
+        share.damping += dot(f, dU) - (body.strain_energy(U) - body.strain_energy(before));
+      }
       for (std::size_t i = 0; i < n; ++i)
       {
         share.loads += .5 * (P0[k][i] + P[k][i]) * dU[i];

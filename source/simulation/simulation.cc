@@ -268,7 +268,8 @@ namespace taut
 
   void Simulation::advance(TimeStepper &stepper, const ObserverList &observers)
   {
-    StepControl control(parameters.step_parameters, parameters.step, n_steps());
+    StepControl control(parameters.step_parameters, parameters.step, n_steps(),
+                        !stepper.all_bodies_are_linear());
     if (checkpoint)
       resume(stepper, control, observers);
     else

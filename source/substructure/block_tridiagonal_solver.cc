@@ -38,6 +38,9 @@ namespace taut
     private:
       class Inwards;
       class Outwards;
+      void eliminate_from_left(std::size_t begin, std::size_t end) const;
+      void eliminate_from_right(std::size_t begin, std::size_t end) const;
+      bool complete() const;
       void solve_middle(double *x) const;
 
       bool element_of(const LinearForm &rhs, unsigned int &node,
@@ -46,7 +49,11 @@ namespace taut
 
       std::size_t n = 0, middle = 0;
       std::vector<Block<b>> D, L;
-      Eliminations<b> from_left, from_right;
+      mutable Eliminations<b> from_left, from_right;
+
+      /// A cable's matrix changes in each step, and a step without contacts needs no columns.
+      static constexpr bool all_at_once = b < 6;
+      mutable bool is_whole = false, is_halves = false;
       Block<b> middle_inverse;
       std::vector<unsigned int> constrained;
       mutable std::vector<double> work; ///< of column()
@@ -90,7 +97,33 @@ namespace taut
 
       from_left.reinit(n);
       from_right.reinit(n);
-      for (std::size_t i = 0; i < n; ++i)
+      is_whole = all_at_once;
+      is_halves = false;
+      if (is_whole)
+      {
+        eliminate_from_left(0, n);
+        eliminate_from_right(n, 0);
+      }
+      else
+        vectorised(
+            [this]
+            {
+              eliminate_from_left(0, middle + 1);
+              eliminate_from_right(n, middle);
+            });
+      Block<b> pivot = from_left[middle].pivot;
+      if (middle + 1 < n)
+        pivot = symmetric_difference<b>(pivot,
+                                        multiply<b>(from_right[middle].multiplier, L[middle + 1]));
+      middle_inverse = invert<b>(pivot, D[middle], middle);
+    }
+
+    /// Nodes begin to end - 1, after those before them.
+    template <int b>
+    void BlockTridiagonalSolver<b>::eliminate_from_left(const std::size_t begin,
+                                                        const std::size_t end) const
+    {
+      for (std::size_t i = begin; i < end; ++i)
       {
         Elimination<b> e{{}, {}, D[i], {}};
         if (i > 0)
@@ -102,7 +135,14 @@ namespace taut
         e.inverse = invert<b>(e.pivot, D[i], i);
         from_left.set(i, e);
       }
-      for (std::size_t i = n; i-- > 0;)
+    }
+
+    /// Nodes begin - 1 down to end, after those behind them.
+    template <int b>
+    void BlockTridiagonalSolver<b>::eliminate_from_right(const std::size_t begin,
+                                                         const std::size_t end) const
+    {
+      for (std::size_t i = begin; i-- > end;)
       {
         Elimination<b> e{{}, {}, D[i], {}};
         if (i + 1 < n)
@@ -114,11 +154,26 @@ namespace taut
         e.inverse = invert<b>(e.pivot, D[i], i);
         from_right.set(i, e);
       }
-      Block<b> pivot = from_left[middle].pivot;
-      if (middle + 1 < n)
-        pivot = symmetric_difference<b>(pivot,
-                                        multiply<b>(from_right[middle].multiplier, L[middle + 1]));
-      middle_inverse = invert<b>(pivot, D[middle], middle);
+    }
+
+    /// The halves that only columns need. False if one of them has a pivot that is rounding, where
+    /// the elimination to the middle has none.
+    template <int b>
+    bool BlockTridiagonalSolver<b>::complete() const
+    {
+      if (is_whole || is_halves)
+        return is_whole;
+      try
+      {
+        eliminate_from_left(middle + 1, n);
+        eliminate_from_right(middle, 0);
+        is_whole = true;
+      }
+      catch (const BodyNotHeld &)
+      {
+        is_halves = true;
+      }
+      return is_whole;
     }
 
     /// The first half of a solve: elimination from both ends to the middle.
@@ -314,7 +369,7 @@ namespace taut
     {
       unsigned int node;
       std::array<double, 2 * b> r{}, x{};
-      if (n > 1 && element_of(rhs, node, r))
+      if (n > 1 && complete() && element_of(rhs, node, r))
       {
         solve_element(node, r, x.data());
         return std::inner_product(r.begin(), r.end(), x.begin(), 0.);
@@ -332,7 +387,7 @@ namespace taut
       x.value.clear();
       std::vector<double> &full = work;
       full.resize(b * n);
-      if (n == 1)
+      if (n == 1 || !complete())
       {
         std::fill(full.begin(), full.end(), 0.);
         rhs.add_to(1., full);

@@ -30,6 +30,27 @@ namespace taut
                             { return nonlinear.tangent(k, attempt); });
   }
 
+  /// The right-hand side becomes dU.
+  void TimeStepper::find_increments()
+  {
+    structure.communicator().agree(
+        [&]
+        {
+          for (std::size_t k = 0; k < structure.size(); ++k)
+            set_history(k);
+          for (const std::size_t k : nonlinear.indices())
+            nonlinear.add_remainder(k, system->bodies().stiffness(k), right_hand_side[k]);
+        });
+    if (const std::vector<double> &old = constraint_motions.old_place(current); !old.empty())
+      constraints.add_forces(old, right_hand_side);
+    constraint_motions.set_problem(current, *system, right_hand_side, lift);
+    if (constraints.size() > 0 || system->has_modes())
+      constraint_motions.set_multipliers(
+          system->find_multipliers(constraint_motions.problem(), check, last), current);
+    system->find_increments(constraint_motions.applied().multiplier,
+                            constraint_motions.applied().mode_amplitude, right_hand_side);
+  }
+
   /// The largest change of the increments of all ranks.
   double TimeStepper::set_guess()
   {

@@ -29,6 +29,16 @@ namespace taut
     }
   } // namespace
 
+  PerKind beyond_rounding(const Substructure &body, const std::vector<double> &force)
+  {
+    // The solve rounds, too.
+    constexpr double of_all = 4.;
+    PerKind result = largest(body, force);
+    for (int kind = 0; kind < 2; ++kind)
+      result[kind] = result[kind] <= of_all * body.rounding_of_force(kind) ? 0. : result[kind];
+    return result;
+  }
+
   NonlinearBodies::NonlinearBodies(const Structure &structure, const Reference &reference)
       : structure(&structure), reference(&reference), steps(structure.size())
   {
@@ -115,7 +125,7 @@ namespace taut
     for (std::size_t i = 0; i < whole.size(); ++i)
       whole[i] += reference->force[k][i];
     const PerKind change = largest(body, difference), size = largest(body, dU),
-                  lack = largest(body, unbalanced), force = largest(body, whole);
+                  lack = beyond_rounding(body, unbalanced), force = largest(body, whole);
     double result = 0.;
     for (int kind = 0; kind < 2; ++kind)
     {
@@ -166,6 +176,24 @@ namespace taut
     (*structure)[k].internal_force(U, {}, state.KU[k]);
     for (std::size_t i = 0; i < U.size(); ++i)
       state.KU[k][i] -= reference->force[k][i];
+  }
+
+  double NonlinearBodies::energy_surplus() const
+  {
+    double sum = 0.;
+    for (const std::size_t k : bodies)
+    {
+      const Substructure &body = (*structure)[k];
+      const Step &own = steps[k];
+      std::vector<double> U = own.U0;
+      for (std::size_t i = 0; i < U.size(); ++i)
+      {
+        U[i] += own.dU[i];
+        sum -= (.5 * (own.f0[i] + own.f[i]) + reference->force[k][i]) * own.dU[i];
+      }
+      sum += body.strain_energy(U) - body.strain_energy(own.U0);
+    }
+    return sum;
   }
 
   void NonlinearBodies::set_own_force(State &state) const

@@ -53,10 +53,13 @@ namespace taut
     prm.leave_subsection();
   }
 
-  StepControl::StepControl(const StepParameters &parameters, const double step, const long n_steps)
-      : parameters(parameters), shortest(parameters.shortest(step)),
-        end(parameters.adaptive() ? n_steps << parameters.n_halvings : n_steps),
-        level(parameters.adaptive() ? parameters.n_halvings : 0)
+  StepControl::StepControl(const StepParameters &parameters, const double step, const long n_steps,
+                           const bool may_halve)
+      : parameters(parameters), n_levels(parameters.adaptive() ? parameters.n_halvings
+                                         : may_halve           ? most_halvings
+                                                               : 0),
+        shortest(std::ldexp(step, -static_cast<int>(n_levels))), end(n_steps << n_levels),
+        level(n_levels)
   {
   }
 
@@ -68,12 +71,40 @@ namespace taut
     return 0;
   }
 
+  /// The step of the present length, or a shorter one if it has no answer.
+  void StepControl::solve(TimeStepper &stepper, const State &before)
+  {
+    for (;;)
+    {
+      stepper.set_step(shortest * length());
+      try
+      {
+        stepper.advance();
+        return;
+      }
+      catch (const StepNotSolved &)
+      {
+        if (level == 0)
+          throw;
+      }
+      stepper.restore(before);
+      --level;
+      ++repeated;
+      n_calm = 0;
+    }
+  }
+
   void StepControl::advance(TimeStepper &stepper)
   {
     if (!parameters.adaptive())
     {
-      repeated += advance_in_parts(stepper, shortest);
-      ++position;
+      if (n_levels == 0)
+        stepper.advance();
+      else
+        solve(stepper, State(stepper.state()));
+      position += length();
+      while (level < n_levels && position % (2 * length()) == 0)
+        ++level;
       return;
     }
     const State before = stepper.state();
@@ -84,8 +115,7 @@ namespace taut
     bool has_changed;
     for (;;)
     {
-      stepper.set_step(shortest * length());
-      stepper.advance();
+      solve(stepper, before);
       error = stepper.local_error() / parameters.tolerance;
       has_changed = stepper.rigid_constraint_changed(before);
       if (level == 0 || has_changed || had_changed || !(error > 1.))

@@ -180,39 +180,19 @@ namespace taut
     nonlinear.set_own_force(current);
     if (c.velocity_projection)
       project_velocities();
-    if (c.mean_force && !c.velocity_level && constraints.size() > 0)
+    if (c.mean_force && !c.velocity_level && (constraints.size() > 0 || !is_linear))
       measure_energy();
-  }
-
-  /// The right-hand side becomes dU.
-  void TimeStepper::find_increments()
-  {
-    structure.communicator().agree(
-        [&]
-        {
-          for (std::size_t k = 0; k < structure.size(); ++k)
-            set_history(k);
-          for (const std::size_t k : nonlinear.indices())
-            nonlinear.add_remainder(k, system->bodies().stiffness(k), right_hand_side[k]);
-        });
-    if (const std::vector<double> &old = constraint_motions.old_place(current); !old.empty())
-      constraints.add_forces(old, right_hand_side);
-    constraint_motions.set_problem(current, *system, right_hand_side, lift);
-    if (constraints.size() > 0 || system->has_modes())
-      constraint_motions.set_multipliers(
-          system->find_multipliers(constraint_motions.problem(), check, last), current);
-    system->find_increments(constraint_motions.applied().multiplier,
-                            constraint_motions.applied().mode_amplitude, right_hand_side);
   }
 
   /**
    * The change of kinetic energy, minus the work of all forces but those of fixed constraints with
    * a mean force, plus what the springs of these take: not positive but for rounding. Where
-   * supports move it would be the work of their forces, too, and is not measured.
+   * supports move it would be the work of their forces, too, and is not measured. The energies of
+   * bodies that are not linear are their own, so that a mean force that is not theirs shows.
    */
   void TimeStepper::measure_energy()
   {
-    double sums[] = {0., -balance.work()};
+    double sums[] = {0., nonlinear.energy_surplus() - balance.work()};
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       std::vector<double> &V = current.V[k], &product = work_a;

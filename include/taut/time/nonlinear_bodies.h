@@ -4,6 +4,7 @@
 
 #include <taut/substructure/factored_structure.h>
 #include <taut/time/integrator.h>
+#include <taut/time/matrix_norms.h>
 #include <taut/time/state.h>
 
 #include <memory>
@@ -11,6 +12,10 @@
 
 namespace taut
 {
+  /// The largest entries of a force on a body, as far as they stand out against what rounding
+  /// leaves of its internal force, see Substructure::rounding_of_force() [N, N m].
+  PerKind beyond_rounding(const Substructure &body, const std::vector<double> &force);
+
   /**
    * The bodies of this rank whose internal force f is not K U, through one step. Their f at the end
    * of the step takes the place of K U. With mean forces it is what makes its average with f0 the
@@ -61,6 +66,10 @@ namespace taut
 
     /// KU = f - f_ref at the end of a step that ends in @p state.
     void set_end_force(std::size_t k, const StepCoefficients &c, State &state) const;
+
+    /// The change of their energies in the step minus the work that went into it: zero where the
+    /// mean force is that of the energy, negative where material damping takes some [J].
+    double energy_surplus() const;
 
     /// After a step with mean forces: the internal force of the state itself, and the balance
     /// with it.

@@ -49,8 +49,10 @@ namespace taut
   class StepControl
   {
   public:
-    /// From t = 0 to @p n_steps times @p step [s].
-    StepControl(const StepParameters &parameters, double step, long n_steps);
+    /// From t = 0 to @p n_steps times @p step [s]. @p may_halve: fixed steps, too, are made in
+    /// parts where bodies that are not linear have no answer to the whole.
+    StepControl(const StepParameters &parameters, double step, long n_steps,
+                bool may_halve = false);
 
     bool is_finished() const { return position == end; }
 
@@ -69,9 +71,12 @@ namespace taut
   private:
     long length() const { return 1L << level; }
 
+    void solve(TimeStepper &stepper, const State &before);
+
     const StepParameters parameters;
-    const double shortest; ///< [s]
-    const long end;        ///< in shortest steps
+    const unsigned int n_levels; ///< how often a step may be halved
+    const double shortest;       ///< [s]
+    const long end;              ///< in shortest steps
     long position = 0, repeated = 0;
     unsigned int level, n_calm = 0;
     bool had_changed = false; ///< a rigid constraint in the last step: its accelerations are a jump

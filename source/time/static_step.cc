@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "static_step.h"
+
+#include <taut/base/exceptions.h>
+#include <taut/time/balance_certificate.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace taut
+{
+  namespace
+  {
+    /// Iterative refinement ends where the error of the closed constraints is rounding, or here.
+    constexpr double rounding = 1e-15;
+    constexpr int most_refinements = 3;
+
+    /// |x| over size; 0 if x is.
+    double relative(const double x, const double size)
+    {
+      return x == 0. ? 0. : std::fabs(x) / size;
+    }
+  } // namespace
+
+  StaticStep::StaticStep(const Structure &structure, const Constraints &constraints,
+                         const SolverParameters &parameters, const double t,
+                         const NonlinearBodies &nonlinear, const BodyVectors &from)
+      : structure(structure), constraints(constraints), nonlinear(nonlinear), from(from),
+        processes(structure.communicator()), time(t),
+        check(structure, constraints, parameters.contact_tolerance),
+        system(structure, constraints, parameters)
+  {
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      compliance.push_back(1. / constraints[i].stiffness);
+    if (!nonlinear.indices().empty())
+      system.set_nonlinear(nonlinear.indices(), [&](const std::size_t k, const int attempt)
+                           { return nonlinear.tangent_at(k, from[k], attempt); });
+    system.prepare(StepCoefficients(), compliance);
+    processes.agree([&] { set_loads(); });
+    set_problem();
+  }
+
+  StaticState StaticStep::solve()
+  {
+    find_multipliers();
+    StaticState state = displaced(solution);
+    refine(state);
+    return state;
+  }
+
+  /// P - f - K lift, and lift: what the given displacements of supports lack.
+  void StaticStep::set_loads()
+  {
+    P = lift = structure.zero();
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      structure[k].external_force(time, P[k]);
+      structure[k].internal_force(from[k], {}, work);
+      for (std::size_t i = 0; i < work.size(); ++i)
+        P[k][i] -= work[i];
+      for (const ConstrainedDof &constraint : structure[k].constraints())
+        lift[k][constraint.dof] = constraint.at(time) - from[k][constraint.dof];
+      system.lift(k, lift[k], P[k]);
+      for (const ConstrainedDof &constraint : structure[k].constraints())
+        P[k][constraint.dof] = 0.;
+    }
+  }
+
+  void StaticStep::set_problem()
+  {
+    system.interface().contact_free_predictor(P, problem.free_gap, problem.gap_scale);
+    processes.sum(problem.free_gap);
+    processes.sum(problem.gap_scale);
+    const std::vector<double> lifted = constraints.motions(lift), moved = constraints.motions(from);
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+    {
+      problem.unilateral.push_back(constraints[i].unilateral);
+      problem.gap_scale[i] +=
+          std::fabs(lifted[i]) + std::fabs(constraints[i].gap) + std::fabs(moved[i]);
+      problem.free_gap[i] += lifted[i] + constraints[i].gap + moved[i];
+    }
+    system.set_modes(P, problem);
+  }
+
+  void StaticStep::find_multipliers()
+  {
+    try
+    {
+      solution = system.find_multipliers(problem, check, certificate);
+    }
+    catch (const BodyNotHeld &e)
+    {
+      processes.agree([&] { fail_not_held(e); });
+      throw;
+    }
+  }
+
+  /// Names the body that the first null space vector belongs to, on its rank.
+  void StaticStep::fail_not_held(const BodyNotHeld &e) const
+  {
+    const std::size_t k = system.body_of_mode(e.null_space().front());
+    if (k != Structure::elsewhere)
+      throw BodyNotHeld(check.when() + "body '" + structure[k].name() +
+                            "' is not held: no admissible contact force balances its loads. "
+                            "Add a support or a link, or start with 'Start = undeformed'.",
+                        {}, structure[k].origin());
+  }
+
+  StaticState StaticStep::displaced(const MixedComplementaritySolution &by) const
+  {
+    StaticState state;
+    state.multiplier = by.multiplier;
+    state.displacement = P;
+    system.find_increments(by.multiplier, by.mode_amplitude, state.displacement);
+    for (std::size_t k = 0; k < structure.size(); ++k)
+      for (std::size_t i = 0; i < lift[k].size(); ++i)
+        state.displacement[k][i] += lift[k][i] + from[k][i];
+    state.geometric_gap = constraints.motions(state.displacement);
+    state.gap.resize(constraints.size());
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+    {
+      state.geometric_gap[i] += constraints[i].gap;
+      state.gap[i] = state.geometric_gap[i] + compliance[i] * state.multiplier[i];
+    }
+    return state;
+  }
+
+  /// What gaps and loads of the null space lack. Returns the largest gap of the closed
+  /// constraints over the motions that it is summed from, or load over the forces.
+  double StaticStep::find_remainder(const StaticState &state,
+                                    MixedComplementarityProblem &remainder) const
+  {
+    const std::size_t n = constraints.size();
+    BodyVectors forces = P;
+    constraints.add_forces(state.multiplier, forces);
+    system.set_modes(forces, remainder);
+    remainder.free_gap = state.gap;
+    std::vector<double> size(n, 0.);
+    for (std::size_t i = 0; i < n; ++i)
+      size[i] = magnitude(constraints[i].terms, state.displacement);
+    processes.sum(size);
+    double largest = 0.;
+    for (std::size_t i = 0; i < n; ++i)
+      if (solution.closed[i])
+        largest =
+            std::max(largest, relative(state.gap[i], size[i] + std::fabs(constraints[i].gap)));
+    for (std::size_t m = 0; m < remainder.n_null_space(); ++m)
+    {
+      const LinearForm &G = remainder.null_space[m];
+      double terms = 0.;
+      for (std::size_t e = 0; e < G.index.size(); ++e)
+        terms += std::fabs(G.value[e] * state.multiplier[G.index[e]]);
+      largest = std::max(largest, relative(remainder.null_space_load[m], terms));
+    }
+    return largest;
+  }
+
+  /**
+   * Iterative refinement. F N + d adds what A^-1 makes of loads and of contact forces apart from
+   * each other, and where springs stand in for the contacts that hold a body, the two are large
+   * and cancel; A^-1 (P + B N) does not. What is left of gaps and balance there is solved for
+   * once more, and kept if it becomes less.
+   */
+  void StaticStep::refine(StaticState &state)
+  {
+    if (std::count(solution.closed.begin(), solution.closed.end(), 0) ==
+        static_cast<std::ptrdiff_t>(constraints.size()))
+      return;
+    MixedComplementarityProblem remainder;
+    remainder.unilateral = problem.unilateral;
+    double error = find_remainder(state, remainder);
+    for (int refinement = 0; refinement < most_refinements && error > rounding; ++refinement)
+    {
+      MixedComplementaritySolution refined = solution, correction;
+      if (!system.correct(remainder, solution, correction))
+        return;
+      for (std::size_t i = 0; i < constraints.size(); ++i)
+        refined.multiplier[i] += correction.multiplier[i];
+      for (std::size_t m = 0; m < remainder.n_null_space(); ++m)
+        refined.mode_amplitude[m] += correction.mode_amplitude[m];
+      StaticState refined_state = displaced(refined);
+      const double refined_error = find_remainder(refined_state, remainder);
+      if (!(refined_error < error))
+        return;
+      error = refined_error;
+      solution = std::move(refined);
+      state = std::move(refined_state);
+    }
+  }
+
+  /// The same certificate as of a step in time, with nothing that moves.
+  void StaticStep::certify(StaticState &state)
+  {
+    Certificate found = certificate;
+    if (constraints.size() > 0)
+    {
+      MixedComplementaritySolution certified = solution;
+      certified.gap = state.gap;
+      const ComplementarityResidual result =
+          residual(problem, system.interface().matrix(), certified);
+      found.complementarity = result.max;
+      found.worst_constraint =
+          std::max_element(result.rows.begin(), result.rows.end()) - result.rows.begin();
+    }
+    Reference undeformed;
+    State at_rest;
+    at_rest.time = time;
+    at_rest.U = at_rest.dU = state.displacement;
+    undeformed.displacement = structure.zero();
+    at_rest.multiplier = state.multiplier;
+    StepForces forces;
+    for (BodyVectors *v : {&undeformed.force, &at_rest.V, &at_rest.A, &at_rest.KU, &at_rest.balance,
+                           &forces.P, &forces.old_A, &forces.old_balance})
+      *v = structure.zero();
+    double own_balance = 0.;
+    processes.agree(
+        [&]
+        {
+          for (std::size_t k = 0; k < structure.size(); ++k)
+          {
+            structure[k].external_force(time, forces.P[k]);
+            forces.external_size.push_back(largest(structure[k], forces.P[k]));
+          }
+          const NonlinearBodies undeformed_bodies(structure, undeformed);
+          BalanceCertificate balance(structure, constraints, undeformed, undeformed_bodies);
+          own_balance = balance.measure(StepCoefficients(), forces, state.multiplier, {}, at_rest);
+          found.worst_body = balance.worst_body();
+        });
+    found.balance = processes.max(own_balance);
+    check.check_constraints(found);
+    check.check_balance(found, own_balance);
+    state.certificate = found;
+  }
+} // namespace taut

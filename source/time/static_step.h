@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_static_step_h
+#define taut_static_step_h
+
+#include <taut/time/nonlinear_bodies.h>
+#include <taut/time/static_equilibrium.h>
+#include <taut/time/step_check.h>
+#include <taut/time/step_system.h>
+
+#include <vector>
+
+namespace taut
+{
+  /// The step from a state U, at first the undeformed one, to f(U) + K dU = P + B N.
+  class StaticStep
+  {
+  public:
+    StaticStep(const Structure &structure, const Constraints &constraints,
+               const SolverParameters &parameters, double t, const NonlinearBodies &nonlinear,
+               const BodyVectors &from);
+    StaticState solve();
+    void certify(StaticState &state);
+
+    /// True if all tangents are those of the bodies and positive definite.
+    bool has_own_tangents() const { return system.has_own_tangents(); }
+
+    const FactoredStructure &bodies() const { return system.bodies(); }
+
+  private:
+    void set_loads();
+    void set_problem();
+    void find_multipliers();
+    void fail_not_held(const BodyNotHeld &e) const;
+    StaticState displaced(const MixedComplementaritySolution &by) const;
+    double find_remainder(const StaticState &state, MixedComplementarityProblem &remainder) const;
+    void refine(StaticState &state);
+
+    const Structure &structure;
+    const Constraints &constraints;
+    const NonlinearBodies &nonlinear;
+    const BodyVectors &from;
+    const Communicator &processes;
+    const double time;
+    StepCheck check;
+    StepSystem system;
+    std::vector<double> compliance;
+    BodyVectors P, lift;
+    std::vector<double> work;
+    MixedComplementarityProblem problem;
+    MixedComplementaritySolution solution;
+    Certificate certificate;
+  };
+} // namespace taut
+
+#endif
