@@ -87,6 +87,8 @@ namespace
           line = entry(name, std::to_string(n_steps * step));
         else if (name == "Element size")
           line = entry(name, std::to_string(8. * std::stod(value(line))));
+        else if (name == "Refinements" || name == "Local refinements")
+          line = entry(name, value(line) == "0" ? "0" : "1");
         else if (name == "Number of spans")
           line = entry(name, "3");
         else if (name == "Uplift positions" || name == "Window")
