@@ -8,6 +8,7 @@
 #include <taut/cable/cable.h>
 
 #include <deal.II/base/data_out_base.h>
+#include <deal.II/grid/reference_cell.h>
 
 #include <algorithm>
 #include <cmath>
@@ -256,6 +257,7 @@ namespace taut
     {
       dealii::DataOutBase::Patch<1, 3> &patch = patches[e];
       patch.patch_index = e;
+      patch.reference_cell = dealii::ReferenceCells::Line;
       patch.n_subdivisions = pieces;
       patch.points_are_available = true;
       patch.data.reinit(names.size() + 3, pieces + 1);
