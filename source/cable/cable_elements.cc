@@ -15,18 +15,17 @@ namespace taut
 {
   namespace
   {
-    /// The vector a of an element += shape[a] g.
-    template <typename Local>
-    void distribute(const std::array<double, 4> &shape, const Vector &g, Local &f)
+    /// |r'|; its arguments are no infinities.
+    double stretch_of(const Coordinates &u)
     {
-      for (unsigned int a = 0; a < 4; ++a)
-        for (unsigned int c = 0; c < 3; ++c)
-          f[3 * a + c] += shape[a] * g[c];
+      return std::sqrt(dot(u, u));
     }
 
-    double curvature_squared(const Vector &u, const Vector &v)
+    double curvature_squared(const Coordinates &u, const Coordinates &v)
     {
-      return cross_product_3d(u, v).norm_square() / std::pow(u.norm_square(), 2);
+      const Coordinates w = cross_product(u, v);
+      const double a = dot(u, u);
+      return dot(w, w) / (a * a);
     }
   } // namespace
 
@@ -108,23 +107,61 @@ namespace taut
     return x;
   }
 
+  /// Elements from @p first on; after the last one, that one again.
+  ElementBatch CableElements::batch(const std::vector<double> &q, const unsigned int first) const
+  {
+    ElementBatch x;
+    for (unsigned int l = 0; l < ElementBatch::size; ++l)
+    {
+      const double *const own = q.data() + dofs_per_node * std::min(first + l, n - 1);
+      for (unsigned int i = 0; i < element_dofs; ++i)
+        x.dof[i][l] = own[i];
+    }
+    const auto subtract_origin = [&x](const unsigned int a)
+    {
+      for (unsigned int c = 0; c < 3; ++c)
+        for (unsigned int l = 0; l < ElementBatch::size; ++l)
+          x.dof[3 * a + c][l] -= x.dof[c][l];
+    };
+    if (kind == CableElement::bar)
+      subtract_origin(1);
+    subtract_origin(2);
+    subtract_origin(0);
+    return x;
+  }
+
   double CableElements::strain_energy(const std::vector<double> &q) const
   {
     double energy = 0.;
-    for (unsigned int e = 0; e < n; ++e)
-    {
-      const Local x = local(q, e);
-      for (const Point &p : axial_points)
-        energy +=
-            .5 * p.weight * material.axial_stiffness * std::pow(combine(p.slope, x).norm() - 1., 2);
-      for (const Point &p : bending_points)
-        energy += .5 * p.weight * material.bending_stiffness *
-                  curvature_squared(combine(p.slope, x), combine(p.curvature, x));
-    }
+    vectorised(
+        [this, &q, &energy]
+        {
+          double all = 0.;
+          for (unsigned int first = 0; first < n; first += ElementBatch::size)
+          {
+            const ElementBatch x = batch(q, first);
+            std::array<double, ElementBatch::size> sum{};
+            for (const Point &p : axial_points)
+#pragma omp simd
+              for (unsigned int l = 0; l < ElementBatch::size; ++l)
+              {
+                const double strain = stretch_of(combine(p.slope, x, l)) - 1.;
+                sum[l] += .5 * p.weight * material.axial_stiffness * strain * strain;
+              }
+            for (const Point &p : bending_points)
+#pragma omp simd
+              for (unsigned int l = 0; l < ElementBatch::size; ++l)
+                sum[l] += .5 * p.weight * material.bending_stiffness *
+                          curvature_squared(combine(p.slope, x, l), combine(p.curvature, x, l));
+            for (unsigned int l = 0; l < std::min(n - first, ElementBatch::size); ++l)
+              all += sum[l];
+          }
+          energy = all;
+        });
     return energy;
   }
 
-  /// f = the sum of what @p integrand (element, its force) adds.
+  /// f = the sum of what @p integrand (first element of a batch, its forces) adds.
   template <typename Integrand>
   void CableElements::integrate_force(std::vector<double> &f, const Integrand &integrand) const
   {
@@ -132,12 +169,13 @@ namespace taut
     vectorised(
         [this, &integrand, all = f.data()]
         {
-          for (unsigned int e = 0; e < n; ++e)
+          for (unsigned int first = 0; first < n; first += ElementBatch::size)
           {
-            Local sum{};
-            integrand(e, sum);
-            for (unsigned int i = 0; i < element_dofs; ++i)
-              all[dofs_per_node * e + i] += sum[i];
+            ElementBatch sum;
+            integrand(first, sum);
+            for (unsigned int l = 0; l < std::min(n - first, ElementBatch::size); ++l)
+              for (unsigned int i = 0; i < element_dofs; ++i)
+                all[dofs_per_node * (first + l) + i] += sum.dof[i][l];
           }
         });
   }
@@ -147,28 +185,32 @@ namespace taut
                                      std::vector<double> &f) const
   {
     const bool damped = !velocity.empty() && material.axial_damping != 0.;
-    const auto integrand = [&](const unsigned int e, Local &sum)
+    const double damping = damped ? material.axial_damping : 0.;
+    const auto integrand = [&](const unsigned int first, ElementBatch &sum)
     {
-      const Local x = local(q, e);
-      const Local rate = damped ? local(velocity, e) : Local{};
+      const ElementBatch x = batch(q, first),
+                         rate = damped ? batch(velocity, first) : ElementBatch();
       for (const Point &p : axial_points)
-      {
-        const Vector u = combine(p.slope, x);
-        const double stretch = u.norm();
-        double force = material.axial_stiffness * (stretch - 1.);
-        if (damped)
-          force += material.axial_damping * (u * combine(p.slope, rate)) / stretch;
-        distribute(p.slope, p.weight * force / stretch * u, sum);
-      }
+#pragma omp simd
+        for (unsigned int l = 0; l < ElementBatch::size; ++l)
+        {
+          const Coordinates u = combine(p.slope, x, l);
+          const double stretch = stretch_of(u);
+          const double force = material.axial_stiffness * (stretch - 1.) +
+                               damping * dot(u, combine(p.slope, rate, l)) / stretch;
+          distribute(p.slope, (p.weight * force / stretch) * u, sum, l);
+        }
       for (const Point &p : bending_points)
-      {
-        // kappa^2 = |w|^2 / a^2 with w = u x v and a = u . u
-        const Vector u = combine(p.slope, x), v = combine(p.curvature, x),
-                     w = cross_product_3d(u, v);
-        const double a = u.norm_square(), factor = p.weight * material.bending_stiffness / (a * a);
-        distribute(p.slope, factor * (cross_product_3d(v, w) - 2. * w.norm_square() / a * u), sum);
-        distribute(p.curvature, factor * cross_product_3d(w, u), sum);
-      }
+#pragma omp simd
+        for (unsigned int l = 0; l < ElementBatch::size; ++l)
+        {
+          // kappa^2 = |w|^2 / a^2 with w = u x v and a = u . u
+          const Coordinates u = combine(p.slope, x, l), v = combine(p.curvature, x, l),
+                            w = cross_product(u, v);
+          const double a = dot(u, u), factor = p.weight * material.bending_stiffness / (a * a);
+          distribute(p.slope, factor * (cross_product(v, w) + (-2. * dot(w, w) / a) * u), sum, l);
+          distribute(p.curvature, factor * cross_product(w, u), sum, l);
+        }
     };
     integrate_force(f, integrand);
   }
@@ -176,34 +218,38 @@ namespace taut
   void CableElements::mean_force(const std::vector<double> &q0, const std::vector<double> &q1,
                                  const double step, std::vector<double> &f) const
   {
-    const auto integrand = [&](const unsigned int e, Local &sum)
+    const double damping = material.axial_damping == 0. ? 0. : material.axial_damping / step;
+    const auto integrand = [&](const unsigned int first, ElementBatch &sum)
     {
-      const Local x0 = local(q0, e), x1 = local(q1, e);
+      const ElementBatch x0 = batch(q0, first), x1 = batch(q1, first);
       for (const Point &p : axial_points)
-      {
-        const Vector u0 = combine(p.slope, x0), u1 = combine(p.slope, x1);
-        const double stretch0 = u0.norm(), stretch1 = u1.norm(), twice = stretch0 + stretch1;
-        const double force =
-            material.axial_stiffness * (.5 * twice - 1.) +
-            (material.axial_damping == 0. ? 0.
-                                          : material.axial_damping * (stretch1 - stretch0) / step);
-        distribute(p.slope, p.weight * force / twice * (u0 + u1), sum);
-      }
+#pragma omp simd
+        for (unsigned int l = 0; l < ElementBatch::size; ++l)
+        {
+          const Coordinates u0 = combine(p.slope, x0, l), u1 = combine(p.slope, x1, l);
+          const double stretch0 = stretch_of(u0), stretch1 = stretch_of(u1),
+                       twice = stretch0 + stretch1;
+          const double force =
+              material.axial_stiffness * (.5 * twice - 1.) + damping * (stretch1 - stretch0);
+          distribute(p.slope, (p.weight * force / twice) * (u0 + u1), sum, l);
+        }
       for (const Point &p : bending_points)
-      {
-        // kappa^2 = c A - (b A)^2 with a = u . u, b = u . v, c = v . v and A = 1 / a:
-        // differences of products, with means of the factors.
-        const Vector u0 = combine(p.slope, x0), u1 = combine(p.slope, x1),
-                     v0 = combine(p.curvature, x0), v1 = combine(p.curvature, x1);
-        const Vector u = .5 * (u0 + u1), v = .5 * (v0 + v1);
-        const double A0 = 1. / u0.norm_square(), A1 = 1. / u1.norm_square(), b0 = u0 * v0,
-                     b1 = u1 * v1, A = .5 * (A0 + A1), b = .5 * (b0 + b1),
-                     c = .5 * (v0.norm_square() + v1.norm_square()), bA = .5 * (b0 * A0 + b1 * A1);
-        const double by_a = (2. * b * bA - c) * A0 * A1, by_b = -2. * bA * A, by_c = A;
-        const double factor = .5 * p.weight * material.bending_stiffness;
-        distribute(p.slope, factor * (2. * by_a * u + by_b * v), sum);
-        distribute(p.curvature, factor * (by_b * u + 2. * by_c * v), sum);
-      }
+#pragma omp simd
+        for (unsigned int l = 0; l < ElementBatch::size; ++l)
+        {
+          // kappa^2 = c A - (b A)^2 with a = u . u, b = u . v, c = v . v and A = 1 / a:
+          // differences of products, with means of the factors.
+          const Coordinates u0 = combine(p.slope, x0, l), u1 = combine(p.slope, x1, l),
+                            v0 = combine(p.curvature, x0, l), v1 = combine(p.curvature, x1, l);
+          const Coordinates u = .5 * (u0 + u1), v = .5 * (v0 + v1);
+          const double A0 = 1. / dot(u0, u0), A1 = 1. / dot(u1, u1), b0 = dot(u0, v0),
+                       b1 = dot(u1, v1), A = .5 * (A0 + A1), b = .5 * (b0 + b1),
+                       c = .5 * (dot(v0, v0) + dot(v1, v1)), bA = .5 * (b0 * A0 + b1 * A1);
+          const double by_a = (2. * b * bA - c) * A0 * A1, by_b = -2. * bA * A, by_c = A;
+          const double factor = .5 * p.weight * material.bending_stiffness;
+          distribute(p.slope, factor * ((2. * by_a) * u + by_b * v), sum, l);
+          distribute(p.curvature, factor * (by_b * u + (2. * by_c) * v), sum, l);
+        }
     };
     integrate_force(f, integrand);
   }
@@ -314,6 +360,7 @@ namespace taut
     const auto [e, xi] = find(s);
     const Shapes all = shapes(xi);
     const Local x = local(q, e);
-    return std::sqrt(curvature_squared(combine(all.slope, x), combine(all.curvature, x)));
+    const Vector u = combine(all.slope, x), v = combine(all.curvature, x);
+    return std::sqrt(curvature_squared({u[0], u[1], u[2]}, {v[0], v[1], v[2]}));
   }
 } // namespace taut

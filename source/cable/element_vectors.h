@@ -2,6 +2,8 @@
 #ifndef taut_element_vectors_h
 #define taut_element_vectors_h
 
+#include <taut/base/coordinates.h>
+
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>
 
@@ -13,6 +15,13 @@ namespace taut
   using Vector = dealii::Tensor<1, 3>;
   using Matrix = dealii::Tensor<2, 3>;
 
+  /// The DoFs of several elements, side by side: loops over them become vector instructions.
+  struct ElementBatch
+  {
+    static constexpr unsigned int size = 8;
+    std::array<std::array<double, size>, 12> dof{};
+  };
+
   /// sum of shape[a] times the vector a of an element.
   template <typename Local>
   inline Vector combine(const std::array<double, 4> &shape, const Local &x)
@@ -22,6 +31,54 @@ namespace taut
       for (unsigned int c = 0; c < 3; ++c)
         r[c] += shape[a] * x[3 * a + c];
     return r;
+  }
+
+  /// The same of element l of a batch. By components: loops over arrays in it are none over l.
+  inline Coordinates combine(const std::array<double, 4> &shape, const ElementBatch &x,
+                             const unsigned int l)
+  {
+    const auto component = [&](const unsigned int c)
+    {
+      return shape[0] * x.dof[c][l] + shape[1] * x.dof[3 + c][l] + shape[2] * x.dof[6 + c][l] +
+             shape[3] * x.dof[9 + c][l];
+    };
+    return {component(0), component(1), component(2)};
+  }
+
+  inline Coordinates operator+(const Coordinates &a, const Coordinates &b)
+  {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+  }
+
+  inline Coordinates operator*(const double s, const Coordinates &a)
+  {
+    return {s * a.x, s * a.y, s * a.z};
+  }
+
+  inline Coordinates cross_product(const Coordinates &a, const Coordinates &b)
+  {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  }
+
+  /// The vector a of an element += shape[a] g.
+  template <typename Local>
+  inline void distribute(const std::array<double, 4> &shape, const Vector &g, Local &f)
+  {
+    for (unsigned int a = 0; a < 4; ++a)
+      for (unsigned int c = 0; c < 3; ++c)
+        f[3 * a + c] += shape[a] * g[c];
+  }
+
+  /// The same of element l of a batch.
+  inline void distribute(const std::array<double, 4> &shape, const Coordinates &g, ElementBatch &f,
+                         const unsigned int l)
+  {
+    for (unsigned int a = 0; a < 4; ++a)
+    {
+      f.dof[3 * a][l] += shape[a] * g.x;
+      f.dof[3 * a + 1][l] += shape[a] * g.y;
+      f.dof[3 * a + 2][l] += shape[a] * g.z;
+    }
   }
 } // namespace taut
 

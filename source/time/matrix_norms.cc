@@ -20,19 +20,28 @@ namespace taut
 
   template <std::size_t n_vectors>
   Largest<n_vectors>::Largest(const Substructure &body)
-      : body(body), is_regular(lanes % body.kind_pattern().size() == 0)
+      : body(body), lanes(8 % body.kind_pattern().size() == 0            ? 8
+                          : most_lanes % body.kind_pattern().size() == 0 ? most_lanes
+                                                                         : 0)
   {
   }
 
+  /// Whole lanes.
   template <std::size_t n_vectors>
-  void Largest<n_vectors>::add(const std::array<const double *, n_vectors> &x, const std::size_t n)
+  template <std::size_t lanes>
+  void Largest<n_vectors>::add_rows(const std::array<const double *, n_vectors> &x,
+                                    const std::size_t n)
   {
-    const std::size_t n_full = is_regular ? n - n % lanes : 0;
     vectorised(
-        [this, x, n_full]
+        [this, x, n]
         {
-          Lanes m = largest, s = sums;
-          for (std::size_t i = 0; i < n_full; i += lanes)
+          std::array<std::array<double, lanes>, n_vectors> m, s;
+          for (std::size_t v = 0; v < n_vectors; ++v)
+          {
+            std::copy_n(largest[v].begin(), lanes, m[v].begin());
+            std::copy_n(sums[v].begin(), lanes, s[v].begin());
+          }
+          for (std::size_t i = 0; i < n; i += lanes)
             for (std::size_t v = 0; v < n_vectors; ++v)
 #pragma omp simd
               for (std::size_t k = 0; k < lanes; ++k)
@@ -41,9 +50,22 @@ namespace taut
                 m[v][k] = a > m[v][k] ? a : m[v][k];
                 s[v][k] += a;
               }
-          largest = m;
-          sums = s;
+          for (std::size_t v = 0; v < n_vectors; ++v)
+          {
+            std::copy(m[v].begin(), m[v].end(), largest[v].begin());
+            std::copy(s[v].begin(), s[v].end(), sums[v].begin());
+          }
         });
+  }
+
+  template <std::size_t n_vectors>
+  void Largest<n_vectors>::add(const std::array<const double *, n_vectors> &x, const std::size_t n)
+  {
+    const std::size_t n_full = lanes == 0 ? 0 : n - n % lanes;
+    if (lanes == most_lanes)
+      add_rows<most_lanes>(x, n_full);
+    else
+      add_rows<8>(x, n_full);
     for (std::size_t v = 0; v < n_vectors; ++v)
       for (std::size_t i = n_full; i < n; ++i)
         raise(others[v][body.kind(i)], std::fabs(x[v][i]));
@@ -53,10 +75,9 @@ namespace taut
   std::array<PerKind, n_vectors> Largest<n_vectors>::result() const
   {
     std::array<PerKind, n_vectors> result = others;
-    if (is_regular)
-      for (std::size_t v = 0; v < n_vectors; ++v)
-        for (std::size_t k = 0; k < lanes; ++k)
-          raise(result[v][body.kind(k)], std::isnan(sums[v][k]) ? sums[v][k] : largest[v][k]);
+    for (std::size_t v = 0; v < n_vectors; ++v)
+      for (std::size_t k = 0; k < lanes; ++k)
+        raise(result[v][body.kind(k)], std::isnan(sums[v][k]) ? sums[v][k] : largest[v][k]);
     return result;
   }
 

@@ -18,8 +18,10 @@ namespace taut
     constexpr double converged = 1e-9, stagnated = 1e-5;
     constexpr int most_stagnant = 2;
 
-    /// A tangent is kept while the change falls by this factor an iteration.
+    /// A tangent is kept while the change falls by this factor an iteration, and for the next step
+    /// if this one took no more iterations: a tangent and its factors cost as much as two or three.
     constexpr double slow = .1;
+    constexpr int most_with_a_kept_tangent = 5;
     constexpr int most_iterations = 30;
   } // namespace
 
@@ -30,19 +32,22 @@ namespace taut
                             { return nonlinear.tangent(k, attempt); });
   }
 
-  /// The right-hand side becomes dU.
-  void TimeStepper::find_increments()
+  /// P^ of the step, which becomes the right-hand side.
+  void TimeStepper::set_loads()
   {
     structure.communicator().agree(
         [&]
         {
           for (std::size_t k = 0; k < structure.size(); ++k)
             set_history(k);
-          for (const std::size_t k : nonlinear.indices())
-            nonlinear.add_remainder(k, system->bodies().stiffness(k), right_hand_side[k]);
         });
     if (const std::vector<double> &old = constraint_motions.old_place(current); !old.empty())
       constraints.add_forces(old, right_hand_side);
+  }
+
+  /// The right-hand side becomes dU.
+  void TimeStepper::find_increments()
+  {
     constraint_motions.set_problem(current, *system, right_hand_side, lift);
     if (constraints.size() > 0 || system->has_modes())
       constraint_motions.set_multipliers(
@@ -69,8 +74,8 @@ namespace taut
   }
 
   /**
-   * Newton's method from dU = 0. The tangent of the start of the step is kept while it pays;
-   * a new one is that of the last guess.
+   * Newton's method from dU = 0, with the tangent of a step before while it pays; a new one is that
+   * of the last guess.
    */
   void TimeStepper::iterate()
   {
@@ -78,6 +83,11 @@ namespace taut
     try
     {
       is_solved = solve_by_newton();
+      if (!is_solved && tangents_are_kept)
+      {
+        tangents_are_kept = false;
+        is_solved = solve_by_newton();
+      }
     }
     catch (const UserError &e)
     {
@@ -95,22 +105,34 @@ namespace taut
   {
     const std::vector<double> multiplier = current.multiplier;
     nonlinear.begin(current, coefficients, step);
-    system->linearise();
+    if (!tangents_are_kept)
+      system->linearise();
+    set_loads();
+    const BodyVectors loads = right_hand_side;
     double before = std::numeric_limits<double>::infinity();
     int stagnant = 0;
-    for (int iteration = 0; iteration < most_iterations; ++iteration)
+    for (int iteration = 1; iteration <= most_iterations; ++iteration)
     {
+      right_hand_side = loads;
+      for (const std::size_t k : nonlinear.indices())
+        nonlinear.add_remainder(k, system->bodies().stiffness(k), right_hand_side[k]);
       current.multiplier = multiplier;
       find_increments();
       ++n_iterations;
       const double change = set_guess();
       stagnant = change >= .5 * before ? stagnant + 1 : 0;
       if (change <= converged || (change <= stagnated && stagnant == most_stagnant))
+      {
+        tangents_are_kept = iteration <= most_with_a_kept_tangent;
         return true;
+      }
       if (std::isinf(change))
         return false;
-      if (iteration > 0 && change > slow * before)
+      if (iteration > 1 && change > slow * before)
+      {
+        tangents_are_kept = false;
         system->linearise();
+      }
       before = change;
     }
     return false;

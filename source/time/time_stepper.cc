@@ -144,6 +144,7 @@ namespace taut
   void TimeStepper::prepare(const StepCoefficients &c)
   {
     coefficients = c;
+    tangents_are_kept = false;
     constraint_motions.prepare(c, step);
     system->prepare(c, constraint_motions.compliance());
     if (!c.velocity_projection)
@@ -171,7 +172,10 @@ namespace taut
     system->interface().update_moving();
 
     if (is_linear)
+    {
+      set_loads();
       find_increments();
+    }
     else
       iterate();
     accept_increments();

@@ -19,6 +19,8 @@ namespace taut
     bar   ///< Lagrange polynomials of degree 2: axial force only
   };
 
+  struct ElementBatch;
+
   /// A cross section; lengths are unstressed.
   struct CableSection
   {
@@ -165,6 +167,7 @@ namespace taut
 
     Shapes shapes(double xi) const;
     Local local(const std::vector<double> &q, unsigned int e) const;
+    ElementBatch batch(const std::vector<double> &q, unsigned int first) const;
     template <typename Integrand>
     void integrate_force(std::vector<double> &f, const Integrand &integrand) const;
     void add(const LocalMatrix &K, unsigned int e, SymmetricMatrix &A) const;

@@ -31,11 +31,14 @@ namespace taut
   private:
     // Side by side, so that the comparisons do not wait for each other. A comparison loses what is
     // not a number, a sum keeps it.
-    static constexpr std::size_t lanes = 8;
-    using Lanes = std::array<std::array<double, lanes>, n_vectors>;
+    static constexpr std::size_t most_lanes = 24;
+    using Lanes = std::array<std::array<double, most_lanes>, n_vectors>;
+
+    template <std::size_t lanes>
+    void add_rows(const std::array<const double *, n_vectors> &x, std::size_t n);
 
     const Substructure &body;
-    const bool is_regular; ///< kinds repeat themselves with the lanes
+    const std::size_t lanes; ///< kinds repeat themselves with them; 0: with none
     Lanes largest = {}, sums = {};
     std::array<PerKind, n_vectors> others = {};
   };

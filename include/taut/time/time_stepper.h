@@ -99,6 +99,7 @@ namespace taut
     void begin_anew(const std::vector<double> &largest_rates);
     void set_external_force(std::size_t k);
     void set_history(std::size_t k);
+    void set_loads();
     void find_increments();
     void iterate();
     bool solve_by_newton();
@@ -137,8 +138,9 @@ namespace taut
     InterfaceStatistics earlier_systems; ///< of those before
     ConstraintMotions constraint_motions;
     NonlinearBodies nonlinear;
-    bool is_linear = true;      ///< of all bodies of all ranks
-    bool supports_move = false; ///< of a body of some rank
+    bool tangents_are_kept = false; ///< from step to step
+    bool is_linear = true;          ///< of all bodies of all ranks
+    bool supports_move = false;     ///< of a body of some rank
     BalanceCertificate balance;
     double own_balance = 0.; ///< of this rank
     StepCheck check;
