@@ -18,11 +18,17 @@ namespace taut
     constexpr double converged = 1e-9, stagnated = 1e-5;
     constexpr int most_stagnant = 2;
 
-    /// A tangent is kept while the change falls by this factor an iteration, and for the next step
-    /// if this one took no more iterations: a tangent and its factors cost as much as two or three.
-    constexpr double slow = .1;
+    /// A tangent is kept while the rate at which changes fall promises no more iterations than
+    /// this, and for the next step if this one took no more: a tangent and its factors cost as much
+    /// as two or three, and spare some, but not all of those.
     constexpr int most_with_a_kept_tangent = 5;
     constexpr int most_iterations = 30;
+
+    /// Whether a change that follows one @p before needs more, at the same rate.
+    bool is_slow(const double change, const double before)
+    {
+      return !(change * std::pow(change / before, most_with_a_kept_tangent) <= converged);
+    }
   } // namespace
 
   void TimeStepper::set_nonlinear()
@@ -128,7 +134,7 @@ namespace taut
       }
       if (std::isinf(change))
         return false;
-      if (iteration > 1 && change > slow * before)
+      if (iteration > 1 && is_slow(change, before))
       {
         tangents_are_kept = false;
         system->linearise();
