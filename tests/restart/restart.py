@@ -49,6 +49,8 @@ SCENES = [
     ["en50318_2002_250_two.prm", *entries(Time__End=0.8, Statistics__Window="", Time__Scheme="BDF2",
                                           Output__Checkpoint_interval=0.15, Solver__Interface_operator="assembled sparse")],
     ["oscillator_with_stop.prm", *entries(Output__Checkpoint_interval=0.1, Time__Scheme="Moreau-Jean")],
+    ["pendulum_cable.prm", *entries(Output__Checkpoint_interval=0.2)],
+    ["cable_on_floor.prm", *entries(Output__Checkpoint_interval=0.2, Output__Observers="energy")],
 ]
 errors = []
 
