@@ -80,15 +80,25 @@ namespace taut
           r[i] = load[i] - r[i];
         for (const unsigned int i : held)
           r[i] = 0.;
-        double largest = 0.;
-        for (std::size_t i = 0; i < r.size(); ++i)
+        return largest(cable, r);
+      }
+
+      static bool is_slope(const CableElements &cable, const std::size_t dof)
+      {
+        return cable.element() == CableElement::ancf && dof % 6 > 2;
+      }
+
+      static double largest(const CableElements &cable, const std::vector<double> &forces)
+      {
+        double result = 0.;
+        for (std::size_t i = 0; i < forces.size(); ++i)
         {
-          const bool is_moment = cable.element() == CableElement::ancf && i % 6 > 2;
-          const double size = std::fabs(r[i]) / (is_moment ? cable.element_length() : 1.);
-          if (!(size <= largest)) // NaN stays
-            largest = size;
+          const double size =
+              std::fabs(forces[i]) / (is_slope(cable, i) ? cable.element_length() : 1.);
+          if (!(size <= result)) // NaN stays
+            result = size;
         }
-        return largest;
+        return result;
       }
 
       double energy(const CableElements &cable, const std::vector<double> &q) const
@@ -100,8 +110,9 @@ namespace taut
       static double rounding(const CableElements &cable, const std::vector<double> &q)
       {
         double size = 0.;
-        for (const double x : q)
-          size = std::max(size, std::fabs(x));
+        for (std::size_t i = 0; i < q.size(); ++i)
+          if (!is_slope(cable, i))
+            size = std::max(size, std::fabs(q[i]));
         const CableSection &section = cable.section();
         const double h = cable.element_length();
         return 8. * eps * (section.axial_stiffness + section.bending_stiffness / (h * h)) *
@@ -127,8 +138,10 @@ namespace taut
       bool iterate(const CableElements &cable, double relative_tolerance, bool downhill,
                    std::vector<double> &q);
       bool step(const CableElements &cable, bool downhill, double &size, std::vector<double> &q);
+      void polish(const CableElements &cable, double size, std::vector<double> &q);
 
       static constexpr unsigned int most_iterations = 60;
+      static constexpr int most_polishing = 4;
       static constexpr double enough = 1e-4; ///< of the expected decrease of the energy (Armijo)
 
       std::vector<unsigned int> held;
@@ -144,9 +157,7 @@ namespace taut
     bool Search::iterate(const CableElements &cable, const double relative_tolerance,
                          const bool downhill, std::vector<double> &q)
     {
-      double scale = 0.;
-      for (const double force : load)
-        scale = std::max(scale, std::fabs(force));
+      double scale = largest(cable, load);
       double size = find_residual(cable, q);
       if (scale == 0.)
         scale = size;
@@ -155,7 +166,10 @@ namespace taut
         last_residual = size;
         balanced = size <= std::max(relative_tolerance * scale, rounding(cable, q));
         if (balanced)
+        {
+          polish(cable, size, q);
           return is_stable(cable, q);
+        }
         ++n_iterations;
         if (!step(cable, downhill, size, q))
           return false;
@@ -195,6 +209,20 @@ namespace taut
           return true;
       }
       return false;
+    }
+
+    /// Steps that only rounding ends.
+    void Search::polish(const CableElements &cable, double size, std::vector<double> &q)
+    {
+      std::vector<double> best = q;
+      double least = size;
+      for (int k = 0; k < most_polishing && step(cable, false, size, q) && size < .5 * least; ++k)
+      {
+        best = q;
+        least = size;
+      }
+      q = best;
+      last_residual = find_residual(cable, q);
     }
 
     /// Of the softest cable of a search, 2 to 20 times the tension unless EA is less.

@@ -135,6 +135,7 @@ namespace taut
       json &certificate = root["certificate"];
       certificate["contact_energy"] = measure(s.contact_energy, "J", s.energy_constraint);
       certificate["relative_contact_energy"] = measure(s.relative_energy, "1", s.energy_constraint);
+      certificate["energy_of_large_motions"] = quantity(s.motion_energy, "J");
       certificate["contact_gap"] = measure(s.gap, "m or rad", s.gap_constraint);
       certificate["peak_over_mean"] = measure(s.resolution, "1", s.resolution_row);
     }

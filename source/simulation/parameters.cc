@@ -118,8 +118,8 @@ namespace taut
                       "Run a scheme although it is known to fail with the links of the scene");
     prm.add_parameter(
         "Allow energy gain", allow_energy_gain,
-        "Let a run succeed whose unilateral links gave more than a tenth of the energy "
-        "that moves, where they can only take it");
+        "Let a run succeed whose unilateral links, where they can only take energy, or large "
+        "motions gave more than a tenth of the energy that moves");
     prm.add_parameter(
         "Mass redistribution", mass_redistribution,
         "Whether the node of a wire at a rigid stop or dropper gives its mass to its "

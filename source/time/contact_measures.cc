@@ -86,6 +86,10 @@ namespace taut
       forces[i].mean = start.multiplier[i];
       forces[i].impulses.push_back({start.time, 0.});
     }
+    double n_far = 0.;
+    for (std::size_t k = 0; k < structure.size(); ++k)
+      n_far += !structure[k].is_linear();
+    moves_far = structure.communicator().max(n_far) > 0.;
     measure_rest(start);
     measure_scale(start, Certificate());
   }
@@ -143,6 +147,8 @@ namespace taut
     // Without a unilateral constraint there is no contact that could have given it.
     if (is_one_sided && c.mean_force && !c.velocity_level)
       found.contact_energy += std::max(0., certificate.energy_gain);
+    if (moves_far)
+      found.motion_energy += std::max(0., certificate.energy_gain);
     if (n_steps < steps_between_scales || n_steps % steps_between_scales == 0)
       measure_scale(state, certificate);
     kinetic = std::max(kinetic, certificate.kinetic_energy);
@@ -157,7 +163,8 @@ namespace taut
       archive &f.largest_impulse &f.event_energy &f.event_begin &f.gap &f.motion;
     }
     archive &multiplier0 &gap0 &noise &worst_event &kinetic &strain &loads &n_steps;
-    archive &found.contact_energy &found.scale &found.relative_energy &found.energy_constraint;
+    archive &found.contact_energy &found.motion_energy &found.scale &found.relative_energy &found
+        .energy_constraint;
     archive &found.energy_begin &found.energy_end &found.gap &found.gap_constraint;
     archive &found.gap_drifts &found.resolution &found.resolution_row &found.peak;
     archive &found.mean_peak &found.mean_time;
@@ -274,6 +281,8 @@ namespace taut
     result.scale = kinetic + strain + loads + rest;
     if (result.contact_energy > 0.)
       result.relative_energy = result.contact_energy / result.scale;
+    if (result.motion_energy > 0.)
+      result.relative_motion_energy = result.motion_energy / result.scale;
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       const Force &force = forces[i];
@@ -294,16 +303,27 @@ namespace taut
   std::string ContactMeasures::error() const
   {
     const Summary s = summary();
-    if (!(s.relative_energy > wrong_energy))
-      return "";
     std::ostringstream out;
-    out << "unilateral links gave " << s.contact_energy << " J, " << s.relative_energy
-        << " of the energy that moves, where they can only take it: most at '"
-        << constraints[s.energy_constraint].name << "' between t = " << s.energy_begin << " and "
-        << s.energy_end
-        << " s. The motion is wrong. Set 'Time/Scheme' to 'automatic', take a smaller step, or set "
-           "'Time/Allow energy gain'";
+    if (s.relative_energy > wrong_energy)
+      out << "unilateral links gave " << s.contact_energy << " J, " << s.relative_energy
+          << " of the energy that moves, where they can only take it: most at '"
+          << constraints[s.energy_constraint].name << "' between t = " << s.energy_begin << " and "
+          << s.energy_end
+          << " s. The motion is wrong. Set 'Time/Scheme' to 'automatic', take a smaller step, or "
+             "set "
+             "'Time/Allow energy gain'";
+    else if (s.relative_motion_energy > wrong_energy)
+      out << "bodies that move by large amounts gained " << s.motion_energy << " J, "
+          << s.relative_motion_energy
+          << " of the energy that moves, from nowhere. The motion is wrong. Set 'Time/Scheme' to "
+             "'automatic', take a smaller step, or set 'Time/Allow energy gain'";
     return out.str();
+  }
+
+  std::string ContactMeasures::error_origin() const
+  {
+    const Summary s = summary();
+    return s.relative_energy > wrong_energy ? constraints.origin(s.energy_constraint) : "";
   }
 
   std::vector<ContactMeasures::Warning> ContactMeasures::warnings() const
@@ -323,6 +343,10 @@ namespace taut
           "unilateral links gave ", s.contact_energy, " J, most at '",
           constraints[s.energy_constraint].name, "' between t = ", s.energy_begin, " and ",
           s.energy_end, " s: take 'Scheme = automatic' or a smaller step");
+    if (s.relative_motion_energy > suspicious_energy)
+      add("motion_energy", s.relative_motion_energy, suspicious_energy, 0.,
+          "bodies that move by large amounts gained ", s.motion_energy,
+          " J from nowhere: take 'Scheme = automatic' or a smaller step");
     if (s.gap_drifts)
       add("contact_gap", s.gap, 0., 0., "'", constraints[s.gap_constraint].name,
           "' presses across a gap, or penetrates, by more than the motion of a step: take "
@@ -338,12 +362,13 @@ namespace taut
   std::string ContactMeasures::report() const
   {
     const Summary s = summary();
-    if (constraints.size() == 0)
-      return "";
     std::ostringstream out;
     out.precision(2);
-    out << "Contacts: energy " << s.relative_energy << " of the largest, gap " << s.gap
-        << " m, peak over mean " << s.resolution << '\n';
+    if (moves_far)
+      out << "Large motions: gain of energy " << s.relative_motion_energy << " of the largest\n";
+    if (constraints.size() > 0)
+      out << "Contacts: energy " << s.relative_energy << " of the largest, gap " << s.gap
+          << " m, peak over mean " << s.resolution << '\n';
     for (const Warning &warning : warnings())
       out << "  Warning: " << warning.message << '\n';
     return out.str();

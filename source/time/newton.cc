@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <sstream>
 
 namespace taut
@@ -142,5 +143,41 @@ namespace taut
       before = change;
     }
     return false;
+  }
+
+  /// A shorter step may have what this one misses.
+  void TimeStepper::certify_iterations()
+  {
+    try
+    {
+      certify();
+    }
+    catch (const UserError &e)
+    {
+      throw StepNotSolved(e.what());
+    }
+  }
+
+  /**
+   * Backward Euler with forces at the ends of steps: kinetic energy falls by the work of inertia
+   * and by that of the change of velocity with itself, and the energies of bodies rise by more than
+   * the work of their forces at the end where they are not convex. What the sum of both gains comes
+   * from nowhere.
+   */
+  void TimeStepper::measure_energy_at_ends()
+  {
+    double gain = nonlinear.energy_surplus(1.);
+    std::vector<double> change, product;
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      change = current.V[k];
+      for (std::size_t i = 0; i < change.size(); ++i)
+        change[i] -= current.V_old[k][i];
+      product.assign(change.size(), 0.);
+      structure[k].mass().vmult_add(.5, change.data(), product.data());
+      gain -= std::inner_product(change.begin(), change.end(), product.begin(), 0.);
+    }
+    structure.communicator().sum(&gain, 1);
+    last.energy_gain = gain;
   }
 } // namespace taut

@@ -178,7 +178,7 @@ namespace taut
       state.KU[k][i] -= reference->force[k][i];
   }
 
-  double NonlinearBodies::energy_surplus() const
+  double NonlinearBodies::energy_surplus(const double part_of_end) const
   {
     double sum = 0.;
     for (const std::size_t k : bodies)
@@ -189,7 +189,8 @@ namespace taut
       for (std::size_t i = 0; i < U.size(); ++i)
       {
         U[i] += own.dU[i];
-        sum -= (.5 * (own.f0[i] + own.f[i]) + reference->force[k][i]) * own.dU[i];
+        sum -= ((1. - part_of_end) * own.f0[i] + part_of_end * own.f[i] + reference->force[k][i]) *
+               own.dU[i];
       }
       sum += body.strain_energy(U) - body.strain_energy(own.U0);
     }

@@ -13,13 +13,15 @@ namespace taut
     /// How often a step is halved that Newton's method does not converge in.
     constexpr unsigned int most_halvings = 8;
 
-    long advance_in_parts(TimeStepper &stepper, const double step, const unsigned int n_halved)
+    long advance_in_parts(TimeStepper &stepper, const double step,
+                          const std::function<void()> &accept, const unsigned int n_halved)
     {
       const State before = stepper.state();
       stepper.set_step(step);
       try
       {
         stepper.advance();
+        accept();
         return 0;
       }
       catch (const StepNotSolved &)
@@ -30,7 +32,7 @@ namespace taut
       stepper.restore(before);
       long repeated = 1;
       for (int half = 0; half < 2; ++half)
-        repeated += advance_in_parts(stepper, .5 * step, n_halved + 1);
+        repeated += advance_in_parts(stepper, .5 * step, accept, n_halved + 1);
       return repeated;
     }
   } // namespace
@@ -63,11 +65,13 @@ namespace taut
   {
   }
 
-  long advance_in_parts(TimeStepper &stepper, const double step)
+  long advance_in_parts(TimeStepper &stepper, const double step,
+                        const std::function<void()> &accept)
   {
     if (!stepper.all_bodies_are_linear())
-      return advance_in_parts(stepper, step, 0);
+      return advance_in_parts(stepper, step, accept, 0);
     stepper.advance();
+    accept();
     return 0;
   }
 

@@ -37,8 +37,10 @@ namespace taut
 
   void Stepper::advance()
   {
-    advance_in_parts(*stepper, step);
-    contact_measures.record(stepper->state(), stepper->scheme(), stepper->certificate());
+    advance_in_parts(
+        *stepper, step,
+        [this]
+        { contact_measures.record(stepper->state(), stepper->scheme(), stepper->certificate()); });
   }
 
   const Certificate &Stepper::certificate() const

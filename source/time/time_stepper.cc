@@ -180,12 +180,17 @@ namespace taut
       iterate();
     accept_increments();
     constraint_motions.update(current);
-    certify();
+    if (is_linear)
+      certify();
+    else
+      certify_iterations();
     nonlinear.set_own_force(current);
     if (c.velocity_projection)
       project_velocities();
     if (c.mean_force && !c.velocity_level && (constraints.size() > 0 || !is_linear))
       measure_energy();
+    else if (!is_linear && c.is_backward_euler())
+      measure_energy_at_ends();
   }
 
   /**
@@ -196,7 +201,7 @@ namespace taut
    */
   void TimeStepper::measure_energy()
   {
-    double sums[] = {0., nonlinear.energy_surplus() - balance.work()};
+    double sums[] = {0., nonlinear.energy_surplus(.5) - balance.work()};
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       std::vector<double> &V = current.V[k], &product = work_a;

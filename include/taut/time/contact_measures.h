@@ -25,6 +25,9 @@ namespace taut
    * that nothing explains (Certificate::energy_gain). Over the largest kinetic energy plus the
    * largest strain energy plus the largest work of loads, measured from the reference.
    *
+   * Energy of large motions: the gains of energy that nothing explains (Certificate::energy_gain)
+   * of all steps of a system with a body that is not linear, over the same.
+   *
    * Gap: the largest penetration, or gap of a constraint that presses, of rigid unilateral
    * constraints.
    *
@@ -58,6 +61,8 @@ namespace taut
       double contact_energy = 0.;                ///< [J]
       double scale = 0.;                         ///< kinetic + strain + loads, and rounding [J]
       double relative_energy = 0.;               ///< contact energy over the scale [1]
+      double motion_energy = 0.;                 ///< of large motions [J]
+      double relative_motion_energy = 0.;        ///< over the scale [1]
       std::size_t energy_constraint = 0;         ///< of the contact that gave most
       double energy_begin = 0., energy_end = 0.; ///< when it closed and opened [s]
       double gap = 0.;                           ///< [m, rad]
@@ -69,7 +74,7 @@ namespace taut
     };
     Summary summary() const;
 
-    /// Part of the scale from which contact energy is a warning, and an error.
+    /// Part of the scale from which a gain of energy is a warning, and an error.
     static constexpr double suspicious_energy = 1e-2, wrong_energy = .1;
 
     /// Resolution above which it is said.
@@ -87,11 +92,11 @@ namespace taut
     /// One line for the log, and one for each warning.
     std::string report() const;
 
-    /// The message of a run whose contact energy is beyond wrong_energy; empty if it is not.
+    /// The message of a run with a gain of energy beyond wrong_energy; empty if it has none.
     std::string error() const;
 
-    /// Path in the parameter file of what error() is about.
-    std::string error_origin() const { return constraints.origin(summary().energy_constraint); }
+    /// Path in the parameter file of what error() is about; empty: all of it.
+    std::string error_origin() const;
 
   private:
     /// Force of a constraint in time.
@@ -120,6 +125,7 @@ namespace taut
     const Reference &reference;
     std::vector<Force> forces;
     std::vector<double> multiplier0, gap0, noise;
+    bool moves_far = false; ///< a body of some rank is not linear
     Summary found;
     double worst_event = 0.;
     double kinetic = 0., strain = 0., loads = 0.; ///< largest so far [J]

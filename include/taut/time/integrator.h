@@ -55,6 +55,13 @@ namespace taut
     /// True if A = K: the step is a static equilibrium.
     bool is_at_rest() const { return acceleration == 0. && velocity == 0.; }
 
+    /// Velocities and accelerations are differences of one step.
+    bool is_backward_euler() const
+    {
+      return v_V == 0. && v_A == 0. && a_A == 0. && alpha_m == 0. && alpha_f == 0. &&
+             !looks_back() && !mean_force && !is_at_rest();
+    }
+
     /// True if velocity or acceleration need more of the past than V0 and A0.
     bool looks_back() const { return v_dU != 0. || a_dU != 0. || a_V_old != 0.; }
 

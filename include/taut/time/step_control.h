@@ -5,6 +5,7 @@
 #include <taut/time/time_stepper.h>
 
 #include <cmath>
+#include <functional>
 #include <string>
 
 namespace dealii
@@ -33,10 +34,11 @@ namespace taut
   };
 
   /**
-   * A step [s] of the stepper, in halves where it is too long for bodies that are not linear.
-   * Returns how often a step was repeated. Throws StepNotSolved if the shortest is too long, too.
+   * A step [s] of the stepper, in halves where it is too long for bodies that are not linear; calls
+   * @p accept after each part. Returns how often a step was repeated. Throws StepNotSolved if the
+   * shortest is too long, too.
    */
-  long advance_in_parts(TimeStepper &stepper, double step);
+  long advance_in_parts(TimeStepper &stepper, double step, const std::function<void()> &accept);
 
   /**
    * Steps of a length times a power of two, so that matrices are factored anew only at a change and

@@ -107,6 +107,7 @@ namespace taut
     double set_guess();
     void project_velocities();
     void measure_energy();
+    void measure_energy_at_ends();
     void accept_increments();
     void accept(std::size_t k, std::size_t begin, std::size_t end);
     void measure_balance(const BalanceCertificate::SetRows &set_rows = {});
@@ -114,6 +115,7 @@ namespace taut
     void start_balance();
     void hold_quasi_static_dofs();
     void certify();
+    void certify_iterations();
     bool refine();
     void certify_rows();
 

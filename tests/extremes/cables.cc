@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: cables are right, or end in one error with its reason, whatever their numbers: taut ones
+// and ones of twenty times their span, EA 1e12 times the weight, ropes and springs, one element and
+// 256, steep and upside down; moving, they turn around several times, fly freely, go slack and snap
+// without energy, momentum or moment of momentum from nowhere. Expected values: the elastic
+// catenary, a twin in other units, conservation laws.
+#include "cable/elastic_catenary.h"
+#include "levels.h"
+
+#include <taut/base/exceptions.h>
+#include <taut/cable/cable.h>
+#include <taut/time/stepper.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+using namespace extremes;
+
+namespace
+{
+  using namespace taut;
+
+  constexpr double largest_part_of_errors = .05;
+
+  /// What Newton's method leaves of energies and momenta in a step, of the largest.
+  constexpr double of_energy = 1e-7;
+  const double pi = std::acos(-1.);
+  constexpr double bar = -1.; ///< instead of EI
+
+  unsigned int n_scenes = 0, n_errors = 0;
+
+  void refused(const Levels &level, const std::string &message)
+  {
+    ++n_errors;
+    std::printf("no answer | %s | %s\n", level.name().c_str(), message.c_str());
+  }
+
+  /// Metres, kilograms and seconds in which one unit of the twin is expressed.
+  struct Units
+  {
+    double length, mass;
+  };
+
+  CableData in_units(CableData data, const Units &unit)
+  {
+    const auto scale = [](Coordinates &a, const double s) { a = {s * a.x, s * a.y, s * a.z}; };
+    const double L = unit.length, m = unit.mass;
+    scale(data.to, 1. / L);
+    scale(data.gravity, 1. / L);
+    data.length /= L;
+    data.section.axial_stiffness /= m * L;
+    data.section.bending_stiffness /= m * L * L * L;
+    data.section.mass_per_length *= L / m;
+    data.section.axial_damping /= m * L;
+    return data;
+  }
+
+  /// Relative to the weight w L of the cable.
+  const std::vector<Dimension> shapes = {
+      {"length over distance", {.9995, 1., 1.0001, 1.05, 2., 20.}},
+      {"EA over weight", {3e2, 1e4, 1e7}},
+      {"EI over weight L^2", {bar, 0., 1e-9, 1e-3, .01}},
+      {"elements", {2, 4, 16, 256}},
+      {"slope", {0., 1., -30.}},
+      {"sideways", {0., 1.}},
+      {"distance", {1e-4, 1., 1e5}},
+      {"mass per length", {1e-6, 1., 1e5}},
+      {"gravity", {1e-6, 9.81}}};
+
+  void set_bending(const double EI, const double w, CableData &data)
+  {
+    data.element = EI == bar ? CableElement::bar : CableElement::ancf;
+    if (EI != bar)
+      data.section.bending_stiffness = EI * w * std::pow(data.length, 3);
+  }
+
+  CableData make_shape(const Levels &level)
+  {
+    CableData data;
+    data.name = "cable";
+    const double slope = level["slope"], distance = level["distance"],
+                 part = distance / std::hypot(std::hypot(1., slope), level["sideways"]);
+    data.to = {part, part * slope, part * level["sideways"]};
+    data.length = distance * level["length over distance"];
+    const double w = level["mass per length"] * level["gravity"];
+    data.section.mass_per_length = level["mass per length"];
+    data.section.axial_stiffness = w * data.length * level["EA over weight"];
+    set_bending(level["EI over weight L^2"], w, data);
+    data.gravity = {0., -level["gravity"], 0.};
+    data.n_elements = static_cast<unsigned int>(level["elements"]);
+    data.largest_strain = .3; // two elements of a cable of twenty times its span
+    return data;
+  }
+
+  /// Of the middle, from the first end.
+  Coordinates middle(const CableData &data)
+  {
+    const Cable cable(data);
+    return cable.elements().position(cable.shape().positions, .5 * data.length);
+  }
+
+  /// As a part of the length: interpolation of a catenary that falls or rises steeply at its ends.
+  double tolerance(const CableData &data)
+  {
+    return data.n_elements >= 256 ? 3e-4 : data.n_elements >= 16 ? 2e-2 : 1.;
+  }
+
+  /// A cable that moves from its shape: all of it turned about the x axis, then spinning about an
+  /// axis through its first end.
+  class SpinningCable : public Cable
+  {
+  public:
+    SpinningCable(const CableData &data, const double angle, const Coordinates &spin)
+        : Cable(data), angle(angle), spin(spin)
+    {
+    }
+    void initial_state(std::vector<double> &U, std::vector<double> &V) const override
+    {
+      U = shape().positions;
+      V.resize(U.size());
+      for (std::size_t i = 0; i < U.size(); i += 3)
+      {
+        const Coordinates r = {U[i], std::cos(angle) * U[i + 1] - std::sin(angle) * U[i + 2],
+                               std::sin(angle) * U[i + 1] + std::cos(angle) * U[i + 2]};
+        const double v[] = {spin.y * r.z - spin.z * r.y, spin.z * r.x - spin.x * r.z,
+                            spin.x * r.y - spin.y * r.x};
+        for (int c = 0; c < 3; ++c)
+        {
+          U[i + c] = r[c] - shape().positions[i + c];
+          V[i + c] = v[c];
+        }
+      }
+      for (const ConstrainedDof &constraint : constraints())
+        U[constraint.dof] = V[constraint.dof] = 0.;
+    }
+
+  private:
+    double angle;
+    Coordinates spin;
+  };
+
+  struct Balance
+  {
+    double energy = 0.;
+    Coordinates momentum, moment; ///< about the first place of the first end
+  };
+
+  double times_mass(const Cable &cable, const std::vector<double> &V, std::vector<double> &MV)
+  {
+    MV.assign(V.size(), 0.);
+    cable.mass().vmult_add(1., V.data(), MV.data());
+    double twice = 0.;
+    for (std::size_t i = 0; i < V.size(); ++i)
+      twice += V[i] * MV[i];
+    return .5 * twice;
+  }
+
+  Balance balance(const Cable &cable, const std::vector<double> &U, const std::vector<double> &V)
+  {
+    Balance result;
+    std::vector<double> P, MV;
+    cable.external_force(0., P);
+    result.energy = times_mass(cable, V, MV) + cable.strain_energy(U);
+    for (std::size_t i = 0; i < U.size(); ++i)
+      result.energy -= P[i] * U[i];
+    // Rigid translations move positions, rotations all vectors.
+    const std::vector<double> q = cable.positions(U);
+    const bool is_bar = cable.elements().element() == CableElement::bar;
+    for (std::size_t i = 0; i < U.size(); i += 3)
+    {
+      if (is_bar || i % 6 == 0)
+        result.momentum = {result.momentum.x + MV[i], result.momentum.y + MV[i + 1],
+                           result.momentum.z + MV[i + 2]};
+      result.moment = {result.moment.x + q[i + 1] * MV[i + 2] - q[i + 2] * MV[i + 1],
+                       result.moment.y + q[i + 2] * MV[i] - q[i] * MV[i + 2],
+                       result.moment.z + q[i] * MV[i + 1] - q[i + 1] * MV[i]};
+    }
+    return result;
+  }
+
+  const std::vector<Dimension> motions = {{"length over distance", {1., 1.25, 3.}},
+                                          {"EA over weight", {1e3, 1e5, 1e7}},
+                                          {"EI over weight L^2", {bar, 0., 1e-8, 1e-3, .03}},
+                                          {"elements", {2, 8, 32}},
+                                          {"ends", {2, 1, 0}},        // held
+                                          {"turned", {0., .5, 1.}},   // half turns
+                                          {"spin", {0., 1., 10.}},    // of a pendulum's frequency
+                                          {"step", {1e-3, 1e-2, .1}}, // of its period over 2 pi
+                                          {"damping", {0., 1e-3}}, // time of axial damping over it
+                                          {"scheme", {0, 1}},
+                                          {"length", {1e-3, 1., 1e3}}};
+
+  void run_motion(const Levels &level)
+  {
+    SCOPED_TRACE(level.name());
+    const double L = level["length"], g = 9.81, time = std::sqrt(L / g), w = g;
+    CableData data;
+    data.name = "cable";
+    data.to = {L / level["length over distance"], 0., 0.};
+    data.length = L;
+    data.section.mass_per_length = 1.;
+    data.section.axial_stiffness = w * L * level["EA over weight"];
+    set_bending(level["EI over weight L^2"], w, data);
+    data.section.axial_damping = data.section.axial_stiffness * level["damping"] * time;
+    data.gravity = {0., -g, 0.};
+    data.n_elements = static_cast<unsigned int>(level["elements"]);
+    data.holds_from = level["ends"] >= 1.;
+    data.holds_to = level["ends"] >= 2.;
+    const bool is_free = level["ends"] == 0., is_euler = level["scheme"] == 1.,
+               conserves = !is_euler && level["damping"] == 0.;
+    constexpr int n_steps = 60;
+    const SpinningCable *cable = nullptr;
+    ++n_scenes;
+    try
+    {
+      System system;
+      system.add("cable",
+                 [&]
+                 {
+                   auto made = std::make_unique<SpinningCable>(
+                       data, pi * level["turned"], Coordinates{0., 0., level["spin"] / time});
+                   cable = made.get();
+                   return made;
+                 });
+      StepperOptions options;
+      options.step = level["step"] * time;
+      options.start = Start::given;
+      options.scheme = is_euler ? "backward Euler" : "automatic";
+      options.allow_unsuitable_scheme = true;
+      Stepper stepper(system, options);
+      std::vector<double> U, V, MV;
+      cable->initial_state(U, V);
+      const Balance start = balance(*cable, U, V);
+      const double kinetic = times_mass(*cable, V, MV),
+                   scale = w * L * L + kinetic + cable->strain_energy(U),
+                   of_momentum = std::sqrt(scale * L);
+      double before = start.energy, known = 0.;
+      for (int k = 1; k <= n_steps; ++k)
+      {
+        stepper.advance();
+        const Balance now = balance(*cable, stepper.displacement(0), stepper.state().V[0]);
+        ASSERT_TRUE(std::isfinite(now.energy));
+        // Backward Euler may gain some where the energy of a cable is not convex, and says it.
+        EXPECT_LE(now.energy - before,
+                  of_energy * scale + stepper.measures().summary().motion_energy - known)
+            << "energy from nowhere, step " << k;
+        if (conserves)
+        {
+          EXPECT_GE(now.energy - start.energy, -n_steps * of_energy * scale)
+              << "energy lost, step " << k;
+        }
+        before = now.energy;
+        known = stepper.measures().summary().motion_energy;
+        if (!is_free)
+          continue;
+        const double t = stepper.time();
+        EXPECT_NEAR(now.momentum.x, start.momentum.x, k * of_energy * of_momentum);
+        EXPECT_NEAR(now.momentum.y, start.momentum.y - w * L * t,
+                    k * of_energy * (of_momentum + w * L * t));
+        EXPECT_NEAR(now.momentum.z, start.momentum.z, k * of_energy * of_momentum);
+      }
+    }
+    catch (const UserError &e)
+    {
+      refused(level, e.what());
+    }
+  }
+
+  unsigned int n_seeds()
+  {
+    const char *const n = std::getenv("TAUT_EXTREMES_CABLES");
+    return n == nullptr ? 1 : static_cast<unsigned int>(std::atoi(n));
+  }
+
+  void check_errors()
+  {
+    std::printf("figure | scenes of cables, and those without an answer | %u, %u\n", n_scenes,
+                n_errors);
+    EXPECT_LE(n_errors, largest_part_of_errors * n_scenes);
+    n_scenes = n_errors = 0;
+  }
+} // namespace
+
+TEST(ExtremeCables, hang_like_catenaries)
+{
+  double deviation = 0., of_twin = 0.;
+  for (unsigned int seed = 1; seed <= n_seeds(); ++seed)
+    cover(shapes, seed,
+          [&](const Levels &level)
+          {
+            SCOPED_TRACE(level.name());
+            ++n_scenes;
+            const CableData data = make_shape(level);
+            try
+            {
+              const Coordinates ours = middle(data);
+              const double L = data.length;
+              for (const Units &unit : {Units{1e-3, 1e3}, Units{.3048, .4536}})
+              {
+                const Coordinates twin = middle(in_units(data, unit));
+                const double d = norm(add_scaled(ours, -unit.length, twin)) / L;
+                EXPECT_LE(d, 1e-7) << "a twin in units of " << unit.length << " m";
+                of_twin = std::max(of_twin, d);
+              }
+              if (level["EI over weight L^2"] > 1e-8)
+                return;
+              const ElasticCatenary exact({}, data.to, force_per_length(data),
+                                          data.section.axial_stiffness, L);
+              ASSERT_LE(exact.error, 1e-9 * L);
+              const double d = norm(ours - exact.position(.5 * L)) / L;
+              EXPECT_LE(d, tolerance(data));
+              deviation = std::max(deviation, d / tolerance(data));
+            }
+            catch (const UserError &e)
+            {
+              refused(level, e.what());
+            }
+          });
+  std::printf("figure | cables against catenaries, of the tolerance | %.2g\n", deviation);
+  std::printf("figure | cables in other units | %.1e of the length\n", of_twin);
+  check_errors();
+}
+
+TEST(ExtremeCables, move_without_energy_or_momentum_from_nowhere)
+{
+  for (unsigned int seed = 1; seed <= n_seeds(); ++seed)
+    cover(motions, seed, run_motion);
+  check_errors();
+}
