@@ -133,14 +133,14 @@ namespace taut
                 residual[i] = factor * residual[i] - (r[begin + i] + kappa * r0[begin + i]);
           });
       if (has_impulses)
+        for (std::size_t i = 0; i < size; ++i)
+          residual[i] -= impulses[k][begin + i];
+      if (c.mean_force)
       {
         const double *dU = state.dU[k].data() + begin;
         double power = 0.;
         for (std::size_t i = 0; i < size; ++i)
-        {
-          residual[i] -= impulses[k][begin + i];
           power += dU[i] * (r[begin + i] + kappa * r0[begin + i]);
-        }
         work_of_balance += (1. - c.alpha_f) * power;
       }
       for (; constraint != body.constraints().end() && constraint->dof < end; ++constraint)
