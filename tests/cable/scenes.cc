@@ -43,6 +43,26 @@ TEST(CableScenes, elastica)
             });
 }
 
+TEST(CableScenes, plucked)
+{
+  const auto deepest = [](const verification::Overrides &entries)
+  {
+    double y = 0.;
+    run_scene(scene_file("plucked_cable"), entries,
+              [&](const taut::StepView &step) {
+                y = std::min(y, moved(step, step.scene.probes[0].point, {0., 1.}));
+              });
+    return y;
+  };
+  const double ancf = deepest({"Body cable/Elements=64", "Time/Step=1e-3"}),
+               bar = deepest({"Body cable/Elements=64", "Body cable/Element=bar",
+                              "Body cable/Bending stiffness=0", "Time/Step=1e-3"});
+  EXPECT_NEAR(ancf, -.1294, 2e-4);
+  EXPECT_NEAR(bar, ancf, 3e-3 * .1294); // it does not round the kink
+  EXPECT_NEAR(deepest({}), ancf, .015 * .1294);
+  EXPECT_NEAR(deepest({"Body cable/Geometry=linearised"}), -.1335, 1e-3);
+}
+
 TEST(CableScenes, pendulum)
 {
   double below = 0., farthest = 0., height = 0., x = 0., t = 0., pull = 0.;
