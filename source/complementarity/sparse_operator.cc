@@ -27,9 +27,13 @@ namespace taut
     interior = entries;
     interior.compress();
     std::fill(diagonal_entries.begin(), diagonal_entries.begin() + n_interior, 0.);
+    diagonal_position.assign(n_interior, interior.size());
     for (std::size_t k = 0; k < interior.size(); ++k)
       if (interior.row[k] == interior.column[k])
+      {
         diagonal_entries[interior.row[k]] = interior.value[k];
+        diagonal_position[interior.row[k]] = k;
+      }
     factor.active.clear();
     shifted_factor.active.clear();
   }
@@ -40,6 +44,19 @@ namespace taut
     for (std::size_t k = n_interior; k < n; ++k)
       border[k - n_interior][i] = entries[k];
     diagonal_entries[i] = entries[i];
+  }
+
+  void SparseOperator::set_diagonal(const std::size_t i, const double value)
+  {
+    diagonal_entries[i] = value;
+    if (i >= n_interior)
+    {
+      border[i - n_interior][i] = value;
+      return;
+    }
+    interior.value[diagonal_position[i]] = value;
+    factor.active.clear();
+    shifted_factor.active.clear();
   }
 
   /// y = sum_j weight(F_ij) x_j.

@@ -8,7 +8,7 @@ namespace taut
   AssembledSchurComplement::AssembledSchurComplement(const FactoredStructure &solvers,
                                                      const Constraints &constraints)
       : constraints(constraints), processes(solvers.structure().communicator()),
-        columns(solvers, constraints)
+        columns(solvers, constraints), of_bodies(constraints.size(), 0.)
   {
   }
 
@@ -69,7 +69,15 @@ namespace taut
   {
     for (std::size_t j = 0; j < i; ++j)
       F.set(i, j, entries[j]);
+    of_bodies[i] = entries[i];
     F.set(i, i, entries[i] + compliance[i]);
+  }
+
+  void DenseSchurComplement::set_compliance(const std::vector<double> &S)
+  {
+    compliance = S;
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      F.set(i, i, of_bodies[i] + compliance[i]);
   }
 
   std::string DenseSchurComplement::description() const
@@ -101,10 +109,22 @@ namespace taut
                             });
     }
     gather(processes, entries);
+    entries.compress();
+    for (std::size_t e = 0; e < entries.size(); ++e)
+      if (entries.row[e] == entries.column[e])
+        of_bodies[entries.row[e]] = entries.value[e];
     for (std::size_t i = 0; i < constraints.n_fixed(); ++i)
       entries.add(i, i, S[i]);
     F.set_interior(entries);
     update_moving();
+  }
+
+  void SparseSchurComplement::set_compliance(const std::vector<double> &S)
+  {
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      if (S[i] != compliance[i])
+        F.set_diagonal(i, of_bodies[i] + S[i]);
+    compliance = S;
   }
 
   void SparseSchurComplement::update_moving()
@@ -114,6 +134,7 @@ namespace taut
          ++i, share += constraints.size())
     {
       std::vector<double> border(share, share + constraints.size());
+      of_bodies[i] = border[i];
       border[i] += compliance[i];
       F.set_border(i, border);
     }

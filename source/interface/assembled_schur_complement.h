@@ -30,6 +30,7 @@ namespace taut
     const Communicator &processes;
     ResponseColumns columns;
     std::vector<double> compliance, shares;
+    std::vector<double> of_bodies; ///< the diagonal without compliances
   };
 
   /// F as a dense matrix; see SchurComplement.
@@ -39,6 +40,7 @@ namespace taut
     DenseSchurComplement(const FactoredStructure &solvers, const Constraints &constraints);
 
     void setup(const std::vector<double> &S) override;
+    void set_compliance(const std::vector<double> &S) override;
     void update_moving() override;
     ComplementarityOperator &matrix() override { return F; }
     std::string description() const override;
@@ -56,6 +58,7 @@ namespace taut
     SparseSchurComplement(const FactoredStructure &solvers, const Constraints &constraints);
 
     void setup(const std::vector<double> &S) override;
+    void set_compliance(const std::vector<double> &S) override;
     void update_moving() override;
     ComplementarityOperator &matrix() override { return F; }
     std::string description() const override;

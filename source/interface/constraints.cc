@@ -7,6 +7,16 @@
 
 namespace taut
 {
+  double ConstraintData::compression(const double N) const
+  {
+    return law ? law->elongation(N) : N / stiffness;
+  }
+
+  double ConstraintData::stored_energy(const double u) const
+  {
+    return law ? law->energy(u) : std::isinf(stiffness) ? 0. : .5 * stiffness * u * u;
+  }
+
   Constraints::Constraints(const Structure &structure, std::vector<ConstraintData> all)
       : structure(structure), constraints(std::move(all))
   {

@@ -109,23 +109,37 @@ namespace taut
 
   void MatrixFreeSchurComplement::compute_diagonal()
   {
-    diagonal_entries.assign(constraints.size(), 0.);
-    flexibilities.add_to_diagonal(diagonal_entries);
-    solvers.structure().communicator().sum(diagonal_entries);
-    std::vector<double> local = diagonal_entries;
+    of_bodies.assign(constraints.size(), 0.);
+    flexibilities.add_to_diagonal(of_bodies);
+    solvers.structure().communicator().sum(of_bodies);
+    local_of_bodies = of_bodies;
     if (solvers.is_generalised_inverse())
     {
       // The diagonal of F depends on how a generalised inverse holds the bodies, this does not.
-      local.assign(constraints.size(), 0.);
-      flexibilities.add_to_local_diagonal(local);
-      solvers.structure().communicator().sum(local);
+      local_of_bodies.assign(constraints.size(), 0.);
+      flexibilities.add_to_local_diagonal(local_of_bodies);
+      solvers.structure().communicator().sum(local_of_bodies);
     }
+    add_compliance();
+  }
+
+  void MatrixFreeSchurComplement::set_compliance(const std::vector<double> &S)
+  {
+    compliance = S;
+    F.set_compliance(S);
+    is_stale = true;
+    add_compliance();
+  }
+
+  void MatrixFreeSchurComplement::add_compliance()
+  {
+    diagonal_entries.resize(constraints.size());
     scale.assign(constraints.size(), 1.);
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
-      diagonal_entries[i] += compliance[i];
-      const double size =
-          local[i] + compliance[i] > 0. ? local[i] + compliance[i] : diagonal_entries[i];
+      diagonal_entries[i] = of_bodies[i] + compliance[i];
+      const double local = local_of_bodies[i] + compliance[i],
+                   size = local > 0. ? local : diagonal_entries[i];
       if (size > 0.)
         scale[i] = 1. / std::sqrt(size);
     }

@@ -27,6 +27,7 @@ namespace taut
                               const FactoredStructure &solvers, const Constraints &constraints);
 
     void setup(const std::vector<double> &S) override;
+    void set_compliance(const std::vector<double> &S) override;
     void update_moving() override;
     void contact_free_predictor(const BodyVectors &P, std::vector<double> &d,
                                 std::vector<double> &terms_size) const override;
@@ -55,6 +56,7 @@ namespace taut
     void set_tolerance(double wanted) override;
 
     void compute_diagonal();
+    void add_compliance();
     void prepare(const std::vector<std::size_t> &set, double shift);
     void divide_by_scale(std::vector<double> &x) const;
     void scaled_apply(const std::vector<double> &x, std::vector<double> &y);
@@ -71,10 +73,12 @@ namespace taut
     RowFlexibilities flexibilities;
     std::unique_ptr<CoarseSpace> coarse_space; ///< null: none, or in statics
     std::vector<double> compliance, diagonal_entries;
+    /// The diagonal without compliances, and of the unknowns at the constraint only.
+    std::vector<double> of_bodies, local_of_bodies;
     std::vector<double> scale;    ///< F_ii^-1/2; in statics of the unknowns at the constraint only
     std::vector<char> active;     ///< constraints that everything is prepared for
     std::vector<char> is_changed; ///< bodies that it is not prepared for
-    bool is_stale = true;         ///< a matrix or a moving constraint has changed
+    bool is_stale = true;         ///< a matrix, compliance or moving constraint has changed
     double tolerance;             ///< relative residual at which a solve ends
     InterfaceStatistics counts;
     std::vector<double> constraint_work, coarse_part, coarse_motion;

@@ -58,6 +58,7 @@ namespace taut
         chosen = make_schur_complement(parameters, solvers, constraints);
         chosen->setup(S);
       }
+      void set_compliance(const std::vector<double> &S) override { chosen->set_compliance(S); }
       void update_moving() override { chosen->update_moving(); }
       void contact_free_predictor(const BodyVectors &P, std::vector<double> &d,
                                   std::vector<double> &terms_size) const override

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
 #include <taut/interface/system.h>
 
 #include <algorithm>
@@ -48,6 +49,16 @@ namespace taut
   Constraint &Constraint::stiffness(const double value)
   {
     data.stiffness = value;
+    return *this;
+  }
+
+  Constraint &Constraint::law(std::shared_ptr<const ForceLaw> value)
+  {
+    if (!data.unilateral)
+      throw UserError("constraint '" + data.name +
+                      "': a law is for a unilateral constraint; give this one a stiffness");
+    data.stiffness = value->largest_stiffness();
+    data.law = std::move(value);
     return *this;
   }
 

@@ -245,7 +245,7 @@ namespace taut
         if (link.axial_stiffness > 0.)
           link.stiffness = link.axial_stiffness / form.length[i];
         // D = -n . (u_to - u_from) + gap + N / stiffness = 0 under the tension
-        link.gap = form.length[i] - distance(scene, link) - form.tension[i] / link.stiffness;
+        link.gap = form.length[i] - distance(scene, link) - link.elongation(form.tension[i]);
         add_mass(link, scene);
         ++i;
       }

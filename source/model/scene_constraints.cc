@@ -79,6 +79,7 @@ namespace taut
       constraint.unilateral = link.unilateral();
       constraint.rotational = link.rotational;
       constraint.stiffness = link.stiffness;
+      constraint.law = link.law;
       constraint.damping = link.damping;
       constraint.gap = link.gap;
       if (link.moving())

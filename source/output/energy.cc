@@ -14,13 +14,6 @@ namespace taut
     {
       return !step.state.is_mean.empty() && step.state.is_mean[i];
     }
-
-    /// Energy of a link's spring [J].
-    double stored(const ConstraintData &constraint, const State::LinkSpring &spring)
-    {
-      return std::isinf(constraint.stiffness) ? 0.
-                                              : .5 * constraint.stiffness * spring.u * spring.u;
-    }
   } // namespace
 
   void Energy::begin(const RunView &run)
@@ -65,7 +58,7 @@ namespace taut
     total.kinetic = sums[0];
     total.strain = sums[1];
     for (std::size_t i = 0; i < start.constraints.size(); ++i)
-      total.links += stored(start.constraints[i], start.state.link_springs[i]);
+      total.links += start.constraints[i].stored_energy(start.state.link_springs[i].u);
     start_energy = total.kinetic + total.strain + total.links;
     keep(start);
     has_begun = true;
@@ -182,7 +175,7 @@ namespace taut
     {
       const ConstraintData &constraint = step.constraints[i];
       const State::LinkSpring &spring = state.link_springs[i];
-      total.links += stored(constraint, spring);
+      total.links += constraint.stored_energy(spring.u);
       if (is_mean(step, i))
       {
         // What the spring does not store of the work on it is the contact's.
@@ -191,10 +184,16 @@ namespace taut
           total.link_dampers += damper;
         total.contacts += state.constraint_work[i];
         if (!std::isinf(constraint.stiffness))
-          total.contacts += stored(constraint, spring) - stored(constraint, springs0[i]) + damper;
+          total.contacts += constraint.stored_energy(spring.u) - constraint.stored_energy(springs0[i].u) + damper;
         continue;
       }
       const double mean = .5 * (N0[i] + state.multiplier[i]);
+      // Forces at the ends of a step do not do the work that a law stores.
+      if (constraint.law)
+        total.algorithmic += (.5 * (constraint.law->force(springs0[i].u) +
+                                    constraint.law->force(spring.u)) -
+                              constraint.law->mean_force(springs0[i].u, spring.u)) *
+                             spring.du;
       if (!std::isinf(constraint.stiffness))
         total.link_dampers += constraint.damping * .5 * (springs0[i].v + spring.v) * spring.du;
       total.contacts += mean * (constraint.moving ? spring.du : state.gap[i] - gap0[i]);

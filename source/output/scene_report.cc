@@ -168,7 +168,9 @@ namespace taut
     for (const Link &l : scene.links)
     {
       std::ostringstream stiffness;
-      if (l.rigid())
+      if (l.law)
+        stiffness << l.law->description();
+      else if (l.rigid())
         stiffness << "rigid";
       else
         stiffness << l.stiffness;

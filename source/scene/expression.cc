@@ -58,6 +58,8 @@ namespace taut
         return "Write a formula in " + s + ", e.g. '0.001*sin(2*pi*s/1.2)'.";
       case Expression::Variables::time:
         return "Write a formula in " + t + ", e.g. '0.02*sin(2*pi*t)'.";
+      case Expression::Variables::elongation:
+        return "Write a formula in d (elongation [m]), e.g. '1e4*d + 2e8*d^3'.";
       case Expression::Variables::space:
         return "Write a formula in x, y, z (a point [m]) and " + t + ", e.g. '1e5*x*sin(2*pi*t)'.";
       default:
@@ -75,7 +77,9 @@ namespace taut
           return "'" + random +
                  "' is random: a formula is evaluated more than once at a time, and has to give "
                  "the same each time and in each run";
-      if (variables == Expression::Variables::position && mentions(formula, "t"))
+      if ((variables == Expression::Variables::position ||
+           variables == Expression::Variables::elongation) &&
+          mentions(formula, "t"))
         return "it does not depend on t";
       if (variables == Expression::Variables::time && mentions(formula, "s"))
         return "it does not depend on s";
@@ -147,13 +151,15 @@ namespace taut
     const std::string wrong = objection(text, variables);
     if (!wrong.empty())
       throw bad(wrong);
+    if (variables == Variables::elongation)
+      of_one_number = "d";
     const CaughtErrorOutput said;
     try
     {
       if (variables == Variables::space)
         parser = std::make_shared<ParserOf<3>>("x,y,z,t", text);
       else
-        parser = std::make_shared<ParserOf<1>>("s,t", text);
+        parser = std::make_shared<ParserOf<1>>(of_one_number + ",t", text);
     }
     catch (const dealii::ExceptionBase &)
     {
@@ -168,7 +174,7 @@ namespace taut
 
   double Expression::operator()(const double s, const double t) const
   {
-    return evaluate({s, 0., 0.}, t, "s");
+    return evaluate({s, 0., 0.}, t, of_one_number);
   }
 
   double Expression::operator()(const Coordinates &x, const double t) const
@@ -176,7 +182,8 @@ namespace taut
     return evaluate(x, t, "x, y, z");
   }
 
-  double Expression::evaluate(const Coordinates &x, const double t, const char *variables) const
+  double Expression::evaluate(const Coordinates &x, const double t,
+                              const std::string &variables) const
   {
     if (!parser)
       return constant;
@@ -185,7 +192,7 @@ namespace taut
     {
       std::ostringstream out;
       out << "'" << text << "' is not finite at " << variables << " = " << x.x;
-      if (std::string(variables) != "s")
+      if (variables != of_one_number)
         out << ", " << x.y << ", " << x.z;
       out << " m, t = " << t
           << " s. Restrict the formula to where it is defined, e.g. with if(condition, a, b).";

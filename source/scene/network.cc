@@ -186,6 +186,16 @@ namespace taut
                                                    : LinkKind::joint;
       link.rotational = item.rotational;
       link.stiffness = parse_stiffness(item.stiffness, title + "/Stiffness");
+      link.law = parse_law(item.law, item.law_points, item.law_formula, item.law_range, title);
+      if (link.law && (link.unilateral() ? !link.rigid() || item.axial_stiffness > 0. : true))
+        throw EntryError(title + "/Law",
+                         link.unilateral()
+                             ? "it is the law of the force; leave Stiffness 'rigid' and Axial "
+                               "stiffness 0"
+                             : "a law is for links that only push or pull; give a joint a "
+                               "Stiffness");
+      if (link.law)
+        link.stiffness = link.law->largest_stiffness();
       link.damping = item.damping;
       link.gap = item.gap;
       link.speed = item.speed;

@@ -65,6 +65,8 @@ namespace taut
     struct LinkItem
     {
       std::string type = "joint", from = "ground", to, stiffness = "rigid", profile = "0";
+      std::string law = "linear", law_points, law_formula;
+      double law_range = 0.;
       std::vector<double> direction;
       bool rotational = false, find_length = false;
       double damping = 0., gap = 0., speed = 0.;

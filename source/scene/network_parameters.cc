@@ -170,6 +170,18 @@ namespace taut
     prm.add_parameter("Rotational", rotational,
                       "Acts between slopes or rotations about z: moments and angular gaps");
     prm.add_parameter("Stiffness", stiffness, "A number or 'rigid' [N/m, N m/rad]");
+    prm.add_parameter("Law", law,
+                      "Force of a stop, dropper or sliding contact over its compression or "
+                      "elongation: 'linear' (the Stiffness), 'table' (Law points) or 'formula'",
+                      Selection("linear|table|formula"));
+    prm.add_parameter("Law points", law_points,
+                      "'elongation: force, ...', both increasing from 0:0, which may be left out; "
+                      "linear between them, and on beyond the last one [m, rad: N, N m]");
+    prm.add_parameter("Law formula", law_formula,
+                      "In the elongation d [m, rad], 0 at d = 0 and increasing [N, N m]");
+    prm.add_parameter("Law range", law_range,
+                      "Up to this d the formula holds; beyond it goes on straight [m, rad]",
+                      not_negative());
     prm.add_parameter("Damping", damping, "Beside the stiffness (Kelvin-Voigt) [N s/m, N m s/rad]",
                       not_negative());
     prm.add_parameter(

@@ -77,7 +77,7 @@ namespace taut
       void write(const Link &l)
       {
         all(l.name, l.origin, l.kind, l.from, l.to, l.rotational, l.direction, l.stiffness,
-            l.damping, l.gap, l.speed, l.profile, l.find_length, l.prescribed_displacement,
+            l.law ? l.law->description() : std::string(), l.damping, l.gap, l.speed, l.profile, l.find_length, l.prescribed_displacement,
             l.axial_stiffness, l.mass_per_length, l.length, l.contact_mass);
       }
       void write(const Load &l)

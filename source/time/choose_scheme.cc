@@ -94,6 +94,15 @@ namespace taut
                        [](const Substructure &body) { return !body.has_definite_mass(); });
     }
 
+    /// Name of a link whose spring follows a law; empty: none.
+    std::string link_with_law(const Constraints &constraints)
+    {
+      for (std::size_t i = 0; i < constraints.size(); ++i)
+        if (constraints[i].law)
+          return constraints[i].name;
+      return "";
+    }
+
     std::string nonlinear_body(const Structure &structure)
     {
       return body_that(structure, [](const Substructure &body) { return !body.is_linear(); });
@@ -132,15 +141,18 @@ namespace taut
         rigid_constraints(structure, constraints, parameters, step);
     if (restitution > 0.)
       check_restitution(structure, constraints);
-    const std::string nonlinear = nonlinear_body(structure);
-    if (rigid.empty() && nonlinear.empty())
+    const std::string nonlinear = nonlinear_body(structure), law = link_with_law(constraints);
+    if (rigid.empty() && nonlinear.empty() && law.empty())
       return {"generalised-alpha",
               {{"Generalised-alpha/Spectral radius", "0.8"}},
               "no unilateral link is stiffer than the bodies in one step"};
     const std::string reason =
-        rigid.empty() ? "body '" + nonlinear +
-                            "' moves by large amounts, and the mean forces of this scheme keep its "
-                            "energy"
+        !nonlinear.empty() && rigid.empty()
+            ? "body '" + nonlinear +
+                  "' moves by large amounts, and the mean forces of this scheme keep its energy"
+        : rigid.empty() ? "link '" + law +
+                              "' follows a law that is not linear, and the mean forces of this "
+                              "scheme keep its energy"
                       : "unilateral link '" + constraints[rigid.front()].name +
                             "' acts as rigid: it is stiffer than the bodies in one step";
     const std::string body = body_without_definite_mass(structure);

@@ -17,7 +17,7 @@ namespace taut
 
   ConstraintMotions::ConstraintMotions(const Structure &structure, const Constraints &constraints,
                                        const Reference &reference, const State &start)
-      : structure(structure), constraints(constraints), reference(reference)
+      : structure(structure), constraints(constraints), reference(reference), laws(constraints)
   {
     const std::size_t n = constraints.size();
     for (auto *v : {&S, &solved.multiplier, &balanced, &impulses, &link_history, &gap_terms,
@@ -75,7 +75,9 @@ namespace taut
     {
       const ConstraintData &constraint = constraints[i];
       // Kelvin-Voigt: N = k u + c u' with u' = velocity du + known.
-      link_history[i] = spring_history(i, before);
+      if (constraint.law)
+        begin_law(i, before);
+      link_history[i] = constraint.law ? 0. : spring_history(i, before);
 
       double gap = before.geometric_gap[i], scale = std::fabs(gap);
       if (constraint.moving)
@@ -94,23 +96,6 @@ namespace taut
     }
   }
 
-  /// The part of the compression of a link's spring that does not depend on N.
-  double ConstraintMotions::spring_history(const std::size_t i, const State &before) const
-  {
-    const ConstraintData &constraint = constraints[i];
-    const State::LinkSpring &spring = before.link_springs[i];
-    if (elastic_mean(i))
-    {
-      const double theta = 1. - c.alpha_f, rate = constraint.damping / step;
-      return -((1. - theta) * constraint.stiffness - rate) / (theta * constraint.stiffness + rate) *
-             spring.u;
-    }
-    if (!(constraint.damping > 0.))
-      return 0.;
-    const double known = c.v_V * spring.v + c.v_A * spring.a + c.v_dU * spring.du;
-    return S[i] * constraint.damping * (c.velocity * spring.u - known);
-  }
-
   /// (1 - alpha_f) step (D' + e D'_0) without multipliers.
   void ConstraintMotions::set_velocity_condition(const std::size_t i, const State &before)
   {
@@ -121,37 +106,6 @@ namespace taut
       return;
     const bool is_near = before.geometric_gap[i] + .5 * step * before.gap_rate[i] <= 0.;
     conditions.held_open[i] = !is_near && !(before.multiplier[i] > 0.);
-  }
-
-  void ConstraintMotions::set_multipliers(const MixedComplementaritySolution &solution,
-                                          State &state)
-  {
-    const std::vector<double> &L = solution.multiplier;
-    solved.multiplier = balanced = state.multiplier = L;
-    solved.mode_amplitude = solution.mode_amplitude;
-    solved.closed = solution.closed;
-    if (!c.mean_force)
-      return;
-    for (std::size_t i = 0; i < constraints.size(); ++i)
-    {
-      impulses[i] = 0.;
-      if (!mean[i])
-        continue;
-      impulses[i] = L[i] + (constraints[i].moving && c.velocity_projection ? shifted[i] : 0.);
-      balanced[i] = 0.;
-      state.multiplier[i] = (1. - c.alpha_f) * L[i];
-    }
-  }
-
-  const std::vector<double> &ConstraintMotions::old_place(const State &before)
-  {
-    if (!c.velocity_projection || constraints.n_fixed() == constraints.size())
-      return none;
-    shifted.assign(constraints.size(), 0.);
-    for (std::size_t i = constraints.n_fixed(); i < constraints.size(); ++i)
-      if (mean[i])
-        shifted[i] = -c.old_balance() * before.multiplier[i];
-    return shifted;
   }
 
   double ConstraintMotions::moving_gap(const std::size_t i) const
@@ -269,6 +223,8 @@ namespace taut
       spring.v = c.velocity * spring.du + known_v;
       spring.a = c.acceleration * spring.du + known_a;
       state.gap[i] = gap + spring.u;
+      if (constraints[i].law && !elastic_mean(i))
+        state.gap[i] += laws.lack(i, u, balanced[i]);
       if (c.mean_force)
       {
         rates_before[i] = state.gap_rate[i];
@@ -290,7 +246,12 @@ namespace taut
     recomputed.gap = state.gap;
     for (std::size_t i = 0; i < constraints.size(); ++i)
       if (elastic_mean(i))
-        recomputed.gap[i] = state.geometric_gap[i] + S[i] * solved.multiplier[i] + link_history[i];
+      {
+        const double u = S[i] * solved.multiplier[i] + link_history[i];
+        recomputed.gap[i] = state.geometric_gap[i] + u;
+        if (constraints[i].law)
+          recomputed.gap[i] += laws.lack(i, u, solved.multiplier[i]);
+      }
       else if (velocity_level(i))
       {
         const double rebound = constraints[i].unilateral ? c.restitution * rates_before[i] : 0.;

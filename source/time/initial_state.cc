@@ -26,14 +26,16 @@ namespace taut
         state.geometric_gap[i] = constraint.gap + reference_motion[i] + motion[i];
         // The spring of a link starts as compressed as its ends stand, and a compressed one as fast
         // as they move; a rigid one is not compressed.
-        double u = state.multiplier[i] / constraint.stiffness;
+        double u = constraint.compression(state.multiplier[i]);
         if (start != Start::equilibrium && !std::isinf(constraint.stiffness))
         {
           u = constraint.unilateral ? std::max(0., -state.geometric_gap[i])
                                     : -state.geometric_gap[i];
           const double v = !constraint.unilateral || u > 0. ? -velocity[i] : 0.;
           state.link_springs[i].v = v;
-          state.multiplier[i] = u * constraint.stiffness + v * constraint.damping;
+          state.multiplier[i] =
+              (constraint.law ? constraint.law->force(u) : u * constraint.stiffness) +
+              v * constraint.damping;
           if (constraint.unilateral)
             state.multiplier[i] = std::max(0., state.multiplier[i]);
         }

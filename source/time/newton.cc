@@ -57,8 +57,7 @@ namespace taut
   {
     constraint_motions.set_problem(current, *system, right_hand_side, lift);
     if (constraints.size() > 0 || system->has_modes())
-      constraint_motions.set_multipliers(
-          system->find_multipliers(constraint_motions.problem(), check, last), current);
+      constraint_motions.find_multipliers(*system, check, last, current);
     system->find_increments(constraint_motions.applied().multiplier,
                             constraint_motions.applied().mode_amplitude, right_hand_side);
   }

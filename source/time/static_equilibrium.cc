@@ -137,11 +137,11 @@ namespace taut
         const std::vector<double> motions = constraints.motions(U);
         for (std::size_t i = 0; i < constraints.size(); ++i)
         {
-          const double gap = motions[i] + constraints[i].gap, k = constraints[i].stiffness;
-          if (std::isinf(k))
+          const double gap = motions[i] + constraints[i].gap;
+          if (std::isinf(constraints[i].stiffness))
             sum -= N[i] * gap;
           else if (!constraints[i].unilateral || gap < 0.)
-            sum += .5 * k * gap * gap;
+            sum += constraints[i].stored_energy(gap);
         }
         return sum;
       }

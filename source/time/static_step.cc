@@ -28,7 +28,8 @@ namespace taut
       : structure(structure), constraints(constraints), nonlinear(nonlinear), from(from),
         processes(structure.communicator()), time(t),
         check(structure, constraints, parameters.contact_tolerance),
-        system(structure, constraints, parameters)
+        system(structure, constraints, parameters), laws(constraints),
+        shift(constraints.size(), 0.)
   {
     for (std::size_t i = 0; i < constraints.size(); ++i)
       compliance.push_back(1. / constraints[i].stiffness);
@@ -78,6 +79,8 @@ namespace taut
       problem.gap_scale[i] +=
           std::fabs(lifted[i]) + std::fabs(constraints[i].gap) + std::fabs(moved[i]);
       problem.free_gap[i] += lifted[i] + constraints[i].gap + moved[i];
+      if (constraints[i].law)
+        laws.begin_at_end(i, std::max(0., -constraints[i].gap - moved[i]));
     }
     system.set_modes(P, problem);
   }
@@ -86,7 +89,9 @@ namespace taut
   {
     try
     {
-      solution = system.find_multipliers(problem, check, certificate);
+      solution = laws.empty()
+                     ? system.find_multipliers(problem, check, certificate)
+                     : laws.solve(problem, system, check, certificate, compliance, shift);
     }
     catch (const BodyNotHeld &e)
     {
@@ -120,7 +125,10 @@ namespace taut
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       state.geometric_gap[i] += constraints[i].gap;
-      state.gap[i] = state.geometric_gap[i] + compliance[i] * state.multiplier[i];
+      const double u = compliance[i] * state.multiplier[i] + shift[i];
+      state.gap[i] = state.geometric_gap[i] + u;
+      if (constraints[i].law)
+        state.gap[i] += laws.lack(i, u, state.multiplier[i]);
     }
     return state;
   }

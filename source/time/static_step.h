@@ -2,6 +2,7 @@
 #ifndef taut_static_step_h
 #define taut_static_step_h
 
+#include <taut/time/constraint_laws.h>
 #include <taut/time/nonlinear_bodies.h>
 #include <taut/time/static_equilibrium.h>
 #include <taut/time/step_check.h>
@@ -43,7 +44,8 @@ namespace taut
     const double time;
     StepCheck check;
     StepSystem system;
-    std::vector<double> compliance;
+    ConstraintLaws laws;
+    std::vector<double> compliance, shift; ///< of springs; of linearised laws
     BodyVectors P, lift;
     std::vector<double> work;
     MixedComplementarityProblem problem;

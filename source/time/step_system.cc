@@ -72,6 +72,14 @@ namespace taut
     schur->setup(compliance);
   }
 
+  void StepSystem::set_compliance(const std::vector<double> &S)
+  {
+    if (S == compliance)
+      return;
+    compliance = S;
+    schur->set_compliance(S);
+  }
+
   void StepSystem::factor_nonlinear()
   {
     for (const std::size_t k : nonlinear)

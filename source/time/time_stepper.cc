@@ -221,7 +221,9 @@ namespace taut
       {
         const State::LinkSpring &spring = current.link_springs[i];
         const double before = spring.u - spring.du;
-        gain += .5 * constraints[i].stiffness * (spring.u * spring.u - before * before);
+        gain += constraints[i].law
+                    ? constraints[i].law->mean_force(before, spring.u) * spring.du
+                    : .5 * constraints[i].stiffness * (spring.u * spring.u - before * before);
       }
     }
     last.kinetic_energy = current.kinetic_energy = sums[0];

@@ -41,7 +41,7 @@ namespace taut
   {
     const std::size_t n = constraints.size();
     for (std::vector<double> *v :
-         {&relative_softening, &softening, &p, &q, &change, &rate, &work_of_rows, &largest_scale})
+         {&flexibility, &of_mass, &relative_softening, &softening, &p, &q, &change, &rate, &work_of_rows, &largest_scale})
       v->assign(n, 0.);
     takes_part.assign(n, 0);
     has_no_mass = constraints.without_mass();
@@ -69,24 +69,32 @@ namespace taut
     c = coefficients;
     step = tau;
     const double theta = 1. - c.alpha_f;
-    has_softening = false;
     std::vector<std::size_t> elastic;
     for (std::size_t i = 0; i < constraints.size(); ++i)
       if (constraints[i].unilateral && S[i] > 0.)
         elastic.push_back(i);
+    has_softening = !elastic.empty();
     const std::vector<double> diagonal = flexibilities(elastic, F);
+    for (const std::size_t i : elastic)
+    {
+      flexibility[i] = (diagonal[i] - S[i]) / theta;
+      has_laws = has_laws || constraints[i].law;
+    }
+    set_relative_softening(S);
+    if (is_set_up)
+      setup();
+  }
+
+  void VelocityProjection::set_relative_softening(const std::vector<double> &S)
+  {
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       relative_softening[i] = 0.;
       if (!constraints[i].unilateral || S[i] == 0.)
         continue;
-      const double flexibility = (diagonal[i] - S[i]) / theta,
-                   ratio = S[i] / (fading * flexibility);
+      const double ratio = S[i] / (fading * flexibility[i]);
       relative_softening[i] = ratio * ratio;
-      has_softening = true;
     }
-    if (is_set_up)
-      setup();
   }
 
   /**
@@ -132,15 +140,20 @@ namespace taut
     for (std::size_t i = 0; i < constraints.size(); ++i)
       if (relative_softening[i] > 0.)
         softened.push_back(i);
-    const std::vector<double> diagonal = flexibilities(softened, schur->matrix());
+    of_mass = flexibilities(softened, schur->matrix());
+    set_softening();
+  }
+
+  void VelocityProjection::set_softening()
+  {
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
-      const double f = diagonal[i];
+      const double f = of_mass[i];
       // Infinite: a constraint without flexibility of its own takes no part.
       softening[i] =
           f > 0. && std::isfinite(relative_softening[i]) ? f * relative_softening[i] : 0.;
     }
-    schur->setup(softening);
+    schur->set_compliance(softening);
   }
 
   /// Sets the constraints that take part and their impulses. False if all their rates are as they
@@ -210,6 +223,12 @@ namespace taut
   {
     found = 0.;
     std::fill(work_of_rows.begin(), work_of_rows.end(), 0.);
+    if (has_laws)
+    {
+      set_relative_softening(motions.compliance());
+      if (is_set_up)
+        set_softening();
+    }
     if (some_quasi_static)
     {
       move_quasi_static(state);

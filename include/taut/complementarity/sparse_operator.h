@@ -26,6 +26,9 @@ namespace taut
     /// cross, the later call counts.
     void set_border(std::size_t i, const std::vector<double> &entries);
 
+    /// F_ii = value, where F_ii has been given before.
+    void set_diagonal(std::size_t i, double value);
+
     std::size_t size() const override { return n; }
     double diagonal(std::size_t i) const override { return diagonal_entries[i]; }
     void apply(const std::vector<double> &x, std::vector<double> &y) const override;
@@ -60,6 +63,7 @@ namespace taut
     SymmetricEntries interior;               ///< each position once
     std::vector<std::vector<double>> border; ///< rows of n entries
     std::vector<double> diagonal_entries;
+    std::vector<std::size_t> diagonal_position; ///< of each row of the interior in its entries
 
     /// A shifted and an unshifted factor, so that a redundant set does not refactor both in every
     /// step.

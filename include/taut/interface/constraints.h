@@ -2,6 +2,7 @@
 #ifndef taut_constraints_h
 #define taut_constraints_h
 
+#include <taut/base/force_law.h>
 #include <taut/substructure/structure.h>
 
 #include <array>
@@ -46,7 +47,10 @@ namespace taut
     bool unilateral = false;          ///< 0 <= D _|_ N >= 0; otherwise D = 0
     bool rotational = false;          ///< slopes and moments
     double stiffness = std::numeric_limits<double>::infinity(); ///< [N/m, N m/rad]
-    double damping = 0.;                                        ///< [N s/m, N m s/rad]
+    /// The law of N over the compression of the spring, of unilateral constraints; null: linear.
+    /// The stiffness is then its largest one.
+    std::shared_ptr<const ForceLaw> law = {};
+    double damping = 0.; ///< [N s/m, N m s/rad]
     double gap = 0.;                                            ///< D at U = 0, N = 0 [m, rad]
     std::vector<Term> terms = {}; ///< B_i: D = terms . U + gap + N / stiffness
     std::shared_ptr<const MovingPlace> place =
@@ -54,6 +58,11 @@ namespace taut
     bool moving = false; ///< has a place
 
     bool is_link() const { return link != no_link; }
+
+    /// Compression of the spring under a force, and the energy that it stores then; 0 of a rigid
+    /// one [m, rad; J].
+    double compression(double N) const;
+    double stored_energy(double compression) const;
   };
 
   /// The constraints of a system: the fixed ones in their order, then the moving ones.

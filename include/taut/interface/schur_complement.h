@@ -52,6 +52,9 @@ namespace taut
     /// After a change of A_k or of the compliances S (diagonal, [m/N, rad/(N m)]): everything anew.
     virtual void setup(const std::vector<double> &S) = 0;
 
+    /// After a change of the compliances alone: only the diagonal changes.
+    virtual void set_compliance(const std::vector<double> &S) = 0;
+
     /// After Constraints::update(): the moving constraints anew.
     virtual void update_moving() = 0;
 

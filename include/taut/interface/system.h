@@ -38,6 +38,10 @@ namespace taut
     Constraint &stiffness(double value);
     Constraint &damping(double value);
 
+    /// The law of that spring instead of a stiffness, D = a - b + gap + u with N = f(u). Throws
+    /// UserError if the constraint is bilateral.
+    Constraint &law(std::shared_ptr<const ForceLaw> value);
+
     const ConstraintData &constraint() const { return data; }
 
   private:

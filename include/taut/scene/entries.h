@@ -16,6 +16,15 @@ namespace taut
   /// A stiffness: a positive number, or "rigid" for infinity.
   double parse_stiffness(const std::string &text, const std::string &entry);
 
+  /**
+   * The law of a link from its entries under @p title: null for "linear", else a "table" of points
+   * "elongation: force, ..." or a "formula" in d up to an elongation @p range [m, rad]. Throws
+   * EntryError unless it is 0 at 0 and increases.
+   */
+  std::shared_ptr<const ForceLaw> parse_law(const std::string &kind, const std::string &points,
+                                            const std::string &formula, double range,
+                                            const std::string &title);
+
   /// A point "x, y" or "x, y, z"; two numbers are in the plane z = 0.
   Coordinates parse_coordinates(const std::vector<double> &components, const std::string &entry);
 

@@ -10,8 +10,8 @@
 namespace taut
 {
   /**
-   * A scalar function of the position s [m] along a wire, or of a point x, y, z [m], and of the
-   * time t [s], written as a formula in the syntax of deal.II's FunctionParser; pi is known. Copies
+   * A scalar function of the position s [m] along a wire, of a point x, y, z [m], or of an
+   * elongation d [m], and of the time t [s], written as a formula in the syntax of deal.II's FunctionParser; pi is known. Copies
    * share the parsed formula.
    */
   class Expression
@@ -26,7 +26,8 @@ namespace taut
       position,
       time,
       both, ///< s and t
-      space ///< x, y, z and t
+      space,     ///< x, y, z and t
+      elongation ///< d, in the place of s
     };
 
     /// @p entry names the parameter in error messages. A formula that cannot be parsed, depends on
@@ -54,13 +55,14 @@ namespace taut
     struct Parser;
 
   private:
-    double evaluate(const Coordinates &x, double t, const char *variables) const;
+    double evaluate(const Coordinates &x, double t, const std::string &variables) const;
 
     std::shared_ptr<Parser> parser;
     std::string text = "0";
     std::string entry;
     double constant = 0.;
     bool time_dependent = false;
+    std::string of_one_number = "s";
   };
 } // namespace taut
 

@@ -3,6 +3,7 @@
 #define taut_scene_h
 
 #include <taut/base/coordinates.h>
+#include <taut/base/force_law.h>
 #include <taut/base/start.h>
 #include <taut/scene/body_type.h>
 #include <taut/scene/expression.h>
@@ -10,6 +11,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -220,6 +222,10 @@ namespace taut
     bool rotational = false;
     Coordinates direction = {0., 1.};
     double stiffness = std::numeric_limits<double>::infinity(); ///< [N/m, N m/rad]; infinite: rigid
+
+    /// Force over the elongation of a dropper, or the compression of a stop, that does not follow
+    /// the stiffness, which then is the largest one; may be null.
+    std::shared_ptr<const ForceLaw> law = {};
     double damping = 0.;                                        ///< [N s/m, N m s/rad]
     double gap = 0.;                                            ///< D at U = 0, N = 0 [m, rad]
     double speed = 0.; ///< of the `to` end along its wire [m/s]
@@ -239,6 +245,9 @@ namespace taut
 
     bool unilateral() const { return kind != LinkKind::joint; }
     bool moving() const { return kind == LinkKind::sliding_contact; }
+
+    /// Of the spring under a force [m, rad].
+    double elongation(const double N) const { return law ? law->elongation(N) : N / stiffness; }
     bool rigid() const { return stiffness == std::numeric_limits<double>::infinity(); }
   };
 

@@ -3,6 +3,7 @@
 #define taut_constraint_motions_h
 
 #include <taut/complementarity/problem.h>
+#include <taut/time/constraint_laws.h>
 #include <taut/time/integrator.h>
 #include <taut/time/state.h>
 #include <taut/time/step_system.h>
@@ -37,7 +38,8 @@ namespace taut
    *     0 <= N  _|_  D + S N + h >= 0,    h = -((1 - theta) k - c / step) / (theta k + c / step)
    * u_0,
    *
-   * S = 1 / (k + c / (theta step)) and u = max(0, S N + h). Rows on DoFs without mass and damping
+   * S = 1 / (k + c / (theta step)) and u = max(0, S N + h). Springs that follow a law have its mean
+   * between u_0 and u, see ConstraintLaws; S and h are then those of its linearisation. Rows on DoFs without mass and damping
    * keep forces at the ends of steps, where they hold these DoFs in equilibrium.
    */
   class ConstraintMotions
@@ -58,13 +60,14 @@ namespace taut
     /// is P^.
     void set_problem(const State &before, const StepSystem &system, const BodyVectors &P,
                      const BodyVectors &lift);
-    const MixedComplementarityProblem &problem() const { return conditions; }
 
     /**
-     * Takes the solution of the problem, multipliers L with A dU = P^ + B L. state.multiplier
-     * becomes the force at the end of the step, or its mean over the step.
+     * Solves it for multipliers L with A dU = P^ + B L. state.multiplier becomes the force at the
+     * end of the step, or its mean over the step. Errors are those of @p check, iterations go into
+     * @p certificate.
      */
-    void set_multipliers(const MixedComplementaritySolution &solution, State &state);
+    void find_multipliers(StepSystem &system, const StepCheck &check, Certificate &certificate,
+                          State &state);
 
     /// L and the amplitudes of rigid body modes.
     const MixedComplementaritySolution &applied() const { return solved; }
@@ -134,6 +137,8 @@ namespace taut
       return mean[i] && !c.velocity_projection && (c.velocity_level || !constraints[i].unilateral);
     }
     double spring_history(std::size_t i, const State &before) const;
+    void begin_law(std::size_t i, const State &before);
+    void set_multipliers(const MixedComplementaritySolution &solution, State &state);
     void share_convection(const State &state);
     void set_velocity_condition(std::size_t i, const State &before);
     void share_contact_free_predictor(const State &before, const StepSystem &system,
@@ -149,6 +154,7 @@ namespace taut
     bool supports_move = false; ///< of a body of this rank
 
     MixedComplementarityProblem conditions;
+    ConstraintLaws laws;
     std::vector<double> S;
     std::vector<char> mean;         ///< see mean_force()
     std::vector<char> quasi_static; ///< fixed constraints on DoFs without mass and damping

@@ -49,6 +49,9 @@ namespace taut
     /// constraints [m/N, rad/(N m)].
     void prepare(const StepCoefficients &coefficients, const std::vector<double> &S);
 
+    /// F with other compliances: only its diagonal changes.
+    void set_compliance(const std::vector<double> &S);
+
     const FactoredStructure &bodies() const { return solvers; }
     SchurComplement &interface() { return *schur; }
     const SchurComplement &interface() const { return *schur; }

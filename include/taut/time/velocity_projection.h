@@ -21,7 +21,8 @@ namespace taut
    *                                 D' = 0 on all rigid bilateral constraints.
    *
    * U stays. An elastic constraint with p > 0 is softened, so that its compliance S fades from
-   * rigid to none: 0 <= P _|_ D' + f_ii (S / (alpha F_ii))^2 (P - p) >= 0 with f = B^T M^-1 B. With
+   * rigid to none: 0 <= P _|_ D' + f_ii (S / (alpha F_ii))^2 (P - p) >= 0 with f = B^T M^-1 B. That
+   * of a law is the one at the end of the step. With
    * Newton's restitution e the condition is D' + e min(0, D'_0), and P goes only so far from the
    * solution without it that the contacts do not give energy. DoFs without mass and damping have no
    * velocity of their own: theirs is the mean over the step.
@@ -65,6 +66,8 @@ namespace taut
     bool has_to_act(const ConstraintMotions &motions, const State &state);
     std::vector<double> flexibilities(const std::vector<std::size_t> &wanted,
                                       ComplementarityOperator &F) const;
+    void set_relative_softening(const std::vector<double> &S);
+    void set_softening();
     void setup();
     void set_problem(const State &state);
     double kinetic_energy(const State &state);
@@ -80,13 +83,14 @@ namespace taut
     FactoredStructure solvers; ///< of M
     std::unique_ptr<SchurComplement> schur;
     ComplementaritySolver complementarity;
-    bool is_set_up = false, has_softening = false;
+    bool is_set_up = false, has_softening = false, has_laws = false;
     StepCoefficients c;
     double step = 0.;
 
     std::vector<std::vector<unsigned int>>
         quasi_static; ///< DoFs of each body without mass and damping
     bool some_quasi_static = false;
+    std::vector<double> flexibility, of_mass;  ///< F_ii and f_ii of the elastic constraints
     std::vector<double> relative_softening;    ///< (S / (alpha F_ii))^2 of each constraint
     std::vector<double> softening;             ///< f_ii times that
     std::vector<char> takes_part, has_no_mass; ///< constraints; the latter act on DoFs without mass

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/time/constraint_laws.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace taut
+{
+  namespace
+  {
+    /// The iteration ends where a law lacks this part of the terms of its gap; or, where rounding
+    /// keeps it above, the second one. The certificate of the step then says what it is worth.
+    constexpr double converged = 1e-14, stagnated = 1e-8;
+    constexpr int most_iterations = 200;
+
+    /// Part of the last error below which a step of Newton's method is taken as it is, and above
+    /// which an error counts as rounding.
+    constexpr double closer = .5, not_closer = .9;
+
+    /// Part of the largest stiffness below which a law counts as this stiff when it is linearised.
+    constexpr double least_slope = 1e-9;
+
+    /// Part of the compressions below which their difference says nothing of the slope of the mean.
+    constexpr double least_difference = 1e-5;
+  } // namespace
+
+  ConstraintLaws::ConstraintLaws(const Constraints &constraints) : constraints(constraints)
+  {
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      if (constraints[i].law)
+        rows.push_back({i, constraints[i].law.get()});
+    row_of.assign(constraints.size(), rows.size());
+    for (std::size_t r = 0; r < rows.size(); ++r)
+      row_of[rows[r].index] = r;
+  }
+
+  double ConstraintLaws::Row::force(const double u) const
+  {
+    return at_end * law->force(u) + (of_mean > 0. ? of_mean * law->mean_force(u0, u) : 0.) +
+           damping * (u - undamped);
+  }
+
+  double ConstraintLaws::Row::slope(const double u) const
+  {
+    double of_law = at_end * law->stiffness(u);
+    const double difference = u - u0;
+    if (of_mean > 0. &&
+        std::fabs(difference) > least_difference * std::max(std::fabs(u), std::fabs(u0)))
+      of_law += of_mean * (law->force(u) - law->mean_force(u0, u)) / difference;
+    else if (of_mean > 0.)
+      of_law += .5 * of_mean * law->stiffness(.5 * (u + u0));
+    return std::max(of_law, least_slope * law->largest_stiffness()) + damping;
+  }
+
+  void ConstraintLaws::begin(const std::size_t i, Row row, const double low, const double high)
+  {
+    row.open = increasing_root([&](const double u) { return row.force(u); }, low, high);
+    rows[row_of[i]] = row;
+  }
+
+  void ConstraintLaws::begin_at_end(const std::size_t i, const double u, const double damping,
+                                    const double undamped)
+  {
+    Row row{i, constraints[i].law.get(), u};
+    row.damping = damping;
+    row.undamped = undamped;
+    begin(i, row, std::min(0., undamped), std::max(0., undamped));
+  }
+
+  void ConstraintLaws::begin_mean(const std::size_t i, const double u, const double theta,
+                                  const double damping)
+  {
+    Row row{i, constraints[i].law.get(), u};
+    row.at_end = (2. * theta - 1.) / theta;
+    row.of_mean = 2. * (1. - theta) / theta;
+    row.damping = damping;
+    row.undamped = u;
+    begin(i, row, -std::fabs(u), std::fabs(u));
+  }
+
+  double ConstraintLaws::lack(const std::size_t i, const double u, const double L) const
+  {
+    if (row_of[i] == rows.size())
+      return 0.;
+    const Row &row = rows[row_of[i]];
+    return (L - row.force(u)) / row.slope(u);
+  }
+
+  std::vector<double> ConstraintLaws::compressions(const std::vector<double> &gap) const
+  {
+    std::vector<double> result;
+    for (const Row &row : rows)
+      result.push_back(std::max(-gap[row.index], row.open));
+    return result;
+  }
+
+  void ConstraintLaws::linearise(const std::vector<double> &u, std::vector<double> &S,
+                                 std::vector<double> &shift) const
+  {
+    for (std::size_t r = 0; r < rows.size(); ++r)
+    {
+      const std::size_t i = rows[r].index;
+      S[i] = 1. / rows[r].slope(u[r]);
+      shift[i] = u[r] - S[i] * rows[r].force(u[r]);
+    }
+  }
+
+  /// The largest of the gaps that a step of Newton's method would close, over the terms of a gap.
+  double ConstraintLaws::error(const Point &at, const MixedComplementarityProblem &problem,
+                               const ComplementarityOperator &F,
+                               const std::vector<double> &S) const
+  {
+    const std::vector<double> u = compressions(at.gap);
+    double largest = 0.;
+    for (std::size_t r = 0; r < rows.size(); ++r)
+    {
+      const std::size_t i = rows[r].index;
+      const double slope = rows[r].slope(u[r]), of_bodies = F.diagonal(i) - S[i],
+                   lacking = std::fabs(at.multiplier[i] - rows[r].force(u[r])) /
+                             (slope + (of_bodies > 0. ? 1. / of_bodies : 0.)),
+                   terms = std::fabs(problem.free_gap[i]) + problem.gap_scale[i] +
+                           F.diagonal(i) * std::fabs(at.multiplier[i]),
+                   relative = lacking == 0. ? 0. : lacking / terms;
+      if (!(relative <= largest) && !std::isnan(largest))
+        largest = relative;
+    }
+    return largest;
+  }
+
+  /// Derivative of the energy by s at the part s of the way.
+  double ConstraintLaws::slope_of_energy(const Point &from, const Point &to, const double s,
+                                         const std::vector<double> &S) const
+  {
+    double sum = 0.;
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+    {
+      const double change = to.gap[i] - from.gap[i], gap = from.gap[i] + s * change,
+                   L = (1. - s) * from.multiplier[i] + s * to.multiplier[i];
+      double of_spring = 0.;
+      if (row_of[i] < rows.size())
+        of_spring = std::max(0., rows[row_of[i]].force(-gap));
+      else if (S[i] > 0.)
+        of_spring = constraints[i].unilateral ? std::max(0., -gap / S[i]) : -gap / S[i];
+      sum += change * (L - of_spring);
+    }
+    return sum;
+  }
+
+  /// Moves the end of the way to where the energy is least.
+  void ConstraintLaws::shorten(const Point &from, Point &to, const std::vector<double> &S) const
+  {
+    const double s = increasing_root([&](const double part)
+                                     { return slope_of_energy(from, to, part, S); },
+                                     0., 1.);
+    if (!(slope_of_energy(from, to, 1., S) > 0.) || !(s > 0.))
+      return;
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+    {
+      to.gap[i] = from.gap[i] + s * (to.gap[i] - from.gap[i]);
+      to.multiplier[i] = from.multiplier[i] + s * (to.multiplier[i] - from.multiplier[i]);
+    }
+  }
+
+  const MixedComplementaritySolution &
+  ConstraintLaws::solve(MixedComplementarityProblem &problem, StepSystem &system,
+                        const StepCheck &check, Certificate &certificate, std::vector<double> &S,
+                        std::vector<double> &shift)
+  {
+    const std::vector<double> gap = problem.free_gap, scale = problem.gap_scale;
+    std::vector<double> u;
+    for (const Row &row : rows)
+      u.push_back(std::max(row.u0, row.open));
+    Point last, now;
+    const MixedComplementaritySolution *solution = nullptr;
+    double before = std::numeric_limits<double>::infinity();
+    unsigned int iterations = 0;
+    for (int iteration = 0; iteration < most_iterations; ++iteration)
+    {
+      linearise(u, S, shift);
+      for (const Row &row : rows)
+      {
+        problem.free_gap[row.index] = gap[row.index] + shift[row.index];
+        problem.gap_scale[row.index] = scale[row.index] + std::fabs(shift[row.index]);
+      }
+      system.set_compliance(S);
+      solution = &system.find_multipliers(problem, check, certificate);
+      certificate.iterations = iterations += certificate.iterations;
+      now.multiplier = solution->multiplier;
+      now.gap = solution->gap;
+      for (std::size_t i = 0; i < constraints.size(); ++i)
+        now.gap[i] -= S[i] * now.multiplier[i] + (constraints[i].law ? shift[i] : 0.);
+      const ComplementarityOperator &F = system.interface().matrix();
+      double found = error(now, problem, F, S);
+      if (found <= converged || (found <= stagnated && found >= not_closer * before))
+        break;
+      if (found > closer * before)
+      {
+        shorten(last, now, S);
+        found = error(now, problem, F, S);
+      }
+      before = found;
+      std::swap(last, now);
+      u = compressions(last.gap);
+    }
+    // What it lacks is in the certificate.
+    return *solution;
+  }
+} // namespace taut

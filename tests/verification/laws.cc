@@ -1,0 +1,457 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: links follow their laws: statics to rounding, impacts with the order of the scheme and
+// without a gain of energy, with every form of the interface operator and any cuts. Sources: a law
+// whose points lie on a straight line is the stiffness; closed forms of two slopes and of a cubic
+// spring; forces and energies of random laws, evaluated here.
+#include "run.h"
+
+#include <taut/base/force_law.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <random>
+
+using namespace verification;
+
+namespace
+{
+  std::string number(const double value)
+  {
+    std::ostringstream out;
+    out.precision(17);
+    out << value;
+    return out.str();
+  }
+
+  /// A mass of 2 kg that meets a stop at x = 0 with 3 m/s, after half a millisecond.
+  std::string thrown_mass(const std::string &law)
+  {
+    return "set Generator = network\nset Gravity = 0, 0\nset Start = given\n"
+           "subsection Network\n set Masses = mass\n set Links = stop\n"
+           " subsection Mass mass\n  set Position = 0, 0\n  set Mass = 2\n  set Motions = y\n"
+           "  set Initial displacement = 0, 0.0015, 0\n  set Initial velocity = 0, -3, 0\n end\n"
+           " subsection Link stop\n  set Type = stop\n  set From = ground\n  set To = mass\n"
+           "  set Direction = 0, 1\n" +
+           law + " end\nend\nsubsection Time\n set Step = 1e-4\n set End = 0.1\nend\n";
+  }
+  constexpr double mass = 2., speed = 3., start = .0015;
+
+  const char *const two_slopes = "  set Law = table\n  set Law points = 0.01: 200, 0.02: 1200\n";
+  const char *const cubic = "  set Law = formula\n  set Law formula = 1e6*d^3\n"
+                            "  set Law range = 0.2\n";
+
+  /// Time in contact: a quarter of a vibration by each slope, once in and once out.
+  double contact_of_two_slopes()
+  {
+    const double k1 = 2e4, k2 = 1e5, u1 = .01, w1 = std::sqrt(k1 / mass), w2 = std::sqrt(k2 / mass),
+                 v1 = std::sqrt(speed * speed - k1 * u1 * u1 / mass), t1 = std::asin(w1 * u1 / speed) / w1;
+    // m u'' = -k2 (u - u1) - k1 u1: about the point where that force is 0.
+    const double below = k1 * u1 / k2, t2 = (.5 * std::acos(-1.) - std::atan(w2 * below / v1)) / w2;
+    return 2. * (t1 + t2);
+  }
+
+  /// m v^2/2 = k u^4/4, and the integral of 1 / sqrt(1 - x^4) from 0 to 1.
+  double contact_of_the_cubic_spring()
+  {
+    const double largest = std::pow(2. * mass * speed * speed / 1e6, .25);
+    return 2. * largest / speed * 1.3110287771460599;
+  }
+
+  struct Flight
+  {
+    double contact = 0., lost = 0., gained = 0.;
+  };
+
+  /// Time in contact, by where the mass is at the end, and what it lost of its energy.
+  Flight fly(const std::string &law, const std::string &scheme, const double step)
+  {
+    Flight result;
+    const double all = .5 * mass * speed * speed;
+    double last = all;
+    run_scene(thrown_mass(law), {"Time.Scheme=" + scheme, "Time.Step=" + number(step)},
+              [&](const taut::StepView &view)
+              {
+                const double v = view.state.V[0][0];
+                const double energy =
+                    .5 * mass * v * v +
+                    view.constraints[0].stored_energy(view.state.link_springs[0].u);
+                result.gained = std::max(result.gained, (energy - last) / all);
+                last = energy;
+                result.contact =
+                    view.state.time - start / speed - (view.state.U[0][0]) / speed;
+              });
+    result.lost = 1. - last / all;
+    return result;
+  }
+} // namespace
+
+TEST(Laws, a_table_is_a_chain_of_straight_lines)
+{
+  const taut::TableLaw law({{.01, 100.}, {.03, 200.}, {.04, 600.}});
+  EXPECT_DOUBLE_EQ(law.force(.005), 50.);
+  EXPECT_DOUBLE_EQ(law.force(.02), 150.);
+  EXPECT_DOUBLE_EQ(law.force(-.02), -150.);
+  EXPECT_DOUBLE_EQ(law.force(.05), 1000.);
+  EXPECT_DOUBLE_EQ(law.energy(.04), .5 + 3. + 4.);
+  EXPECT_DOUBLE_EQ(law.energy(-.04), law.energy(.04));
+  EXPECT_NEAR(law.mean_force(.01, .04), 7. / .03, 1e-12);
+  EXPECT_NEAR(law.mean_force(.04, .01), 7. / .03, 1e-12);
+  EXPECT_NEAR(law.mean_force(-.01, .04), 7. / .05, 1e-12);
+  EXPECT_NEAR(law.mean_force(.02, .02 + 1e-12), 150., 1e-8);
+  EXPECT_EQ(law.largest_stiffness(), 4e4);
+  for (const double N : {1e-9, 50., 100., 150., 599., 1e6})
+    EXPECT_NEAR(law.force(law.elongation(N)), N, 1e-14 * N);
+  EXPECT_THROW(taut::TableLaw({{.01, 100.}, {.02, 100.}}), std::invalid_argument);
+}
+
+TEST(Laws, points_on_a_line_are_the_stiffness)
+{
+  for (const std::string law :
+       {"  set Law = table\n  set Law points = 0.01: 72, 0.03: 216\n",
+        "  set Law = formula\n  set Law formula = 7200*d\n  set Law range = 0.1\n"})
+    for (const std::string scheme :
+         {"Moreau-Jean", "automatic", "Newmark", "BDF2", "generalised-alpha", "backward Euler"})
+      for (const std::string damping : {"0", "5"})
+      {
+        std::vector<double> forces, motions;
+        double size = 0., difference = 0.;
+        const auto run = [&](const std::string &spring, const bool is_reference)
+        {
+          std::size_t n = 0;
+          const std::string given = scheme == "automatic" ? "Moreau-Jean" : scheme;
+          run_scene(thrown_mass(spring + "  set Damping = " + damping + "\n"),
+                    {"Time.Scheme=" + given, "Time.Allow unsuitable scheme=true",
+                     "Time.Step=1e-3",
+                     "Time.Moreau-Jean.Conditions=" +
+                         std::string(scheme == "automatic" ? "gaps then velocities" : "gaps")},
+                    [&](const taut::StepView &view)
+                    {
+                      if (is_reference)
+                      {
+                        forces.push_back(view.state.multiplier[0]);
+                        motions.push_back(view.state.U[0][0]);
+                        size = std::max(size, std::fabs(forces.back()));
+                        return;
+                      }
+                      difference = std::max(
+                          {difference, std::fabs(view.state.multiplier[0] - forces[n]) / size,
+                           std::fabs(view.state.U[0][0] - motions[n]) / .1});
+                      ++n;
+                    });
+        };
+        run("  set Stiffness = 7200\n", true);
+        run(law, false);
+        EXPECT_LT(difference, 1e-11) << scheme << ", damping " << damping << law;
+      }
+}
+
+TEST(Laws, impacts_have_the_order_of_the_scheme)
+{
+  const std::map<std::string, double> orders = {{"automatic", 2.},
+                                                {"Newmark", 2.},
+                                                {"BDF2", 2.},
+                                                {"generalised-alpha", 2.},
+                                                {"backward Euler", 1.}};
+  for (const auto &[law, contact] :
+       {std::make_pair(cubic, contact_of_the_cubic_spring()),
+        std::make_pair(two_slopes, contact_of_two_slopes())})
+    for (const auto &[scheme, order] : orders)
+    {
+      std::vector<double> steps, errors;
+      for (int i = 0; i < 5; ++i)
+      {
+        // Where in a step the contacts begin and end changes the error: its mean counts.
+        double sum = 0.;
+        steps.push_back((order == 1. ? 1e-4 : 4e-4) / (1 << i));
+        for (const double part : {1., .97, .94, .91})
+          sum += std::fabs(fly(law, scheme, part * steps.back()).contact - contact);
+        errors.push_back(.25 * sum);
+      }
+      const double fitted = fitted_order(steps, errors);
+      const std::string what = std::string(law == cubic ? "cubic" : "two slopes") + ", " + scheme;
+      figure("law, " + what + ", order", fitted);
+      figure("law, " + what + ", error of the time in contact at the smallest step",
+             errors.back() / contact);
+      EXPECT_NEAR(fitted, order, .15) << what;
+      EXPECT_LT(errors.back() / contact, order == 1. ? 2e-2 : 2e-4) << what;
+    }
+}
+
+TEST(Laws, mean_forces_give_no_energy)
+{
+  for (const char *const law : {cubic, two_slopes})
+    for (const double step : {1e-4, 1e-3, 3e-3, 1e-2})
+    {
+      const Flight flight = fly(law, "automatic", step);
+      EXPECT_LT(flight.gained, 1e-13) << law << step;
+      EXPECT_GE(flight.lost, -1e-13) << law << step;
+      if (step == 1e-4)
+        figure(std::string("law, ") + (law == cubic ? "cubic" : "two slopes") + ", energy lost",
+               flight.lost);
+    }
+}
+
+namespace
+{
+  /// A mass between two stops, where a force at each end of a step does not do the work of the law.
+  double largest_gain(const std::string &scheme, const double step)
+  {
+    const std::string stops =
+        cubic + std::string(" end\n subsection Link above\n  set Type = stop\n  set From = mass\n"
+                            "  set To = ground\n  set Direction = 0, 1\n  set Gap = 0.02\n") +
+        cubic;
+    std::string scene = thrown_mass(stops);
+    scene.replace(scene.find("Links = stop"), 12, "Links = stop, above");
+    const double all = .5 * mass * speed * speed;
+    double largest = 0.;
+    run_scene(scene,
+              {"Time.Scheme=" + scheme, "Time.Step=" + number(step), "Time.End=10",
+               "Time.Allow unsuitable scheme=true"},
+              [&](const taut::StepView &view)
+              {
+                double energy = .5 * mass * view.state.V[0][0] * view.state.V[0][0];
+                for (std::size_t i = 0; i < 2; ++i)
+                  energy += view.constraints[i].stored_energy(view.state.link_springs[i].u);
+                largest = std::max(largest, energy / all - 1.);
+              });
+    return largest;
+  }
+} // namespace
+
+TEST(Laws, what_forces_at_the_ends_of_steps_gain_is_measured)
+{
+  for (const double step : {5e-3, 1e-3})
+  {
+    const double automatic = largest_gain("automatic", step), newmark = largest_gain("Newmark", step);
+    figure("law, energy gained in 10 s by mean forces, step " + number(step), automatic);
+    figure("law, energy gained in 10 s by Newmark, step " + number(step), newmark);
+    figure("law, energy gained in 10 s by generalised-alpha, step " + number(step),
+           largest_gain("generalised-alpha", step));
+    EXPECT_LT(automatic, 1e-12);
+    EXPECT_GT(newmark, 1e3 * std::max(automatic, 1e-12));
+  }
+}
+
+TEST(Laws, energy_of_a_law_is_in_the_balance)
+{
+  for (const std::string scheme : {"automatic", "Newmark", "generalised-alpha", "BDF2"})
+  {
+    Session session(thrown_mass(std::string(two_slopes) + "  set Damping = 20\n"),
+                    {"Time.Scheme=" + scheme, "Time.Step=1e-3", "Output.Observers=energy"});
+    session.run([](const taut::StepView &) {});
+    std::ifstream table(session.folder() + "/energy.csv");
+    std::string line;
+    int n = 0;
+    for (std::getline(table, line); std::getline(table, line); ++n)
+      EXPECT_LT(std::fabs(std::stod(line.substr(line.rfind(',') + 1))), 1e-12) << scheme << line;
+    EXPECT_GT(n, 1);
+  }
+}
+
+TEST(Laws, two_slopes_at_rest)
+{
+  // 1200 N on a dropper of 1000 N at 10 mm and 20 N/mm beyond, and on half as much before it.
+  const char *const scene =
+      "set Generator = network\nset Gravity = 0, -10\nset Start = equilibrium\n"
+      "subsection Network\n set Masses = heavy, light\n set Links = one, two\n"
+      " subsection Mass heavy\n  set Position = 0, 0\n  set Mass = 120\n  set Motions = y\n end\n"
+      " subsection Mass light\n  set Position = 1, 0\n  set Mass = 60\n  set Motions = y\n end\n"
+      " subsection Link one\n  set Type = dropper\n  set From = ground\n  set To = heavy\n"
+      "  set Direction = 0, -1\n  set Gap = 0.005\n"
+      "  set Law = table\n  set Law points = 0.01: 1000, 0.03: 1400\n end\n"
+      " subsection Link two\n  set Type = dropper\n  set From = ground\n  set To = light\n"
+      "  set Direction = 0, -1\n"
+      "  set Law = table\n  set Law points = 0: 0, 0.01: 1000, 0.03: 1400\n end\nend\n"
+      "subsection Time\n set Step = 1e-3\n set End = 0.01\nend\n";
+  run_scene(scene, {},
+            [](const taut::StepView &view)
+            {
+              EXPECT_NEAR(view.reference.displacement[0][0], -.025, 1e-15);
+              EXPECT_NEAR(view.reference.displacement[1][0], -.006, 1e-15);
+              EXPECT_NEAR(view.state.multiplier[0], 1200., 1e-10);
+              EXPECT_NEAR(view.state.multiplier[1], 600., 1e-10);
+              EXPECT_NEAR(view.state.U[0][0], 0., 1e-15);
+            });
+}
+
+namespace
+{
+  /// Masses in a row on springs, each with one or two links to the ground whose laws have slopes of
+  /// all sizes in any order.
+  std::string random_row(std::mt19937 &random, const int n)
+  {
+    const auto uniform = [&](const double a, const double b)
+    { return std::uniform_real_distribution<double>(a, b)(random); };
+    std::ostringstream names, springs, links, parts;
+    for (int i = 0; i < n; ++i)
+    {
+      const std::string me = std::to_string(i);
+      names << (i ? ", " : "") << "m" << me;
+      parts << " subsection Mass m" << me << "\n  set Position = " << me
+            << ", 0\n  set Mass = " << std::pow(10., uniform(0., 3.)) << "\n  set Motions = y\n end\n";
+      if (i > 0)
+      {
+        springs << (i > 1 ? ", " : "") << "s" << me;
+        parts << " subsection Spring s" << me << "\n  set From = m" << std::to_string(i - 1)
+              << "\n  set To = m" << me << "\n  set Stiffness = " << std::pow(10., uniform(2., 5.))
+              << "\n end\n";
+      }
+      for (int l = 0; l < 2; ++l)
+      {
+        const std::string name = "l" + me + (l ? "b" : "a");
+        links << (i + l ? ", " : "") << name;
+        parts << " subsection Link " << name << "\n  set Type = stop\n  set From = ground\n"
+              << "  set To = m" << me << "\n  set Direction = 0, 1\n  set Gap = "
+              << (l ? uniform(0., .2) : 0.) << "\n  set Law = table\n  set Law points = ";
+        double u = 0., f = 0.;
+        const int points = std::uniform_int_distribution<int>(1, 6)(random);
+        for (int p = 0; p < points; ++p)
+        {
+          const double du = std::pow(10., uniform(-4., -1.));
+          u += du;
+          f += du * std::pow(10., uniform(1., 6.));
+          parts << (p ? ", " : "") << number(u) << ": " << number(f);
+        }
+        parts << "\n end\n";
+      }
+    }
+    return "set Generator = network\nset Start = equilibrium\nsubsection Network\n set Masses = " +
+           names.str() + "\n set Springs = " + springs.str() + "\n set Links = " + links.str() +
+           "\n" + parts.str() +
+           "end\nsubsection Time\n set Step = 1e-3\n set End = 2e-3\nend\n";
+  }
+
+  /// The largest of what forces lack of their laws and of equilibrium of the whole, over the
+  /// weight.
+  double largest_lack(const taut::StepView &view)
+  {
+    double weight = 0., held = 0., lack = 0.;
+    for (const taut::Mass &m : view.scene.masses)
+      weight += 9.81 * m.mass;
+    for (std::size_t i = 0; i < view.constraints.size(); ++i)
+    {
+      const double N = view.reference.multiplier.empty() ? view.state.multiplier[i]
+                                                         : view.reference.multiplier[i],
+                   g = view.state.geometric_gap[i],
+                   law = g < 0. ? view.constraints[i].law->force(-g) : 0.;
+      held += N;
+      lack = std::max(lack, std::fabs(N - law));
+    }
+    return std::max(lack, std::fabs(held - weight)) / weight;
+  }
+} // namespace
+
+TEST(Laws, rows_of_any_laws_are_at_rest)
+{
+  std::mt19937 random(1);
+  double largest = 0., residual = 0.;
+  for (int i = 0; i < 200; ++i)
+  {
+    const std::string scene = random_row(random, 2 + i % 7);
+    for (const std::string form : {"assembled dense", "assembled sparse", "matrix-free"})
+      run_scene(scene, {"Solver.Interface operator=" + form},
+                [&](const taut::StepView &view)
+                {
+                  largest = std::max(largest, largest_lack(view));
+                  residual = std::max(residual, view.certificate.complementarity);
+                });
+  }
+  figure("law, 200 random rows at rest, largest lack of force over the weight", largest);
+  figure("law, 200 random rows at rest, largest residual", residual);
+  EXPECT_LT(largest, 1e-9);
+  EXPECT_LT(residual, 1e-11);
+}
+
+namespace
+{
+  /// A beam that falls on stops that stiffen, and hangs in droppers that soften.
+  const char *const beam =
+      "set Generator = network\nset Start = equilibrium\n"
+      "subsection Network\n set Wires = beam\n set Supports = ends\n set Links = stop, dropper\n"
+      " set Loads = push\n"
+      " subsection Wire beam\n  set To = 12, 0\n  set Components = beam\n"
+      "  set Mass per length = 5\n  set Bending stiffness = 4000\n  set Element size = 0.25\n end\n"
+      " subsection Support ends\n  set Wire = beam\n  set Positions = 0, 12\n end\n"
+      " subsection Link stop\n  set Type = stop\n  set From = ground\n  set To = beam @ 2:2:10\n"
+      "  set Direction = 0, 1\n  set Gap = 0.005\n  set Law = formula\n"
+      "  set Law formula = 5e3*d + 1e8*d^3\n  set Law range = 0.1\n end\n"
+      " subsection Link dropper\n  set Type = dropper\n  set From = ground\n"
+      "  set To = beam @ 1:2:11\n  set Direction = 0, -1\n  set Law = table\n"
+      "  set Law points = 0.002: 40, 0.02: 80\n end\n"
+      " subsection Load push\n  set On = beam @ 5\n  set Direction = 0, 1\n"
+      "  set Magnitude = -600*sin(20*t)\n end\nend\n"
+      "subsection Time\n set Step = 2e-3\n set End = 0.4\nend\n";
+
+  std::vector<std::vector<double>> forces_of(const Overrides &overrides)
+  {
+    std::vector<std::vector<double>> result;
+    run_scene(beam, overrides,
+              [&](const taut::StepView &view)
+              {
+                std::vector<double> links(view.state.multiplier.begin(),
+                                          view.state.multiplier.begin() + 11);
+                result.push_back(links);
+              });
+    return result;
+  }
+} // namespace
+
+TEST(Laws, cuts_and_forms_do_not_matter)
+{
+  for (const std::string scheme : {"automatic", "generalised-alpha"})
+  {
+    const std::string time = "Time.Scheme=" + scheme;
+    const auto whole = forces_of({time, "Solver.Interface operator=assembled dense"});
+    double size = 0., largest = 0.;
+    for (const auto &step : whole)
+      for (const double N : step)
+        size = std::max(size, N);
+    for (const std::string form : {"assembled dense", "assembled sparse", "matrix-free"})
+      for (const std::string parts : {"1", "3"})
+      {
+        const auto other = forces_of(
+            {time, "Solver.Interface operator=" + form, "Partition.Number of substructures=" + parts});
+        ASSERT_EQ(other.size(), whole.size());
+        for (std::size_t n = 0; n < whole.size(); ++n)
+          for (std::size_t i = 0; i < whole[n].size(); ++i)
+            largest = std::max(largest, std::fabs(other[n][i] - whole[n][i]) / size);
+      }
+    figure("law, forms and cuts, " + scheme + ", largest difference of forces", largest);
+    EXPECT_LT(largest, 1e-7) << scheme;
+  }
+}
+
+TEST(Laws, bump_stop)
+{
+  double deepest = 0., largest_force = 0., largest_gain = 0., before = 0., t_before = 0.;
+  std::vector<double> rises;
+  run_scene(scene_file("bump_stop"), {},
+            [&](const taut::StepView &view)
+            {
+              const double y = view.state.U[0][0], t = view.state.time, v = view.state.V[0][0];
+              deepest = std::min(deepest, y);
+              largest_force = std::max(largest_force, view.state.multiplier[0]);
+              const double energy =
+                  150. * v * v + 7500. * y * y +
+                  view.constraints[0].stored_energy(view.state.link_springs[0].u);
+              largest_gain = std::max(largest_gain, energy / 337.5 - 1.);
+              if (before < 0. && y >= 0.)
+                rises.push_back(t_before + (t - t_before) * before / (before - y));
+              before = y;
+              t_before = t;
+            });
+  ASSERT_EQ(rises.size(), 3u);
+  const double period = .5 * (rises[2] - rises[0]);
+  figure("bump stop, largest compression of the spring", -1e3 * deepest, "mm");
+  figure("bump stop, largest force", largest_force, "N");
+  figure("bump stop, period", period, "s");
+  figure("bump stop, energy gained", largest_gain);
+  EXPECT_NEAR(-deepest, .149971, 1e-5);
+  EXPECT_NEAR(largest_force, 8251.04, 4.);
+  EXPECT_NEAR(period, .704983, 2e-5);
+  EXPECT_LT(largest_gain, 1e-12);
+}
