@@ -63,7 +63,7 @@ namespace taut
   std::string TableLaw::description() const
   {
     std::ostringstream out;
-    out.precision(17);
+    out.precision(15);
     out << "table";
     for (std::size_t i = 1; i < u.size(); ++i)
       out << (i > 1 ? ", " : " ") << u[i] << ':' << f[i];

@@ -53,9 +53,9 @@ namespace taut
       static std::string number(const double value)
       {
         std::ostringstream out;
-        out.precision(17);
+        out.precision(15);
         out << value;
-        return out.str().size() > 12 ? std::to_string(value) : out.str();
+        return out.str();
       }
 
       [[noreturn]] void fail(const std::string &entry, const std::string &what) const

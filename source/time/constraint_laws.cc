@@ -14,9 +14,8 @@ namespace taut
     constexpr double converged = 1e-14, stagnated = 1e-8;
     constexpr int most_iterations = 200;
 
-    /// Part of the last error below which a step of Newton's method is taken as it is, and above
-    /// which an error counts as rounding.
-    constexpr double closer = .5, not_closer = .9;
+    /// Part of the last error above which one counts as rounding.
+    constexpr double not_closer = .9;
 
     /// Part of the largest stiffness below which a law counts as this stiff when it is linearised.
     constexpr double least_slope = 1e-9;
@@ -106,19 +105,16 @@ namespace taut
     }
   }
 
-  /// The largest of the gaps that a step of Newton's method would close, over the terms of a gap.
+  /// The largest that a law lacks, over the terms of its gap.
   double ConstraintLaws::error(const Point &at, const MixedComplementarityProblem &problem,
-                               const ComplementarityOperator &F,
-                               const std::vector<double> &S) const
+                               const ComplementarityOperator &F) const
   {
     const std::vector<double> u = compressions(at.gap);
     double largest = 0.;
     for (std::size_t r = 0; r < rows.size(); ++r)
     {
       const std::size_t i = rows[r].index;
-      const double slope = rows[r].slope(u[r]), of_bodies = F.diagonal(i) - S[i],
-                   lacking = std::fabs(at.multiplier[i] - rows[r].force(u[r])) /
-                             (slope + (of_bodies > 0. ? 1. / of_bodies : 0.)),
+      const double lacking = std::fabs(lack(i, u[r], at.multiplier[i])),
                    terms = std::fabs(problem.free_gap[i]) + problem.gap_scale[i] +
                            F.diagonal(i) * std::fabs(at.multiplier[i]),
                    relative = lacking == 0. ? 0. : lacking / terms;
@@ -147,14 +143,14 @@ namespace taut
     return sum;
   }
 
-  /// Moves the end of the way to where the energy is least.
+  /// Moves the end of the way to where the energy is least, unless it has certainly become less: its
+  /// derivative grows along the way.
   void ConstraintLaws::shorten(const Point &from, Point &to, const std::vector<double> &S) const
   {
-    const double s = increasing_root([&](const double part)
-                                     { return slope_of_energy(from, to, part, S); },
-                                     0., 1.);
-    if (!(slope_of_energy(from, to, 1., S) > 0.) || !(s > 0.))
+    const auto slope = [&](const double part) { return slope_of_energy(from, to, part, S); };
+    if (!(slope(.5) + slope(1.) > 0.))
       return;
+    const double s = increasing_root(slope, 0., 1.);
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       to.gap[i] = from.gap[i] + s * (to.gap[i] - from.gap[i]);
@@ -191,19 +187,22 @@ namespace taut
       for (std::size_t i = 0; i < constraints.size(); ++i)
         now.gap[i] -= S[i] * now.multiplier[i] + (constraints[i].law ? shift[i] : 0.);
       const ComplementarityOperator &F = system.interface().matrix();
-      double found = error(now, problem, F, S);
+      const double found = error(now, problem, F);
       if (found <= converged || (found <= stagnated && found >= not_closer * before))
         break;
-      if (found > closer * before)
-      {
+      if (iteration > 0)
         shorten(last, now, S);
-        found = error(now, problem, F, S);
-      }
-      before = found;
+      before = error(now, problem, F);
       std::swap(last, now);
       u = compressions(last.gap);
     }
-    // What it lacks is in the certificate.
+    // Where a link is open, the law is that of rest. What the others lack is in the certificate.
+    for (const Row &row : rows)
+      if (solution->multiplier[row.index] == 0.)
+      {
+        shift[row.index] = row.open;
+        problem.free_gap[row.index] = gap[row.index] + row.open;
+      }
     return *solution;
   }
 } // namespace taut

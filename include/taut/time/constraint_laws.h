@@ -82,7 +82,7 @@ namespace taut
     void linearise(const std::vector<double> &u, std::vector<double> &S,
                    std::vector<double> &shift) const;
     double error(const Point &at, const MixedComplementarityProblem &problem,
-                 const ComplementarityOperator &F, const std::vector<double> &S) const;
+                 const ComplementarityOperator &F) const;
     double slope_of_energy(const Point &from, const Point &to, double s,
                            const std::vector<double> &S) const;
     void shorten(const Point &from, Point &to, const std::vector<double> &S) const;
