@@ -184,16 +184,17 @@ namespace taut
           total.link_dampers += damper;
         total.contacts += state.constraint_work[i];
         if (!std::isinf(constraint.stiffness))
-          total.contacts += constraint.stored_energy(spring.u) - constraint.stored_energy(springs0[i].u) + damper;
+          total.contacts +=
+              constraint.stored_energy(spring.u) - constraint.stored_energy(springs0[i].u) + damper;
         continue;
       }
       const double mean = .5 * (N0[i] + state.multiplier[i]);
       // Forces at the ends of a step do not do the work that a law stores.
       if (constraint.law)
-        total.algorithmic += (.5 * (constraint.law->force(springs0[i].u) +
-                                    constraint.law->force(spring.u)) -
-                              constraint.law->mean_force(springs0[i].u, spring.u)) *
-                             spring.du;
+        total.algorithmic +=
+            (.5 * (constraint.law->force(springs0[i].u) + constraint.law->force(spring.u)) -
+             constraint.law->mean_force(springs0[i].u, spring.u)) *
+            spring.du;
       if (!std::isinf(constraint.stiffness))
         total.link_dampers += constraint.damping * .5 * (springs0[i].v + spring.v) * spring.du;
       total.contacts += mean * (constraint.moving ? spring.du : state.gap[i] - gap0[i]);

@@ -77,8 +77,9 @@ namespace taut
       void write(const Link &l)
       {
         all(l.name, l.origin, l.kind, l.from, l.to, l.rotational, l.direction, l.stiffness,
-            l.law ? l.law->description() : std::string(), l.damping, l.gap, l.speed, l.profile, l.find_length, l.prescribed_displacement,
-            l.axial_stiffness, l.mass_per_length, l.length, l.contact_mass);
+            l.law ? l.law->description() : std::string(), l.damping, l.gap, l.speed, l.profile,
+            l.find_length, l.prescribed_displacement, l.axial_stiffness, l.mass_per_length,
+            l.length, l.contact_mass);
       }
       void write(const Load &l)
       {

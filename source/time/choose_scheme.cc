@@ -153,8 +153,8 @@ namespace taut
         : rigid.empty() ? "link '" + law +
                               "' follows a law that is not linear, and the mean forces of this "
                               "scheme keep its energy"
-                      : "unilateral link '" + constraints[rigid.front()].name +
-                            "' acts as rigid: it is stiffer than the bodies in one step";
+                        : "unilateral link '" + constraints[rigid.front()].name +
+                              "' acts as rigid: it is stiffer than the bodies in one step";
     const std::string body = body_without_definite_mass(structure);
     if (body.empty())
     {

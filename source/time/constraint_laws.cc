@@ -143,8 +143,8 @@ namespace taut
     return sum;
   }
 
-  /// Moves the end of the way to where the energy is least, unless it has certainly become less: its
-  /// derivative grows along the way.
+  /// Moves the end of the way to where the energy is least, unless it has certainly become less:
+  /// its derivative grows along the way.
   void ConstraintLaws::shorten(const Point &from, Point &to, const std::vector<double> &S) const
   {
     const auto slope = [&](const double part) { return slope_of_energy(from, to, part, S); };

@@ -28,8 +28,7 @@ namespace taut
       : structure(structure), constraints(constraints), nonlinear(nonlinear), from(from),
         processes(structure.communicator()), time(t),
         check(structure, constraints, parameters.contact_tolerance),
-        system(structure, constraints, parameters), laws(constraints),
-        shift(constraints.size(), 0.)
+        system(structure, constraints, parameters), laws(constraints), shift(constraints.size(), 0.)
   {
     for (std::size_t i = 0; i < constraints.size(); ++i)
       compliance.push_back(1. / constraints[i].stiffness);
@@ -89,9 +88,8 @@ namespace taut
   {
     try
     {
-      solution = laws.empty()
-                     ? system.find_multipliers(problem, check, certificate)
-                     : laws.solve(problem, system, check, certificate, compliance, shift);
+      solution = laws.empty() ? system.find_multipliers(problem, check, certificate)
+                              : laws.solve(problem, system, check, certificate, compliance, shift);
     }
     catch (const BodyNotHeld &e)
     {

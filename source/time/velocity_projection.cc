@@ -40,8 +40,8 @@ namespace taut
         complementarity(parameters.complementarity), dV(structure.zero())
   {
     const std::size_t n = constraints.size();
-    for (std::vector<double> *v :
-         {&flexibility, &of_mass, &relative_softening, &softening, &p, &q, &change, &rate, &work_of_rows, &largest_scale})
+    for (std::vector<double> *v : {&flexibility, &of_mass, &relative_softening, &softening, &p, &q,
+                                   &change, &rate, &work_of_rows, &largest_scale})
       v->assign(n, 0.);
     takes_part.assign(n, 0);
     has_no_mass = constraints.without_mass();

@@ -48,7 +48,8 @@ namespace
   double contact_of_two_slopes()
   {
     const double k1 = 2e4, k2 = 1e5, u1 = .01, w1 = std::sqrt(k1 / mass), w2 = std::sqrt(k2 / mass),
-                 v1 = std::sqrt(speed * speed - k1 * u1 * u1 / mass), t1 = std::asin(w1 * u1 / speed) / w1;
+                 v1 = std::sqrt(speed * speed - k1 * u1 * u1 / mass),
+                 t1 = std::asin(w1 * u1 / speed) / w1;
     // m u'' = -k2 (u - u1) - k1 u1: about the point where that force is 0.
     const double below = k1 * u1 / k2, t2 = (.5 * std::acos(-1.) - std::atan(w2 * below / v1)) / w2;
     return 2. * (t1 + t2);
@@ -76,13 +77,11 @@ namespace
               [&](const taut::StepView &view)
               {
                 const double v = view.state.V[0][0];
-                const double energy =
-                    .5 * mass * v * v +
-                    view.constraints[0].stored_energy(view.state.link_springs[0].u);
+                const double energy = .5 * mass * v * v + view.constraints[0].stored_energy(
+                                                              view.state.link_springs[0].u);
                 result.gained = std::max(result.gained, (energy - last) / all);
                 last = energy;
-                result.contact =
-                    view.state.time - start / speed - (view.state.U[0][0]) / speed;
+                result.contact = view.state.time - start / speed - (view.state.U[0][0]) / speed;
               });
     result.lost = 1. - last / all;
     return result;
@@ -124,8 +123,7 @@ TEST(Laws, points_on_a_line_are_the_stiffness)
           std::size_t n = 0;
           const std::string given = scheme == "automatic" ? "Moreau-Jean" : scheme;
           run_scene(thrown_mass(spring + "  set Damping = " + damping + "\n"),
-                    {"Time.Scheme=" + given, "Time.Allow unsuitable scheme=true",
-                     "Time.Step=1e-3",
+                    {"Time.Scheme=" + given, "Time.Allow unsuitable scheme=true", "Time.Step=1e-3",
                      "Time.Moreau-Jean.Conditions=" +
                          std::string(scheme == "automatic" ? "gaps then velocities" : "gaps")},
                     [&](const taut::StepView &view)
@@ -137,9 +135,9 @@ TEST(Laws, points_on_a_line_are_the_stiffness)
                         size = std::max(size, std::fabs(forces.back()));
                         return;
                       }
-                      difference = std::max(
-                          {difference, std::fabs(view.state.multiplier[0] - forces[n]) / size,
-                           std::fabs(view.state.U[0][0] - motions[n]) / .1});
+                      difference = std::max({difference,
+                                             std::fabs(view.state.multiplier[0] - forces[n]) / size,
+                                             std::fabs(view.state.U[0][0] - motions[n]) / .1});
                       ++n;
                     });
         };
@@ -156,9 +154,8 @@ TEST(Laws, impacts_have_the_order_of_the_scheme)
                                                 {"BDF2", 2.},
                                                 {"generalised-alpha", 2.},
                                                 {"backward Euler", 1.}};
-  for (const auto &[law, contact] :
-       {std::make_pair(cubic, contact_of_the_cubic_spring()),
-        std::make_pair(two_slopes, contact_of_two_slopes())})
+  for (const auto &[law, contact] : {std::make_pair(cubic, contact_of_the_cubic_spring()),
+                                     std::make_pair(two_slopes, contact_of_two_slopes())})
     for (const auto &[scheme, order] : orders)
     {
       std::vector<double> steps, errors;
@@ -199,12 +196,14 @@ TEST(Laws, mean_forces_give_no_energy)
 
 namespace
 {
-  /// A mass between two stops, where forces at both ends of a step do not do the work of the law: the largest rise of the energy, over that of the start.
+  /// A mass between two stops, where forces at both ends of a step do not do the work of the law:
+  /// the largest rise of the energy, over that of the start.
   double largest_gain(const std::string &scheme, const double step)
   {
     const std::string stops =
-        cubic + std::string(" end\n subsection Link above\n  set Type = stop\n  set From = mass\n"
-                            "  set To = ground\n  set Direction = 0, 1\n  set Gap = 0.02\n") +
+        cubic +
+        std::string(" end\n subsection Link above\n  set Type = stop\n  set From = mass\n"
+                    "  set To = ground\n  set Direction = 0, 1\n  set Gap = 0.02\n") +
         cubic;
     std::string scene = thrown_mass(stops);
     scene.replace(scene.find("Links = stop"), 12, "Links = stop, above");
@@ -229,7 +228,8 @@ TEST(Laws, what_forces_at_the_ends_of_steps_gain_is_measured)
 {
   for (const double step : {5e-3, 1e-3})
   {
-    const double automatic = largest_gain("automatic", step), newmark = largest_gain("Newmark", step);
+    const double automatic = largest_gain("automatic", step),
+                 newmark = largest_gain("Newmark", step);
     figure("law, energy gained in 10 s by mean forces, step " + number(step), automatic);
     figure("law, energy gained in 10 s by Newmark, step " + number(step), newmark);
     figure("law, energy gained in 10 s by generalised-alpha, step " + number(step),
@@ -296,7 +296,8 @@ namespace
       const std::string me = std::to_string(i);
       names << (i ? ", " : "") << "m" << me;
       parts << " subsection Mass m" << me << "\n  set Position = " << me
-            << ", 0\n  set Mass = " << std::pow(10., uniform(0., 3.)) << "\n  set Motions = y\n end\n";
+            << ", 0\n  set Mass = " << std::pow(10., uniform(0., 3.))
+            << "\n  set Motions = y\n end\n";
       if (i > 0)
       {
         springs << (i > 1 ? ", " : "") << "s" << me;
@@ -309,8 +310,9 @@ namespace
         const std::string name = "l" + me + (l ? "b" : "a");
         links << (i + l ? ", " : "") << name;
         parts << " subsection Link " << name << "\n  set Type = stop\n  set From = ground\n"
-              << "  set To = m" << me << "\n  set Direction = 0, 1\n  set Gap = "
-              << (l ? uniform(0., .2) : 0.) << "\n  set Law = table\n  set Law points = ";
+              << "  set To = m" << me
+              << "\n  set Direction = 0, 1\n  set Gap = " << (l ? uniform(0., .2) : 0.)
+              << "\n  set Law = table\n  set Law points = ";
         double u = 0., f = 0.;
         const int points = std::uniform_int_distribution<int>(1, 6)(random);
         for (int p = 0; p < points; ++p)
@@ -325,8 +327,7 @@ namespace
     }
     return "set Generator = network\nset Start = equilibrium\nsubsection Network\n set Masses = " +
            names.str() + "\n set Springs = " + springs.str() + "\n set Links = " + links.str() +
-           "\n" + parts.str() +
-           "end\nsubsection Time\n set Step = 1e-3\n set End = 0\nend\n";
+           "\n" + parts.str() + "end\nsubsection Time\n set Step = 1e-3\n set End = 0\nend\n";
   }
 
   /// The largest of what forces lack of their laws and of equilibrium of the whole, over the
@@ -417,8 +418,8 @@ TEST(Laws, cuts_and_forms_do_not_matter)
     for (const std::string form : {"assembled dense", "assembled sparse", "matrix-free"})
       for (const std::string parts : {"1", "3"})
       {
-        const auto other = forces_of(
-            {time, anyway, "Solver.Interface operator=" + form, "Partition.Number of substructures=" + parts});
+        const auto other = forces_of({time, anyway, "Solver.Interface operator=" + form,
+                                      "Partition.Number of substructures=" + parts});
         ASSERT_EQ(other.size(), whole.size());
         for (std::size_t n = 0; n < whole.size(); ++n)
           for (std::size_t i = 0; i < whole[n].size(); ++i)
@@ -439,9 +440,8 @@ TEST(Laws, bump_stop)
               const double y = view.state.U[0][0], t = view.state.time, v = view.state.V[0][0];
               deepest = std::min(deepest, y);
               largest_force = std::max(largest_force, view.state.multiplier[0]);
-              const double energy =
-                  150. * v * v + 7500. * y * y +
-                  view.constraints[0].stored_energy(view.state.link_springs[0].u);
+              const double energy = 150. * v * v + 7500. * y * y +
+                                    view.constraints[0].stored_energy(view.state.link_springs[0].u);
               largest_gain = std::max(largest_gain, energy / 337.5 - 1.);
               if (before < 0. && y >= 0.)
                 rises.push_back(t_before + (t - t_before) * before / (before - y));

@@ -11,8 +11,8 @@ namespace taut
 {
   /**
    * A scalar function of the position s [m] along a wire, of a point x, y, z [m], or of an
-   * elongation d [m], and of the time t [s], written as a formula in the syntax of deal.II's FunctionParser; pi is known. Copies
-   * share the parsed formula.
+   * elongation d [m], and of the time t [s], written as a formula in the syntax of deal.II's
+   * FunctionParser; pi is known. Copies share the parsed formula.
    */
   class Expression
   {
@@ -25,7 +25,7 @@ namespace taut
     {
       position,
       time,
-      both, ///< s and t
+      both,      ///< s and t
       space,     ///< x, y, z and t
       elongation ///< d, in the place of s
     };

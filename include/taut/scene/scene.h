@@ -226,9 +226,9 @@ namespace taut
     /// Force over the elongation of a dropper, or the compression of a stop, that does not follow
     /// the stiffness, which then is the largest one; may be null.
     std::shared_ptr<const ForceLaw> law = {};
-    double damping = 0.;                                        ///< [N s/m, N m s/rad]
-    double gap = 0.;                                            ///< D at U = 0, N = 0 [m, rad]
-    double speed = 0.; ///< of the `to` end along its wire [m/s]
+    double damping = 0.; ///< [N s/m, N m s/rad]
+    double gap = 0.;     ///< D at U = 0, N = 0 [m, rad]
+    double speed = 0.;   ///< of the `to` end along its wire [m/s]
     Expression
         profile; ///< height r(s) of the wire under a sliding contact [m]: adds to the gap along n
 

@@ -16,8 +16,8 @@ namespace taut
    *     L = phi(u) = a f(u) + b f_mean(u_0, u) + d (u - u_d),
    *
    * with the mean of f between the compressions before and after, so that the step stores what the
-   * force works, and the damper beside the spring. Condition is 0 <= L _|_ g + phi^-1(L) >= 0, g the
-   * gap without the spring.
+   * force works, and the damper beside the spring. Condition is 0 <= L _|_ g + phi^-1(L) >= 0, g
+   * the gap without the spring.
    *
    * Newton's method: with phi linearised at u_j the law is a compliance S = 1 / phi'(u_j), an entry
    * of the diagonal of F, and a shift u_j - S phi(u_j) of the gap; the complementarity problem is

@@ -39,8 +39,9 @@ namespace taut
    * u_0,
    *
    * S = 1 / (k + c / (theta step)) and u = max(0, S N + h). Springs that follow a law have its mean
-   * between u_0 and u, see ConstraintLaws; S and h are then those of its linearisation. Rows on DoFs without mass and damping
-   * keep forces at the ends of steps, where they hold these DoFs in equilibrium.
+   * between u_0 and u, see ConstraintLaws; S and h are then those of its linearisation. Rows on
+   * DoFs without mass and damping keep forces at the ends of steps, where they hold these DoFs in
+   * equilibrium.
    */
   class ConstraintMotions
   {
