@@ -123,7 +123,7 @@ namespace taut
       std::vector<std::pair<double, double>> result;
       double elongation = 0., force = 0.;
       std::istringstream in(text);
-      for (std::string point; std::getline(in, point, ',');)
+      for (std::string point; std::getline(in >> std::ws, point, ',');)
       {
         const std::size_t colon = point.find(':');
         if (colon == std::string::npos)
@@ -158,8 +158,10 @@ namespace taut
     if (kind != "formula")
       return nullptr;
     if (!(range > 0.))
-      throw EntryError(title + "/Law range",
-                       "a formula has one: give the largest elongation that it is meant for");
+      throw EntryError(title + "/Law formula",
+                       "'" + formula +
+                           "' has no range; give Law range, the largest elongation that it is "
+                           "meant for");
     return std::make_shared<FormulaLaw>(formula, range, title + "/Law formula");
   }
 } // namespace taut

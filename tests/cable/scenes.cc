@@ -32,6 +32,33 @@ TEST(CableScenes, weight_on_a_slack_cable)
             });
 }
 
+TEST(CableScenes, wind)
+{
+  run_scene(scene_file("cable_in_wind"), {},
+            [](const taut::StepView &step)
+            {
+              const double expected[] = {765.92227, 249.81399, -248.76864};
+              for (int i = 0; i < 3; ++i)
+                EXPECT_NEAR(step.state.multiplier[i], expected[i], 1e-4);
+            });
+}
+
+TEST(CableScenes, snap)
+{
+  double largest = 0., at = 0.;
+  run_scene(scene_file("snap_load"), {},
+            [&](const taut::StepView &step)
+            {
+              if (step.state.multiplier[0] > largest)
+              {
+                largest = step.state.multiplier[0];
+                at = step.state.time;
+              }
+            });
+  EXPECT_NEAR(largest, 4.3231 * 500., .02 * 2161.5);
+  EXPECT_NEAR(at, .05, .002);
+}
+
 TEST(CableScenes, elastica)
 {
   run_scene(scene_file("elastica"), {},

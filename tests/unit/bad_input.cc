@@ -564,7 +564,7 @@ end
         {"law_without_a_range",
          network,
          {{"set Stiffness = rigid", "set Law = formula\nset Law formula = 5*d # here"}},
-         {"Link stop/Law range", "largest elongation"}},
+         {"Link stop/Law formula", "give Law range"}},
         {"law_of_something_else",
          network,
          {{"set Stiffness = rigid",

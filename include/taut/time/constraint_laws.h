@@ -22,9 +22,9 @@ namespace taut
    * Newton's method: with phi linearised at u_j the law is a compliance S = 1 / phi'(u_j), an entry
    * of the diagonal of F, and a shift u_j - S phi(u_j) of the gap; the complementarity problem is
    * solved exactly (N. H. Josephy, 1979), and the next u_j is -g, or where phi vanishes if the
-   * constraint is open. All this is the optimality condition of a convex energy. Where a solution
-   * does not come closer to the law, the energy is made least along the way to it, which needs no
-   * products with F: its derivative there is that of B^T U times L - phi.
+   * constraint is open. All this is the optimality condition of a convex energy. Where the
+   * energy may have grown on the way to a solution, it is made least along the way, which needs no
+   * products with F: its derivative there is the change of the gaps times L - phi.
    */
   class ConstraintLaws
   {
