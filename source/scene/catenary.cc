@@ -60,8 +60,7 @@ namespace taut
                       "z at the first mast, where the wire is held aside; from mast to mast it "
                       "changes its sign [m]",
                       Double());
-    prm.add_parameter("Wind",
-                      wind,
+    prm.add_parameter("Wind", wind,
                       "Load along z, a formula in t and in s (= x); lengths of droppers are found "
                       "without it [N/m]",
                       any_text());

@@ -12,8 +12,8 @@ namespace taut
   /**
    * Scene generator `catenary`: a tension length of a railway overhead line, equal spans, a contact
    * wire under a messenger wire on droppers, and pantographs under it. x runs from the first mast;
-   * the contact wire lies at y = 0. In space both wires move along z, too: stagger holds them to one
-   * side and the other of z = 0, wind blows along z, droppers hang where the wires are.
+   * the contact wire lies at y = 0. In space both wires move along z, too: stagger holds them to
+   * one side and the other of z = 0, wind blows along z, droppers hang where the wires are.
    */
   class Catenary : public SceneGenerator
   {

@@ -69,8 +69,8 @@ namespace
                         {"space",
                          "en50318_in_space.prm",
                          0,
-                         {.3, .5, 1.8, 1.8, 2., 2., .5, .1},
-                         {116.86, 30.86, 209.45, 24.27, 192.6, 55.61, 54.36, 0.}}};
+                         {.3, .5, 1.8, 1.8, 3., 2., .5, .1},
+                         {116.71, 30.59, 208.49, 24.93, 188.03, 52.11, 55.16, 0.}}};
 
   struct Level
   {
@@ -406,8 +406,8 @@ int main(int argc, char **argv)
   options.add_options()("help,h", "print this text")("prm", po::value<std::string>()->required(),
                                                      "folder of the parameter files")(
       "case",
-      po::value<Strings>()->multitoken()->default_value({"250", "300", "leading", "trailing", "space"},
-                                                        "all"),
+      po::value<Strings>()->multitoken()->default_value(
+          {"250", "300", "leading", "trailing", "space"}, "all"),
       "250, 300, leading, trailing, space")(
       "level",
       po::value<Strings>()->multitoken()->default_value(

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: the generator 'catenary' makes lines in space: without stagger and wind they are those of
-// the plane; at rest they are taut strings with ropes between them, also in wind. Sources: the scene
-// in the plane; closed forms of a string and of a tensioned beam; the nonlinear equilibrium of
-// strings and ropes that may turn, found here by Newton's method.
+// the plane; at rest they are taut strings with ropes between them, also in wind. Sources: the
+// scene in the plane; closed forms of a string and of a tensioned beam; the nonlinear equilibrium
+// of strings and ropes that may turn, found here by Newton's method.
 #include "run.h"
 
 #include <taut/output/reactions.h>
@@ -36,7 +36,8 @@ namespace
     return 0.;
   }
 
-  /// The wires of an inner span as strings, under ropes of given unstressed lengths that turn freely.
+  /// The wires of an inner span as strings, under ropes of given unstressed lengths that turn
+  /// freely.
   struct Span
   {
     static constexpr std::size_t n = 9;
@@ -118,7 +119,8 @@ namespace
             for (int j : {0, 1})
             {
               const double nn = d[k] * d[j] / (length_now * length_now);
-              const double stiff = active * nn + tension[i] / length_now * ((k == j ? 1. : 0.) - nn);
+              const double stiff =
+                  active * nn + tension[i] / length_now * ((k == j ? 1. : 0.) - nn);
               K(2 * i + k, 2 * i + j) += stiff;
               K(2 * (n + i) + k, 2 * (n + i) + j) += stiff;
               K(2 * i + k, 2 * (n + i) + j) -= stiff;
@@ -182,8 +184,8 @@ namespace
     {
       for (const int wire : {0, 1})
         for (const int k : {0, 1})
-          result[0] = std::max(result[0],
-                               std::fabs(found.place[wire][i][k] - span.place[wire][i][k]));
+          result[0] =
+              std::max(result[0], std::fabs(found.place[wire][i][k] - span.place[wire][i][k]));
       result[1] = std::max(result[1], std::fabs(found.tension[i] - span.tension[i]) / size);
     }
     return result;
@@ -202,8 +204,7 @@ namespace
               {
                 result.emplace_back();
                 for (std::size_t i = 0; i < step.scene.links.size(); ++i)
-                  result.back().push_back(
-                      step.state.multiplier[step.constraints.index_of_link(i)]);
+                  result.back().push_back(step.state.multiplier[step.constraints.index_of_link(i)]);
                 result.back().insert(result.back().end(), step.probes.begin(), step.probes.end());
               });
     return result;
@@ -212,8 +213,8 @@ namespace
 
 TEST(OverheadLineInSpace, without_stagger_and_wind_moves_as_in_the_plane)
 {
-  const Overrides shorter = {"Time.End=1.2", "Statistics.Window=",
-                             "Catenary.Uplift positions=80, 100, 120"};
+  const Overrides shorter = {"Time.End=1.2",
+                             "Statistics.Window=", "Catenary.Uplift positions=80, 100, 120"};
   Overrides in_space = shorter;
   in_space.push_back("Catenary.Lateral component=true");
   const auto plane = motions(scene_file("en50318_2002_250"), shorter),
@@ -335,8 +336,7 @@ TEST(OverheadLineInSpace, rest_of_the_whole_line_under_refinement)
   std::vector<double> blown, arm, length;
   for (const std::string size : {"0.5", "0.25", "0.125"})
     run_scene(scene_file("en50318_in_space"),
-              {"Time.End=0", "Statistics.Window=",
-               "Catenary.Contact wire.Element size=" + size,
+              {"Time.End=0", "Statistics.Window=", "Catenary.Contact wire.Element size=" + size,
                "Catenary.Messenger wire.Element size=" + size},
               [&](const taut::StepView &step)
               {

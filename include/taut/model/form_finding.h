@@ -25,9 +25,9 @@ namespace taut
    * dropper in line with its tension; turned out of it, it is pulled back by tension over length
    * (its geometric stiffness), taut or slack.
    *
-   * Returns the scene with gap, length, stiffness and direction of these links set and half of the mass of
-   * each put on each of its ends; the form comes from @p shared if it is known there. Throws
-   * UserError naming the dropper if a tension is negative or a length not positive.
+   * Returns the scene with gap, length, stiffness and direction of these links set and half of the
+   * mass of each put on each of its ends; the form comes from @p shared if it is known there.
+   * Throws UserError naming the dropper if a tension is negative or a length not positive.
    */
   Scene find_lengths(Scene scene, const SolverParameters &parameters,
                      SharedParts *shared = nullptr);
