@@ -19,10 +19,10 @@ namespace taut
 {
   namespace
   {
-    /// Distance of the ends of an undeformed link along its direction [m].
-    double distance(const Scene &scene, const Link &link)
+    /// Distance of the ends of an undeformed link along a direction [m].
+    double distance(const Scene &scene, const Link &link, const Coordinates &direction)
     {
-      return dot(place(scene, link.to) - place(scene, link.from), link.direction);
+      return dot(place(scene, link.to) - place(scene, link.from), direction);
     }
 
     /// Half of a dropper's mass on each of its ends.
@@ -115,36 +115,104 @@ namespace taut
       return result;
     }
 
-    /// Distances of the ends of the droppers under their tensions.
-    std::vector<double> lengths(const Scene &base, const std::vector<Link> &droppers,
-                                const std::vector<double> &tension,
-                                const SolverParameters &parameters)
+    /// Distances of the ends of the droppers, each along a direction, in the static state of a
+    /// scene.
+    std::vector<double> distances(const Scene &scene, const std::vector<Link> &droppers,
+                                  const std::vector<Coordinates> &directions,
+                                  const SolverParameters &parameters)
+    {
+      const SceneBodies structure(scene);
+      const Constraints constraints = scene_constraints(scene, structure);
+      const StaticState state = static_equilibrium(structure, constraints, parameters, 0.);
+      std::vector<double> result;
+      for (std::size_t i = 0; i < droppers.size(); ++i)
+      {
+        std::vector<Term> terms;
+        structure.motion(droppers[i].to, false, directions[i], 1., terms);
+        structure.motion(droppers[i].from, false, directions[i], -1., terms);
+        result.push_back(distance(scene, droppers[i], directions[i]) +
+                         evaluate(terms, state.displacement));
+      }
+      return result;
+    }
+
+    /// Across a dropper and the wire that it hangs from.
+    Coordinates sideways(const Scene &scene, const Link &dropper)
+    {
+      return unit(cross(dropper.direction, scene.wires[dropper.from.index].tangent()),
+                  dropper.origin);
+    }
+
+    /**
+     * The droppers under their tensions. Of one whose direction is found, `tension` is the part of
+     * it along the prescribed height, V. The rest follows from its direction: V/h times its extent
+     * sideways, with h the distance along the height, which no lateral force changes. That is a
+     * spring of stiffness V/h (a force density, H.-J. Schek, Computer Methods in Applied Mechanics
+     * and Engineering 3 (1974), 115-134), so that the static state is that of a linear scene.
+     */
+    DropperForm form_under(const Scene &base, const std::vector<Link> &droppers,
+                           const std::vector<double> &tension, const SolverParameters &parameters)
     {
       Scene scene = base;
+      std::vector<Coordinates> directions;
+      bool finds_directions = false;
       for (std::size_t i = 0; i < droppers.size(); ++i)
       {
         add_mass(droppers[i], scene);
         scene.loads.push_back(force(droppers[i], droppers[i].from, tension[i]));
         scene.loads.push_back(force(droppers[i], droppers[i].to, -tension[i]));
+        directions.push_back(droppers[i].direction);
+        finds_directions |= droppers[i].find_direction;
       }
-      const SceneBodies structure(scene);
-      const Constraints constraints = scene_constraints(scene, structure);
-      const StaticState state = static_equilibrium(structure, constraints, parameters, 0.);
-      std::vector<double> result;
-      for (const Link &dropper : droppers)
-      {
-        std::vector<Term> terms;
-        structure.motion(dropper.to, false, dropper.direction, 1., terms);
-        structure.motion(dropper.from, false, dropper.direction, -1., terms);
-        result.push_back(distance(scene, dropper) + evaluate(terms, state.displacement));
-        if (!(result.back() > 0.))
+      DropperForm form{tension, distances(scene, droppers, directions, parameters),
+                       std::vector<double>(droppers.size(), 0.)};
+      for (std::size_t i = 0; i < droppers.size(); ++i)
+        if (!(form.length[i] > 0.))
           throw EntryError(
-              dropper.origin,
-              "dropper '" + dropper.name +
+              droppers[i].origin,
+              "dropper '" + droppers[i].name +
                   "' would have no length: its wires touch in the static state. Increase the "
                   "encumbrance or the tension of the upper wire.");
-      }
-      return result;
+      if (!finds_directions)
+        return form;
+
+      for (std::size_t i = 0; i < droppers.size(); ++i)
+        if (droppers[i].find_direction)
+        {
+          directions[i] = sideways(scene, droppers[i]);
+          if (tension[i] == 0.)
+            continue;
+          Link spring;
+          spring.name = droppers[i].name;
+          spring.from = droppers[i].from;
+          spring.to = droppers[i].to;
+          spring.direction = directions[i];
+          spring.stiffness = tension[i] / form.length[i];
+          spring.gap = distance(scene, spring, directions[i]);
+          scene.links.push_back(spring);
+        }
+      const std::vector<double> extent = distances(scene, droppers, directions, parameters);
+      for (std::size_t i = 0; i < droppers.size(); ++i)
+        if (droppers[i].find_direction)
+        {
+          const double length = std::hypot(form.length[i], extent[i]);
+          form.tension[i] *= length / form.length[i];
+          form.length[i] = length;
+          form.sideways[i] = extent[i];
+        }
+      return form;
+    }
+
+    /// Turns a dropper into the direction that was found.
+    void set_direction(const Scene &scene, const double tension, const double length,
+                       const double extent, Link &link)
+    {
+      const double c = std::sqrt(1. - extent * extent / (length * length)), s = extent / length;
+      const Coordinates along = link.direction, across = sideways(scene, link), zero;
+      link.direction = add_scaled(add_scaled(zero, c, along), s, across);
+      link.sideways = add_scaled(add_scaled(zero, -s, along), c, across);
+      link.sideways_stiffness = tension / length;
+      link.sideways_gap = distance(scene, link, link.sideways);
     }
 
     /// Tensions and lengths of the droppers between the parts of a scene without them.
@@ -154,11 +222,8 @@ namespace taut
       constexpr int max_iterations = 30;
       for (int iteration = 0;; ++iteration)
       {
-        const DropperForm form = [&]
-        {
-          const std::vector<double> tension = tensions(base, droppers, parameters);
-          return DropperForm{tension, lengths(base, droppers, tension, parameters)};
-        }();
+        const DropperForm form =
+            form_under(base, droppers, tensions(base, droppers, parameters), parameters);
         double change = 0.;
         for (std::size_t i = 0; i < droppers.size(); ++i)
         {
@@ -175,6 +240,15 @@ namespace taut
               "the dropper lengths do not settle: their weight decides the shape of the wires. "
               "Check the mass per length of the droppers.");
       }
+    }
+
+    /// What acts on a scene while its lengths are found.
+    Scene while_built(Scene scene)
+    {
+      scene.loads.erase(std::remove_if(scene.loads.begin(), scene.loads.end(),
+                                       [](const Load &load) { return !load.acts_while_built; }),
+                        scene.loads.end());
+      return without_sliding_contacts(std::move(scene));
     }
 
     /// All that decides about a form.
@@ -212,13 +286,13 @@ namespace taut
       if (link.find_length)
       {
         droppers.push_back(link);
-        droppers.back().length = distance(scene, link);
+        droppers.back().length = distance(scene, link, link.direction);
         ends.insert(ends.end(), {link.from, link.to});
       }
     if (droppers.empty())
       return scene;
     // Nothing else: what is not connected with the droppers does not change a bit of their form.
-    ScenePart part = connected_part(without_sliding_contacts(scene), ends);
+    ScenePart part = connected_part(while_built(scene), ends);
     for (Link &dropper : droppers)
     {
       dropper.from = part.inside(dropper.from);
@@ -244,8 +318,11 @@ namespace taut
         link.length = form.length[i];
         if (link.axial_stiffness > 0.)
           link.stiffness = link.axial_stiffness / form.length[i];
+        if (link.find_direction)
+          set_direction(scene, form.tension[i], form.length[i], form.sideways[i], link);
         // D = -n . (u_to - u_from) + gap + N / stiffness = 0 under the tension
-        link.gap = form.length[i] - distance(scene, link) - link.elongation(form.tension[i]);
+        link.gap = form.length[i] - distance(scene, link, link.direction) -
+                   link.elongation(form.tension[i]);
         add_mass(link, scene);
         ++i;
       }

@@ -88,6 +88,16 @@ namespace taut
         constraint.terms = link_terms(bodies, link, link.to);
       constraints.push_back(std::move(constraint));
     }
+    for (const Link &link : scene.links)
+      if (link.sideways_stiffness > 0.)
+      {
+        ConstraintData constraint{link.name + " sideways", link.origin};
+        constraint.stiffness = link.sideways_stiffness;
+        constraint.gap = link.sideways_gap;
+        bodies.motion(link.to, false, link.sideways, 1., constraint.terms);
+        bodies.motion(link.from, false, link.sideways, -1., constraint.terms);
+        constraints.push_back(std::move(constraint));
+      }
     for (ConstraintData &constraint : surface_constraints(scene, bodies))
       constraints.push_back(std::move(constraint));
     for (const CutConstraint &cut : bodies.cut_constraints())

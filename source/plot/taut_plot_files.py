@@ -159,22 +159,30 @@ class Results:
         return "supports", sorted(places)
 
 
-def read_vtu(path):
-    """Points [n, 3], displacement [n, 3] and the lines of a VTU file of taut, {wire: its points in order}."""
+def read_lines(path):
+    """Root, arrays and the lines, lists of points, of a VTU file of taut."""
     types = {"Float32": "<f4", "Int32": "<i4", "UInt8": "u1"}
     mark = b'<AppendedData encoding="raw">\n_'
+    with open(path, "rb") as file:
+        head, _, data = file.read().partition(mark)
+    root = xml.fromstring(head + b"</VTKFile>")
+    arrays = {}
+    for node in root.iter("DataArray"):
+        at, kind = int(node.get("offset")), node.get("type")
+        size, = struct.unpack("<Q", data[at:at + 8])
+        values = np.frombuffer(data[at + 8:at + 8 + size], types[kind])
+        n = int(node.get("NumberOfComponents"))
+        arrays[node.get("Name")] = values.reshape(-1, n) if n > 1 else values
+    return root, arrays, np.split(arrays["connectivity"], arrays["offsets"][:-1])
+
+
+DAMAGED = (OSError, xml.ParseError, AttributeError, KeyError, TypeError, ValueError, struct.error)
+
+
+def read_vtu(path):
+    """Points [n, 3], displacement [n, 3] and the lines of wires.vtu, {wire: its points in order}, with their names."""
     try:
-        with open(path, "rb") as file:
-            head, _, data = file.read().partition(mark)
-        root = xml.fromstring(head + b"</VTKFile>")
-        arrays = {}
-        for node in root.iter("DataArray"):
-            at, kind = int(node.get("offset")), node.get("type")
-            size, = struct.unpack("<Q", data[at:at + 8])
-            values = np.frombuffer(data[at + 8:at + 8 + size], types[kind])
-            n = int(node.get("NumberOfComponents"))
-            arrays[node.get("Name")] = values.reshape(-1, n) if n > 1 else values
-        lines = np.split(arrays["connectivity"], arrays["offsets"][:-1])
+        root, arrays, lines = read_lines(path)
         wires = {}
         for number, line in zip(arrays["wire"], lines):
             # A piece begins with the last point of the one before it.
@@ -182,7 +190,17 @@ def read_vtu(path):
             points.extend(line[1:] if points else line)
         names = dict(zip(arrays["wire"].tolist(), texts(root.find(".//CellData/Array"))))
         return arrays["positions"].astype(float), arrays["displacement"].astype(float), wires, names
-    except (OSError, xml.ParseError, AttributeError, KeyError, TypeError, ValueError, struct.error) as error:
+    except DAMAGED as error:
+        raise UserError(f"cannot read '{path}': {error}") from error
+
+
+def read_links(path):
+    """The ends of each link of links.vtu where they are, [n, 3] a link."""
+    try:
+        _, arrays, lines = read_lines(path)
+        now = arrays["positions"].astype(float) + arrays["displacement"].astype(float)
+        return [now[line] for line in lines if len(line) > 1]
+    except DAMAGED as error:
         raise UserError(f"cannot read '{path}': {error}") from error
 
 

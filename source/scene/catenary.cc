@@ -27,12 +27,6 @@ namespace taut
       return Anything();
     }
 
-    /// Index of the wires in the scene.
-    enum : std::size_t
-    {
-      messenger_wire,
-      contact_wire
-    };
   } // namespace
 
   void Catenary::declare_names(dealii::ParameterHandler &prm)
@@ -62,6 +56,14 @@ namespace taut
                       not_negative());
     prm.add_parameter("Stiffness damping", stiffness_damping,
                       "Rayleigh damping, times the stiffness [s]", not_negative());
+    prm.add_parameter("Stagger", stagger,
+                      "z at the first mast, where the wire is held aside; from mast to mast it "
+                      "changes its sign [m]",
+                      Double());
+    prm.add_parameter("Wind", wind,
+                      "Load along z, a formula in t and in s (= x); lengths of droppers are found "
+                      "without it [N/m]",
+                      any_text());
     prm.leave_subsection();
   }
 
@@ -94,6 +96,8 @@ namespace taut
     prm.add_parameter("Encumbrance", encumbrance,
                       "Height of the messenger wire over the contact wire at the supports [m]",
                       not_negative());
+    prm.add_parameter("Lateral component", lateral,
+                      "Motion along z, also where neither Stagger nor Wind asks for it");
     contact.declare(prm, "Contact wire");
     messenger.declare(prm, "Messenger wire");
 
@@ -262,6 +266,7 @@ namespace taut
           link.prescribed_displacement = pre_sag.empty() ? 0. : -pre_sag[i];
           link.axial_stiffness = dropper_axial_stiffness;
           link.mass_per_length = dropper_mass_per_length;
+          link.find_direction = is_in_space();
         }
         else
         {
@@ -335,7 +340,10 @@ namespace taut
   {
     check_line();
     check_pantographs();
+    check_space();
     add_wires(scene);
+    if (is_in_space())
+      add_lateral(scene);
     add_droppers(scene);
     for (std::size_t i = 0; i < pantographs.size(); ++i)
       add_pantograph(pantographs[i], pantograph_items[i], scene);

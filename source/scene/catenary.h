@@ -12,7 +12,8 @@ namespace taut
   /**
    * Scene generator `catenary`: a tension length of a railway overhead line, equal spans, a contact
    * wire under a messenger wire on droppers, and pantographs under it. x runs from the first mast;
-   * the contact wire lies at y = 0.
+   * the contact wire lies at y = 0. In space both wires move along z, too: stagger holds them to
+   * one side and the other of z = 0, wind blows along z, droppers hang where the wires are.
    */
   class Catenary : public SceneGenerator
   {
@@ -22,14 +23,23 @@ namespace taut
     void fill(Scene &scene) const override;
 
   private:
+    /// Index of the wires in the scene.
+    enum : std::size_t
+    {
+      messenger_wire,
+      contact_wire
+    };
     struct WireItem
     {
       std::string model = "beam";
       double mass_per_length, tension, bending_stiffness, element_size;
       double mass_damping = 0.0125, stiffness_damping = 1e-4;
       unsigned int degree = 2;
+      double stagger = 0.;
+      std::string wind = "0";
       void declare(dealii::ParameterHandler &prm, const std::string &section);
       Wire wire(const std::string &name, double y, double length) const;
+      Expression wind_load(const std::string &section) const;
     };
     struct PantographItem
     {
@@ -40,14 +50,20 @@ namespace taut
       void declare(dealii::ParameterHandler &prm);
     };
 
+    bool is_in_space() const;
     void check_line() const;
+    void check_space() const;
     void check_pantographs() const;
     void add_wires(Scene &scene) const;
     void add_droppers(Scene &scene) const;
+    void add_lateral(Scene &scene) const;
+    void hold_aside(std::size_t wire, const WireItem &item, const std::string &name,
+                    Scene &scene) const;
     void add_pantograph(const std::string &name, const PantographItem &item, Scene &scene) const;
 
     unsigned int n_spans = 10;
     double span_length = 60., encumbrance = 1.2;
+    bool lateral = false;
     WireItem contact{"beam", 1.35, 20000., 195., .5, .0125, 1e-4, 2},
         messenger{"beam", 1.07, 16000., 131.7, .5, .0125, 1e-4, 2};
     std::string messenger_support_stiffness = "rigid";

@@ -61,6 +61,17 @@ namespace taut
     }
   }
 
+  void Catenary::check_space() const
+  {
+    if (!is_in_space())
+      return;
+    if (!dropper_lengths.empty())
+      throw EntryError("Catenary/Droppers/Lengths",
+                       "they are for a line in the plane. With Stagger, Wind or Lateral component "
+                       "the directions of the droppers are found with their lengths; give the "
+                       "Pre-sag instead");
+  }
+
   void Catenary::check_pantographs() const
   {
     const double length = n_spans * span_length;

@@ -79,11 +79,13 @@ namespace taut
         all(l.name, l.origin, l.kind, l.from, l.to, l.rotational, l.direction, l.stiffness,
             l.law ? l.law->description() : std::string(), l.damping, l.gap, l.speed, l.profile,
             l.find_length, l.prescribed_displacement, l.axial_stiffness, l.mass_per_length,
-            l.length, l.contact_mass);
+            l.length, l.find_direction, l.sideways, l.sideways_stiffness, l.sideways_gap,
+            l.contact_mass);
       }
       void write(const Load &l)
       {
-        all(l.name, l.origin, l.kind, l.target, l.rotational, l.direction, l.magnitude, l.speed);
+        all(l.name, l.origin, l.kind, l.target, l.rotational, l.direction, l.magnitude, l.speed,
+            l.acts_while_built);
       }
       void write(const Probe &p) { all(p.name, p.origin, p.point, p.rotational, p.direction); }
 

@@ -10,11 +10,6 @@
 
 namespace taut
 {
-  inline Coordinates cross(const Coordinates &a, const Coordinates &b)
-  {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-  }
-
   inline Coordinates scaled(const double s, const Coordinates &a)
   {
     return {s * a.x, s * a.y, s * a.z};

@@ -318,6 +318,18 @@ results = run("en50318_2002_300", "Time/End=0", "Output/Field interval=1", "Part
 check_cuts(results, 3)
 check_plot_reads(results, plot_script)
 
+if (arguments.results / "en50318_2002_250" / "pictures" / "plan_and_elevation.png").exists():
+    errors.append("a line in the plane is drawn in space")
+
+# The contact wire is at its steady arms.
+results = run("en50318_in_space", "Time/End=0.1", "Output/Field interval=0.05", "Statistics/Window=61,66")
+check_links(results)
+check_pictures(results, ["contact_force", "plan_and_elevation"], plot_script)
+first = Grid(results / "wires_00000.vtu")
+contact = first.wire("contact")
+places = first.points[contact] + first.fields["displacement"][contact]
+compare("stagger", [places[np.argmin(np.abs(places[:, 0] - x)), 2] for x in (240, 300, 600)], [0.2, -0.2, 0.2], 1)
+
 results = run("inclined_cable", "Time/End=2", "Output/Field interval=0.1")
 check_links(results)
 check_probes(results, {"tip": ("beam", 3, 0, (0, 1, 0))})

@@ -65,7 +65,12 @@ namespace
                          "en50318_2002_250_two.prm",
                          1,
                          {.3, .5, 1.8, 1.8, 2., 2., .5, .2},
-                         {116.97, 54.2, 279.6, -45.64, 235.3, -10.2, 53.66, 2.89}}};
+                         {116.97, 54.2, 279.6, -45.64, 235.3, -10.2, 53.66, 2.89}},
+                        {"space",
+                         "en50318_in_space.prm",
+                         0,
+                         {.3, .5, 1.8, 1.8, 3., 2., .5, .1},
+                         {116.71, 30.6, 208.49, 24.92, 188.01, 52.11, 55.16, 0.}}};
 
   struct Level
   {
@@ -401,9 +406,9 @@ int main(int argc, char **argv)
   options.add_options()("help,h", "print this text")("prm", po::value<std::string>()->required(),
                                                      "folder of the parameter files")(
       "case",
-      po::value<Strings>()->multitoken()->default_value({"250", "300", "leading", "trailing"},
-                                                        "all"),
-      "250, 300, leading, trailing")(
+      po::value<Strings>()->multitoken()->default_value(
+          {"250", "300", "leading", "trailing", "space"}, "all"),
+      "250, 300, leading, trailing, space")(
       "level",
       po::value<Strings>()->multitoken()->default_value(
           {"1e-3:0.5", "5e-4:0.25", "2.5e-4:0.125", "1.25e-4:0.0625"}, "four, from 1e-3:0.5"),

@@ -32,6 +32,11 @@ namespace taut
     return {a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
   }
 
+  inline Coordinates cross(const Coordinates &a, const Coordinates &b)
+  {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  }
+
   inline double norm(const Coordinates &a)
   {
     return std::hypot(std::hypot(a.x, a.y), a.z);

@@ -21,11 +21,13 @@ namespace taut
    * equilibrium without_sliding_contacts() their `to` ends stand at the prescribed displacement.
    * Two stages: the prescribed heights as bilateral constraints give the tensions; the `from`
    * bodies under these tensions give the lengths. Repeated until the lengths stand still where they
-   * decide about stiffness and weight.
+   * decide about stiffness and weight. Where the direction is found, too, the static state has each
+   * dropper in line with its tension; turned out of it, it is pulled back by tension over length
+   * (its geometric stiffness), taut or slack.
    *
-   * Returns the scene with gap, length and stiffness of these links set and half of the mass of
-   * each put on each of its ends; the form comes from @p shared if it is known there. Throws
-   * UserError naming the dropper if a tension is negative or a length not positive.
+   * Returns the scene with gap, length, stiffness and direction of these links set and half of the
+   * mass of each put on each of its ends; the form comes from @p shared if it is known there.
+   * Throws UserError naming the dropper if a tension is negative or a length not positive.
    */
   Scene find_lengths(Scene scene, const SolverParameters &parameters,
                      SharedParts *shared = nullptr);

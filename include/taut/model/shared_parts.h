@@ -10,10 +10,12 @@
 
 namespace taut
 {
-  /// Tensions [N] and lengths [m] of droppers in the static state, in their order.
+  /// Droppers in the static state, in their order.
   struct DropperForm
   {
-    std::vector<double> tension, length;
+    std::vector<double> tension;  ///< [N]
+    std::vector<double> length;   ///< [m]
+    std::vector<double> sideways; ///< of one whose direction is found: its extent across it [m]
   };
 
   /**

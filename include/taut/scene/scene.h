@@ -240,6 +240,15 @@ namespace taut
     double mass_per_length = 0.;         ///< [kg/m]; half of the mass goes to each end
     double length = 0.;                  ///< geometric length in the static state, once known [m]
 
+    /// With the length of a dropper between wires without axial motion its direction is found, too:
+    /// that from end to end in the static state. `direction` is where its height is prescribed.
+    bool find_direction = false;
+    /// Across such a dropper and its wires, once known: a unit vector, and what pulls the ends back
+    /// into line, the static tension over the length.
+    Coordinates sideways = {};
+    double sideways_stiffness = 0.; ///< [N/m]
+    double sideways_gap = 0.;       ///< sideways . (to - from) of the undeformed ends [m]
+
     /// Whether the DoFs of wires that a fixed rigid unilateral link acts on keep their mass.
     ContactMass contact_mass = ContactMass::stays;
 
@@ -268,6 +277,9 @@ namespace taut
     Coordinates direction = {0., 1.};
     Expression magnitude; ///< [N, N m; N/m if distributed]
     double speed = 0.;    ///< of a moving force [m/s]
+
+    /// False: lengths and directions of droppers are found without it.
+    bool acts_while_built = true;
   };
 
   /// A point whose displacement along a direction is recorded, and whose largest uplift is
