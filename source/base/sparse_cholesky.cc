@@ -208,13 +208,13 @@ namespace taut
     cholmod_dense *result = nullptr, *workspace_y = nullptr, *workspace_e = nullptr;
     std::vector<double> diagonal;
 
-    bool has_tree = false;         ///< of the factor at hand
-    std::vector<int> position;     ///< of each row in the order of the factor
-    std::vector<int> node_of;      ///< of the tree, of each column
-    std::vector<int> parent;       ///< of each node; -1: a root
-    std::vector<int> path;         ///< nodes
-    std::vector<char> is_on_path;  ///< of each node; 0 but within half_solutions()
-    std::vector<double> rest;      ///< of right-hand sides; 0 but within half_solutions()
+    bool has_tree = false;        ///< of the factor at hand
+    std::vector<int> position;    ///< of each row in the order of the factor
+    std::vector<int> node_of;     ///< of the tree, of each column
+    std::vector<int> parent;      ///< of each node; -1: a root
+    std::vector<int> path;        ///< nodes
+    std::vector<char> is_on_path; ///< of each node; 0 but within half_solutions()
+    std::vector<double> rest;     ///< of right-hand sides; 0 but within half_solutions()
   };
 
   SparseCholesky::SparseCholesky(const CholeskyMethod method)

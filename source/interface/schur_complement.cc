@@ -128,8 +128,9 @@ namespace taut
       return std::make_unique<SparseSchurComplement>(solvers, constraints);
     if (parameters.form == "matrix-free")
       return std::make_unique<MatrixFreeSchurComplement>(parameters, solvers, constraints);
-    throw UserError("unknown form of the interface operator '" + parameters.form +
-                    "'; known are: automatic, assembled dense, condensed, assembled sparse, matrix-free. "
-                    "Correct the name");
+    throw UserError(
+        "unknown form of the interface operator '" + parameters.form +
+        "'; known are: automatic, assembled dense, condensed, assembled sparse, matrix-free. "
+        "Correct the name");
   }
 } // namespace taut

@@ -122,8 +122,7 @@ namespace
           {
             if (n == 0)
             {
-              newton =
-                  std::make_unique<monolithic_contact::Newton>(slab(n_x), peer == "umfpack");
+              newton = std::make_unique<monolithic_contact::Newton>(slab(n_x), peer == "umfpack");
               newton->find_equilibrium(0.);
               statics_of_peer = std::clock() - from;
               sets_of_peer_at_rest = newton->n_sets;
@@ -149,7 +148,8 @@ namespace
                 newton->n_sets - sets_of_peer_at_rest, newton->n_factorisations);
     std::printf("| ratio | %.3g | | %.3g | |\n",
                 static_cast<double>(statics_of_peer) / static_cast<double>(statics),
-                static_cast<double>(of_peer - statics_of_peer) / static_cast<double>(end - statics));
+                static_cast<double>(of_peer - statics_of_peer) /
+                    static_cast<double>(end - statics));
     std::printf("largest differences: forces %.2g, displacements %.2g; %ld nodes of %ld\n",
                 worst.force, worst.displacement, worst.nodes,
                 static_cast<long>(node.size()) * (n + 1));
@@ -161,7 +161,8 @@ int main(int argc, char **argv)
   try
   {
     const std::string peer = argc > 1 ? argv[1] : "cholmod";
-    const int n_steps = argc > 2 ? std::atoi(argv[2]) : 1000, n_x = argc > 3 ? std::atoi(argv[3]) : 1000;
+    const int n_steps = argc > 2 ? std::atoi(argv[2]) : 1000,
+              n_x = argc > 3 ? std::atoi(argv[3]) : 1000;
     if ((peer != "umfpack" && peer != "cholmod" && peer != "none") || n_steps < 0 || n_x < 20)
       throw taut::UserError("usage: contact_benchmark [umfpack|cholmod|none] [STEPS] [ELEMENTS "
                             "ALONG x] [Section.Entry=value]...");

@@ -33,19 +33,20 @@ namespace monolithic_contact
   /// A rectangle of Q1 elements in plane strain between a top that is moved and a floor below.
   struct Slab
   {
-    unsigned int n_x, n_y;         ///< elements
-    double length, height;         ///< [m]
-    double E, nu, density;         ///< [Pa], [1], [kg/m^3]
-    std::function<double(double x, double t)> top;    ///< vertical displacement [m]
-    std::function<double(double x)> floor, slope;     ///< height of the floor [m], its derivative
+    unsigned int n_x, n_y;                         ///< elements
+    double length, height;                         ///< [m]
+    double E, nu, density;                         ///< [Pa], [1], [kg/m^3]
+    std::function<double(double x, double t)> top; ///< vertical displacement [m]
+    std::function<double(double x)> floor, slope;  ///< height of the floor [m], its derivative
   };
 
   /**
-   * The whole slab as one system, in the way of deal.II's step-42: a primal-dual active set in which
-   * the closed nodes of the bottom are held at the floor and each other set is a new factorisation,
-   * by UMFPACK as deal.II calls it, or by CHOLMOD, whose order and pattern are kept. The bottom
-   * nodes have their DoFs along the normal of the floor and across it; the left and right sides do
-   * not move along x. Steps are those of backward Euler: V = dU / step, A = (V - V_0) / step.
+   * The whole slab as one system, in the way of deal.II's step-42: a primal-dual active set in
+   * which the closed nodes of the bottom are held at the floor and each other set is a new
+   * factorisation, by UMFPACK as deal.II calls it, or by CHOLMOD, whose order and pattern are kept.
+   * The bottom nodes have their DoFs along the normal of the floor and across it; the left and
+   * right sides do not move along x. Steps are those of backward Euler: V = dU / step, A = (V -
+   * V_0) / step.
    */
   class Newton
   {
@@ -144,7 +145,8 @@ namespace monolithic_contact
         // The closest point of the floor to (x, 0), by Newton's method.
         const double x = i * slab.length / slab.n_x;
         double s = x;
-        const auto distance = [&](const double at) { return at - x + slab.floor(at) * slab.slope(at); };
+        const auto distance = [&](const double at)
+        { return at - x + slab.floor(at) * slab.slope(at); };
         for (int iteration = 0; iteration < 30; ++iteration)
         {
           const double d = 1e-6;
@@ -197,9 +199,9 @@ namespace monolithic_contact
             for (unsigned int q = 0; q < quadrature.size(); ++q)
             {
               const auto ga = values.shape_grad(a, q), gb = values.shape_grad(b, q);
-              k(a, b) += (lambda * ga[i] * gb[j] + mu * ga[j] * gb[i] +
-                          (i == j ? mu * (ga * gb) : 0.)) *
-                         values.JxW(q);
+              k(a, b) +=
+                  (lambda * ga[i] * gb[j] + mu * ga[j] * gb[i] + (i == j ? mu * (ga * gb) : 0.)) *
+                  values.JxW(q);
               if (i == j)
                 m(a, b) += slab.density * values.shape_value(a, q) * values.shape_value(b, q) *
                            values.JxW(q);
@@ -266,8 +268,8 @@ namespace monolithic_contact
         bool has_changed = false;
         for (std::size_t i = 0; i < bottom.size(); ++i)
         {
-          const bool flips = closed[i] ? force[i] < -1e-12 * largest
-                                       : U[bottom[i]] + nodes[i].gap < -1e-14;
+          const bool flips =
+              closed[i] ? force[i] < -1e-12 * largest : U[bottom[i]] + nodes[i].gap < -1e-14;
           closed[i] = closed[i] != flips;
           has_changed |= flips;
         }

@@ -34,8 +34,8 @@ namespace
   }
 
   /// Two blocks of 1 m x 0.5 m, the lower one on the ground, the upper one pressed onto it in the
-  /// middle so that its ends rise; each in 4 x 2 boxes of 10 and 8 elements a side, or @p n times as
-  /// many.
+  /// middle so that its ends rise; each in 4 x 2 boxes of 10 and 8 elements a side, or @p n times
+  /// as many.
   std::unique_ptr<verification::InterfaceProblem> blocks_in_parts(const unsigned int n)
   {
     const auto block = [](const std::string &name, const unsigned int elements, const double y,
@@ -85,8 +85,7 @@ namespace
 // constraints is known to take, log^2 (H/h). Expected: an independent program for the same boxes.
 TEST(Feti, StaticsOfSquaresAndCubes)
 {
-  const double in_plane[3][4] = {
-      {10., 15., 18., 24.}, {12., 19., 22., 28.}, {13., 22., 28., 32.}};
+  const double in_plane[3][4] = {{10., 15., 18., 24.}, {12., 19., 22., 28.}, {13., 22., 28., 32.}};
   for (const int h : {0, 1, 2})
     for (const int n : {0, 1, 2, 3})
       EXPECT_LE(iterations<2>({2u << n, 4u << h}, 0.), excess * in_plane[h][n]);

@@ -90,10 +90,10 @@ namespace taut
 
     /**
      * Halves of solutions for the matrix factored last: y(b) = D^-1/2 L^-1 P b with the order P and
-     * the factor L D L^T, so that a^T A^-1 b = y(a) . y(b), for up to SparseHalves::lanes right-hand
-     * sides @p b at once. They have entries only on the paths of the elimination tree from the rows
-     * of b to the root, which is all that is computed (T. A. Davis, Direct Methods for Sparse Linear
-     * Systems (2006), 3.2 and 4.1).
+     * the factor L D L^T, so that a^T A^-1 b = y(a) . y(b), for up to SparseHalves::lanes
+     * right-hand sides @p b at once. They have entries only on the paths of the elimination tree
+     * from the rows of b to the root, which is all that is computed (T. A. Davis, Direct Methods
+     * for Sparse Linear Systems (2006), 3.2 and 4.1).
      */
     void half_solutions(const std::vector<const LinearForm *> &b, SparseHalves &y) const;
 
