@@ -7,6 +7,7 @@
 #include <taut/model/scene_constraints.h>
 #include <taut/partition/make_partition.h>
 
+#include <algorithm>
 #include <ctime>
 #include <numeric>
 #include <string>
@@ -106,8 +107,9 @@ namespace verification
       std::size_t n_closed = 0; ///< the same
     };
 
-    /// The equilibrium with its contacts, from the undeformed bodies: a search for the active set.
-    Contact find_contacts(const taut::InterfaceParameters &parameters) const
+    /// The equilibrium with its contacts, from the undeformed bodies: a search for the active set,
+    /// the last system solved until its gaps are @p tolerance of their terms.
+    Contact find_contacts(const taut::InterfaceParameters &parameters, const double tolerance) const
     {
       taut::FactoredStructure solvers(structure, "block tridiagonal");
       solvers.factor_stiffness();
@@ -131,7 +133,11 @@ namespace verification
       for (std::size_t i = 0; i < constraints.size(); ++i)
         problem.free_gap[i] += constraints[i].gap;
       set_null_space(null_spaces, P, problem);
-      taut::ComplementaritySolver search;
+      taut::ComplementarityOptions options;
+      options.linear_tolerance = tolerance;
+      options.dead_band = std::max(options.dead_band, tolerance);
+      options.tolerance = std::max(options.tolerance, 10. * tolerance);
+      taut::ComplementaritySolver search("semismooth Newton", options);
       const taut::ComplementarityResult &result = search.solve(problem, schur->matrix());
       Contact contact;
       contact.statistics = schur->statistics();
