@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/instruction_set.h>
 #include <taut/base/sparse_cholesky.h>
 
 #include <cholmod.h>
 
+#include <cmath>
 #include <new>
 #include <numeric>
 #include <stdexcept>
@@ -102,11 +104,117 @@ namespace taut
       return factors->n;
     }
 
+    /// The elimination tree of the factor: of its columns, or of its blocks of columns.
+    void set_tree()
+    {
+      const std::size_t n = factors->n;
+      const auto *permutation = static_cast<const int *>(factors->Perm);
+      position.resize(n);
+      for (std::size_t k = 0; k < n; ++k)
+        position[permutation[k]] = static_cast<int>(k);
+      node_of.resize(n);
+      std::iota(node_of.begin(), node_of.end(), 0);
+      parent.assign(factors->is_super ? factors->nsuper : n, -1);
+      if (factors->is_super)
+      {
+        const auto *first = static_cast<const int *>(factors->super);
+        const auto *start = static_cast<const int *>(factors->pi);
+        const auto *row = static_cast<const int *>(factors->s);
+        for (std::size_t s = 0; s < factors->nsuper; ++s)
+          std::fill(node_of.begin() + first[s], node_of.begin() + first[s + 1],
+                    static_cast<int>(s));
+        for (std::size_t s = 0; s < factors->nsuper; ++s)
+          if (const int n_columns = first[s + 1] - first[s]; start[s + 1] - start[s] > n_columns)
+            parent[s] = node_of[row[start[s] + n_columns]];
+      }
+      else
+      {
+        const auto *start = static_cast<const int *>(factors->p);
+        const auto *length = static_cast<const int *>(factors->nz);
+        const auto *row = static_cast<const int *>(factors->i);
+        for (std::size_t k = 0; k < n; ++k)
+          if (length[k] > 1)
+            parent[k] = row[start[k] + 1];
+      }
+      is_on_path.assign(parent.size(), 0);
+      rest.assign(n * lanes, 0.);
+      has_tree = true;
+    }
+
+    /// What column k of a factor leaves to the rows below.
+    void eliminate(const int *const row, const double *const entry, const int n, double *const from)
+    {
+      for (int e = 0; e < n; ++e)
+      {
+        double *const to = rest.data() + lanes * row[e];
+#pragma omp simd
+        for (std::size_t l = 0; l < lanes; ++l)
+          to[l] -= entry[e] * from[l];
+      }
+    }
+
+    /// Column k of LDL^T: its entries of y, and what it leaves.
+    void eliminate_column(const int k, SparseHalves &y)
+    {
+      const int begin = static_cast<const int *>(factors->p)[k];
+      const double *const value = static_cast<const double *>(factors->x) + begin;
+      double from[lanes];
+      take(k, 1., from);
+      eliminate(static_cast<const int *>(factors->i) + begin + 1, value + 1,
+                static_cast<const int *>(factors->nz)[k] - 1, from);
+      add(k, 1. / std::sqrt(*value), from, y);
+    }
+
+    /// The same of block s of LL^T.
+    void eliminate_block(const int s, SparseHalves &y)
+    {
+      const auto *first = static_cast<const int *>(factors->super);
+      const auto *start = static_cast<const int *>(factors->pi);
+      const int *const row = static_cast<const int *>(factors->s) + start[s];
+      const auto *value =
+          static_cast<const double *>(factors->x) + static_cast<const int *>(factors->px)[s];
+      const int n_rows = start[s + 1] - start[s];
+      for (int k = first[s], c = 0; k < first[s + 1]; ++k, ++c, value += n_rows)
+      {
+        double from[lanes];
+        take(k, 1. / value[c], from);
+        eliminate(row + c + 1, value + c + 1, n_rows - c - 1, from);
+        add(k, 1., from, y);
+      }
+    }
+
+    /// Takes row k out of what is left of the right-hand sides.
+    void take(const int k, const double factor, double *const to)
+    {
+      double *const from = rest.data() + lanes * k;
+      for (std::size_t l = 0; l < lanes; ++l)
+      {
+        to[l] = factor * from[l];
+        from[l] = 0.;
+      }
+    }
+
+    static void add(const int k, const double factor, const double *const from, SparseHalves &y)
+    {
+      y.index.push_back(k);
+      for (std::size_t l = 0; l < lanes; ++l)
+        y.value.push_back(factor * from[l]);
+    }
+
+    static constexpr std::size_t lanes = SparseHalves::lanes;
     cholmod_common common;
     cholmod_sparse *matrix = nullptr; ///< lower triangle of the matrix factored last
     cholmod_factor *factors = nullptr;
     cholmod_dense *result = nullptr, *workspace_y = nullptr, *workspace_e = nullptr;
     std::vector<double> diagonal;
+
+    bool has_tree = false;        ///< of the factor at hand
+    std::vector<int> position;    ///< of each row in the order of the factor
+    std::vector<int> node_of;     ///< of the tree, of each column
+    std::vector<int> parent;      ///< of each node; -1: a root
+    std::vector<int> path;        ///< nodes
+    std::vector<char> is_on_path; ///< of each node; 0 but within half_solutions()
+    std::vector<double> rest;     ///< of right-hand sides; 0 but within half_solutions()
   };
 
   SparseCholesky::SparseCholesky(const CholeskyMethod method)
@@ -122,6 +230,7 @@ namespace taut
                                      const double smallest_pivot)
   {
     Workspace &w = *work;
+    w.has_tree = false;
     w.diagonal.assign(n, 0.);
     for (std::size_t k = 0; k < entries.size(); ++k)
       if (entries.row[k] == entries.column[k])
@@ -172,6 +281,41 @@ namespace taut
     }
     const auto *solution = static_cast<const double *>(w.result->x);
     std::copy(solution, solution + x.size(), x.begin());
+  }
+
+  void SparseCholesky::half_solutions(const std::vector<const LinearForm *> &b,
+                                      SparseHalves &y) const
+  {
+    Workspace &w = *work;
+    if (!w.has_tree)
+      w.set_tree();
+    w.path.clear();
+    for (std::size_t l = 0; l < b.size(); ++l)
+      for (std::size_t e = 0; e < b[l]->index.size(); ++e)
+      {
+        const int k = w.position[b[l]->index[e]];
+        w.rest[Workspace::lanes * k + l] += b[l]->value[e];
+        for (int node = w.node_of[k]; node >= 0 && !w.is_on_path[node]; node = w.parent[node])
+        {
+          w.is_on_path[node] = 1;
+          w.path.push_back(node);
+        }
+      }
+    std::sort(w.path.begin(), w.path.end());
+    y.index.clear();
+    y.value.clear();
+    vectorised(
+        [&w, &y]
+        {
+          for (const int node : w.path)
+          {
+            w.is_on_path[node] = 0;
+            if (w.factors->is_super)
+              w.eliminate_block(node, y);
+            else
+              w.eliminate_column(node, y);
+          }
+        });
   }
 
   bool SparseCholesky::is_supernodal() const

@@ -7,7 +7,7 @@ namespace taut
 {
   AssembledSchurComplement::AssembledSchurComplement(const FactoredStructure &solvers,
                                                      const Constraints &constraints)
-      : constraints(constraints), processes(solvers.structure().communicator()),
+      : solvers(solvers), constraints(constraints), processes(solvers.structure().communicator()),
         columns(solvers, constraints), of_bodies(constraints.size(), 0.)
   {
   }
@@ -83,6 +83,43 @@ namespace taut
   std::string DenseSchurComplement::description() const
   {
     return "assembled dense, " + std::to_string(constraints.size()) + " constraints";
+  }
+
+  void CondensedSchurComplement::setup(const std::vector<double> &S)
+  {
+    compliance = S;
+    columns.setup_without_columns();
+    const std::size_t n = constraints.n_fixed();
+    const std::size_t n_bodies = solvers.structure().size();
+    std::vector<std::vector<std::size_t>> row(n_bodies);
+    std::vector<std::vector<const LinearForm *>> forms(n_bodies);
+    for (std::size_t i = 0; i < n; ++i)
+      for (const Term &term : constraints[i].terms)
+      {
+        row[term.substructure].push_back(i);
+        forms[term.substructure].push_back(&term.form);
+      }
+    std::vector<double> entries(n * (n + 1) / 2, 0.), of_body;
+    for (std::size_t k = 0; k < n_bodies; ++k)
+    {
+      solvers[k].flexibilities(forms[k], of_body);
+      auto entry = of_body.begin();
+      for (std::size_t a = 0; a < row[k].size(); ++a)
+        for (std::size_t b = 0; b <= a; ++b, ++entry)
+        {
+          const std::size_t i = row[k][a], j = row[k][b];
+          entries[i * (i + 1) / 2 + j] += a != b && i == j ? 2. * *entry : *entry;
+        }
+    }
+    processes.sum(entries);
+    for (std::size_t i = 0; i < n; ++i)
+      set_row(i, entries.data() + i * (i + 1) / 2);
+    update_moving();
+  }
+
+  std::string CondensedSchurComplement::description() const
+  {
+    return "condensed, " + std::to_string(constraints.size()) + " constraints";
   }
 
   SparseSchurComplement::SparseSchurComplement(const FactoredStructure &solvers,

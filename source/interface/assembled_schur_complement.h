@@ -26,6 +26,7 @@ namespace taut
     /// constraints.size() numbers, one after the other.
     const std::vector<double> &compute_moving();
 
+    const FactoredStructure &solvers;
     const Constraints &constraints;
     const Communicator &processes;
     ResponseColumns columns;
@@ -45,10 +46,25 @@ namespace taut
     ComplementarityOperator &matrix() override { return F; }
     std::string description() const override;
 
-  private:
+  protected:
     void set_row(std::size_t i, const double *entries);
 
+  private:
     DenseOperator F;
+  };
+
+  /**
+   * F as a dense matrix from products of half columns (LocalSolver::flexibilities()), without the
+   * columns themselves, which as a rule are longer than F for a body that is no wire; see
+   * SchurComplement.
+   */
+  class CondensedSchurComplement : public DenseSchurComplement
+  {
+  public:
+    using DenseSchurComplement::DenseSchurComplement;
+
+    void setup(const std::vector<double> &S) override;
+    std::string description() const override;
   };
 
   /// F as a sparse matrix, the moving constraints as its border; see SchurComplement.

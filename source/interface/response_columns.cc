@@ -38,6 +38,12 @@ namespace taut
     work = solvers.structure().zero();
   }
 
+  void ResponseColumns::setup_without_columns()
+  {
+    by_columns = false;
+    work = solvers.structure().zero();
+  }
+
   void ResponseColumns::compute(const std::size_t i)
   {
     Column &column = columns[i];

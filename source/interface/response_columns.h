@@ -21,6 +21,9 @@ namespace taut
     /// After a change of A_k: the columns of the fixed constraints anew.
     void setup();
 
+    /// The same without those: compute() is for moving constraints only.
+    void setup_without_columns();
+
     /// Column of constraint i anew.
     void compute(std::size_t i);
 

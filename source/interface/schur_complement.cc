@@ -42,6 +42,20 @@ namespace taut
       return totals[0] / std::max(1., totals[1]);
     }
 
+    /// True if all bodies of all ranks have sparse factors, whose columns do not decay, and F and
+    /// its factor need no more memory than an assembled F may.
+    bool suits_condensed(const FactoredStructure &solvers, const Constraints &constraints)
+    {
+      const Structure &structure = solvers.structure();
+      double n_blocked = 0.;
+      for (std::size_t k = 0; k < structure.size(); ++k)
+        n_blocked += structure[k].stiffness().block_size() > 0;
+      std::vector<double> totals = {n_blocked, static_cast<double>(structure.n_dofs())};
+      structure.communicator().sum(totals);
+      const double n = constraints.size();
+      return totals[0] == 0. && 2. * n * n <= most_stored_numbers * totals[1];
+    }
+
     /// The form that suits the constraints and the decay of their columns, known only once A_k is
     /// factored.
     class AutomaticSchurComplement : public SchurComplement
@@ -74,6 +88,8 @@ namespace taut
       {
         if (constraints.size() <= most_dense_rows)
           return "assembled dense";
+        if (suits_condensed(solvers, constraints))
+          return "condensed";
         if (!solvers.is_generalised_inverse() && solvers.has_rigid_body_modes())
           return "assembled sparse";
         return stored_numbers_per_dof(solvers, constraints) <= most_stored_numbers
@@ -107,12 +123,15 @@ namespace taut
       return std::make_unique<AutomaticSchurComplement>(parameters, solvers, constraints);
     if (parameters.form == "assembled dense")
       return std::make_unique<DenseSchurComplement>(solvers, constraints);
+    if (parameters.form == "condensed")
+      return std::make_unique<CondensedSchurComplement>(solvers, constraints);
     if (parameters.form == "assembled sparse")
       return std::make_unique<SparseSchurComplement>(solvers, constraints);
     if (parameters.form == "matrix-free")
       return std::make_unique<MatrixFreeSchurComplement>(parameters, solvers, constraints);
-    throw UserError("unknown form of the interface operator '" + parameters.form +
-                    "'; known are: automatic, assembled dense, assembled sparse, matrix-free. "
-                    "Correct the name");
+    throw UserError(
+        "unknown form of the interface operator '" + parameters.form +
+        "'; known are: automatic, assembled dense, condensed, assembled sparse, matrix-free. "
+        "Correct the name");
   }
 } // namespace taut

@@ -11,6 +11,19 @@ namespace taut
     other.solve(y);
   }
 
+  void LocalSolver::flexibilities(const std::vector<const LinearForm *> &rows,
+                                  std::vector<double> &F) const
+  {
+    F.clear();
+    WindowedVector x;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      column(*rows[i], x);
+      for (std::size_t j = 0; j <= i; ++j)
+        F.push_back(x.dot(*rows[j]));
+    }
+  }
+
   std::unique_ptr<LocalSolver> make_local_solver(const std::string &name,
                                                  const SymmetricMatrix &matrix)
   {

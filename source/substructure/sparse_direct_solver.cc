@@ -1,13 +1,37 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/instruction_set.h>
 #include <taut/base/sparse_cholesky.h>
 #include <taut/substructure/local_solver.h>
+
+#include <algorithm>
 
 namespace taut
 {
   namespace
   {
     constexpr double smallest_pivot = 1e-15;
+
+    constexpr std::size_t lanes = SparseHalves::lanes;
+
+    /// Adds the products of all vectors of @p sparse with @p lanes full ones whose rows lie beside
+    /// each other; a row of @p to for each of the former.
+    void add_products(const SparseHalves &sparse, const double *const full, double *const to)
+    {
+      double sums[lanes][lanes] = {};
+      for (std::size_t e = 0; e < sparse.index.size(); ++e)
+      {
+        const double *const other = full + lanes * sparse.index[e];
+        const double *const own = sparse.value.data() + lanes * e;
+        for (std::size_t j = 0; j < lanes; ++j)
+#pragma omp simd
+          for (std::size_t i = 0; i < lanes; ++i)
+            sums[j][i] += own[j] * other[i];
+      }
+      for (std::size_t j = 0; j < lanes; ++j)
+        for (std::size_t i = 0; i < lanes; ++i)
+          to[lanes * j + i] += sums[j][i];
+    }
 
     class SparseDirectSolver : public LocalSolver
     {
@@ -17,10 +41,14 @@ namespace taut
       void solve(std::vector<double> &x) const override;
       void column(const LinearForm &rhs, WindowedVector &x) const override;
       double flexibility(const LinearForm &rhs) const override;
+      void flexibilities(const std::vector<const LinearForm *> &rows,
+                         std::vector<double> &F) const override;
 
     private:
       std::size_t n = 0;
       std::vector<unsigned int> constrained;
+      std::vector<char> is_constrained;
+      mutable std::vector<double> full; ///< 0 but within flexibilities()
       SparseCholesky factors{CholeskyMethod::automatic};
     };
 
@@ -29,7 +57,7 @@ namespace taut
     {
       constrained = constrained_dofs;
       n = summands.front().second->size();
-      std::vector<char> is_constrained(n, 0);
+      is_constrained.assign(n, 0);
       for (const unsigned int dof : constrained)
         is_constrained[dof] = 1;
 
@@ -67,9 +95,48 @@ namespace taut
 
     double SparseDirectSolver::flexibility(const LinearForm &rhs) const
     {
-      WindowedVector x;
-      column(rhs, x);
-      return x.dot(rhs);
+      std::vector<double> result;
+      flexibilities({&rhs}, result);
+      return result.front();
+    }
+
+    void SparseDirectSolver::flexibilities(const std::vector<const LinearForm *> &rows,
+                                           std::vector<double> &F) const
+    {
+      std::vector<SparseHalves> halves;
+      for (std::size_t first = 0; first < rows.size(); first += lanes)
+      {
+        std::vector<LinearForm> free(std::min(lanes, rows.size() - first));
+        std::vector<const LinearForm *> b;
+        for (std::size_t l = 0; l < free.size(); ++l)
+        {
+          const LinearForm &row = *rows[first + l];
+          for (std::size_t e = 0; e < row.index.size(); ++e)
+            if (!is_constrained[row.index[e]])
+              free[l].add(row.index[e], row.value[e]);
+          b.push_back(&free[l]);
+        }
+        halves.emplace_back();
+        factors.half_solutions(b, halves.back());
+      }
+      F.resize(rows.size() * (rows.size() + 1) / 2);
+      full.resize(n * lanes, 0.);
+      for (std::size_t I = 0; I < halves.size(); ++I)
+      {
+        for (std::size_t e = 0; e < halves[I].index.size(); ++e)
+          std::copy_n(&halves[I].value[lanes * e], lanes, &full[lanes * halves[I].index[e]]);
+        for (std::size_t J = 0; J <= I; ++J)
+        {
+          double sums[lanes * lanes] = {};
+          vectorised([&half = halves[J], from = full.data(), to = sums]
+                     { add_products(half, from, to); });
+          for (std::size_t i = lanes * I; i < std::min(lanes * (I + 1), rows.size()); ++i)
+            for (std::size_t j = lanes * J; j < std::min(lanes * (J + 1), i + 1); ++j)
+              F[i * (i + 1) / 2 + j] = sums[lanes * (j % lanes) + i % lanes];
+        }
+        for (const int k : halves[I].index)
+          std::fill_n(&full[lanes * k], lanes, 0.);
+      }
     }
   } // namespace
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Contacts of surfaces against exact solutions: the patch test, Hertz's cylinder and ball.
+#include "solid/wavy_floor.h"
 #include "verification/run.h"
 
 #include <taut/model/surface_constraints.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -178,6 +180,34 @@ TEST(SurfaceContacts, a_ball_is_pressed_as_by_hertz)
                        found.largest_pressure / p0 - 1.);
   EXPECT_NEAR(found.largest_pressure / p0, 1., 1.5e-2);
   EXPECT_LE(found.iterations, 15);
+}
+
+// Claim: the search for the active set does not depend on the number of constraints but for a few
+// more sets when elements are halved. Expected: at most 15 from a cold start with 1001 of them, and
+// no more sets for the second halving than for the first one, as log h, but for two.
+TEST(SurfaceContacts, a_thousand_nodes_find_their_contacts_in_few_sets)
+{
+  std::vector<int> sets;
+  std::vector<double> part;
+  for (const unsigned int n : {260u, 500u, 1000u})
+  {
+    const Found found = equilibrium(wavy_floor::scene(n));
+    ASSERT_EQ(found.force.size(), n + 1);
+    double n_closed = 0.;
+    for (const double force : found.force)
+      n_closed += force > 0.;
+    part.push_back(n_closed / found.force.size());
+    sets.push_back(found.iterations);
+    verification::figure("wavy floor, constraints", n + 1);
+    verification::figure("wavy floor, part of them closed", part.back());
+    verification::figure("wavy floor, active sets", found.iterations);
+    EXPECT_LE(found.iterations, 15);
+  }
+  EXPECT_LE(sets[2] - sets[1], std::max(0, sets[1] - sets[0]) + 2);
+  // What the meshes see is the same contact, of a part of the nodes.
+  EXPECT_NEAR(part[0], part[2], .02);
+  EXPECT_GT(part[2], .1);
+  EXPECT_LT(part[2], .9);
 }
 
 // deal.II's step-41: the nodes that a projected Gauss-Seidel method closes on the same matrix

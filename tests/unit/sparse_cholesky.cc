@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -92,6 +93,51 @@ TEST(SparseCholesky, both_factors_give_the_same_solutions)
     EXPECT_GE(factors[1].n_entries(), factors[0].n_entries());
     EXPECT_GT(factors[1].memory_consumption(), 8 * factors[1].n_entries());
   }
+}
+
+// Claim: products of half solutions are those with the inverse, with both factors, and a half is a
+// small part of a whole solution. Expected: a^T x with A x = b solved whole.
+TEST(SparseCholesky, halves_of_solutions_multiply_to_the_whole)
+{
+  for (const CholeskyMethod method : both)
+    for (const double inertia : {.1, 3.})
+    {
+      const Matrix matrix = elastic(40, 40, inertia);
+      taut::SparseCholesky factors(method);
+      ASSERT_EQ(factors.factor(matrix.n, matrix.entries, 1e-15), matrix.n);
+      const auto n = static_cast<unsigned int>(matrix.n);
+      std::vector<taut::LinearForm> forms(6);
+      forms[0].add(0, 1.);
+      forms[1].add(n - 1, 2.);
+      forms[2].add(0, 1.);
+      forms[2].add(n - 1, -1.);
+      forms[2].add(0, .5); // of one unknown twice
+      forms[3].add(n / 2, 1.);
+      forms[4].add(n / 3, -1.);
+      forms[4].add(n / 2 + 1, 3.);
+      std::vector<const taut::LinearForm *> all;
+      for (const taut::LinearForm &form : forms)
+        all.push_back(&form);
+      taut::SparseHalves halves, one;
+      factors.half_solutions(all, halves);
+      EXPECT_TRUE(std::is_sorted(halves.index.begin(), halves.index.end()));
+      factors.half_solutions({all.front()}, one);
+      EXPECT_LT(one.index.size(), matrix.n / 4);
+      const std::size_t lanes = taut::SparseHalves::lanes;
+      for (std::size_t i = 0; i < forms.size(); ++i)
+      {
+        std::vector<double> x(matrix.n, 0.);
+        forms[i].add_to(1., x);
+        factors.solve(x);
+        for (std::size_t j = 0; j < forms.size(); ++j)
+        {
+          double product = 0.;
+          for (std::size_t e = 0; e < halves.index.size(); ++e)
+            product += halves.value[lanes * e + i] * halves.value[lanes * e + j];
+          EXPECT_NEAR(product, forms[j].dot(x), 1e-13);
+        }
+      }
+    }
 }
 
 TEST(SparseCholesky, both_factors_refuse_what_is_not_definite)

@@ -86,7 +86,8 @@ TEST(Interface, every_option_gives_the_multipliers_of_the_dense_form)
       EXPECT_LT(error, 1e-9) << other.description << ", step " << step;
       return other;
     };
-    EXPECT_EQ(compare({"assembled sparse"}).statistics.n_iterations, 0);
+    for (const char *assembled : {"assembled sparse", "condensed"})
+      EXPECT_EQ(compare({assembled}).statistics.n_iterations, 0);
     for (const char *preconditioner : {"diagonal", "lumped", "Dirichlet"})
       for (const char *coarse_space : {"rigid body modes", "none"})
         EXPECT_GT(compare({"matrix-free", preconditioner, coarse_space}).statistics.n_iterations,

@@ -2,11 +2,12 @@
 #ifndef taut_verification_interface_problem_h
 #define taut_verification_interface_problem_h
 
-#include <taut/complementarity/active_set_system.h>
+#include <taut/complementarity/solver.h>
 #include <taut/interface/schur_complement.h>
 #include <taut/model/scene_constraints.h>
 #include <taut/partition/make_partition.h>
 
+#include <algorithm>
 #include <ctime>
 #include <numeric>
 #include <string>
@@ -96,6 +97,55 @@ namespace verification
         solution.further = seconds_since(further);
       }
       return solution;
+    }
+
+    struct Contact
+    {
+      taut::InterfaceStatistics statistics;
+      unsigned int n_sets = 0;  ///< solved for
+      std::size_t n_open = 0;   ///< unilateral constraints in the end
+      std::size_t n_closed = 0; ///< the same
+    };
+
+    /// The equilibrium with its contacts, from the undeformed bodies: a search for the active set,
+    /// the last system solved until its gaps are @p tolerance of their terms.
+    Contact find_contacts(const taut::InterfaceParameters &parameters, const double tolerance) const
+    {
+      taut::FactoredStructure solvers(structure, "block tridiagonal");
+      solvers.factor_stiffness();
+      std::vector<taut::Substructure::NullSpace> null_spaces;
+      taut::BodyVectors P(structure.size());
+      for (std::size_t k = 0; k < structure.size(); ++k)
+      {
+        null_spaces.push_back(structure[k].null_space());
+        structure[k].external_force(0., P[k]);
+      }
+      const auto schur = taut::make_schur_complement(parameters, solvers, constraints);
+      std::vector<double> S;
+      taut::MixedComplementarityProblem problem;
+      for (std::size_t i = 0; i < constraints.size(); ++i)
+      {
+        S.push_back(1. / constraints[i].stiffness);
+        problem.unilateral.push_back(constraints[i].unilateral);
+      }
+      schur->setup(S);
+      schur->contact_free_predictor(P, problem.free_gap, problem.gap_scale);
+      for (std::size_t i = 0; i < constraints.size(); ++i)
+        problem.free_gap[i] += constraints[i].gap;
+      set_null_space(null_spaces, P, problem);
+      taut::ComplementarityOptions options;
+      options.linear_tolerance = tolerance;
+      options.dead_band = std::max(options.dead_band, tolerance);
+      options.tolerance = std::max(options.tolerance, 10. * tolerance);
+      taut::ComplementaritySolver search("semismooth Newton", options);
+      const taut::ComplementarityResult &result = search.solve(problem, schur->matrix());
+      Contact contact;
+      contact.statistics = schur->statistics();
+      contact.n_sets = result.iterations;
+      for (std::size_t i = 0; i < constraints.size(); ++i)
+        if (constraints[i].unilateral)
+          ++(result.solution.closed[i] ? contact.n_closed : contact.n_open);
+      return contact;
     }
 
     const taut::Scene scene;

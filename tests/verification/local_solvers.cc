@@ -100,6 +100,29 @@ TEST(LocalSolvers, products_give_back_what_was_solved)
         std::copy(column.value.begin(), column.value.end(), full.begin() + column.first);
         check(full, load);
       }
+
+      // All pairs of rows near and far, with unknowns that repeat, are shared, are held.
+      std::vector<taut::LinearForm> forms(21);
+      std::vector<const taut::LinearForm *> rows;
+      for (unsigned int r = 0; r < forms.size(); ++r)
+      {
+        const unsigned int first = b * (r * r % (n_nodes - 1));
+        for (const unsigned int i : {first, first + 2 * b - 1, first})
+          forms[r].add(i, value(random));
+        rows.push_back(&forms[r]);
+      }
+      std::vector<double> F;
+      solver->flexibilities(rows, F);
+      ASSERT_EQ(F.size(), forms.size() * (forms.size() + 1) / 2);
+      for (std::size_t i = 0, entry = 0; i < forms.size(); ++i)
+      {
+        std::vector<double> solution(size, 0.);
+        forms[i].add_to(1., solution);
+        solver->solve(solution);
+        EXPECT_NEAR(solver->flexibility(forms[i]), forms[i].dot(solution), 1e-14);
+        for (std::size_t j = 0; j <= i; ++j, ++entry)
+          EXPECT_NEAR(F[entry], forms[j].dot(solution), 1e-14) << i << ", " << j;
+      }
     }
 }
 

@@ -2,6 +2,8 @@
 #ifndef taut_sparse_cholesky_h
 #define taut_sparse_cholesky_h
 
+#include <taut/base/linear_form.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <memory>
@@ -40,6 +42,15 @@ namespace taut
     void vmult_add(const std::vector<double> &x, std::vector<double> &y) const;
   };
 
+  /// Several sparse vectors that share their rows: value[lanes * e + l] is that of vector l in the
+  /// row index[e], ascending, each once.
+  struct SparseHalves
+  {
+    static constexpr std::size_t lanes = 8;
+    std::vector<int> index;
+    std::vector<double> value;
+  };
+
   /// How a sparse Cholesky factor is computed and stored.
   enum class CholeskyMethod
   {
@@ -76,6 +87,15 @@ namespace taut
 
     /// x = A^-1 x of the matrix factored last.
     void solve(std::vector<double> &x) const;
+
+    /**
+     * Halves of solutions for the matrix factored last: y(b) = D^-1/2 L^-1 P b with the order P and
+     * the factor L D L^T, so that a^T A^-1 b = y(a) . y(b), for up to SparseHalves::lanes
+     * right-hand sides @p b at once. They have entries only on the paths of the elimination tree
+     * from the rows of b to the root, which is all that is computed (T. A. Davis, Direct Methods
+     * for Sparse Linear Systems (2006), 3.2 and 4.1).
+     */
+    void half_solutions(const std::vector<const LinearForm *> &b, SparseHalves &y) const;
 
     /// Of the matrix factored last: true if its factor is supernodal.
     bool is_supernodal() const;
