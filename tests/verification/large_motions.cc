@@ -117,6 +117,23 @@ namespace
     double at[3], EA;
   };
 
+  /// Its mean force is a part of what its energy asks for.
+  class CarelessPendulum : public ElasticPendulum
+  {
+  public:
+    CarelessPendulum(const double part) : ElasticPendulum(.5 * pi, 1e3), part(part) {}
+    void mean_internal_force(const std::vector<double> &U0, const std::vector<double> &U1,
+                             const double step, std::vector<double> &f) const override
+    {
+      ElasticPendulum::mean_internal_force(U0, U1, step, f);
+      for (double &force : f)
+        force *= part;
+    }
+
+  private:
+    double part;
+  };
+
   double exact_period(const double amplitude)
   {
     return 4. * std::sqrt(length / gravity) * boost::math::ellint_1(std::sin(.5 * amplitude));
@@ -204,6 +221,30 @@ TEST(LargeMotions, schemes_that_gain_energy_are_refused)
 }
 
 // The wall at x = 0 is hit at full speed: an inelastic impact of the mass, which then hangs.
+TEST(LargeMotions, energy_from_nowhere_is_an_error)
+{
+  for (const double part : {1., .3})
+  {
+    taut::System system;
+    system.add("pendulum", [&] { return std::make_unique<CarelessPendulum>(part); });
+    taut::StepperOptions options;
+    options.step = .01;
+    options.start = taut::Start::undeformed;
+    taut::Stepper stepper(system, options);
+    while (stepper.time() < 20.)
+      stepper.advance();
+    const std::string error = stepper.measures().error();
+    if (part == 1.)
+    {
+      EXPECT_EQ(error, "");
+      EXPECT_LE(stepper.measures().summary().relative_motion_energy, 1e-7);
+      continue;
+    }
+    EXPECT_NE(error.find("bodies that move by large amounts gained"), std::string::npos) << error;
+    EXPECT_EQ(stepper.measures().warnings().front().kind, "motion_energy");
+  }
+}
+
 TEST(LargeMotions, rigid_wall_takes_the_energy_and_gives_none)
 {
   const ElasticPendulum *pendulum = nullptr;
