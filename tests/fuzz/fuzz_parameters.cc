@@ -512,8 +512,8 @@ namespace
       double dofs = 0.; // of cables and solids, whose surfaces may touch with every node
       for (const taut::CustomBody &body : scene.bodies)
         dofs += body.type->n_dofs();
-      if (elements > 5000. || dofs > 5000. || scene.links.size() > 150 || scene.masses.size() > 100 ||
-          scene.loads.size() > 1000)
+      if (elements > 5000. || dofs > 5000. || scene.links.size() > 150 ||
+          scene.masses.size() > 100 || scene.loads.size() > 1000)
       {
         ++counts.large;
         return;
