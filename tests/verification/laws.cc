@@ -154,8 +154,9 @@ TEST(Laws, impacts_have_the_order_of_the_scheme)
                                                 {"BDF2", 2.},
                                                 {"generalised-alpha", 2.},
                                                 {"backward Euler", 1.}};
-  for (const auto &[law, contact] : {std::make_pair(cubic, contact_of_the_cubic_spring()),
-                                     std::make_pair(two_slopes, contact_of_two_slopes())})
+  const std::map<std::string, double> contacts = {{cubic, contact_of_the_cubic_spring()},
+                                                  {two_slopes, contact_of_two_slopes()}};
+  for (const auto &[law, contact] : contacts)
     for (const auto &[scheme, order] : orders)
     {
       std::vector<double> steps, errors;
