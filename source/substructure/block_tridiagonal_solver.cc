@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "block_elimination.h"
+#include "block_substitution.h"
 #include "block_tridiagonal_matrix.h"
 
 #include <taut/base/instruction_set.h>
@@ -36,8 +36,7 @@ namespace taut
       double flexibility(const LinearForm &rhs) const override;
 
     private:
-      class Inwards;
-      class Outwards;
+      BothEliminations<b> eliminations() const;
       void eliminate_from_left(std::size_t begin, std::size_t end) const;
       void eliminate_from_right(std::size_t begin, std::size_t end) const;
       bool complete() const;
@@ -176,46 +175,6 @@ namespace taut
       return is_whole;
     }
 
-    /// The first half of a solve: elimination from both ends to the middle.
-    template <int b>
-    class BlockTridiagonalSolver<b>::Inwards
-    {
-    public:
-      Inwards(const BlockTridiagonalSolver &s, double *x)
-          : from_left(s.from_left.data()), from_right(s.from_right.data() + (s.n - 1)), l(x),
-            r(x + b * (s.n - 1)), n_left(s.middle), n_right(s.n - 1 - s.middle)
-      {
-        left.read(l);
-        right.read(r);
-      }
-
-      /// Steps that both ends have, the first one is step 1; the middle is left out.
-      std::ptrdiff_t n_steps() const { return std::min(n_left, n_right) - 1; }
-
-      void step(const std::ptrdiff_t k)
-      {
-        left = eliminate<b>(from_left[k]->transposed, left, l + b * k);
-        right = eliminate<b>(from_right[-k]->transposed, right, r - b * k);
-      }
-
-      /// The steps from @p k on, and those of one end only.
-      void finish(std::ptrdiff_t k)
-      {
-        for (; k <= n_steps(); ++k)
-          step(k);
-        for (std::ptrdiff_t i = k; i < n_left; ++i)
-          left = eliminate<b>(from_left[i]->transposed, left, l + b * i);
-        for (std::ptrdiff_t j = k; j < n_right; ++j)
-          right = eliminate<b>(from_right[-j]->transposed, right, r - b * j);
-      }
-
-    private:
-      const Elimination<b> *const *from_left, *const *from_right;
-      double *l, *r;
-      std::ptrdiff_t n_left, n_right;
-      Node<b> left, right; ///< the last nodes that each end came to
-    };
-
     template <int b>
     void BlockTridiagonalSolver<b>::solve_middle(double *x) const
     {
@@ -228,55 +187,12 @@ namespace taut
       std::copy(solution, solution + b, m);
     }
 
-    /// The second half: substitution from the middle to both ends.
     template <int b>
-    class BlockTridiagonalSolver<b>::Outwards
+    BothEliminations<b> BlockTridiagonalSolver<b>::eliminations() const
     {
-    public:
-      Outwards(const BlockTridiagonalSolver &s, double *x)
-          : from_left(s.from_left.data() + s.middle), from_right(s.from_right.data() + s.middle),
-            m(x + b * s.middle), n_left(s.middle), n_right(s.n - 1 - s.middle)
-      {
-        left.read(m);
-        right = left;
-      }
-
-      /// Steps that both ends have, the first one is step 1.
-      std::ptrdiff_t n_steps() const { return std::min(n_left, n_right); }
-
-      void step(const std::ptrdiff_t k)
-      {
-        leftwards(k);
-        rightwards(k);
-      }
-
-      /// The steps from @p k on, and those of one end only.
-      void finish(std::ptrdiff_t k)
-      {
-        for (; k <= n_steps(); ++k)
-          step(k);
-        for (std::ptrdiff_t i = k; i <= n_left; ++i)
-          leftwards(i);
-        for (std::ptrdiff_t j = k; j <= n_right; ++j)
-          rightwards(j);
-      }
-
-    private:
-      void leftwards(const std::ptrdiff_t k)
-      {
-        left = substitute<b>(from_left[-k]->inverse, from_left[1 - k]->multiplier, left, m - b * k);
-      }
-      void rightwards(const std::ptrdiff_t k)
-      {
-        right =
-            substitute<b>(from_right[k]->inverse, from_right[k - 1]->multiplier, right, m + b * k);
-      }
-
-      const Elimination<b> *const *from_left, *const *from_right;
-      double *m;
-      std::ptrdiff_t n_left, n_right;
-      Node<b> left, right;
-    };
+      return {from_left.data(), from_right.data(), static_cast<std::ptrdiff_t>(n),
+              static_cast<std::ptrdiff_t>(middle)};
+    }
 
     template <int b>
     void BlockTridiagonalSolver<b>::solve(std::vector<double> &x) const
@@ -286,9 +202,9 @@ namespace taut
       vectorised(
           [this, all = x.data()]
           {
-            Inwards(*this, all).finish(1);
+            Inwards(eliminations(), all).finish(1);
             solve_middle(all);
-            Outwards(*this, all).finish(1);
+            Outwards(eliminations(), all).finish(1);
           });
     }
 
@@ -317,10 +233,10 @@ namespace taut
       vectorised(
           [&together, this, alike, all_x = x.data(), all_y = y.data()]
           {
-            together(Inwards(*this, all_x), Inwards(*alike, all_y));
+            together(Inwards(eliminations(), all_x), Inwards(alike->eliminations(), all_y));
             solve_middle(all_x);
             alike->solve_middle(all_y);
-            together(Outwards(*this, all_x), Outwards(*alike, all_y));
+            together(Outwards(eliminations(), all_x), Outwards(alike->eliminations(), all_y));
           });
     }
 

@@ -334,30 +334,15 @@ TEST(Ranks, gaps_then_velocities_are_the_same)
 // Claim: so with links that follow laws. Expected: as above.
 TEST(Ranks, laws_of_links_are_the_same)
 {
-  const char *const scene =
-      "set Generator = network\nset Start = equilibrium\n"
-      "subsection Network\n set Wires = beam\n set Supports = ends\n set Links = stop, dropper\n"
-      " set Loads = push\n"
-      " subsection Wire beam\n  set To = 12, 0\n  set Components = beam\n"
-      "  set Mass per length = 5\n  set Bending stiffness = 4000\n  set Element size = 0.25\n end\n"
-      " subsection Support ends\n  set Wire = beam\n  set Positions = 0, 12\n end\n"
-      " subsection Link stop\n  set Type = stop\n  set From = ground\n  set To = beam @ 2:2:10\n"
-      "  set Direction = 0, 1\n  set Gap = 0.005\n  set Law = formula\n"
-      "  set Law formula = 5e3*d + 1e8*d^3\n  set Law range = 0.1\n end\n"
-      " subsection Link dropper\n  set Type = dropper\n  set From = ground\n"
-      "  set To = beam @ 1:2:11\n  set Direction = 0, -1\n  set Law = table\n"
-      "  set Law points = 0.002: 40, 0.02: 80\n end\n"
-      " subsection Load push\n  set On = beam @ 5\n  set Direction = 0, 1\n"
-      "  set Magnitude = -600*sin(20*t)\n end\nend\n"
-      "subsection Time\n set Step = 2e-3\n set End = 0.1\nend\n";
+  const std::string end = "Time/End=0.1";
   for (const std::string form : {"assembled dense", "assembled sparse", "matrix-free"})
   {
     const std::string where = "laws, " + form + ", " + std::to_string(world().size()) + " ranks, ";
-    const Records one = record(scene, {}, taut::Communicator()),
-                  many = record(
-                      scene,
-                      {"Partition/Number of substructures=5", "Solver/Interface operator=" + form},
-                      world());
+    const Records one = record(verification::beam_under_laws, {end}, taut::Communicator()),
+                  many = record(verification::beam_under_laws,
+                                {end, "Partition/Number of substructures=5",
+                                 "Solver/Interface operator=" + form},
+                                world());
     expect_same(where + "rest, ", one.rest, many.rest, 0.);
     expect_same(where + "motion, ", one.motion, many.motion, 0.);
   }

@@ -156,25 +156,22 @@ TEST(BouncingBar, contacts_force_and_energy_are_exact_for_ten_contacts)
 {
   for (const int n_elements : {400, 250})
   {
-    std::ostringstream size, length;
-    size.precision(17);
-    length.precision(17);
     const double step = 10. / n_elements / 30.;
-    size << "Network.Wire bar.Element size=" << 10. / n_elements;
-    length << "Time.Step=" << step;
     Contacts contacts(step);
     double first_energy = 0., last_energy = 0., least_gap = 0.;
-    run_scene(scene_file("bouncing_bar"), {size.str(), length.str()},
-              [&](const taut::StepView &view)
-              {
-                const double t = view.state.time;
-                if (t == 0.)
-                  first_energy = energy(view);
-                if (t <= 10. * period)
-                  last_energy = energy(view);
-                least_gap = std::min(least_gap, view.state.geometric_gap[0]);
-                contacts.record(t, view.state.multiplier[0]);
-              });
+    run_scene(
+        scene_file("bouncing_bar"),
+        {"Network.Wire bar.Element size=" + number(10. / n_elements), "Time.Step=" + number(step)},
+        [&](const taut::StepView &view)
+        {
+          const double t = view.state.time;
+          if (t == 0.)
+            first_energy = energy(view);
+          if (t <= 10. * period)
+            last_energy = energy(view);
+          least_gap = std::min(least_gap, view.state.geometric_gap[0]);
+          contacts.record(t, view.state.multiplier[0]);
+        });
     const double potential = 10. * 10. * 5., change = (last_energy - first_energy) / potential;
     const std::string name = std::to_string(n_elements) + " elements";
     report(name, contacts);

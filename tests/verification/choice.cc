@@ -63,10 +63,8 @@ namespace
   /// Root mean square error of the lower end of the bar on the wall over that of its motion.
   double bar_error(const double elements, const Overrides &more)
   {
-    std::ostringstream step;
-    step.precision(17);
-    step << "Time.Step=" << elements * .1 / 30.;
-    Overrides overrides = {"Network.Wire bar.Element size=0.1", step.str()};
+    Overrides overrides = {"Network.Wire bar.Element size=0.1",
+                           "Time.Step=" + number(elements * .1 / 30.)};
     overrides.insert(overrides.end(), more.begin(), more.end());
     double error = 0., size = 0.;
     run_scene(scene_file("bar_on_wall"), overrides,

@@ -16,14 +16,6 @@ namespace
 {
   using History = std::vector<std::vector<double>>; ///< displacements at common times [m]
 
-  std::string number(const double x)
-  {
-    std::ostringstream text;
-    text.precision(17);
-    text << x;
-    return text.str();
-  }
-
   /// A scene, the point of its first wire that is compared, and times to compare at. Masses are
   /// compared, too.
   struct Problem

@@ -227,12 +227,9 @@ TEST(OscillatorWithStop, schemes_keep_their_order_through_an_elastic_stop)
     for (int i = 0; i < 5; ++i)
     {
       steps.push_back(coarsest / (1 << i));
-      std::ostringstream step;
-      step.precision(17);
-      step << "Time.Step=" << steps.back();
       double error = 0.;
       run_scene(scene_file("oscillator_with_stop"),
-                {"Time.Scheme=" + scheme, step.str(), "Time.End=0.5"},
+                {"Time.Scheme=" + scheme, "Time.Step=" + number(steps.back()), "Time.End=0.5"},
                 [&](const taut::StepView &view) {
                   error = std::max(error, std::fabs(view.state.U[0][0] - exact.u(view.state.time)));
                 });

@@ -19,14 +19,6 @@ using namespace verification;
 
 namespace
 {
-  std::string number(const double value)
-  {
-    std::ostringstream out;
-    out.precision(17);
-    out << value;
-    return out.str();
-  }
-
   /// A mass of 2 kg that meets a stop at x = 0 with 3 m/s, after half a millisecond.
   std::string thrown_mass(const std::string &law)
   {
@@ -374,28 +366,10 @@ TEST(Laws, rows_of_any_laws_are_at_rest)
 
 namespace
 {
-  /// A beam that falls on stops that stiffen, and hangs in droppers that soften.
-  const char *const beam =
-      "set Generator = network\nset Start = equilibrium\n"
-      "subsection Network\n set Wires = beam\n set Supports = ends\n set Links = stop, dropper\n"
-      " set Loads = push\n"
-      " subsection Wire beam\n  set To = 12, 0\n  set Components = beam\n"
-      "  set Mass per length = 5\n  set Bending stiffness = 4000\n  set Element size = 0.25\n end\n"
-      " subsection Support ends\n  set Wire = beam\n  set Positions = 0, 12\n end\n"
-      " subsection Link stop\n  set Type = stop\n  set From = ground\n  set To = beam @ 2:2:10\n"
-      "  set Direction = 0, 1\n  set Gap = 0.005\n  set Law = formula\n"
-      "  set Law formula = 5e3*d + 1e8*d^3\n  set Law range = 0.1\n end\n"
-      " subsection Link dropper\n  set Type = dropper\n  set From = ground\n"
-      "  set To = beam @ 1:2:11\n  set Direction = 0, -1\n  set Law = table\n"
-      "  set Law points = 0.002: 40, 0.02: 80\n end\n"
-      " subsection Load push\n  set On = beam @ 5\n  set Direction = 0, 1\n"
-      "  set Magnitude = -600*sin(20*t)\n end\nend\n"
-      "subsection Time\n set Step = 2e-3\n set End = 0.4\nend\n";
-
   std::vector<std::vector<double>> forces_of(const Overrides &overrides)
   {
     std::vector<std::vector<double>> result;
-    run_scene(beam, overrides,
+    run_scene(beam_under_laws, overrides,
               [&](const taut::StepView &view)
               {
                 std::vector<double> links(view.state.multiplier.begin(),

@@ -358,14 +358,9 @@ namespace
         // Backward Euler reaches its order at shorter steps only.
         const int ratio = (scheme.order == 1. ? 16 : 1) << k;
         steps.push_back(end / (coarsest * ratio));
-        std::ostringstream step, last;
-        step.precision(17);
-        last.precision(17);
-        step << "Time.Step=" << steps.back();
-        last << "Time.End=" << end;
         Overrides overrides = scheme.overrides;
-        overrides.push_back(step.str());
-        overrides.push_back(last.str());
+        overrides.push_back("Time.Step=" + number(steps.back()));
+        overrides.push_back("Time.End=" + number(end));
         double error = 0., force_error = 0.;
         int i = 0;
         run_scene(scene, overrides,

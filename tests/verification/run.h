@@ -66,6 +66,12 @@ namespace verification
   /// Slope of the line that fits log(error) over log(step) best.
   double fitted_order(const std::vector<double> &steps, const std::vector<double> &errors);
 
+  /// With all the digits that it takes to read @p x back.
+  std::string number(double x);
+
+  /// A beam that falls on stops that stiffen, and hangs in droppers that soften.
+  extern const char *const beam_under_laws;
+
   /// Prints a figure for the ledger: "figure | <name> | <value> <unit>".
   void figure(const std::string &name, double value, const std::string &unit = "1");
 } // namespace verification

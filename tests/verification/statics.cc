@@ -17,20 +17,12 @@ namespace
 {
   constexpr double g = 9.81;
 
-  std::string text(const double x)
-  {
-    std::ostringstream out;
-    out.precision(17);
-    out << x;
-    return out.str();
-  }
-
   /// One horizontal wire from x = 0, one step of a run that stays at rest.
   std::string one_wire(const double length, const std::string &wire_entries,
                        const std::string &items)
   {
     return "set Generator = network\nsubsection Network\n set Wires = wire\n" + items +
-           " subsection Wire wire\n  set To = " + text(length) + ", 0\n" + wire_entries +
+           " subsection Wire wire\n  set To = " + number(length) + ", 0\n" + wire_entries +
            " end\nend\n" +
            "subsection Time\n set Scheme = backward Euler\n set Step = 1\n set End = 1\nend\n";
   }
@@ -112,7 +104,7 @@ TEST(Beam, heavy_beam_lifts_off_a_floor)
                            "  set From = ground\n  set To = wire @ 0\n  set Direction = 0, 1\n"
                            "  set Gap = -0.1\n end\n subsection Link floor\n  set Type = stop\n"
                            "  set From = ground\n  set To = wire @ 0:" +
-                               text(spacing) + ":12\n  set Direction = 0, 1\n end\n"));
+                               number(spacing) + ":12\n  set Direction = 0, 1\n end\n"));
   const taut::Scene &scene = session.simulation().scene();
   const taut::SceneBodies &structure = session.simulation().structure();
   const taut::Constraints &constraints = session.simulation().constraints();

@@ -17,14 +17,6 @@ using namespace verification;
 
 namespace
 {
-  std::string number(const double x)
-  {
-    std::ostringstream text;
-    text.precision(17);
-    text << x;
-    return text.str();
-  }
-
   std::string time_section(const double step, const double end, const std::string &more = "")
   {
     return "subsection Time\n set Scheme = Moreau-Jean\n set Step = " + number(step) +
