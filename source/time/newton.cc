@@ -12,10 +12,9 @@ namespace taut
 {
   namespace
   {
-    /// Change of the increments, of themselves, at which the iteration ends: what is left then is
-    /// less by the rate of convergence. Where it stays above for rounding, the iteration ends below
-    /// the second one after so many iterations that do not halve it; the balance of the step then
-    /// says what it is worth.
+    /// What a guess of the increments may miss, see NonlinearBodies::set_guess(). Where it stays
+    /// above for rounding, the iteration ends below the second one after so many iterations that do
+    /// not halve it; the balance of the step then says what it is worth.
     constexpr double converged = 1e-9, stagnated = 1e-5;
     constexpr int most_stagnant = 2;
 
@@ -71,7 +70,7 @@ namespace taut
       if (structure[k].has_moving_constraints())
         for (const ConstrainedDof &constraint : structure[k].constraints())
           right_hand_side[k][constraint.dof] = lift[k][constraint.dof];
-      const double own = nonlinear.set_guess(k, right_hand_side[k], system->bodies());
+      const double own = nonlinear.set_guess(k, right_hand_side[k], system->bodies().stiffness(k));
       if (!(own <= change) && !std::isnan(change))
         change = own;
     }
@@ -121,7 +120,8 @@ namespace taut
     {
       right_hand_side = loads;
       for (const std::size_t k : nonlinear.indices())
-        nonlinear.add_remainder(k, system->bodies().stiffness(k), right_hand_side[k]);
+        for (std::size_t i = 0; i < right_hand_side[k].size(); ++i)
+          right_hand_side[k][i] += nonlinear.remainder(k)[i];
       current.multiplier = multiplier;
       find_increments();
       ++n_iterations;
@@ -138,6 +138,8 @@ namespace taut
       {
         tangents_are_kept = false;
         system->linearise();
+        for (const std::size_t k : nonlinear.indices())
+          nonlinear.set_tangent(k, system->bodies().stiffness(k));
       }
       before = change;
     }

@@ -64,6 +64,7 @@ namespace taut
       }
       own.f0 = own.f = before.KU[k];
       own.dU.assign(own.U0.size(), 0.);
+      own.remainder = own.dU;
     }
   }
 
@@ -101,29 +102,30 @@ namespace taut
           M);
   }
 
-  void NonlinearBodies::add_remainder(const std::size_t k, const SymmetricMatrix &K,
-                                      std::vector<double> &P) const
+  void NonlinearBodies::set_tangent(const std::size_t k, const SymmetricMatrix &K)
   {
-    const Step &own = steps[k];
-    for (std::size_t i = 0; i < P.size(); ++i)
-      P[i] -= own.f[i] - own.f0[i];
-    K.vmult_add(1., own.dU.data(), P.data());
+    Step &own = steps[k];
+    for (std::size_t i = 0; i < own.f.size(); ++i)
+      own.remainder[i] = own.f0[i] - own.f[i];
+    K.vmult_add(1., own.dU.data(), own.remainder.data());
   }
 
   double NonlinearBodies::set_guess(const std::size_t k, const std::vector<double> &dU,
-                                    const FactoredStructure &solvers)
+                                    const SymmetricMatrix &K)
   {
     Step &own = steps[k];
     const Substructure &body = (*structure)[k];
-    std::vector<double> difference = dU, unbalanced;
-    for (std::size_t i = 0; i < dU.size(); ++i)
-      difference[i] -= own.dU[i];
-    solvers.multiply(k, difference, unbalanced);
+    std::vector<double> difference = std::move(own.dU), unbalanced = own.remainder;
     own.dU = dU;
     end_force(k, c, own, dU, own.f);
+    set_tangent(k, K);
     std::vector<double> whole = own.f;
-    for (std::size_t i = 0; i < whole.size(); ++i)
+    for (std::size_t i = 0; i < dU.size(); ++i)
+    {
+      difference[i] -= dU[i];
+      unbalanced[i] -= own.remainder[i];
       whole[i] += reference->force[k][i];
+    }
     const PerKind change = largest(body, difference), size = largest(body, dU),
                   lack = beyond_rounding(body, unbalanced), force = largest(body, whole);
     double result = 0.;

@@ -51,18 +51,20 @@ namespace taut
     std::unique_ptr<SymmetricMatrix> tangent_at(std::size_t k, const std::vector<double> &U,
                                                 int attempt) const;
 
-    /// P += K dU - (f - f0) for the last guess, with the tangent K of the step: what Newton's
-    /// method makes of P^.
-    void add_remainder(std::size_t k, const SymmetricMatrix &K, std::vector<double> &P) const;
+    /// What Newton's method adds to P^, with the tangent K: K dU - (f - f0) for the last guess.
+    const std::vector<double> &remainder(std::size_t k) const { return steps[k].remainder; }
+
+    /// Takes @p K as the tangent for the last guess.
+    void set_tangent(std::size_t k, const SymmetricMatrix &K);
 
     /**
-     * Takes @p dU as the next guess and evaluates f. Returns how much it differs from the last one:
-     * the largest change over the largest entry, or, if that is less, a hundred times the force
-     * A times the change over the largest internal force, which is what counts in a body at rest.
-     * Displacements and slopes each for themselves; not-a-number if f is.
+     * Takes @p dU, the solution with the last remainder, as the next guess and evaluates f. Returns
+     * what it misses: the largest change from the last guess over the largest entry, or, if that is
+     * less, a hundred times the force that its balance lacks, which is the change of the remainder,
+     * over the largest internal force. Displacements and slopes each for themselves; not-a-number
+     * if f is.
      */
-    double set_guess(std::size_t k, const std::vector<double> &dU,
-                     const FactoredStructure &solvers);
+    double set_guess(std::size_t k, const std::vector<double> &dU, const SymmetricMatrix &K);
 
     /// KU = f - f_ref at the end of a step that ends in @p state.
     void set_end_force(std::size_t k, const StepCoefficients &c, State &state) const;
@@ -84,6 +86,7 @@ namespace taut
       std::vector<double> known_V; ///< velocity at the end without the increment's part
       std::vector<double> dU;      ///< the guess
       std::vector<double> f;       ///< with it
+      std::vector<double> remainder;
     };
     void shift(std::size_t k, int attempt, SymmetricMatrix &K) const;
     void end_force(std::size_t k, const StepCoefficients &c, const Step &own,
