@@ -20,9 +20,11 @@ namespace taut
 {
   namespace
   {
-    /// DoFs of a solid in space from which parts cost less than the whole, solutions up to which
-    /// they do, and DoFs of a part (doc/results/decomposition.md).
-    constexpr std::size_t least_cut_dofs = 10000, dofs_per_part = 500;
+    /// DoFs of a solid in space from which parts cost less than the whole, with the reference BLAS
+    /// and with a tuned one, solutions up to which they do, and DoFs of a part
+    /// (doc/results/decomposition.md).
+    constexpr std::size_t least_cut_dofs = 10000, least_with_tuned_blas = 100000,
+                          dofs_per_part = 500;
     constexpr double most_solves = 3.;
 
     std::size_t nearest_node(const std::vector<double> &nodes, const double s)
@@ -317,18 +319,21 @@ namespace taut
     prm.leave_subsection();
   }
 
-  NumberOfParts automatic_number_of_parts(const Scene &scene, const double n_steps)
+  NumberOfParts automatic_number_of_parts(const Scene &scene, const double n_steps,
+                                          const bool tuned_blas)
   {
+    const std::size_t least = tuned_blas ? least_with_tuned_blas : least_cut_dofs;
     std::ostringstream reason;
     std::size_t n_dofs = 0;
     for (const CustomBody &body : scene.bodies)
       if (const auto division = body.type->division({body.name, body.origin, scene.gravity}))
-        if (division->cells().dim == 3 && division->cells().n_dofs() >= least_cut_dofs)
+        if (division->cells().dim == 3 && division->cells().n_dofs() >= least)
           n_dofs += division->cells().n_dofs();
     if (n_dofs == 0)
     {
-      reason << "no solid in space has " << least_cut_dofs
-             << " DoFs: a factor of the whole costs little";
+      reason << "no solid in space has " << least << " DoFs: with "
+             << (tuned_blas ? "a tuned BLAS" : "the reference BLAS")
+             << " a factor of the whole costs little";
       return {1, reason.str()};
     }
     if (n_steps > most_solves)

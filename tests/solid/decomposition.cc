@@ -187,12 +187,14 @@ TEST(Partition, AutomaticNumbersFollowTheTable)
     box.elements = elements;
     return box_in_parts::scene<3>(std::make_shared<const box_in_parts::BoxType<3>>(box));
   };
-  EXPECT_EQ(taut::automatic_number_of_parts(in_space(8), 0.).n, 1u);   // 2187 DoFs
-  EXPECT_EQ(taut::automatic_number_of_parts(in_space(15), 0.).n, 24u); // 12 288 DoFs
-  EXPECT_EQ(taut::automatic_number_of_parts(in_space(15), 100.).n, 1u);
+  EXPECT_EQ(taut::automatic_number_of_parts(in_space(8), 0., false).n, 1u);   // 2187 DoFs
+  EXPECT_EQ(taut::automatic_number_of_parts(in_space(15), 0., false).n, 24u); // 12 288 DoFs
+  EXPECT_EQ(taut::automatic_number_of_parts(in_space(15), 0., true).n, 1u);
+  EXPECT_EQ(taut::automatic_number_of_parts(in_space(33), 0., true).n, 235u); // 117 912 DoFs
+  EXPECT_EQ(taut::automatic_number_of_parts(in_space(15), 100., false).n, 1u);
   Box square;
   square.n = 1;
   square.elements = 100;
   const auto type = std::make_shared<const box_in_parts::BoxType<2>>(square);
-  EXPECT_EQ(taut::automatic_number_of_parts(box_in_parts::scene<2>(type), 0.).n, 1u);
+  EXPECT_EQ(taut::automatic_number_of_parts(box_in_parts::scene<2>(type), 0., false).n, 1u);
 }

@@ -2,6 +2,7 @@
 #ifndef taut_make_partition_h
 #define taut_make_partition_h
 
+#include <taut/base/tuned_blas.h>
 #include <taut/scene/partition.h>
 
 #include <string>
@@ -44,7 +45,8 @@ namespace taut
   /// What `Number of substructures = automatic` stands for in a run of @p n_steps steps, 0 in
   /// statics (doc/decomposition.md): solids in space are cut where a few solutions cost less than
   /// one factor of the whole.
-  NumberOfParts automatic_number_of_parts(const Scene &scene, double n_steps);
+  NumberOfParts automatic_number_of_parts(const Scene &scene, double n_steps,
+                                          bool tuned_blas = has_tuned_blas());
 } // namespace taut
 
 #endif
