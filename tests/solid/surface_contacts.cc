@@ -135,6 +135,52 @@ TEST(SurfaceContacts, uniform_pressure_passes_between_meshes_that_do_not_match)
   EXPECT_GT(other, 1e-3);
 }
 
+// Claim: a pressure of 1 MPa on a cube with smaller cells in one half is that of each node of its
+// foot, whose areas add up to 1 m^2 without those of hanging nodes, and a floor of 1e-9 m/Pa gives
+// in by 1 mm.
+TEST(SurfaceContacts, hanging_nodes_and_compliance_leave_a_uniform_pressure_as_it_is)
+{
+  const Found found = equilibrium("set Generator = network\n"
+                                  "set Gravity = 0, 0\n"
+                                  "set Start = equilibrium\n"
+                                  "set Bodies = cube\n"
+                                  "set Contacts = floor\n"
+                                  "subsection Body cube\n"
+                                  "  set Type = solid\n"
+                                  "  set Dimension = 3\n"
+                                  "  set Young's modulus = 1e9\n"
+                                  "  set Poisson's ratio = 0.3\n"
+                                  "  set Density = 2000\n"
+                                  "  set Symmetry boundaries = 0, 2\n"
+                                  "  set Traction = 5: 0, 0, -1e6\n"
+                                  "  subsection Mesh\n"
+                                  "    set Generator = subdivided_hyper_rectangle\n"
+                                  "    set Arguments = 2, 2, 2 : 0, 0, 0 : 1, 1, 1\n"
+                                  "    set Local refinements = 1\n"
+                                  "    set Refine where = 0.5 - x\n"
+                                  "  end\n"
+                                  "end\n"
+                                  "subsection Contact floor\n"
+                                  "  set Slave = cube: 4\n"
+                                  "  set Obstacle = plane\n"
+                                  "  set Point = 0, 0, 0\n"
+                                  "  set Direction = 0, 0, 1\n"
+                                  "  set Compliance = 1e-9\n"
+                                  "end\n"
+                                  "subsection Time\n"
+                                  "  set End = 0\n"
+                                  "end\n");
+  ASSERT_EQ(found.force.size(), 16u); // 18 nodes, of which 2 hang
+  double area = 0.;
+  for (std::size_t i = 0; i < found.force.size(); ++i)
+  {
+    area += found.constraints[i].area;
+    EXPECT_NEAR(found.force[i] / found.constraints[i].area, 1e6, 1e-4);
+    EXPECT_NEAR(found.gap[i], -1e-3, 1e-12);
+  }
+  EXPECT_NEAR(area, 1., 1e-13);
+}
+
 // 2 to 32 elements in the half-width. The limit differs from Hertz by a few thousandths, as a / R
 // is 0.1: the order is that of the differences.
 TEST(SurfaceContacts, a_cylinder_is_pressed_as_by_hertz)
