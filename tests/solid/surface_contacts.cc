@@ -115,15 +115,17 @@ namespace
   /// Boundaries: 1 and 2 are its left and right side, 3 is the rest.
   struct SlitSquare
   {
-    const std::filesystem::path path = std::filesystem::temp_directory_path() /
-                                       ("taut_slit_" + std::to_string(getpid()) + ".msh");
+    const std::filesystem::path path =
+        std::filesystem::temp_directory_path() / ("taut_slit_" + std::to_string(getpid()) + ".msh");
 
     SlitSquare()
     {
       constexpr int n = 16, middle = n / 2;
       // Nodes of the right side come after all others.
-      const auto node = [](const int i, const int j, const bool is_right)
-      { return 1 + (i == middle && j < middle && is_right ? (n + 1) * (n + 1) + j : i + (n + 1) * j); };
+      const auto node = [](const int i, const int j, const bool is_right) {
+        return 1 +
+               (i == middle && j < middle && is_right ? (n + 1) * (n + 1) + j : i + (n + 1) * j);
+      };
       std::ostringstream points, elements;
       const auto add_point = [&](const int number, const int i, const int j)
       { points << number << ' ' << 2. * i / n - 1. << ' ' << 2. * j / n - 1. << " 0\n"; };

@@ -536,9 +536,9 @@ namespace
 
   TEST(complementarity, a_soft_spring_does_not_hide_the_gaps_of_stiff_ones)
   {
-    // Claim: a platform of 10 N stands on springs of 1 mm/N, the second 2 mm lower, and is pushed up
-    // with 2 N by one that is 1e12 times as soft: the others carry 5 N and 3 N. That the first one
-    // carries all leaves a gap of -6 mm, which is no rounding of the 2e9 m of the soft one.
+    // Claim: a platform of 10 N stands on springs of 1 mm/N, the second 2 mm lower, and is pushed
+    // up with 2 N by one that is 1e12 times as soft: the others carry 5 N and 3 N. That the first
+    // one carries all leaves a gap of -6 mm, which is no rounding of the 2e9 m of the soft one.
     auto platform = problem({1, 1, 1}, {0., 2e-3, -2e9});
     platform.null_space = mode_equations(3, {1., 1., 1.});
     platform.null_space_load = {-10.};
