@@ -10,6 +10,9 @@ namespace taut
 {
   namespace
   {
+    /// Entries of F below this, relative to the largest one, are rounding.
+    constexpr double rounding = 1e-16;
+
     double relative(double numerator, double denominator)
     {
       if (numerator == 0.)
@@ -81,13 +84,22 @@ namespace taut
     for (std::size_t k = 0; k < mode_amplitude.size(); ++k)
     {
       const LinearForm &vector = problem.null_space[k];
+      double largest = 0.;
+      for (const unsigned int i : vector.index)
+        if (multiplier[i] != 0.)
+          largest = std::max(largest, matrix.diagonal(i));
       double weighted_terms = 0., weights = 0.;
       for (std::size_t e = 0; e < vector.index.size(); ++e)
-        if (multiplier[vector.index[e]] != 0.)
-        {
-          weighted_terms += std::abs(vector.value[e]) * own_terms[vector.index[e]];
-          weights += vector.value[e] * vector.value[e];
-        }
+      {
+        const std::size_t i = vector.index[e];
+        if (multiplier[i] == 0.)
+          continue;
+        const double g = std::abs(vector.value[e]);
+        const double weight =
+            largest > 0. ? largest / std::max(matrix.diagonal(i), rounding * largest) : 1.;
+        weighted_terms += weight * g * own_terms[i];
+        weights += weight * g * g;
+      }
       const double fit = weights > 0. ? weighted_terms / weights : 0.;
       const double size = std::max(std::abs(mode_amplitude[k]), fit);
       for (std::size_t e = 0; e < vector.index.size(); ++e)

@@ -115,8 +115,7 @@ namespace
       c.interface_operator = "matrix-free";
     if (solver == 2)
       c.interface_operator = "assembled sparse";
-    // Of a floating body whose halves are 1e12 apart the primal active set loses forces.
-    if (solver == 3 && level["ratio of moduli"] > 1e-12)
+    if (solver == 3)
       c.complementarity = "energy-ordered";
     return c;
   }

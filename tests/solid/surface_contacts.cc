@@ -7,8 +7,13 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -105,6 +110,57 @@ namespace
     return {found.largest_pressure / p0, std::sqrt(fit(x2, p2).zero) / a, a / element,
             found.iterations};
   }
+
+  /// A mesh in gmsh's format of a square from -1 to 1 in 16 x 16 cells with a slit in x = 0, y < 0.
+  /// Boundaries: 1 and 2 are its left and right side, 3 is the rest.
+  struct SlitSquare
+  {
+    const std::filesystem::path path =
+        std::filesystem::temp_directory_path() / ("taut_slit_" + std::to_string(getpid()) + ".msh");
+
+    SlitSquare()
+    {
+      constexpr int n = 16, middle = n / 2;
+      // Nodes of the right side come after all others.
+      const auto node = [](const int i, const int j, const bool is_right) {
+        return 1 +
+               (i == middle && j < middle && is_right ? (n + 1) * (n + 1) + j : i + (n + 1) * j);
+      };
+      std::ostringstream points, elements;
+      const auto add_point = [&](const int number, const int i, const int j)
+      { points << number << ' ' << 2. * i / n - 1. << ' ' << 2. * j / n - 1. << " 0\n"; };
+      int n_elements = 0;
+      const auto add_line = [&](const int id, const int a, const int b)
+      { elements << ++n_elements << " 1 2 " << id << ' ' << id << ' ' << a << ' ' << b << '\n'; };
+      for (int j = 0; j <= n; ++j)
+        for (int i = 0; i <= n; ++i)
+          add_point(node(i, j, false), i, j);
+      for (int j = 0; j < middle; ++j)
+      {
+        add_point(node(middle, j, true), middle, j);
+        add_line(1, node(middle, j, false), node(middle, j + 1, false));
+        add_line(2, node(middle, j, true), node(middle, j + 1, true));
+      }
+      for (int i = 0; i < n; ++i)
+      {
+        const bool is_right = i >= middle;
+        add_line(3, node(i, 0, is_right), node(i + 1, 0, is_right));
+        add_line(3, node(i, n, false), node(i + 1, n, false));
+        add_line(3, node(0, i, false), node(0, i + 1, false));
+        add_line(3, node(n, i, false), node(n, i + 1, false));
+        for (int j = 0; j < n; ++j)
+          elements << ++n_elements << " 3 2 0 0 " << node(i, j, is_right) << ' '
+                   << node(i + 1, j, is_right) << ' ' << node(i + 1, j + 1, is_right) << ' '
+                   << node(i, j + 1, is_right) << '\n';
+      }
+      std::ofstream(path) << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n"
+                          << (n + 1) * (n + 1) + middle << '\n'
+                          << points.str() << "$EndNodes\n$Elements\n"
+                          << n_elements << '\n'
+                          << elements.str() << "$EndElements\n";
+    }
+    ~SlitSquare() { std::filesystem::remove(path); }
+  };
 } // namespace
 
 TEST(SurfaceContacts, uniform_pressure_passes_between_meshes_that_do_not_match)
@@ -133,6 +189,100 @@ TEST(SurfaceContacts, uniform_pressure_passes_between_meshes_that_do_not_match)
     other = std::fmax(other, std::fabs(nodes.force[i] / nodes.constraints[i].area - 1e6) / 1e6);
   verification::figure("patch test, nodes to faces: largest error of the pressure", other);
   EXPECT_GT(other, 1e-3);
+}
+
+// Claim: a pressure of 1 MPa on a cube with smaller cells in one half is that of each node of its
+// foot, whose areas add up to 1 m^2 without those of hanging nodes, and a floor of 1e-9 m/Pa gives
+// in by 1 mm.
+TEST(SurfaceContacts, hanging_nodes_and_compliance_leave_a_uniform_pressure_as_it_is)
+{
+  const Found found = equilibrium("set Generator = network\n"
+                                  "set Gravity = 0, 0\n"
+                                  "set Start = equilibrium\n"
+                                  "set Bodies = cube\n"
+                                  "set Contacts = floor\n"
+                                  "subsection Body cube\n"
+                                  "  set Type = solid\n"
+                                  "  set Dimension = 3\n"
+                                  "  set Young's modulus = 1e9\n"
+                                  "  set Poisson's ratio = 0.3\n"
+                                  "  set Density = 2000\n"
+                                  "  set Symmetry boundaries = 0, 2\n"
+                                  "  set Traction = 5: 0, 0, -1e6\n"
+                                  "  subsection Mesh\n"
+                                  "    set Generator = subdivided_hyper_rectangle\n"
+                                  "    set Arguments = 2, 2, 2 : 0, 0, 0 : 1, 1, 1\n"
+                                  "    set Local refinements = 1\n"
+                                  "    set Refine where = 0.5 - x\n"
+                                  "  end\n"
+                                  "end\n"
+                                  "subsection Contact floor\n"
+                                  "  set Slave = cube: 4\n"
+                                  "  set Obstacle = plane\n"
+                                  "  set Point = 0, 0, 0\n"
+                                  "  set Direction = 0, 0, 1\n"
+                                  "  set Compliance = 1e-9\n"
+                                  "end\n"
+                                  "subsection Time\n"
+                                  "  set End = 0\n"
+                                  "end\n");
+  ASSERT_EQ(found.force.size(), 16u); // 18 nodes, of which 2 hang
+  double area = 0.;
+  for (std::size_t i = 0; i < found.force.size(); ++i)
+  {
+    area += found.constraints[i].area;
+    EXPECT_NEAR(found.force[i] / found.constraints[i].area, 1e6, 1e-4);
+    EXPECT_NEAR(found.gap[i], -1e-3, 1e-12);
+  }
+  EXPECT_NEAR(area, 1., 1e-13);
+}
+
+// Claim: the sides of a slit of one body touch each other as two bodies do, in each representation
+// of F. Expected: a square that is given the strain e along x carries (lambda + 2 mu) e there as if
+// it had no slit; the ends of the slit do not move against each other.
+TEST(SurfaceContacts, a_slit_is_pressed_shut)
+{
+  const SlitSquare mesh;
+  const double strain = 1e-3, stress = 1e9 * .7 / (1.3 * .4) * strain;
+  for (const std::string operator_name :
+       {"condensed", "assembled dense", "assembled sparse", "matrix-free"})
+  {
+    const Found found = equilibrium("set Generator = network\n"
+                                    "set Gravity = 0, 0\n"
+                                    "set Start = equilibrium\n"
+                                    "set Bodies = square\n"
+                                    "set Contacts = slit\n"
+                                    "subsection Body square\n"
+                                    "  set Type = solid\n"
+                                    "  set Young's modulus = 1e9\n"
+                                    "  set Poisson's ratio = 0.3\n"
+                                    "  set Density = 2000\n"
+                                    "  set Displacement = 3: -1e-3*x, 0\n"
+                                    "  subsection Mesh\n"
+                                    "    set File = " +
+                                    mesh.path.string() +
+                                    "\n"
+                                    "  end\n"
+                                    "end\n"
+                                    "subsection Contact slit\n"
+                                    "  set Slave = square: 1\n"
+                                    "  set Master = square: 2\n"
+                                    "end\n"
+                                    "subsection Time\n"
+                                    "  set End = 0\n"
+                                    "end\n"
+                                    "subsection Solver\n"
+                                    "  set Interface operator = " +
+                                    operator_name + "\nend\n");
+    unsigned int n_inside = 0;
+    for (std::size_t i = 0; i < found.force.size(); ++i)
+      if (const double y = found.constraints[i].point.y; y > -.95 && y < -.05)
+      {
+        ++n_inside;
+        EXPECT_NEAR(found.force[i] / found.constraints[i].area / stress, 1., 1e-9) << operator_name;
+      }
+    EXPECT_EQ(n_inside, 7u) << operator_name;
+  }
 }
 
 // 2 to 32 elements in the half-width. The limit differs from Hertz by a few thousandths, as a / R

@@ -534,6 +534,29 @@ namespace
       }
   }
 
+  TEST(complementarity, a_soft_spring_does_not_hide_the_gaps_of_stiff_ones)
+  {
+    // Claim: a platform of 10 N stands on springs of 1 mm/N, the second 2 mm lower, and is pushed
+    // up with 2 N by one that is 1e12 times as soft: the others carry 5 N and 3 N. That the first
+    // one carries all leaves a gap of -6 mm, which is no rounding of the 2e9 m of the soft one.
+    auto platform = problem({1, 1, 1}, {0., 2e-3, -2e9});
+    platform.null_space = mode_equations(3, {1., 1., 1.});
+    platform.null_space_load = {-10.};
+    DenseOperator F = dense({{1e-3, 0., 0.}, {0., 1e-3, 0.}, {0., 0., 1e9}});
+    MixedComplementaritySolution wrong;
+    wrong.multiplier = {8., 0., 2.};
+    wrong.mode_amplitude = {-8e-3};
+    gaps(platform, F, wrong.multiplier, wrong.mode_amplitude, wrong.gap);
+    EXPECT_GT(residual(platform, F, wrong).rows[1], .1);
+    for (const std::string &method : both_methods)
+    {
+      ComplementaritySolver solver(method);
+      const auto &result = solver.solve(platform, F);
+      expect_near(result.solution.multiplier, {5., 3., 2.}, 1e-9);
+      expect_near(result.solution.mode_amplitude, {-5e-3});
+    }
+  }
+
   TEST(complementarity, a_beam_loaded_beyond_its_stops_is_not_held)
   {
     for (const std::string &method : both_methods)

@@ -111,6 +111,33 @@ TEST(SparseOperator, solves_like_the_dense_one_as_sets_and_border_change)
   }
 }
 
+TEST(SparseOperator, takes_other_diagonals_inside_and_in_the_border)
+{
+  Pair F;
+  std::vector<std::size_t> all(n);
+  for (std::size_t i = 0; i < n; ++i)
+    all[i] = i;
+  std::vector<double> x, y;
+  for (const std::size_t i : {std::size_t(3), n - n_border, n - 1})
+  {
+    // Once with a factor that is there already.
+    const std::vector<double> rhs = F.vector();
+    ASSERT_TRUE(F.sparse.solve(all, rhs, 0., y));
+    F.dense.set(i, i, 20. + i);
+    F.sparse.set_diagonal(i, 20. + i);
+    EXPECT_EQ(F.sparse.diagonal(i), 20. + i);
+    F.dense.apply(rhs, x);
+    F.sparse.apply(rhs, y);
+    expect_near(x, y);
+    for (const double shift : {0., 1e-2})
+    {
+      ASSERT_TRUE(F.dense.solve(all, rhs, shift, x));
+      ASSERT_TRUE(F.sparse.solve(all, rhs, shift, y));
+      expect_near(x, y);
+    }
+  }
+}
+
 TEST(SparseOperator, tells_dependent_rows_inside_and_in_the_border)
 {
   // Row 1 is row 0 again; the last row of the border is twice the row before.

@@ -91,8 +91,8 @@ namespace taut
    *     s_i = t_i + sum_k |G_ki| max(|alpha_k|, a_k),    t_i = |d_i| + gap_scale_i + sum_j |F_ij|
    * |N_j|.
    *
-   * alpha_k is found from all gaps that it moves, and rounds with them even where it ends near
-   * zero: a_k is the amplitude that would fit their terms, sum_i |G_ki| t_i / sum_i G_ki^2.
+   * alpha_k is found from the gaps of closed rows, first of stiff ones, and rounds with them even
+   * if it ends near zero: a_k = sum_i |G_ki| t_i / F_ii over sum_i G_ki^2 / F_ii fits their terms.
    */
   void gap_terms(const MixedComplementarityProblem &problem, const ComplementarityOperator &matrix,
                  const std::vector<double> &multiplier, const std::vector<double> &mode_amplitude,
