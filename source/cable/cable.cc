@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "end_frames.h"
+#include "text_of.h"
 
 #include <taut/base/about_entry.h>
 #include <taut/base/exceptions.h>
@@ -19,13 +20,6 @@ namespace taut
 {
   namespace
   {
-    std::string text_of(const double value)
-    {
-      std::ostringstream text;
-      text << value;
-      return text.str();
-    }
-
     std::string entry(const CableData &data, const std::string &name)
     {
       return data.origin.empty() ? name : data.origin + "/" + name;
@@ -53,7 +47,59 @@ namespace taut
     finish();
   }
 
+  /// In a shape that is known.
+  Cable::Cable(const CableData &given, const CableShape &shape)
+      : Substructure(given.name, given.origin), data(given),
+        element(make_elements(given, given.length)), found(shape),
+        frames(std::make_unique<EndFrames>())
+  {
+    hold();
+    assemble();
+    finish();
+  }
+
   Cable::~Cable() = default;
+
+  std::unique_ptr<Substructure> Cable::with_axial_stiffness(const double EA) const
+  {
+    CableData other = data;
+    other.section.axial_stiffness = EA;
+    return std::unique_ptr<Substructure>(new Cable(other, found));
+  }
+
+  bool Cable::is_slack(const std::vector<double> &U, Slack &slack) const
+  {
+    if (data.linearised)
+      return false;
+    double place = 0.;
+    const double strain = element.smallest_strain(positions(U), &place);
+    if (!(strain * data.section.axial_stiffness < -rounding_of_force(0)))
+      return false;
+    slack.place = place;
+    slack.bending_stiffness = data.section.bending_stiffness;
+    slack.axial_damping = data.section.axial_damping;
+    return true;
+  }
+
+  Substructure::NullSpace Cable::null_space() const
+  {
+    NullSpace result;
+    if (data.holds_from || data.holds_to)
+      return result;
+    const bool has_slopes = data.element == CableElement::ancf;
+    const std::vector<unsigned int> unused = element.unused_dofs();
+    for (unsigned int c = 0; c < 3; ++c)
+    {
+      std::vector<double> translation(n_dofs(), 0.);
+      for (unsigned int i = c; i < n_dofs(); i += has_slopes ? 6 : 3)
+        translation[i] = 1.;
+      for (const unsigned int i : unused)
+        translation[i] = 0.;
+      result.vectors.push_back(std::move(translation));
+      result.fixing_dofs.push_back(element.end_dofs(false)[c]);
+    }
+    return result;
+  }
 
   void Cable::check() const
   {

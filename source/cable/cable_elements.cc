@@ -344,13 +344,23 @@ namespace taut
     return strain;
   }
 
-  double CableElements::smallest_strain(const std::vector<double> &q) const
+  double CableElements::smallest_strain(const std::vector<double> &q, double *const place) const
   {
-    double strain = std::numeric_limits<double>::max();
+    double least = std::numeric_limits<double>::max();
     for (unsigned int e = 0; e < n; ++e)
+    {
+      const Local x = local(q, e);
       for (const Point &p : axial_points)
-        strain = std::min(strain, combine(p.slope, local(q, e)).norm() - 1.);
-    return strain;
+      {
+        const double stretch = combine(p.slope, x).norm();
+        if (!(stretch < least))
+          continue;
+        least = stretch;
+        if (place)
+          *place = h * (e + p.xi);
+      }
+    }
+    return least - 1.;
   }
 
   double CableElements::curvature(const std::vector<double> &q, const double s) const

@@ -2,6 +2,7 @@
 #include <taut/base/about_entry.h>
 #include <taut/base/exceptions.h>
 #include <taut/cable/cable.h>
+#include <taut/cable/find_length.h>
 #include <taut/scene/body_type.h>
 #include <taut/scene/contact_surface.h>
 
@@ -33,7 +34,7 @@ namespace taut
       CableData data(const BodySetting &setting) const;
       double find_length(const CableData &data) const;
 
-      std::vector<double> from = {0., 0.}, to = {1., 0.}, force, start_direction;
+      std::vector<double> from = {0., 0.}, to = {1., 0.}, through, force, start_direction;
       double length = 0., tension = 0., sag = 0.;
       double axial_stiffness = 0., bending_stiffness = 0., mass = 0., axial_damping = 0.,
              mass_damping = 0., largest_strain = .02;
@@ -50,14 +51,19 @@ namespace taut
       prm.add_parameter("To", to, "Place of its last end: x, y or x, y, z [m]",
                         List(Double(), 2, 3));
       prm.add_parameter("Unstressed length", length,
-                        "This, or Horizontal tension, or Sag; places on the cable are counted "
-                        "along it [m]");
+                        "This, or Horizontal tension, or Sag, or Through; places on the cable are "
+                        "counted along it [m]");
       prm.add_parameter("Horizontal tension", tension,
                         "Of the cable at rest, its component across weight and wind along the "
                         "chord: the unstressed length follows [N]");
       prm.add_parameter("Sag", sag,
                         "Of the cable at rest, its largest distance from the chord, measured along "
                         "weight and wind: the unstressed length follows [m]");
+      prm.add_parameter("Through", through,
+                        "Place that the cable at rest passes through, in the plane of its ends, "
+                        "weight and wind: the unstressed length follows; x, y or x, y, z; empty: "
+                        "none [m]",
+                        List(Double(), 0, 3));
       prm.add_parameter("Axial stiffness", axial_stiffness, "EA [N]");
       prm.add_parameter("Bending stiffness", bending_stiffness, "EI, of ANCF elements [N m^2]",
                         Double(0.));
@@ -137,10 +143,10 @@ namespace taut
             {sag, "Sag"}})
         if (value < 0.)
           throw EntryError(origin + name, "it is negative; give a positive one");
-      if ((length != 0.) + (tension != 0.) + (sag != 0.) != 1)
+      if ((length != 0.) + (tension != 0.) + (sag != 0.) + !through.empty() != 1)
         throw EntryError(origin + "Unstressed length",
                          "a cable has exactly one of Unstressed length, Horizontal tension and "
-                         "Sag, more than zero");
+                         "Sag, more than zero, or a place that it passes Through");
       if (length != 0.)
         return length;
       if (data.from == data.to)
@@ -153,6 +159,14 @@ namespace taut
       if (tension != 0.)
         return about_entry(origin + "Horizontal tension",
                            [&] { return length_for_tension(make, {}, span, load, tension); });
+      if (!through.empty())
+      {
+        if (through.size() == 1)
+          throw EntryError(origin + "Through", "it has one component; give x, y, z");
+        const Coordinates place = coordinates(through) - data.from;
+        return about_entry(origin + "Through",
+                           [&] { return length_through(make, {}, span, load, place); });
+      }
       if (norm(load) == 0.)
         throw EntryError(origin + "Sag", "without weight or wind a cable has none; give the "
                                          "Unstressed length");

@@ -116,4 +116,17 @@ namespace taut
       table->close();
     certificate->close();
   }
+
+  void write_probes(const std::string &folder, const Scene &scene,
+                    const std::vector<double> &probes)
+  {
+    if (scene.probes.empty())
+      return;
+    IntervalTable table(0.);
+    for (const Probe &probe : scene.probes)
+      table.add_quantity(probe.name, probe.rotational ? "rad" : "m");
+    table.open(folder + "/probes.csv");
+    table.record(0., probes);
+    table.close();
+  }
 } // namespace taut

@@ -239,14 +239,16 @@ namespace taut
       }
     }
 
-    /// Two links of one section between the same points: a position that was written twice.
+    /// Two links of one section between the same points along the same direction: a position that
+    /// was written twice.
     void check_repeated(const Scene &scene)
     {
       const auto key = [](const Link &link)
       {
         const auto end = [](const Attachment &a)
         { return std::make_tuple(a.kind, a.index, a.position, a.place.x, a.place.y, a.place.z); };
-        return std::make_tuple(link.origin, end(link.from), end(link.to));
+        const Coordinates &n = link.direction;
+        return std::make_tuple(link.origin, end(link.from), end(link.to), n.x, n.y, n.z);
       };
       std::set<decltype(key(scene.links[0]))> known;
       for (const Link &link : scene.links)

@@ -40,6 +40,42 @@ namespace taut
     }
   } // namespace
 
+  namespace
+  {
+    /// Whether an end of a link can move along a direction.
+    bool moves(const Scene &scene, const Attachment &end, const Coordinates &direction)
+    {
+      if (end.kind == Attachment::Kind::mass)
+      {
+        const bool *const free = scene.masses[end.index].moves;
+        return (free[0] && direction.x != 0.) || (free[1] && direction.y != 0.) ||
+               (free[3] && direction.z != 0.);
+      }
+      if (end.kind == Attachment::Kind::wire)
+      {
+        const Wire &wire = scene.wires[end.index];
+        return std::any_of(std::begin(wire_components), std::end(wire_components),
+                           [&](const WireMotion motion)
+                           { return wire.has(motion) && dot(wire.axis(motion), direction) != 0.; });
+      }
+      return end.kind == Attachment::Kind::body;
+    }
+
+    /// A joint along each of x, y, z that one of its ends moves along.
+    void add_ball_joint(const Link &all, Scene &scene)
+    {
+      const std::pair<const char *, Coordinates> axes[] = {
+          {" x", {1., 0., 0.}}, {" y", {0., 1., 0.}}, {" z", {0., 0., 1.}}};
+      for (const auto &[name, axis] : axes)
+        if (moves(scene, all.from, axis) || moves(scene, all.to, axis))
+        {
+          scene.links.push_back(all);
+          scene.links.back().name += name;
+          scene.links.back().direction = axis;
+        }
+    }
+  } // namespace
+
   void Network::fill(Scene &scene) const
   {
     add_wires(scene);
@@ -184,6 +220,13 @@ namespace taut
                   : item.type == "dropper"         ? LinkKind::dropper
                   : item.type == "sliding contact" ? LinkKind::sliding_contact
                                                    : LinkKind::joint;
+      const bool is_ball_joint = item.type == "ball joint";
+      if (is_ball_joint && (!item.direction.empty() || item.rotational || item.gap != 0.))
+        throw EntryError(title + (!item.direction.empty() ? "/Direction"
+                                  : item.rotational       ? "/Rotational"
+                                                          : "/Gap"),
+                         "a ball joint holds one place to another along x, y and z, and has none; "
+                         "leave it out, or take a joint");
       link.rotational = item.rotational;
       link.stiffness = parse_stiffness(item.stiffness, title + "/Stiffness");
       link.law = parse_law(item.law, item.law_points, item.law_formula, item.law_range, title);
@@ -217,6 +260,11 @@ namespace taut
         link.name = links.names[i] + (n > 1 ? " " + std::to_string(k + 1) : "");
         link.from = from[from.size() > 1 ? k : 0];
         link.to = to[to.size() > 1 ? k : 0];
+        if (is_ball_joint)
+        {
+          add_ball_joint(link, scene);
+          continue;
+        }
         if (!item.direction.empty())
           link.direction = parse_direction(item.direction, title + "/Direction");
         else if (!link.rotational)

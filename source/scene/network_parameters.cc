@@ -154,9 +154,10 @@ namespace taut
   {
     prm.add_parameter(
         "Type", type,
-        "'joint': holds its ends together. 'stop': pushes them apart. 'dropper': pulls "
+        "'joint': holds its ends together. 'ball joint': does so along x, y and z, as joints "
+        "named '<name> x' and so on. 'stop': pushes them apart. 'dropper': pulls "
         "them together. 'sliding contact': a stop whose second end moves on a wire",
-        Selection("joint|stop|dropper|sliding contact"));
+        Selection("joint|ball joint|stop|dropper|sliding contact"));
     prm.add_parameter(
         "From", from,
         "'ground', a mass, or 'wire @ position'; several positions (numbers and ranges "

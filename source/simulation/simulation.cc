@@ -13,6 +13,7 @@
 #include <taut/output/fields.h>
 #include <taut/output/scene_report.h>
 #include <taut/output/series.h>
+#include <taut/output/slack_watch.h>
 #include <taut/partition/make_partition.h>
 #include <taut/scene/entries.h>
 #include <taut/simulation/simulation.h>
@@ -102,16 +103,24 @@ namespace taut
     Fields fields(parameters.output.folder, model, bodies, parameters.output.field_interval,
                   parameters.output.subdivisions);
     ObserverList observers(processes);
+    SlackWatch slack;
     const RunView run_view = {parameters.output.folder, parameters.output.interval, processes,
                               checkpoint != nullptr};
     if (!integrator)
     {
       add_guests(observers);
       observers.add(&fields);
+      observers.add(&slack);
       observers.begin(run_view);
-      update_probes(start);
       show(observers, start, start_certificate);
+      on_root(
+          [&]
+          {
+            if (parameters.output.writes)
+              write_probes(parameters.output.folder, model, probe_values);
+          });
       processes.agree([&] { observers.finish(); });
+      slack.print(log);
       limits->print(log);
       log << "Results in " << parameters.output.folder << '\n';
       return;
@@ -132,6 +141,7 @@ namespace taut
     observers.add(series.get());
     add_guests(observers);
     observers.add(&fields);
+    observers.add(&slack);
     observers.begin(run_view);
     if (parameters.output.checkpoint_interval > 0. && !checkpoint)
       observers.save(); // one that cannot says so before the first step
@@ -159,6 +169,8 @@ namespace taut
       {
         close(true);
         figures.print(log);
+        if (processes.size() == 1)
+          slack.print(log);
         limits->print(log);
       }
       catch (const std::exception &)
@@ -176,6 +188,7 @@ namespace taut
         });
     figures.print(log);
     log << measures->report();
+    slack.print(log);
     limits->print(log);
     print_cost(stepper, figures.until(), all);
     log << "Results in " << parameters.output.folder << '\n';

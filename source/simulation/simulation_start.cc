@@ -138,6 +138,9 @@ namespace taut
   {
     if (model.start != Start::equilibrium || probe_terms.empty())
       return;
+    // Where nothing moves, the equilibrium is what there is to see.
+    if (parameters.end_time == 0. && links.n_fixed() == links.size())
+      return;
     BodyVectors rest = reference.displacement;
     if (links.n_fixed() < links.size())
     {

@@ -209,12 +209,13 @@ namespace taut
     check_digits(k, loss);
   }
 
-  /// False if the rigid body modes cannot be unknowns; where they only may not, says what allows
-  /// it.
+  /// False if the rigid body modes cannot be unknowns, or need not, as the next iteration of
+  /// Newton's method corrects what rounding loses of them; where they only may not, says what
+  /// allows it.
   bool FactoredStructure::take_apart(const std::size_t k, const bool use_amplitudes)
   {
     const Substructure &body = bodies[k];
-    if (body.null_space().vectors.empty() || !set_rigid_body_modes(k))
+    if (!body.is_linear() || body.null_space().vectors.empty() || !set_rigid_body_modes(k))
       return false;
     if (!use_amplitudes)
       throw EntryError(body.origin(),

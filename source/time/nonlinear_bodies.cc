@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "softer_bodies.h"
+
 #include <taut/time/matrix_norms.h>
 #include <taut/time/nonlinear_bodies.h>
 
@@ -9,24 +11,8 @@ namespace taut
 {
   namespace
   {
-    /// Part of the largest stiffness over mass that is added as mass where a tangent is not
-    /// definite, and by how much it grows from attempt to attempt.
-    constexpr double first_shift = 1e-10, growth_of_shift = 30.;
-
     /// Of a relative force beside a relative displacement.
     constexpr double weight_of_force = 100.;
-
-    double largest_on_diagonal(const SymmetricMatrix &matrix)
-    {
-      double largest = 0.;
-      matrix.visit(
-          [&](const unsigned int i, const unsigned int j, const double value)
-          {
-            if (i == j)
-              largest = std::max(largest, value);
-          });
-      return largest;
-    }
   } // namespace
 
   PerKind beyond_rounding(const Substructure &body, const std::vector<double> &force)
@@ -94,12 +80,7 @@ namespace taut
 
   void NonlinearBodies::shift(const std::size_t k, const int attempt, SymmetricMatrix &K) const
   {
-    if (attempt < 2)
-      return;
-    const SymmetricMatrix &M = (*structure)[k].mass();
-    K.add(first_shift * std::pow(growth_of_shift, attempt - 2) * largest_on_diagonal(K) /
-              largest_on_diagonal(M),
-          M);
+    add_some_mass(attempt, (*structure)[k].mass(), K);
   }
 
   void NonlinearBodies::set_tangent(const std::size_t k, const SymmetricMatrix &K)

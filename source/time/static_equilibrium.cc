@@ -18,6 +18,9 @@ namespace taut
     /// part of themselves, or no longer by less and by no more than the second one.
     constexpr double converged = 1e-12, stagnated = 1e-7;
 
+    /// The same with bodies that are softer than their own, as a start for the next search.
+    constexpr double near = 1e-3;
+
     /// Its iterations: with full steps first, then with a line search.
     constexpr int most_full_steps = 20, most_iterations = 300;
 
@@ -28,24 +31,31 @@ namespace taut
     /**
      * Newton's method with the complementarity problem solved exactly in each iteration (N. H.
      * Josephy, 1979), with full steps; if that ends nowhere, or where a tangent is not definite,
-     * with a line search on the energy and tangents that are made definite. An equilibrium whose
-     * own tangent is not definite is none that a structure stays in.
+     * with an axial stiffness that rises by factors of ten from 2 to 20 times the load; then with a
+     * line search on the energy and tangents that are made definite. An equilibrium whose own
+     * tangent is not definite is none that a structure stays in.
      */
     class NonlinearEquilibrium
     {
     public:
       NonlinearEquilibrium(const Structure &structure, const Constraints &constraints,
-                           const SolverParameters &parameters, const double t,
-                           const NonlinearBodies &nonlinear)
+                           const SolverParameters &parameters, const double t, SofterBodies &bodies)
           : structure(structure), constraints(constraints), parameters(parameters), time(t),
-            nonlinear(nonlinear)
+            soft(bodies)
       {
       }
 
       StaticState find()
       {
         StaticState state;
-        if (iterate(false, state) || iterate(true, state))
+        const BodyVectors undeformed = structure.zero();
+        if (iterate(false, converged, undeformed, state))
+          return state;
+        BodyVectors start = undeformed;
+        if (find_start(start) &&
+            (iterate(false, converged, start, state) || iterate(true, converged, start, state)))
+          return state;
+        if (iterate(true, converged, undeformed, state))
           return state;
         std::ostringstream out;
         out << "static equilibrium: none that is stable was found; the displacements still change "
@@ -56,18 +66,62 @@ namespace taut
       }
 
     private:
-      bool iterate(const bool is_damped, StaticState &state)
+      /// The displacements with softer bodies; false if there are none, or no such displacements.
+      bool find_start(BodyVectors &start)
       {
-        BodyVectors U = structure.zero();
+        const double EA = structure.communicator().max(soft.largest_axial_stiffness()),
+                     load = sum_of_loads();
+        double limit = EA;
+        for (int decades = 0; decades < 15 && limit > 20. * load; ++decades)
+          limit *= .1;
+        bool is_found = false;
+        // One that is not found is left out: the next one may be within reach.
+        for (; load > 0. && limit < .9 * EA; limit *= 10.)
+        {
+          structure.communicator().agree([&] { soft.limit_axial_stiffness(limit); });
+          StaticState state;
+          if (iterate(false, near, start, state) || iterate(true, near, start, state))
+          {
+            start = std::move(state.displacement);
+            is_found = true;
+          }
+        }
+        soft.limit_axial_stiffness(std::numeric_limits<double>::infinity());
+        return is_found;
+      }
+
+      /// [N]
+      double sum_of_loads() const
+      {
+        double sum = 0.;
+        std::vector<double> P;
+        for (std::size_t k = 0; k < structure.size(); ++k)
+        {
+          structure[k].external_force(time, P);
+          for (std::size_t i = 0; i < P.size(); ++i)
+            if (structure[k].kind(i) == 0)
+              sum += std::fabs(P[i]);
+        }
+        structure.communicator().sum(&sum, 1);
+        return sum;
+      }
+
+      /// From @p start on, to a change of @p tolerance; a rough one need not be stable.
+      bool iterate(const bool is_damped, const double tolerance, const BodyVectors &start,
+                   StaticState &state)
+      {
+        BodyVectors U = start;
         double before = std::numeric_limits<double>::infinity();
         for (int iteration = 0; iteration < (is_damped ? most_iterations : most_full_steps);
              ++iteration)
         {
-          StaticStep step(structure, constraints, parameters, time, nonlinear, U);
+          StaticStep step(structure, constraints, parameters, time, soft, U);
           state = step.solve();
           change = relative_change(step.bodies(), U, state.displacement);
           if (!std::isfinite(change))
             return false;
+          if (tolerance > converged && change <= tolerance)
+            return true;
           if (change <= converged || (change <= stagnated && change >= .5 * before))
           {
             if (structure.communicator().max(step.has_own_tangents() ? 0. : 1.) > 0.)
@@ -99,7 +153,7 @@ namespace taut
           add_largest(largest(structure[k], to[k]), size);
           bodies.multiply(k, difference, product);
           add_largest(beyond_rounding(structure[k], product), lack);
-          structure[k].internal_force(to[k], {}, product);
+          soft.force(k, to[k], product);
           add_largest(largest(structure[k], product), force);
         }
         double result = 0.;
@@ -130,8 +184,7 @@ namespace taut
         for (std::size_t k = 0; k < structure.size(); ++k)
         {
           structure[k].external_force(time, P);
-          sum += structure[k].strain_energy(U[k]) -
-                 std::inner_product(P.begin(), P.end(), U[k].begin(), 0.);
+          sum += soft.energy(k, U[k]) - std::inner_product(P.begin(), P.end(), U[k].begin(), 0.);
         }
         structure.communicator().sum(&sum, 1);
         const std::vector<double> motions = constraints.motions(U);
@@ -169,7 +222,7 @@ namespace taut
       const Constraints &constraints;
       const SolverParameters &parameters;
       const double time;
-      const NonlinearBodies &nonlinear;
+      SofterBodies &soft;
       double change = 0.;
     };
   } // namespace
@@ -180,13 +233,14 @@ namespace taut
     Reference undeformed;
     undeformed.displacement = undeformed.force = structure.zero();
     const NonlinearBodies nonlinear(structure, undeformed);
+    SofterBodies bodies(structure, nonlinear);
     if (!(structure.communicator().max(nonlinear.indices().empty() ? 0. : 1.) > 0.))
     {
-      StaticStep step(structure, constraints, parameters, t, nonlinear, undeformed.displacement);
+      StaticStep step(structure, constraints, parameters, t, bodies, undeformed.displacement);
       StaticState state = step.solve();
       step.certify(state);
       return state;
     }
-    return NonlinearEquilibrium(structure, constraints, parameters, t, nonlinear).find();
+    return NonlinearEquilibrium(structure, constraints, parameters, t, bodies).find();
   }
 } // namespace taut

@@ -24,17 +24,17 @@ namespace taut
 
   StaticStep::StaticStep(const Structure &structure, const Constraints &constraints,
                          const SolverParameters &parameters, const double t,
-                         const NonlinearBodies &nonlinear, const BodyVectors &from)
-      : structure(structure), constraints(constraints), nonlinear(nonlinear), from(from),
+                         const SofterBodies &bodies_at_rest, const BodyVectors &from)
+      : structure(structure), constraints(constraints), soft(bodies_at_rest), from(from),
         processes(structure.communicator()), time(t),
         check(structure, constraints, parameters.contact_tolerance),
         system(structure, constraints, parameters), laws(constraints), shift(constraints.size(), 0.)
   {
     for (std::size_t i = 0; i < constraints.size(); ++i)
       compliance.push_back(1. / constraints[i].stiffness);
-    if (!nonlinear.indices().empty())
-      system.set_nonlinear(nonlinear.indices(), [&](const std::size_t k, const int attempt)
-                           { return nonlinear.tangent_at(k, from[k], attempt); });
+    if (!soft.nonlinear_bodies().empty())
+      system.set_nonlinear(soft.nonlinear_bodies(), [&](const std::size_t k, const int attempt)
+                           { return soft.tangent(k, from[k], attempt); });
     system.prepare(StepCoefficients(), compliance);
     processes.agree([&] { set_loads(); });
     set_problem();
@@ -55,7 +55,7 @@ namespace taut
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       structure[k].external_force(time, P[k]);
-      structure[k].internal_force(from[k], {}, work);
+      soft.force(k, from[k], work);
       for (std::size_t i = 0; i < work.size(); ++i)
         P[k][i] -= work[i];
       for (const ConstrainedDof &constraint : structure[k].constraints())

@@ -2,8 +2,9 @@
 #ifndef taut_static_step_h
 #define taut_static_step_h
 
+#include "softer_bodies.h"
+
 #include <taut/time/constraint_laws.h>
-#include <taut/time/nonlinear_bodies.h>
 #include <taut/time/static_equilibrium.h>
 #include <taut/time/step_check.h>
 #include <taut/time/step_system.h>
@@ -17,7 +18,7 @@ namespace taut
   {
   public:
     StaticStep(const Structure &structure, const Constraints &constraints,
-               const SolverParameters &parameters, double t, const NonlinearBodies &nonlinear,
+               const SolverParameters &parameters, double t, const SofterBodies &bodies,
                const BodyVectors &from);
     StaticState solve();
     void certify(StaticState &state);
@@ -38,7 +39,7 @@ namespace taut
 
     const Structure &structure;
     const Constraints &constraints;
-    const NonlinearBodies &nonlinear;
+    const SofterBodies &soft;
     const BodyVectors &from;
     const Communicator &processes;
     const double time;

@@ -8,6 +8,7 @@
 #include <taut/base/dot.h>
 #include <taut/base/exceptions.h>
 #include <taut/cable/cable.h>
+#include <taut/cable/find_length.h>
 #include <taut/substructure/local_solver.h>
 
 #include <gtest/gtest.h>
@@ -364,6 +365,12 @@ end
         {{}, "Unstressed length", "exactly one"},
         {{"Unstressed length=78", "Sag=3"}, "Unstressed length", "exactly one"},
         {{"Unstressed length=-78"}, "Unstressed length", "negative"},
+        {{"Unstressed length=78", "Through=30,-5"}, "Unstressed length", "exactly one"},
+        {{"Through=30,5"}, "Through", "5 m above the straight line"},
+        {{"Through=30,-5,1"}, "Through", "1 m beside it"},
+        {{"Through=-1,-5"}, "Through", "not between the ends"},
+        {{"Through=30"}, "Through", "one component"},
+        {{"Through=30,-5", "Mass per length=0"}, "Through", "give the unstressed length"},
         {{"Horizontal tension=-1"}, "Horizontal tension", "negative"},
         {{"Unstressed length=58"}, "Largest strain", "longer or stiffer"},
         {{"Horizontal tension=1e6"}, "Largest strain", "longer or stiffer"},

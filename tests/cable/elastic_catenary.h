@@ -55,6 +55,9 @@ public:
   double end_force() const { return std::hypot(H, V); }
   double horizontal() const { return H; }
 
+  /// Of the cable at its first end [N].
+  taut::Coordinates pull() const { return add_scaled(add_scaled({}, H, across), V, down); }
+
   double error = 0.; ///< [m]
 
 private:

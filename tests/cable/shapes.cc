@@ -6,7 +6,7 @@
 #include "verification/run.h"
 
 #include <taut/base/exceptions.h>
-#include <taut/cable/find_shape.h>
+#include <taut/cable/find_length.h>
 
 #include <gtest/gtest.h>
 
@@ -210,6 +210,47 @@ namespace
     // Without load a tension is a matter of strain.
     const MakeCable of_length = [&](const double L) { return make(CableElement::ancf, L, 4); };
     EXPECT_NEAR(length_for_tension(of_length, {}, to, {}, 1300.), 60. / 1.0001, 1e-9);
+  }
+
+  TEST(CableShapes, LengthThroughAPlace)
+  {
+    const Coordinates to = {60., -6., 5.}, load = {0., -10.5, 8.};
+    for (const CableElement element : {CableElement::ancf, CableElement::bar})
+    {
+      const MakeCable of_length = [&](const double length) { return make(element, length, 32); };
+      for (const double length : {61., 63., 90.})
+      {
+        const ElasticCatenary exact({}, to, load, EA, length);
+        ASSERT_LT(exact.error, 1e-9);
+        for (const double part : {.5, .15, .9})
+          EXPECT_NEAR(length_through(of_length, {}, to, load, exact.position(part * length)),
+                      length, 2e-5 * length)
+              << part;
+      }
+    }
+    // The middle of a level cable: its sag.
+    const Coordinates level = {60., 0., 0.};
+    const MakeCable of_length = [&](const double L) { return make(CableElement::bar, L, 32); };
+    EXPECT_NEAR(length_through(of_length, {}, level, weight, {30., -5., 0.}),
+                length_for_sag(of_length, {}, level, weight, 5.), 1e-9);
+    const auto message = [&](const Coordinates &place, const Coordinates &force) -> std::string
+    {
+      try
+      {
+        length_through(of_length, {}, level, force, place);
+      }
+      catch (const UserError &e)
+      {
+        return e.what();
+      }
+      return "";
+    };
+    EXPECT_NE(message({30., 1., 0.}, weight).find("1 m above the straight line"),
+              std::string::npos);
+    EXPECT_NE(message({30., -1., .5}, weight).find("0.5 m beside it"), std::string::npos);
+    EXPECT_NE(message({61., -1., 0.}, weight).find("not between the ends"), std::string::npos);
+    EXPECT_NE(message({30., -1., 0.}, {}).find("straight line; give the unstressed length"),
+              std::string::npos);
   }
 
   TEST(CableShapes, CompressedLineIsNoAnswer)

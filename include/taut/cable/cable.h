@@ -5,7 +5,7 @@
 #include <taut/base/coordinates.h>
 #include <taut/cable/cable_elements.h>
 #include <taut/cable/find_shape.h>
-#include <taut/substructure/substructure.h>
+#include <taut/substructure/slender_body.h>
 
 #include <memory>
 #include <string>
@@ -62,7 +62,7 @@ namespace taut
    * holds starts to move in both. The DoFs of r' at a clamped end are components along the cable
    * and across it, not along x, y, z; use displacement() and positions().
    */
-  class Cable : public Substructure
+  class Cable : public Substructure, public SlenderBody
   {
   public:
     /// Throws EntryError for data that make no cable, or no equilibrium that is stable.
@@ -81,6 +81,15 @@ namespace taut
     LinearForm displacement(const Coordinates &place, const Coordinates &direction) const override;
 
     bool is_linear() const override { return data.linearised; }
+
+    /// Translations, if no end is held: they change no stretch, whatever the shape.
+    NullSpace null_space() const override;
+
+    /// Where it is compressed most, beyond rounding; a linearised cable never is.
+    bool is_slack(const std::vector<double> &U, Slack &slack) const override;
+
+    double axial_stiffness() const override { return data.section.axial_stiffness; }
+    std::unique_ptr<Substructure> with_axial_stiffness(double EA) const override;
 
     /// Of a cable that is not linearised, from the unstressed cable.
     double strain_energy(const std::vector<double> &U) const override;
@@ -106,6 +115,7 @@ namespace taut
     void write_vtu(const std::string &path, const std::vector<double> &U) const override;
 
   private:
+    Cable(const CableData &data, const CableShape &found);
     void check() const;
     void find();
     void hold();

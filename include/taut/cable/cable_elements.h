@@ -120,9 +120,9 @@ namespace taut
     /// EA eps at s, interpolated between the points of the integral, where it is most accurate [N].
     double tension(const std::vector<double> &q, double s) const;
 
-    /// Largest and smallest eps of all points of the integral.
+    /// Largest and smallest eps of all points of the integral, and where the smallest is [m].
     double largest_strain(const std::vector<double> &q) const;
-    double smallest_strain(const std::vector<double> &q) const;
+    double smallest_strain(const std::vector<double> &q, double *place = nullptr) const;
 
     /// kappa at s [1/m]; of bars zero.
     double curvature(const std::vector<double> &q, double s) const;

@@ -4,7 +4,6 @@
 
 #include <taut/cable/cable_elements.h>
 
-#include <functional>
 #include <vector>
 
 namespace taut
@@ -42,15 +41,10 @@ namespace taut
   /// The largest distance of a shape from its chord, measured along @p force [m].
   double sag(const CableElements &cable, const CableShape &shape, const Coordinates &force);
 
-  /// Makes the elements of a cable of an unstressed length [m].
-  using MakeCable = std::function<CableElements(double length)>;
-
-  /// The unstressed length with which the cable has this horizontal tension [N] or sag [m] between
-  /// its ends. Throws UserError if there is none.
-  double length_for_tension(const MakeCable &make, const Coordinates &from, const Coordinates &to,
-                            const Coordinates &force, double tension);
-  double length_for_sag(const MakeCable &make, const Coordinates &from, const Coordinates &to,
-                        const Coordinates &force, double sag);
+  /// How far a shape is below its chord, along @p force, at a part of the span across it, in
+  /// [0, 1] [m].
+  double depth_at(const CableElements &cable, const CableShape &shape, const Coordinates &force,
+                  double part_of_span);
 } // namespace taut
 
 #endif

@@ -37,7 +37,7 @@ namespace taut
     const ContactMeasures &measures;
 
     /// Displacement of each probe from the equilibrium without sliding contacts, if the run starts
-    /// from an equilibrium; otherwise from the undeformed position [m, rad].
+    /// from one; otherwise, and at rest with no such contact, from the undeformed place [m, rad].
     const std::vector<double> &probes;
 
     /// Force of each of the support_points() on its wire [N, N m].

@@ -42,6 +42,10 @@ namespace taut
     std::unique_ptr<CsvFile> certificate;
     std::vector<double> values; ///< of one table and step
   };
+
+  /// probes.csv of a run at rest: its only line, with the displacements @p probes [m, rad].
+  void write_probes(const std::string &folder, const Scene &scene,
+                    const std::vector<double> &probes);
 } // namespace taut
 
 #endif

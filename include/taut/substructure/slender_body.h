@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_slender_body_h
+#define taut_slender_body_h
+
+#include <taut/substructure/substructure.h>
+
+#include <memory>
+#include <vector>
+
+namespace taut
+{
+  /// What a body that is much stiffer along itself than across says beside Substructure: a base of
+  /// its own.
+  class SlenderBody
+  {
+  public:
+    virtual ~SlenderBody() = default;
+
+    /// EA [N]
+    virtual double axial_stiffness() const = 0;
+
+    /// The body with this EA instead, with the same DoFs and without its loads: searches of an
+    /// equilibrium that begin far from it begin with softer bodies.
+    virtual std::unique_ptr<Substructure> with_axial_stiffness(double EA) const = 0;
+
+    /// A place that is under compression though the body resists tension only, and what then keeps
+    /// the body in shape beside its inertia.
+    struct Slack
+    {
+      double place = 0.;             ///< along the body [m]
+      double bending_stiffness = 0.; ///< [N m^2]
+      double axial_damping = 0.;     ///< [N s]
+    };
+
+    /// True if the body is slack at a displacement from the undeformed body; fills @p slack.
+    virtual bool is_slack(const std::vector<double> &U, Slack &slack) const = 0;
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "softer_bodies.h"
+
+#include <taut/substructure/slender_body.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace taut
+{
+  namespace
+  {
+    /// Part of the largest stiffness over mass that is added as mass where a tangent is not
+    /// definite, and by how much it grows from attempt to attempt.
+    constexpr double first_shift = 1e-10, growth_of_shift = 30.;
+
+    double largest_on_diagonal(const SymmetricMatrix &matrix)
+    {
+      double largest = 0.;
+      matrix.visit(
+          [&](const unsigned int i, const unsigned int j, const double value)
+          {
+            if (i == j)
+              largest = std::max(largest, value);
+          });
+      return largest;
+    }
+  } // namespace
+
+  void add_some_mass(const int attempt, const SymmetricMatrix &M, SymmetricMatrix &K)
+  {
+    if (attempt < 2)
+      return;
+    K.add(first_shift * std::pow(growth_of_shift, attempt - 2) * largest_on_diagonal(K) /
+              largest_on_diagonal(M),
+          M);
+  }
+
+  SofterBodies::SofterBodies(const Structure &structure, const NonlinearBodies &nonlinear)
+      : structure(structure), nonlinear(nonlinear), softer(structure.size())
+  {
+  }
+
+  double SofterBodies::largest_axial_stiffness() const
+  {
+    double largest = 0.;
+    for (const std::size_t k : nonlinear.indices())
+      if (const auto *const slender = dynamic_cast<const SlenderBody *>(&structure[k]))
+        largest = std::max(largest, slender->axial_stiffness());
+    return largest;
+  }
+
+  void SofterBodies::limit_axial_stiffness(const double EA)
+  {
+    for (const std::size_t k : nonlinear.indices())
+    {
+      softer[k] = nullptr;
+      if (const auto *const slender = dynamic_cast<const SlenderBody *>(&structure[k]))
+        if (slender->axial_stiffness() > EA)
+          softer[k] = slender->with_axial_stiffness(EA);
+    }
+  }
+
+  double SofterBodies::energy(const std::size_t k, const std::vector<double> &U) const
+  {
+    return body(k).strain_energy(U);
+  }
+
+  void SofterBodies::force(const std::size_t k, const std::vector<double> &U,
+                           std::vector<double> &f) const
+  {
+    body(k).internal_force(U, {}, f);
+  }
+
+  std::unique_ptr<SymmetricMatrix>
+  SofterBodies::tangent(const std::size_t k, const std::vector<double> &U, const int attempt) const
+  {
+    if (!softer[k])
+      return nonlinear.tangent_at(k, U, attempt);
+    std::unique_ptr<SymmetricMatrix> K = softer[k]->tangent(U, 0., attempt > 0);
+    add_some_mass(attempt, softer[k]->mass(), *K);
+    return K;
+  }
+} // namespace taut

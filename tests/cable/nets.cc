@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: nets of cables that are joined at nodes, with and without masses, are found at rest from
+// starts that are far from it, and never with a cable under compression. Expected values: elastic
+// catenaries that meet at the nodes, by Newton's method of the test; symmetry; the single cable.
+#include "cable/joined_catenaries.h"
+#include "verification/run.h"
+
+#include <taut/base/exceptions.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace
+{
+  using namespace taut;
+  using verification::figure;
+
+  constexpr double weight = .5 * 9.81; ///< of a cable [N/m]
+
+  struct Net
+  {
+    JoinedCatenaries system;    ///< with the start of the parameter file as places
+    std::vector<double> masses; ///< of the free nodes [kg]; empty: cables alone are joined there
+    std::string elements = "bar";
+    unsigned int n_elements = 4;
+  };
+
+  std::string text_of(const Coordinates &a)
+  {
+    std::ostringstream out;
+    out.precision(17);
+    out << a.x << ", " << a.y << ", " << a.z;
+    return out.str();
+  }
+
+  std::string cable_end(const Net &net, const std::size_t cable, const bool last)
+  {
+    std::ostringstream out;
+    out.precision(17);
+    out << "c" << cable << " @ " << (last ? net.system.cables[cable].length : 0.) << ", 0";
+    return out.str();
+  }
+
+  /// The parameter file of a net.
+  std::string parameter_file(const Net &net)
+  {
+    const JoinedCatenaries &system = net.system;
+    std::ostringstream out, bodies, links, masses, probes;
+    std::string body_names, link_names, mass_names, probe_names;
+    const auto name = [](std::string &list, const std::string &title)
+    { list += (list.empty() ? "" : ", ") + title; };
+    bodies.precision(17);
+    std::vector<std::vector<std::string>> ends(system.n_free);
+    for (std::size_t k = 0; k < system.cables.size(); ++k)
+    {
+      const JoinedCatenaries::Cable &cable = system.cables[k];
+      const bool holds_from = cable.from >= system.n_free, holds_to = cable.to >= system.n_free;
+      name(body_names, "c" + std::to_string(k));
+      bodies << "subsection Body c" << k
+             << "\nset Type = cable\nset From = " << text_of(system.places[cable.from])
+             << "\nset To = " << text_of(system.places[cable.to])
+             << "\nset Unstressed length = " << cable.length
+             << "\nset Axial stiffness = " << cable.EA
+             << "\nset Mass per length = " << -cable.load.y / 9.81
+             << "\nset Element = " << net.elements << "\nset Elements = " << net.n_elements
+             << "\nset Largest strain = 1\nset Held ends = "
+             << (holds_from && holds_to ? "both"
+                 : holds_from           ? "from"
+                 : holds_to             ? "to"
+                                        : "none")
+             << "\nend\n";
+      for (const bool last : {false, true})
+        if (!(last ? holds_to : holds_from))
+          ends[last ? cable.to : cable.from].push_back(cable_end(net, k, last));
+    }
+    for (std::size_t i = 0; i < system.n_free; ++i)
+    {
+      const std::string node = "n" + std::to_string(i);
+      if (!net.masses.empty())
+      {
+        name(mass_names, node);
+        masses << "subsection Mass " << node << "\nset Position = " << text_of(system.places[i])
+               << "\nset Motions = x, y, z\nset Mass = " << net.masses[i] << "\nend\n";
+        ends[i].insert(ends[i].begin(), node);
+      }
+      for (std::size_t e = 1; e < ends[i].size(); ++e)
+      {
+        const std::string title = node + " " + std::to_string(e);
+        name(link_names, title);
+        links << "subsection Link " << title << "\nset Type = ball joint\nset From = " << ends[i][0]
+              << "\nset To = " << ends[i][e] << "\nend\n";
+      }
+      for (const char axis : {'x', 'y', 'z'})
+      {
+        const std::string title = node + " " + axis;
+        name(probe_names, title);
+        probes << "subsection Probe " << title << "\nset Point = " << ends[i][0]
+               << "\nset Direction = " << (axis == 'x') << ", " << (axis == 'y') << ", "
+               << (axis == 'z') << "\nend\n";
+      }
+    }
+    out << "set Generator = network\nset Gravity = 0, -9.81\nset Start = equilibrium\nset Bodies = "
+        << body_names << "\n"
+        << bodies.str() << "subsection Network\nset Masses = " << mass_names
+        << "\nset Links = " << link_names << "\n"
+        << masses.str() << links.str() << "end\nsubsection Time\nset End = 0\nend\n"
+        << "subsection Output\nset Probes = " << probe_names << "\n"
+        << probes.str() << "end\n";
+    return out.str();
+  }
+
+  /// Places of the free nodes at rest.
+  std::vector<Coordinates> found(const Net &net)
+  {
+    std::vector<Coordinates> places;
+    verification::run_scene(
+        parameter_file(net), {},
+        [&](const StepView &step)
+        {
+          for (std::size_t i = 0; i < net.system.n_free; ++i)
+          {
+            double u[3];
+            for (std::size_t c = 0; c < 3; ++c)
+            {
+              const Probe &probe = step.scene.probes[3 * i + c];
+              std::vector<Term> terms;
+              step.structure.motion(probe.point, false, probe.direction, 1., terms);
+              u[c] = verification::displacement(step, terms);
+            }
+            places.push_back(add_scaled(net.system.places[i], 1., {u[0], u[1], u[2]}));
+          }
+        });
+    return places;
+  }
+
+  double largest_distance(const std::vector<Coordinates> &a, const std::vector<Coordinates> &b)
+  {
+    double distance = 0.;
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+      distance = std::max(distance, norm(a[i] - b[i]));
+    return distance;
+  }
+
+  /// n x n nodes a metre apart and cables to supports around them, all starting at height 0: each
+  /// cable is longer than a metre by the part @p slack.
+  Net square(const int n, const double EA, const double slack)
+  {
+    Net net;
+    JoinedCatenaries &system = net.system;
+    std::vector<Coordinates> held;
+    const auto node = [&](const int i, const int k) -> std::size_t
+    {
+      if (i > 0 && i <= n && k > 0 && k <= n)
+        return (i - 1) * n + k - 1;
+      held.push_back({double(i), 0., double(k)});
+      return n * n + held.size() - 1;
+    };
+    const auto add = [&](const std::size_t a, const std::size_t b) {
+      system.cables.push_back({a, b, 1. + slack, EA, {0., -weight, 0.}});
+    };
+    for (int i = 1; i <= n; ++i)
+      for (int k = 0; k <= n; ++k)
+      {
+        const std::size_t a = node(i, k), b = node(i, k + 1);
+        add(a, b);
+        const std::size_t c = node(k, i), d = node(k + 1, i);
+        add(c, d);
+      }
+    system.n_free = n * n;
+    for (int i = 1; i <= n; ++i)
+      for (int k = 1; k <= n; ++k)
+        system.places.push_back({double(i), 0., double(k)});
+    system.places.insert(system.places.end(), held.begin(), held.end());
+    system.loads.assign(n * n, {});
+    return net;
+  }
+
+  /// Loads of the masses in the catenaries, too.
+  void set_masses(Net &net, const std::vector<double> &masses)
+  {
+    net.masses = masses;
+    for (std::size_t i = 0; i < masses.size(); ++i)
+      net.system.loads[i] = {0., -9.81 * masses[i], 0.};
+  }
+
+  /// The catenaries, from places near those that were found.
+  std::vector<Coordinates> by_catenaries(const Net &net, const std::vector<Coordinates> &near)
+  {
+    JoinedCatenaries exact = net.system;
+    std::copy(near.begin(), near.end(), exact.places.begin());
+    EXPECT_LT(exact.solve(), 1e-7);
+    return {exact.places.begin(), exact.places.begin() + static_cast<std::ptrdiff_t>(exact.n_free)};
+  }
+} // namespace
+
+TEST(CableNets, hanging_square_without_masses)
+{
+  for (const double EA : {1e4, 1e7})
+    for (const double slack : {.02, .4})
+    {
+      SCOPED_TRACE(std::to_string(EA) + " N, slack " + std::to_string(slack));
+      const int n = 3;
+      const Net net = square(n, EA, slack);
+      const std::vector<Coordinates> places = found(net);
+      ASSERT_EQ(places.size(), 9u);
+      const double error = largest_distance(places, by_catenaries(net, places));
+      figure("net of 24 cables, EA " + std::to_string(EA) + " N, slack " + std::to_string(slack) +
+                 ": error of the nodes",
+             error, "m");
+      EXPECT_LT(error, 1e-5);
+      for (int i = 0; i < n; ++i)
+        for (int k = 0; k < n; ++k)
+        {
+          const Coordinates &a = places[i * n + k], &b = places[k * n + i],
+                            &c = places[(n - 1 - i) * n + k];
+          EXPECT_NEAR(a.y, b.y, 1e-8);
+          EXPECT_NEAR(a.y, c.y, 1e-8);
+          EXPECT_NEAR(a.x + c.x, n + 1., 1e-8);
+          EXPECT_NEAR(a.x, b.z, 1e-8);
+        }
+      EXPECT_LT(places[4].y, places[0].y); // the middle hangs lowest
+    }
+}
+
+TEST(CableNets, unequal_masses)
+{
+  for (const double EA : {1e5, 1e7})
+    for (const std::string element : {"bar", "ANCF"})
+    {
+      Net net = square(2, EA, .15);
+      net.elements = element;
+      set_masses(net, {5., 0., 20., 60.});
+      const std::vector<Coordinates> places = found(net);
+      ASSERT_EQ(places.size(), 4u);
+      const double error = largest_distance(places, by_catenaries(net, places));
+      figure("net of 12 cables with masses, EA " + std::to_string(EA) + " N, " + element, error,
+             "m");
+      EXPECT_LT(error, 1e-6);
+    }
+}
+
+// A row of cables is one cable: nodes without masses change nothing.
+TEST(CableNets, a_row_is_one_cable)
+{
+  Net net;
+  net.n_elements = 8;
+  const int n = 5;
+  for (int i = 1; i < n; ++i)
+    net.system.places.push_back({2. * i, 0., 0.});
+  net.system.places.push_back({});
+  net.system.places.push_back({2. * n, 0., 0.});
+  net.system.n_free = n - 1;
+  for (int i = 0; i < n; ++i)
+    net.system.cables.push_back(
+        {std::size_t(i == 0 ? n - 1 : i - 1), std::size_t(i), 2.4, 1e6, {0., -weight, 0.}});
+  net.system.cables.back().to = n;
+  const std::vector<Coordinates> places = found(net);
+  ASSERT_EQ(places.size(), n - 1u);
+  const ElasticCatenary exact({}, {2. * n, 0., 0.}, {0., -weight, 0.}, 1e6, 2.4 * n);
+  for (int i = 1; i < n; ++i)
+    EXPECT_LT(norm(places[i - 1] - exact.position(2.4 * i)), 1e-4) << i;
+}
+
+// Nothing holds the last cable.
+TEST(CableNets, one_error_for_what_nothing_holds)
+{
+  Net net = square(1, 1e6, .1);
+  JoinedCatenaries &system = net.system;
+  system.places.insert(system.places.begin() + 1, {{5., 0., 5.}, {6., 0., 5.}});
+  for (JoinedCatenaries::Cable &cable : system.cables)
+    for (std::size_t *end : {&cable.from, &cable.to})
+      *end += *end > 0 ? 2 : 0;
+  system.n_free = 3;
+  system.loads.assign(3, {});
+  system.cables.push_back({1, 2, 1.1, 1e6, {0., -weight, 0.}});
+  try
+  {
+    found(net);
+    ADD_FAILURE() << "a cable that nothing holds has an equilibrium";
+  }
+  catch (const UserError &e)
+  {
+    EXPECT_NE(std::string(e.what()).find("'c4' is not held"), std::string::npos) << e.what();
+  }
+}
+
+// prm/net_of_cables.prm: the lamps a, b, c, d between eight supports of unequal height.
+TEST(CableNets, scene)
+{
+  Net net;
+  JoinedCatenaries &system = net.system;
+  const double heights[] = {0., .6, 1.2, .3, .9, 0., .5, 1.5};
+  for (const double z : {3., 6.})
+    for (const double x : {3., 6.})
+      system.places.push_back({x, 0., z});
+  for (const double x : {0., 9.})
+    for (const double z : {3., 6.})
+      system.places.push_back({x, 0., z});
+  for (const double z : {0., 9.})
+    for (const double x : {3., 6.})
+      system.places.push_back({x, 0., z});
+  for (std::size_t i = 0; i < 8; ++i)
+    system.places[4 + i].y = heights[i];
+  system.n_free = 4;
+  system.loads.assign(4, {});
+  set_masses(net, {20., 20., 40., 20.});
+  const std::size_t ends[][2] = {{4, 0}, {0, 1}, {1, 6},  {5, 2}, {2, 3}, {3, 7},
+                                 {8, 0}, {0, 2}, {2, 10}, {9, 1}, {1, 3}, {3, 11}};
+  for (const auto &[from, to] : ends)
+    system.cables.push_back({from, to, from < 4 && to < 4 ? 3.4 : 3.6, 1e6, {0., -.3 * 9.81, 0.}});
+
+  std::vector<Coordinates> places(system.places.begin(), system.places.begin() + 4);
+  std::vector<double> table;
+  verification::Session session(verification::scene_file("net_of_cables"));
+  session.run(
+      [&](const StepView &step)
+      {
+        ASSERT_EQ(step.probes.size(), 12u);
+        for (std::size_t i = 0; i < 4; ++i)
+          places[i] = add_scaled(
+              places[i], 1., {step.probes[3 * i], step.probes[3 * i + 1], step.probes[3 * i + 2]});
+        table = step.probes;
+      });
+  const std::vector<Coordinates> exact = by_catenaries(net, places);
+  for (const Coordinates &place : exact)
+    figure("height of a lamp in a net", place.y, "m");
+  EXPECT_LT(largest_distance(places, exact), 1e-5);
+  // A run at rest has a table of one line, with the same numbers.
+  std::ifstream file(session.folder() + "/probes.csv");
+  std::string line, value;
+  std::getline(file, line);
+  std::getline(file, line);
+  std::istringstream values(line);
+  std::getline(values, value, ',');
+  EXPECT_EQ(std::stod(value), 0.);
+  for (const double expected : table)
+  {
+    ASSERT_TRUE(std::getline(values, value, ','));
+    EXPECT_DOUBLE_EQ(std::stod(value), expected);
+  }
+  EXPECT_FALSE(std::getline(file, line));
+}
