@@ -117,11 +117,11 @@ namespace
   }
 
   /// Places of the free nodes at rest.
-  std::vector<Coordinates> found(const Net &net)
+  std::vector<Coordinates> found(const Net &net, const verification::Overrides &overrides = {})
   {
     std::vector<Coordinates> places;
     verification::run_scene(
-        parameter_file(net), {},
+        parameter_file(net), overrides,
         [&](const StepView &step)
         {
           for (std::size_t i = 0; i < net.system.n_free; ++i)
@@ -289,6 +289,26 @@ TEST(CableNets, one_error_for_what_nothing_holds)
   {
     EXPECT_NE(std::string(e.what()).find("'c4' is not held"), std::string::npos) << e.what();
   }
+}
+
+// Without weight nothing says where a node is whose cables are longer than the way.
+TEST(CableNets, one_error_without_stable_equilibrium)
+{
+  Net net;
+  net.system.places = {{1., 1., 0.}, {0., 0., 0.}, {2., 0., 0.}};
+  net.system.n_free = 1;
+  net.system.cables = {{1, 0, 1.1, 1e4, {0., -weight, 0.}}, {0, 2, 1.1, 1e4, {0., -weight, 0.}}};
+  try
+  {
+    found(net, {"Gravity=0, 0"});
+    ADD_FAILURE() << "a slack net without weight has an equilibrium";
+  }
+  catch (const UserError &e)
+  {
+    EXPECT_NE(std::string(e.what()).find("none that is stable was found"), std::string::npos)
+        << e.what();
+  }
+  EXPECT_EQ(found(net).size(), 1u); // with weight it hangs
 }
 
 // prm/net_of_cables.prm: the lamps a, b, c, d between eight supports of unequal height.
