@@ -215,6 +215,19 @@ TEST(SwingingLoad, guys_take_it_in_turn)
           EXPECT_LT(norm(force_of(step, k)), 200.) << time;
         }
       });
+  // The log says which cables go slack and what keeps them in shape, each once.
+  std::size_t n_slack = 0;
+  for (const std::string &name : {std::string("east"), std::string("north"), std::string("south")})
+  {
+    const std::string line = "Slack: body '" + name + "' first at t = ";
+    const std::size_t at_line = session.log().find(line);
+    ASSERT_NE(at_line, std::string::npos) << name;
+    EXPECT_EQ(session.log().find(line, at_line + 1), std::string::npos) << name;
+    const std::string rest = session.log().substr(at_line, session.log().find('\n', at_line) - at_line);
+    EXPECT_NE(rest.find("its Axial damping of 400 N s keeps it in shape"), std::string::npos) << rest;
+    ++n_slack;
+  }
+  EXPECT_EQ(n_slack, n_guys);
   figure("load on guys, distance from that on springs before the first stop", error_before, "m");
   figure("load on guys, distance from that on springs after it", error_after, "m");
   EXPECT_LT(error_before, .01 * norm(springs.place() - start));
