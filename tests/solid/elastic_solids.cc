@@ -221,3 +221,46 @@ TEST(ElasticSolids, weight_and_pressure_are_carried_by_the_supports)
     EXPECT_EQ(solid.null_space().vectors.size(), 6u);
   }
 }
+
+// A plate of 3 m x 2 m in plane strain: mass, weight, traction, pressure and the energy of a strain
+// e along x, (lambda + 2 mu) e^2 / 2 of the volume, are those of its thickness.
+TEST(ElasticSolids, plates_have_the_thickness_that_is_given)
+{
+  const auto mesh =
+      std::make_shared<const taut::SolidMesh<2>>(box<2>({3, 2}, dealii::Point<2>(3., 2.)), 1);
+  constexpr double thickness = .25, volume = 6. * thickness;
+  taut::ElasticSolid<2>::Options options;
+  options.materials[0] = {1e9, .3, 500.};
+  options.thickness = thickness;
+  options.gravity = {0., -9.81, 0.};
+  options.conditions.resize(2);
+  options.conditions[0].kind = BoundaryCondition::Kind::pressure;
+  options.conditions[0].boundaries = {3};
+  options.conditions[0].value = [](const Coordinates &x, double) {
+    return Coordinates{100. * x.x, 0., 0.};
+  };
+  options.conditions[1].kind = BoundaryCondition::Kind::traction;
+  options.conditions[1].boundaries = {1};
+  options.conditions[1].value = [](const Coordinates &, double) {
+    return Coordinates{0., 70., 0.};
+  };
+  const taut::ElasticSolid<2> solid("plate", mesh, options);
+  std::vector<double> P, one(solid.n_dofs(), 0.), M(solid.n_dofs(), 0.), u(solid.n_dofs(), 0.),
+      Ku(solid.n_dofs(), 0.);
+  solid.external_force(0., P);
+  double force = 0.;
+  for (unsigned int i = 0; i < P.size(); ++i)
+    if (mesh->component(i) == 1)
+    {
+      force += P[i];
+      one[i] = 1.;
+    }
+    else
+      u[i] = 1e-3 * mesh->points()[i][0];
+  solid.mass().vmult_add(1., one.data(), M.data());
+  solid.stiffness().vmult_add(1., u.data(), Ku.data());
+  EXPECT_NEAR(std::inner_product(one.begin(), one.end(), M.begin(), 0.), 500. * volume, 1e-9);
+  EXPECT_NEAR(force, -9.81 * 500. * volume + thickness * (-100. * 1.5 * 3. + 70. * 2.), 1e-9);
+  EXPECT_NEAR(std::inner_product(u.begin(), u.end(), Ku.begin(), 0.),
+              1e9 * .7 / (1.3 * .4) * 1e-6 * volume, 1e-9);
+}
