@@ -27,8 +27,7 @@ namespace taut
       double mass = 0.;
       std::vector<double> centre = {0., 0.}, moments, first_axis = {1., 0., 0.},
                           second_axis = {0., 1., 0.}, velocity = {0., 0., 0.},
-                          angular_velocity = {0., 0., 0.};
-      std::vector<std::vector<double>> outline;
+                          angular_velocity = {0., 0., 0.}, outline;
     };
 
     void RigidBodyType::declare_parameters(dealii::ParameterHandler &prm)
@@ -52,9 +51,9 @@ namespace taut
       prm.add_parameter("Angular velocity", angular_velocity,
                         "With Start = given, about x, y, z [rad/s]", List(Double(), 3, 3));
       prm.add_parameter("Outline", outline,
-                        "Places that a line joins in ParaView: x, y, z; x, y, z; ...; empty: its "
-                        "principal axes [m]",
-                        List(List(Double(), 2, 3), 0, List::max_int_value, ";"));
+                        "Places that a line joins in ParaView, x, y, z of one after the other; "
+                        "empty: its principal axes [m]",
+                        List(Double()));
     }
 
     std::unique_ptr<Substructure> RigidBodyType::make(const BodySetting &setting) const
@@ -71,8 +70,11 @@ namespace taut
       data.gravity = setting.gravity;
       data.velocity = read(velocity, "Velocity");
       data.angular_velocity = read(angular_velocity, "Angular velocity");
-      for (const std::vector<double> &place : outline)
-        data.outline.push_back(read(place, "Outline"));
+      if (outline.size() % 3 != 0 || outline.size() == 3)
+        throw EntryError(setting.origin + "/Outline",
+                         "a line has two places or more, with x, y and z each");
+      for (std::size_t i = 0; i < outline.size(); i += 3)
+        data.outline.push_back({outline[i], outline[i + 1], outline[i + 2]});
       if (moments.size() != 3)
         throw EntryError(setting.origin + "/Moments of inertia",
                          "a rigid body needs three, about its principal axes [kg m^2]");
