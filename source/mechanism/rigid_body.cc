@@ -18,7 +18,8 @@ namespace taut
     constexpr unsigned int n_coordinates = 12, n_conditions = 6;
 
     /// Directors of each condition.
-    constexpr unsigned int pairs[n_conditions][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
+    constexpr unsigned int pairs[n_conditions][2] = {{0, 0}, {1, 1}, {2, 2},
+                                                     {0, 1}, {0, 2}, {1, 2}};
 
     constexpr unsigned int first_dof(const unsigned int director)
     {
@@ -280,9 +281,10 @@ namespace taut
       return 1.;
     // Directors that turn linearly become longer.
     const double rotation = std::sqrt(2. * deformation(U)),
-                 part = inner_force == 0.
-                            ? part_at_first
-                            : std::min(most_part, std::max(least_part, part_of_rotation * rotation));
+                 part =
+                     inner_force == 0.
+                         ? part_at_first
+                         : std::min(most_part, std::max(least_part, part_of_rotation * rotation));
     return part * std::max(force, inner_force) / (length * data.mass);
   }
 
@@ -301,8 +303,7 @@ namespace taut
 
   std::unique_ptr<SymmetricMatrix> RigidBody::mean_tangent(const std::vector<double> &U0,
                                                            const std::vector<double> &U1,
-                                                           const double,
-                                                           const bool definite) const
+                                                           const double, const bool definite) const
   {
     std::vector<double> U = U1;
     for (unsigned int i = 0; i < n_coordinates; ++i)

@@ -89,9 +89,8 @@ namespace taut
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       problem.unilateral.push_back(constraints[i].unilateral);
-      problem.gap_scale[i] +=
-          std::fabs(lifted[i]) + std::fabs(constraints[i].gap) + std::fabs(moved[i]) +
-          rounding_of_motions * motion_size[i];
+      problem.gap_scale[i] += std::fabs(lifted[i]) + std::fabs(constraints[i].gap) +
+                              std::fabs(moved[i]) + rounding_of_motions * motion_size[i];
       problem.free_gap[i] += lifted[i] + constraints[i].gap + moved[i];
       if (constraints[i].law)
         laws.begin_at_end(i, std::max(0., -constraints[i].gap - moved[i]));

@@ -37,7 +37,8 @@ namespace taut
   VelocityProjection::VelocityProjection(const Structure &structure, const Constraints &constraints,
                                          const SolverParameters &parameters,
                                          const Reference &reference)
-      : structure(structure), constraints(constraints), reference(reference), solvers(structure, parameters.local_solver),
+      : structure(structure), constraints(constraints), reference(reference),
+        solvers(structure, parameters.local_solver),
         schur(make_schur_complement(for_mass(parameters.interface), solvers, constraints)),
         complementarity(parameters.complementarity), dV(structure.zero())
   {

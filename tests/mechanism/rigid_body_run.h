@@ -32,7 +32,8 @@ namespace mechanism
     /// Holds a place along x, y and z.
     void hold(const taut::Coordinates &place)
     {
-      for (const taut::Coordinates &axis : {taut::Coordinates{1., 0., 0.}, {0., 1., 0.}, {0., 0., 1.}})
+      for (const taut::Coordinates &axis :
+           {taut::Coordinates{1., 0., 0.}, {0., 1., 0.}, {0., 0., 1.}})
         system.add(taut::Constraint::bilateral("joint", system.displacement(0, place, axis)));
     }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: rigid bodies come to rest where joints and cables hold them, and what nothing holds is an
-// error. Expected values: equilibrium of forces and moments; the lowest place of a bar on two lines.
+// error. Expected values: equilibrium of forces and moments; the lowest place of a bar on two
+// lines.
 #include "mechanism/rigid_body_run.h"
 
 #include <taut/base/exceptions.h>
@@ -25,8 +26,9 @@ namespace
     data.name = "bar";
     data.mass = 50.;
     data.moments = {.5, 17., 17.};
-    data.axes = {
-        {{std::cos(angle), std::sin(angle), 0.}, {-std::sin(angle), std::cos(angle), 0.}, {0., 0., 1.}}};
+    data.axes = {{{std::cos(angle), std::sin(angle), 0.},
+                  {-std::sin(angle), std::cos(angle), 0.},
+                  {0., 0., 1.}}};
     data.gravity = {0., -g, 0.};
     return data;
   }
@@ -47,7 +49,8 @@ namespace
     const std::size_t cable =
         one.system.add(data.name, [&] { return std::make_unique<Cable>(data); });
     for (const Coordinates &axis : {Coordinates{1., 0., 0.}, {0., 1., 0.}, {0., 0., 1.}})
-      one.system.add(Constraint::bilateral("shackle", one.system.displacement(cable, {data.length}, axis),
+      one.system.add(Constraint::bilateral("shackle",
+                                           one.system.displacement(cable, {data.length}, axis),
                                            one.system.displacement(0, to, axis)));
   }
 } // namespace
@@ -94,7 +97,8 @@ TEST(RigidBodyStatics, heavy_bar_on_two_cables)
     p.first = {l1 * std::sin(turn), -l1 * std::cos(turn), 0.};
     const double dx = span - p.first.x, dy = -p.first.y, distance = std::hypot(dx, dy),
                  along = std::atan2(dy, dx),
-                 cosine = ((a + b) * (a + b) + distance * distance - l2 * l2) / (2. * (a + b) * distance);
+                 cosine = ((a + b) * (a + b) + distance * distance - l2 * l2) /
+                          (2. * (a + b) * distance);
     p.angle = along - std::acos(cosine);
     p.depth = -(p.first.y + a * std::sin(p.angle));
     return p;

@@ -24,8 +24,8 @@ namespace taut
         {{1., 0., 0.}, {0., 1., 0.}, {0., 0., 1.}}}; ///< principal: unit vectors, right-handed
     std::array<double, 3> moments = {{0., 0., 0.}};  ///< of inertia about these [kg m^2]
     Coordinates gravity;                             ///< [m/s^2]
-    Coordinates velocity, angular_velocity; ///< at t = 0, with Start = given [m/s, rad/s]
-    std::vector<Coordinates> outline;       ///< places that a line joins in pictures [m]
+    Coordinates velocity, angular_velocity;          ///< at t = 0, with Start = given [m/s, rad/s]
+    std::vector<Coordinates> outline;                ///< places that a line joins in pictures [m]
   };
 
   /**

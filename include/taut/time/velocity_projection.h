@@ -82,7 +82,7 @@ namespace taut
     const Structure &structure;
     const Constraints &constraints;
     const Reference &reference;
-    FactoredStructure solvers; ///< of M
+    FactoredStructure solvers;                 ///< of M
     std::vector<std::size_t> with_constraints; ///< bodies of this rank, see ConstrainedBody
     bool some_with_constraints = false;        ///< of some rank
     std::unique_ptr<SchurComplement> schur;
