@@ -4,12 +4,8 @@
 
 #include <taut/base/about_entry.h>
 #include <taut/base/exceptions.h>
-#include <taut/base/memory.h>
-#include <taut/base/write_file.h>
 #include <taut/cable/cable.h>
-
-#include <deal.II/base/data_out_base.h>
-#include <deal.II/grid/reference_cell.h>
+#include <taut/substructure/line_fields.h>
 
 #include <algorithm>
 #include <cmath>
@@ -295,38 +291,17 @@ namespace taut
   void Cable::write_vtu(const std::string &path, const std::vector<double> &U) const
   {
     constexpr unsigned int pieces = 4; ///< of an element
-    const std::vector<std::string> names = {"displacement", "displacement", "displacement",
-                                            "unstressed_arc_length", "tension"};
     const std::vector<double> q = positions(U);
-    std::vector<dealii::DataOutBase::Patch<1, 3>> patches(element.n_elements());
-    for (unsigned int e = 0; e < patches.size(); ++e)
-    {
-      dealii::DataOutBase::Patch<1, 3> &patch = patches[e];
-      patch.patch_index = e;
-      patch.reference_cell = dealii::ReferenceCells::Line;
-      patch.n_subdivisions = pieces;
-      patch.points_are_available = true;
-      patch.data.reinit(names.size() + 3, pieces + 1);
+    std::vector<std::vector<LinePoint>> lines(element.n_elements());
+    for (unsigned int e = 0; e < lines.size(); ++e)
       for (unsigned int k = 0; k <= pieces; ++k)
       {
         const double s = std::min(element.element_length() * (e + double(k) / pieces), data.length);
-        const Coordinates r = element.position(q, s), u = r - element.position(found.positions, s),
-                          place = add_scaled(data.from, 1., r);
-        const double row[] = {u.x, u.y, u.z, s, element.tension(q, s), place.x, place.y, place.z};
-        for (unsigned int c = 0; c < names.size() + 3; ++c)
-          patch.data(c, k) = static_cast<float>(row[c]);
-        if (k == 0 || k == pieces)
-          patch.vertices[k / pieces] = dealii::Point<3>(place.x, place.y, place.z);
+        const Coordinates r = element.position(q, s);
+        lines[e].push_back({add_scaled(data.from, 1., r),
+                            r - element.position(found.positions, s),
+                            {s, element.tension(q, s)}});
       }
-    }
-    dealii::DataOutBase::VtkFlags flags;
-    flags.print_date_and_time = false; // the same bytes from run to run
-    std::ostringstream file;
-    dealii::DataOutBase::write_vtu(
-        patches, names,
-        {{0, 2, "displacement", dealii::DataComponentInterpretation::component_is_part_of_vector}},
-        flags, file);
-    check_memory();
-    write_file(path, file.str());
+    write_lines(path, lines, {"unstressed_arc_length", "tension"});
   }
 } // namespace taut

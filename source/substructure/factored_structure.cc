@@ -112,7 +112,7 @@ namespace taut
     if (kind == Kind::stiffness)
       return {{1., &stiffness(k)}};
     if (kind == Kind::mass)
-      return {{1., &bodies[k].mass()}};
+      return {{1., tangents[k] ? tangents[k].get() : &bodies[k].mass()}};
     return {{mass_factor, &bodies[k].mass()},
             {damping_factor, &bodies[k].damping()},
             {1., &stiffness(k)}};
@@ -320,6 +320,7 @@ namespace taut
     }
   }
 
+  /// A matrix that was set takes the place of M_k, with all of its DoFs.
   void FactoredStructure::factor_mass()
   {
     kind = Kind::mass;
@@ -327,8 +328,11 @@ namespace taut
     for (std::size_t k = 0; k < solvers.size(); ++k)
     {
       std::vector<unsigned int> held = bodies[k].constrained_dofs();
-      const std::vector<unsigned int> without_mass = bodies[k].dofs_without_mass();
-      held.insert(held.end(), without_mass.begin(), without_mass.end());
+      if (!tangents[k])
+      {
+        const std::vector<unsigned int> without_mass = bodies[k].dofs_without_mass();
+        held.insert(held.end(), without_mass.begin(), without_mass.end());
+      }
       std::sort(held.begin(), held.end());
       held.erase(std::unique(held.begin(), held.end()), held.end());
       factor(k, *solvers[k], summands(k), held);

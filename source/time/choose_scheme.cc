@@ -80,9 +80,7 @@ namespace taut
       double index = -1.;
       for (std::size_t k = 0; k < structure.size(); ++k)
         if (is_so(structure[k]))
-          for (std::size_t b = 0; b < structure.all_bodies().size(); ++b)
-            if (structure.all_bodies()[b].name == structure[k].name())
-              index = b;
+          index = structure.number(k);
       index = structure.communicator().max(index);
       return index < 0. ? "" : structure.all_bodies()[static_cast<std::size_t>(index)].name;
     }

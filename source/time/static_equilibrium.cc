@@ -9,6 +9,8 @@
 #include <limits>
 #include <numeric>
 #include <sstream>
+#include <string>
+#include <vector>
 
 namespace taut
 {
@@ -41,7 +43,7 @@ namespace taut
       NonlinearEquilibrium(const Structure &structure, const Constraints &constraints,
                            const SolverParameters &parameters, const double t, SofterBodies &bodies)
           : structure(structure), constraints(constraints), parameters(parameters), time(t),
-            soft(bodies)
+            soft(bodies), motion_of_body(structure.all_bodies().size(), 0.)
       {
       }
 
@@ -55,14 +57,9 @@ namespace taut
         if (find_start(start) &&
             (iterate(false, converged, start, state) || iterate(true, converged, start, state)))
           return state;
-        if (iterate(true, converged, undeformed, state))
-          return state;
-        std::ostringstream out;
-        out << "static equilibrium: none that is stable was found; the displacements still change "
-            << "by " << change << " of themselves. Check lengths and supports for cables that "
-            << "nothing holds in tension, start from 'undeformed', or give them some bending "
-            << "stiffness";
-        throw UserError(out.str());
+        if (!iterate(true, converged, undeformed, state))
+          fail();
+        return state;
       }
 
     private:
@@ -140,7 +137,7 @@ namespace taut
       /// The largest change over the largest displacement, or, if that is less, the force of the
       /// change over the largest internal force, which counts where nothing moves.
       double relative_change(const FactoredStructure &bodies, const BodyVectors &from,
-                             const BodyVectors &to) const
+                             const BodyVectors &to)
       {
         PerKind moved = {0., 0.}, size = {0., 0.}, lack = {0., 0.}, force = {0., 0.};
         std::vector<double> difference, product;
@@ -149,7 +146,9 @@ namespace taut
           difference = to[k];
           for (std::size_t i = 0; i < difference.size(); ++i)
             difference[i] -= from[k][i];
-          add_largest(largest(structure[k], difference), moved);
+          const PerKind own = largest(structure[k], difference);
+          motion_of_body[structure.number(k)] = own[0];
+          add_largest(own, moved);
           add_largest(largest(structure[k], to[k]), size);
           bodies.multiply(k, difference, product);
           add_largest(beyond_rounding(structure[k], product), lack);
@@ -174,6 +173,28 @@ namespace taut
         for (int kind = 0; kind < 2; ++kind)
           all[kind] = std::isnan(own[kind]) ? std::numeric_limits<double>::infinity()
                                             : std::max(all[kind], own[kind]);
+      }
+
+      /// Names the body that moves most, with its section on its rank.
+      [[noreturn]] void fail()
+      {
+        structure.communicator().sum(motion_of_body);
+        const std::size_t body =
+            std::max_element(motion_of_body.begin(), motion_of_body.end()) - motion_of_body.begin();
+        std::ostringstream out;
+        out << "static equilibrium: none that is stable was found; the displacements still change "
+            << "by " << change << " of themselves, most in body '"
+            << structure.all_bodies()[body].name << "'. Check lengths and supports for bodies "
+            << "that nothing holds, and cables that nothing holds in tension; start from "
+            << "'undeformed', or give cables some bending stiffness";
+        structure.communicator().agree(
+            [&]
+            {
+              for (std::size_t k = 0; k < structure.size(); ++k)
+                if (structure.number(k) == body)
+                  throw EntryError(structure[k].origin(), out.str());
+            });
+        throw UserError(out.str());
       }
 
       /// Strain energy, minus the work of loads and of the forces of rigid constraints.
@@ -224,6 +245,7 @@ namespace taut
       const double time;
       SofterBodies &soft;
       double change = 0.;
+      std::vector<double> motion_of_body; ///< of those of this rank, in the last iteration [m]
     };
   } // namespace
 

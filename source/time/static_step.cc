@@ -15,6 +15,10 @@ namespace taut
     constexpr double rounding = 1e-15;
     constexpr int most_refinements = 3;
 
+    /// Part of the displacements of bodies that came here by large motions with which gaps round,
+    /// whatever their direction.
+    constexpr double rounding_of_motions = 1e-3;
+
     /// |x| over size; 0 if x is.
     double relative(const double x, const double size)
     {
@@ -72,11 +76,21 @@ namespace taut
     processes.sum(problem.free_gap);
     processes.sum(problem.gap_scale);
     const std::vector<double> lifted = constraints.motions(lift), moved = constraints.motions(from);
+    std::vector<double> motion_size(constraints.size(), 0.);
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      for (const Term &term : constraints[i].terms)
+      {
+        const PerKind size = largest(structure[term.substructure], from[term.substructure]);
+        for (std::size_t j = 0; j < term.form.index.size(); ++j)
+          motion_size[i] += std::fabs(term.form.value[j]) *
+                            size[structure[term.substructure].kind(term.form.index[j])];
+      }
+    processes.sum(motion_size);
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       problem.unilateral.push_back(constraints[i].unilateral);
-      problem.gap_scale[i] +=
-          std::fabs(lifted[i]) + std::fabs(constraints[i].gap) + std::fabs(moved[i]);
+      problem.gap_scale[i] += std::fabs(lifted[i]) + std::fabs(constraints[i].gap) +
+                              std::fabs(moved[i]) + rounding_of_motions * motion_size[i];
       problem.free_gap[i] += lifted[i] + constraints[i].gap + moved[i];
       if (constraints[i].law)
         laws.begin_at_end(i, std::max(0., -constraints[i].gap - moved[i]));

@@ -150,7 +150,8 @@ namespace taut
     if (!c.velocity_projection)
       return;
     if (!projection)
-      projection = std::make_unique<VelocityProjection>(structure, constraints, parameters);
+      projection =
+          std::make_unique<VelocityProjection>(structure, constraints, parameters, reference_state);
     projection->prepare(c, step, constraint_motions.compliance(), system->interface().matrix());
   }
 

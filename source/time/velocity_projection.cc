@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/dot.h>
+#include <taut/substructure/constrained_body.h>
 #include <taut/time/velocity_projection.h>
 
 #include <algorithm>
@@ -34,8 +35,10 @@ namespace taut
   } // namespace
 
   VelocityProjection::VelocityProjection(const Structure &structure, const Constraints &constraints,
-                                         const SolverParameters &parameters)
-      : structure(structure), constraints(constraints), solvers(structure, parameters.local_solver),
+                                         const SolverParameters &parameters,
+                                         const Reference &reference)
+      : structure(structure), constraints(constraints), reference(reference),
+        solvers(structure, parameters.local_solver),
         schur(make_schur_complement(for_mass(parameters.interface), solvers, constraints)),
         complementarity(parameters.complementarity), dV(structure.zero())
   {
@@ -59,8 +62,12 @@ namespace taut
       std::set_difference(all.begin(), all.end(), constrained.begin(), constrained.end(),
                           std::back_inserter(quasi_static.back()));
       n_quasi_static += quasi_static.back().size();
+      if (dynamic_cast<const ConstrainedBody *>(&body))
+        with_constraints.push_back(k);
     }
     some_quasi_static = structure.communicator().max(n_quasi_static) > 0.;
+    some_with_constraints =
+        structure.communicator().max(static_cast<double>(with_constraints.size())) > 0.;
   }
 
   void VelocityProjection::prepare(const StepCoefficients &coefficients, const double tau,
@@ -142,6 +149,27 @@ namespace taut
         softened.push_back(i);
     of_mass = flexibilities(softened, schur->matrix());
     set_softening();
+  }
+
+  /// Of bodies with constraints inside, at the displacements of the state.
+  void VelocityProjection::factor_masses(const State &state)
+  {
+    for (const std::size_t k : with_constraints)
+    {
+      std::vector<double> U = reference.displacement[k];
+      for (std::size_t i = 0; i < U.size(); ++i)
+        U[i] += state.U[k][i];
+      solvers.set_tangent(k, dynamic_cast<const ConstrainedBody &>(structure[k]).mass_at(U));
+    }
+    structure.communicator().agree(
+        [&]
+        {
+          if (!is_set_up)
+            solvers.factor_mass();
+          else
+            for (const std::size_t k : with_constraints)
+              solvers.factor_again(k);
+        });
   }
 
   void VelocityProjection::set_softening()
@@ -236,7 +264,13 @@ namespace taut
     }
     if (!has_to_act(motions, state))
       return;
-    if (!is_set_up)
+    if (some_with_constraints)
+    {
+      factor_masses(state);
+      is_set_up = true;
+      setup();
+    }
+    else if (!is_set_up)
       setup();
     else
       schur->update_moving();

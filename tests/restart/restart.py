@@ -50,6 +50,7 @@ SCENES = [
                                           Output__Checkpoint_interval=0.15, Solver__Interface_operator="assembled sparse")],
     ["oscillator_with_stop.prm", *entries(Output__Checkpoint_interval=0.1, Time__Scheme="Moreau-Jean")],
     ["pendulum_cable.prm", *entries(Output__Checkpoint_interval=0.2)],
+    ["bar_on_two_cables.prm", *entries(Output__Checkpoint_interval=0.2)],
     ["cable_on_floor.prm", *entries(Output__Checkpoint_interval=0.2, Output__Observers="energy")],
 ]
 errors = []

@@ -30,9 +30,9 @@ namespace taut
   class VelocityProjection
   {
   public:
-    /// The first two arguments are kept by reference.
+    /// The arguments but @p parameters are kept by reference.
     VelocityProjection(const Structure &structure, const Constraints &constraints,
-                       const SolverParameters &parameters);
+                       const SolverParameters &parameters, const Reference &reference);
 
     /// For steps with these coefficients from now on. @p F is the matrix of their first part, with
     /// S on its diagonal.
@@ -68,6 +68,7 @@ namespace taut
                                       ComplementarityOperator &F) const;
     void set_relative_softening(const std::vector<double> &S);
     void set_softening();
+    void factor_masses(const State &state);
     void setup();
     void set_problem(const State &state);
     double kinetic_energy(const State &state);
@@ -80,7 +81,10 @@ namespace taut
 
     const Structure &structure;
     const Constraints &constraints;
-    FactoredStructure solvers; ///< of M
+    const Reference &reference;
+    FactoredStructure solvers;                 ///< of M
+    std::vector<std::size_t> with_constraints; ///< bodies of this rank, see ConstrainedBody
+    bool some_with_constraints = false;        ///< of some rank
     std::unique_ptr<SchurComplement> schur;
     ComplementaritySolver complementarity;
     bool is_set_up = false, has_softening = false, has_laws = false;

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_line_fields_h
+#define taut_line_fields_h
+
+#include <taut/base/coordinates.h>
+
+#include <string>
+#include <vector>
+
+namespace taut
+{
+  /// A point of a line in a picture.
+  struct LinePoint
+  {
+    Coordinates place, displacement; ///< displaced place [m]
+    std::vector<double> values;      ///< of further fields
+  };
+
+  /// Writes lines, each of two points or more, with `displacement` and the fields @p names as a
+  /// .vtu file, the same bytes from run to run. Throws UserError if it cannot be written.
+  void write_lines(const std::string &path, const std::vector<std::vector<LinePoint>> &lines,
+                   const std::vector<std::string> &names);
+} // namespace taut
+
+#endif
