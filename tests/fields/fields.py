@@ -366,4 +366,20 @@ with open(results / "contact_plate.csv", newline="", encoding="utf-8") as table:
     said = float(list(csv.DictReader(table))[-1]["largest pressure [Pa]"])
 compare("Hertz: largest pressure", [contact["pressure"].max()], [said], said)
 
+# Blocks under 1 MPa: the stresses of a uniform state, by hand, at every node of both of them.
+for state, across in (("strain", -3e5), ("stress", 0)):
+    results = run("block_on_block", f"Body upper/Plane state={state}", f"Body lower/Plane state={state}")
+    principal = sorted((0, across, -1e6), reverse=True)
+    expected = {"stress_xx": 0, "stress_yy": -1e6, "stress_xy": 0, "stress_zz": across,
+                **{f"principal_stress_{i + 1}": value for i, value in enumerate(principal)},
+                "von_mises_stress": np.sqrt(1e12 + across**2 + across * 1e6)}
+    for body in ("lower", "upper"):
+        (_, path), = collection(results / f"body_{body}.pvd")
+        reader = vtkXMLUnstructuredGridReader()
+        reader.SetFileName(str(path))
+        reader.Update()
+        for name, value in expected.items():
+            found = vtk_to_numpy(reader.GetOutput().GetPointData().GetArray(name))
+            compare(f"plane {state}, {body} block: {name}", found, np.full(len(found), value), 1e6)
+
 sys.exit("\n".join(errors) or None)
