@@ -223,8 +223,10 @@ TEST(SwingingLoad, guys_take_it_in_turn)
     const std::size_t at_line = session.log().find(line);
     ASSERT_NE(at_line, std::string::npos) << name;
     EXPECT_EQ(session.log().find(line, at_line + 1), std::string::npos) << name;
-    const std::string rest = session.log().substr(at_line, session.log().find('\n', at_line) - at_line);
-    EXPECT_NE(rest.find("its Axial damping of 400 N s keeps it in shape"), std::string::npos) << rest;
+    const std::string rest =
+        session.log().substr(at_line, session.log().find('\n', at_line) - at_line);
+    EXPECT_NE(rest.find("its Axial damping of 400 N s keeps it in shape"), std::string::npos)
+        << rest;
     ++n_slack;
   }
   EXPECT_EQ(n_slack, n_guys);
