@@ -46,6 +46,7 @@ end
 subsection Solver
   set Interface operator = matrix-free
   set Preconditioner = Dirichlet
+  set Coarse space = rigid body modes
 end
 subsection Output
   set Field interval = 0
