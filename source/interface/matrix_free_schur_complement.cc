@@ -20,6 +20,11 @@ namespace taut
     /// How often conjugate gradients start anew from the true residual.
     constexpr int most_restarts = 4;
 
+    /// Reduction of a residual up to which that of the recursion keeps to the true one. Beyond,
+    /// conjugate gradients go on for thousands of iterations on rounding; a restart takes a few.
+    constexpr double least_reduction = 1e-11;
+    constexpr int least_bound = 10; ///< of the iterations of a restart
+
     std::vector<char> cuts(const Constraints &constraints)
     {
       std::vector<char> result;
@@ -350,12 +355,16 @@ namespace taut
       return largest(r);
     };
     ++counts.n_systems;
-    const int bound = 100 + 10 * static_cast<int>(constraints.size());
+    int bound = 100 + 10 * static_cast<int>(constraints.size());
     double best = residual(), size = larger(largest(b), largest(x));
     for (int restart = 0; restart < most_restarts && best > tolerance * size; ++restart)
     {
-      const double reduction = std::min(.1, std::max(1e-15, .3 * tolerance * size / largest(r)));
-      counts.n_iterations += conjugate_gradients(matrix, inverse, r, reduction, bound, step);
+      const double reduction =
+          std::min(.1, std::max(least_reduction, .3 * tolerance * size / largest(r)));
+      const int n = conjugate_gradients(matrix, inverse, r, reduction, bound, step);
+      counts.n_iterations += n;
+      bound =
+          std::max(n, least_bound); // a restart has less to reduce; what takes longer is rounding
       project(step);
       for (std::size_t i = 0; i < x.size(); ++i)
         candidate[i] = x[i] + step[i];
