@@ -306,8 +306,8 @@ namespace taut
   }
 
   template <int spacedim>
-  void refuse_boundary_values(const dealii::DoFHandler<1, spacedim> &dof_handler,
-                              const dealii::ComponentMask &component_mask)
+  void refuse_values_of_functions(const dealii::DoFHandler<1, spacedim> &dof_handler,
+                                  const dealii::ComponentMask &component_mask)
   {
     const dealii::hp::FECollection<1, spacedim> &collection = dof_handler.get_fe_collection();
     for (unsigned int f = 0; f < collection.size(); ++f)
@@ -322,18 +322,19 @@ namespace taut
             component + collection[f].element_multiplicity(b) * base.n_components();
         for (; component < end; ++component)
           if (is_hermite && component_mask[component])
-            refuse("boundary values of a function do not tell the slopes",
-                   "set value and slope, DoFs 0 and 1 of the vertex: cell->vertex_dof_index()");
+            refuse("values of a function do not tell the slopes",
+                   "set value and slope, DoFs 0 and 1 of the vertex: cell->vertex_dof_index(), or "
+                   "use FE_CubicHermite::interpolate(); a component mask selects the others");
       }
     }
   }
 
-  template void refuse_boundary_values(const dealii::DoFHandler<1, 1> &,
-                                       const dealii::ComponentMask &);
-  template void refuse_boundary_values(const dealii::DoFHandler<1, 2> &,
-                                       const dealii::ComponentMask &);
-  template void refuse_boundary_values(const dealii::DoFHandler<1, 3> &,
-                                       const dealii::ComponentMask &);
+  template void refuse_values_of_functions(const dealii::DoFHandler<1, 1> &,
+                                           const dealii::ComponentMask &);
+  template void refuse_values_of_functions(const dealii::DoFHandler<1, 2> &,
+                                           const dealii::ComponentMask &);
+  template void refuse_values_of_functions(const dealii::DoFHandler<1, 3> &,
+                                           const dealii::ComponentMask &);
 
   template class FE_CubicHermite<1, 1>;
   template class FE_CubicHermite<1, 2>;

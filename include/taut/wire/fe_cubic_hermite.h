@@ -2,7 +2,7 @@
 #ifndef taut_fe_cubic_hermite_h
 #define taut_fe_cubic_hermite_h
 
-#include <taut/wire/fe_cubic_hermite_boundary.h>
+#include <taut/wire/fe_cubic_hermite_vector_tools.h>
 
 #include <deal.II/fe/fe_poly.h>
 
@@ -45,9 +45,8 @@ namespace taut
    * shape_value() and the like (and with them matrix-free evaluation, VectorTools::project() for
    * spacedim = 1 and FETools::interpolate() to other elements), interpolation from other elements,
    * prolongation and restriction (SolutionTransfer), VectorTools::interpolate() and
-   * VectorTools::interpolate_boundary_values(). In an FESystem, VectorTools::interpolate() sets
-   * DoFs of this element to not-a-number unless its component mask leaves them out. Use
-   * interpolate() for functions of which the gradient is known.
+   * VectorTools::interpolate_boundary_values(), in an FESystem, too, unless the component mask
+   * leaves this element out. Use interpolate() for functions of which the gradient is known.
    *
    * In hp mode it stands beside itself and elements without DoFs at vertices; beside FE_Q and the
    * like, which would share no value with it, evaluation throws.

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef taut_fe_cubic_hermite_boundary_h
-#define taut_fe_cubic_hermite_boundary_h
+#ifndef taut_fe_cubic_hermite_vector_tools_h
+#define taut_fe_cubic_hermite_vector_tools_h
 
 // The headers that the second one includes use it without including it.
 #include <deal.II/base/polynomial.h>
 
 #include <deal.II/numerics/vector_tools_boundary.h>
+#include <deal.II/numerics/vector_tools_interpolate.h>
 
 #include <map>
 
@@ -13,17 +14,18 @@ namespace taut
 {
   /**
    * Throws dealii::ExcMessage, in every build type, if a selected component of @p dof_handler is
-   * one of FE_CubicHermite: VectorTools::interpolate_boundary_values() would set its slopes to the
-   * value of the function, and asks the element nothing that could tell it.
+   * one of FE_CubicHermite. VectorTools::interpolate_boundary_values() would set its slopes to the
+   * value of the function, and VectorTools::interpolate() its DoFs in an FESystem to NaN: neither
+   * asks the element anything that could tell it.
    */
   template <int spacedim>
-  void refuse_boundary_values(const dealii::DoFHandler<1, spacedim> &dof_handler,
-                              const dealii::ComponentMask &component_mask);
+  void refuse_values_of_functions(const dealii::DoFHandler<1, spacedim> &dof_handler,
+                                  const dealii::ComponentMask &component_mask);
 } // namespace taut
 
 /*
  * The functions of deal.II for lines in one to three dimensions, which are taken instead of the
- * general ones where this file is included: the same, after refuse_boundary_values().
+ * general ones where this file is included: the same, after refuse_values_of_functions().
  */
 namespace dealii
 {
@@ -36,7 +38,7 @@ namespace dealii
         std::map<types::global_dof_index, number> &values,
         const ComponentMask &component_mask = ComponentMask())
     {
-      taut::refuse_boundary_values(dof_handler, component_mask);
+      taut::refuse_values_of_functions(dof_handler, component_mask);
       interpolate_boundary_values<1, spacedim, number>(mapping, dof_handler, functions, values,
                                                        component_mask);
     }
@@ -49,7 +51,7 @@ namespace dealii
                                      std::map<types::global_dof_index, number> &values,
                                      const ComponentMask &component_mask = ComponentMask())
     {
-      taut::refuse_boundary_values(dof_handler, component_mask);
+      taut::refuse_values_of_functions(dof_handler, component_mask);
       interpolate_boundary_values<1, spacedim, number>(mapping, dof_handler, boundary, function,
                                                        values, component_mask);
     }
@@ -62,7 +64,7 @@ namespace dealii
         std::map<types::global_dof_index, number> &values,
         const ComponentMask &component_mask = ComponentMask())
     {
-      taut::refuse_boundary_values(dof_handler, component_mask);
+      taut::refuse_values_of_functions(dof_handler, component_mask);
       interpolate_boundary_values<1, spacedim, number>(mapping, dof_handler, functions, values,
                                                        component_mask);
     }
@@ -75,7 +77,7 @@ namespace dealii
                                      std::map<types::global_dof_index, number> &values,
                                      const ComponentMask &component_mask = ComponentMask())
     {
-      taut::refuse_boundary_values(dof_handler, component_mask);
+      taut::refuse_values_of_functions(dof_handler, component_mask);
       interpolate_boundary_values<1, spacedim, number>(mapping, dof_handler, boundary, function,
                                                        values, component_mask);
     }
@@ -87,7 +89,7 @@ namespace dealii
         std::map<types::global_dof_index, number> &values,
         const ComponentMask &component_mask = ComponentMask())
     {
-      taut::refuse_boundary_values(dof_handler, component_mask);
+      taut::refuse_values_of_functions(dof_handler, component_mask);
       interpolate_boundary_values<1, spacedim, number>(dof_handler, functions, values,
                                                        component_mask);
     }
@@ -99,7 +101,7 @@ namespace dealii
                                      std::map<types::global_dof_index, number> &values,
                                      const ComponentMask &component_mask = ComponentMask())
     {
-      taut::refuse_boundary_values(dof_handler, component_mask);
+      taut::refuse_values_of_functions(dof_handler, component_mask);
       interpolate_boundary_values<1, spacedim, number>(dof_handler, boundary, function, values,
                                                        component_mask);
     }
@@ -110,7 +112,7 @@ namespace dealii
         const std::map<types::boundary_id, const Function<spacedim, number> *> &functions,
         AffineConstraints<number> &values, const ComponentMask &component_mask = ComponentMask())
     {
-      taut::refuse_boundary_values(dof_handler, component_mask);
+      taut::refuse_values_of_functions(dof_handler, component_mask);
       interpolate_boundary_values<1, spacedim, number>(mapping, dof_handler, functions, values,
                                                        component_mask);
     }
@@ -123,7 +125,7 @@ namespace dealii
                                      AffineConstraints<number> &values,
                                      const ComponentMask &component_mask = ComponentMask())
     {
-      taut::refuse_boundary_values(dof_handler, component_mask);
+      taut::refuse_values_of_functions(dof_handler, component_mask);
       interpolate_boundary_values<1, spacedim, number>(mapping, dof_handler, boundary, function,
                                                        values, component_mask);
     }
@@ -135,7 +137,7 @@ namespace dealii
         const std::map<types::boundary_id, const Function<spacedim, number> *> &functions,
         AffineConstraints<number> &values, const ComponentMask &component_mask = ComponentMask())
     {
-      taut::refuse_boundary_values(dof_handler, component_mask);
+      taut::refuse_values_of_functions(dof_handler, component_mask);
       interpolate_boundary_values<1, spacedim, number>(mapping, dof_handler, functions, values,
                                                        component_mask);
     }
@@ -148,7 +150,7 @@ namespace dealii
                                      AffineConstraints<number> &values,
                                      const ComponentMask &component_mask = ComponentMask())
     {
-      taut::refuse_boundary_values(dof_handler, component_mask);
+      taut::refuse_values_of_functions(dof_handler, component_mask);
       interpolate_boundary_values<1, spacedim, number>(mapping, dof_handler, boundary, function,
                                                        values, component_mask);
     }
@@ -159,7 +161,7 @@ namespace dealii
         const std::map<types::boundary_id, const Function<spacedim, number> *> &functions,
         AffineConstraints<number> &values, const ComponentMask &component_mask = ComponentMask())
     {
-      taut::refuse_boundary_values(dof_handler, component_mask);
+      taut::refuse_values_of_functions(dof_handler, component_mask);
       interpolate_boundary_values<1, spacedim, number>(dof_handler, functions, values,
                                                        component_mask);
     }
@@ -171,11 +173,53 @@ namespace dealii
                                      AffineConstraints<number> &values,
                                      const ComponentMask &component_mask = ComponentMask())
     {
-      taut::refuse_boundary_values(dof_handler, component_mask);
+      taut::refuse_values_of_functions(dof_handler, component_mask);
       interpolate_boundary_values<1, spacedim, number>(dof_handler, boundary, function, values,
                                                        component_mask);
     }
 
+    template <int spacedim, typename VectorType>
+    void interpolate(const hp::MappingCollection<1, spacedim> &mapping,
+                     const DoFHandler<1, spacedim> &dof_handler,
+                     const Function<spacedim, typename VectorType::value_type> &function,
+                     VectorType &dof_values, const ComponentMask &component_mask = ComponentMask())
+    {
+      taut::refuse_values_of_functions(dof_handler, component_mask);
+      interpolate<1, spacedim, VectorType>(mapping, dof_handler, function, dof_values,
+                                           component_mask);
+    }
+
+    template <int spacedim, typename VectorType>
+    void interpolate(const Mapping<1, spacedim> &mapping,
+                     const DoFHandler<1, spacedim> &dof_handler,
+                     const Function<spacedim, typename VectorType::value_type> &function,
+                     VectorType &dof_values, const ComponentMask &component_mask = ComponentMask())
+    {
+      taut::refuse_values_of_functions(dof_handler, component_mask);
+      interpolate<1, spacedim, VectorType>(mapping, dof_handler, function, dof_values,
+                                           component_mask);
+    }
+
+    template <int spacedim, typename VectorType>
+    void interpolate(const DoFHandler<1, spacedim> &dof_handler,
+                     const Function<spacedim, typename VectorType::value_type> &function,
+                     VectorType &dof_values, const ComponentMask &component_mask = ComponentMask())
+    {
+      taut::refuse_values_of_functions(dof_handler, component_mask);
+      interpolate<1, spacedim, VectorType>(dof_handler, function, dof_values, component_mask);
+    }
+
+    template <int spacedim, typename VectorType>
+    void interpolate_based_on_material_id(
+        const Mapping<1, spacedim> &mapping, const DoFHandler<1, spacedim> &dof_handler,
+        const std::map<types::material_id,
+                       const Function<spacedim, typename VectorType::value_type> *> &functions,
+        VectorType &dof_values, const ComponentMask &component_mask = ComponentMask())
+    {
+      taut::refuse_values_of_functions(dof_handler, component_mask);
+      interpolate_based_on_material_id<1, spacedim, VectorType>(mapping, dof_handler, functions,
+                                                                dof_values, component_mask);
+    }
   } // namespace VectorTools
 } // namespace dealii
 
