@@ -19,55 +19,110 @@ namespace taut
   public:
     void read(const double *x) { std::copy(x, x + b, v); }
     void write(double *x) const { std::copy(v, v + b, x); }
+    double operator[](const int i) const { return v[i]; }
 
-    /// += A^T x
-    void add_transposed(const Block<b> &A, const Node &x)
+    /// += factor column
+    void add(const double factor, const double *column)
     {
-      for (int c = 0; c < b; ++c)
-        for (int r = 0; r < b; ++r)
-          v[r] += A[c * b + r] * x.v[c];
+      for (int r = 0; r < b; ++r)
+        v[r] += factor * column[r];
     }
-
-    /// -= A^T x
-    void subtract_transposed(const Block<b> &A, const Node &x)
+    void subtract(const double factor, const double *column)
     {
-      taut::subtract_transposed<b>(A, x.v, v);
+      for (int r = 0; r < b; ++r)
+        v[r] -= factor * column[r];
     }
 
   private:
     double v[b];
   };
 
-  /// Two DoFs: beams, and strings of degree 2. The vectors of GCC and Clang; deal.II's have one
-  /// number in Debian's build.
-  template <>
-  class Node<2>
+  /// The same in a vector of GCC and Clang; deal.II's have one number in Debian's build.
+  template <typename Vector>
+  class VectorNode
   {
   public:
-    void read(const double *x) { v = pair(x); }
+    void read(const double *x) { std::memcpy(&v, x, sizeof(v)); }
     void write(double *x) const { std::memcpy(x, &v, sizeof(v)); }
-    void add_transposed(const Block<2> &A, const Node &x)
+    double operator[](const int i) const { return v[i]; }
+    void add(const double factor, const double *column)
     {
-      v += Pair{x.v[0], x.v[0]} * pair(A.data());
-      v += Pair{x.v[1], x.v[1]} * pair(A.data() + 2);
+      Vector values; // no function returns one: where, depends on the instruction set
+      std::memcpy(&values, column, sizeof(values));
+      v += factor * values;
     }
-    void subtract_transposed(const Block<2> &A, const Node &x)
+    void subtract(const double factor, const double *column)
     {
-      v -= Pair{x.v[0], x.v[0]} * pair(A.data());
-      v -= Pair{x.v[1], x.v[1]} * pair(A.data() + 2);
+      Vector values;
+      std::memcpy(&values, column, sizeof(values));
+      v -= factor * values;
     }
 
   private:
-    using Pair [[gnu::vector_size(2 * sizeof(double))]] = double;
-    static Pair pair(const double *x)
+    Vector v;
+  };
+  using Pair [[gnu::vector_size(2 * sizeof(double))]] = double;
+  using Quad [[gnu::vector_size(4 * sizeof(double))]] = double;
+
+  /// Beams, and strings of degree 2.
+  template <>
+  class Node<2> : public VectorNode<Pair>
+  {
+  };
+
+  /// Beams in space.
+  template <>
+  class Node<4> : public VectorNode<Quad>
+  {
+  };
+
+  /// Cables.
+  template <>
+  class Node<6>
+  {
+  public:
+    void read(const double *x)
     {
-      Pair result;
-      std::memcpy(&result, x, sizeof(result));
-      return result;
+      front.read(x);
+      back.read(x + 4);
+    }
+    void write(double *x) const
+    {
+      front.write(x);
+      back.write(x + 4);
+    }
+    double operator[](const int i) const { return i < 4 ? front[i] : back[i - 4]; }
+    void add(const double factor, const double *column)
+    {
+      front.add(factor, column);
+      back.add(factor, column + 4);
+    }
+    void subtract(const double factor, const double *column)
+    {
+      front.subtract(factor, column);
+      back.subtract(factor, column + 4);
     }
 
-    Pair v;
+  private:
+    Node<4> front;
+    Node<2> back;
   };
+
+  /// y += A^T x
+  template <int b>
+  inline void add_transposed(const Block<b> &A, const Node<b> &x, Node<b> &y)
+  {
+    for (int c = 0; c < b; ++c)
+      y.add(x[c], A.data() + b * c);
+  }
+
+  /// y -= A^T x
+  template <int b>
+  inline void subtract_transposed(const Block<b> &A, const Node<b> &x, Node<b> &y)
+  {
+    for (int c = 0; c < b; ++c)
+      y.subtract(x[c], A.data() + b * c);
+  }
 
   /// x -= A y; returns x: one node of the elimination. @p transposed is A^T.
   template <int b>
@@ -75,7 +130,7 @@ namespace taut
   {
     Node<b> sum;
     sum.read(x);
-    sum.subtract_transposed(transposed, y);
+    subtract_transposed(transposed, y, sum);
     sum.write(x);
     return sum;
   }
@@ -88,8 +143,8 @@ namespace taut
     Node<b> before, sum;
     before.read(x);
     sum.read(zero);
-    sum.add_transposed(D, before);
-    sum.subtract_transposed(A, y);
+    add_transposed(D, before, sum);
+    subtract_transposed(A, y, sum);
     sum.write(x);
     return sum;
   }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <type_traits>
 
 namespace taut
 {
@@ -58,10 +59,15 @@ namespace taut
         ++end;
       if (end - begin >= least)
       {
-        Repetition repetition{b * begin, b * end, {}};
+        Repetition repetition{b * begin, b * end, true, {}};
         for (int o = -width; o <= width; ++o)
           for (int k = 0; k < lanes; ++k)
-            repetition.rows[o + width][k] = entry(b * begin + k % b, o);
+          {
+            const double value = entry(b * begin + k % b, o);
+            repetition.rows[o + width][k] = value;
+            if (o % n_directions != 0 && value != 0.)
+              repetition.directions_are_apart = false;
+          }
         repetitions.push_back(repetition);
       }
       begin = end;
@@ -137,17 +143,23 @@ namespace taut
       if (done < repetition.begin)
         read(done, repetition.begin);
       done = std::max(done, repetition.begin);
-      const auto rows = repetition.rows;
       const std::size_t stop = std::min(end, repetition.end);
-      for (; done + lanes <= stop; done += lanes)
+      const auto repeat = [&, rows = repetition.rows](const auto stride)
+      {
+        for (; done + lanes <= stop; done += lanes)
 #pragma omp simd
-        for (int k = 0; k < lanes; ++k)
-        {
-          double sum = 0.;
-          for (int o = 0; o <= 2 * width; ++o)
-            sum += rows[o][k] * x[done + k + o - width];
-          y[done + k] = result(y[done + k], sum);
-        }
+          for (int k = 0; k < lanes; ++k)
+          {
+            double sum = 0.;
+            for (int o = width % stride; o <= 2 * width; o += stride)
+              sum += rows[o][k] * x[done + k + o - width];
+            y[done + k] = result(y[done + k], sum);
+          }
+      };
+      if constexpr (b % n_directions == 0)
+        if (repetition.directions_are_apart)
+          repeat(std::integral_constant<int, n_directions>());
+      repeat(std::integral_constant<int, 1>());
     }
     if (done < std::min(last, end))
     {

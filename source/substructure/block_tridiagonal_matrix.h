@@ -41,13 +41,15 @@ namespace taut
     }
 
   private:
-    static constexpr int width = 2 * b - 1;           ///< diagonals below the main one
-    static constexpr int lanes = b % 3 == 0 ? 24 : 8; ///< whole nodes
+    static constexpr int width = 2 * b - 1;                      ///< diagonals below the main one
+    static constexpr int n_directions = 3;                       ///< of cables
+    static constexpr int lanes = b % n_directions == 0 ? 24 : 8; ///< whole nodes
 
     /// Rows begin to end - 1 are those of `lanes` rows, again and again; whole nodes.
     struct Repetition
     {
       std::size_t begin, end;
+      bool directions_are_apart; ///< only every third diagonal is not zero: masses of cables
       std::array<std::array<double, lanes>, 2 * width + 1> rows;
     };
 
