@@ -68,7 +68,8 @@ namespace taut
     if (data.linearised)
       return false;
     double place = 0.;
-    const double strain = element.smallest_strain(positions(U), &place);
+    set_positions(U, work);
+    const double strain = element.smallest_strain(work, &place);
     if (!(strain * data.section.axial_stiffness < -rounding_of_force(0)))
       return false;
     slack.place = place;
@@ -188,11 +189,23 @@ namespace taut
 
   std::vector<double> Cable::positions(const std::vector<double> &U) const
   {
-    std::vector<double> q = U;
-    frames->turn(q);
-    for (std::size_t i = 0; i < q.size(); ++i)
-      q[i] += found.positions[i];
+    std::vector<double> q;
+    set_positions(U, q);
     return q;
+  }
+
+  void Cable::set_positions(const std::vector<double> &U, std::vector<double> &q) const
+  {
+    q.resize(U.size());
+    const std::vector<double> *displacement = &U;
+    if (!frames->empty())
+    {
+      q = U;
+      frames->turn(q);
+      displacement = &q;
+    }
+    for (std::size_t i = 0; i < q.size(); ++i)
+      q[i] = (*displacement)[i] + found.positions[i];
   }
 
   LinearForm Cable::displacement(const Coordinates &place, const Coordinates &direction) const
@@ -217,7 +230,8 @@ namespace taut
     std::vector<double> velocity = V;
     if (!V.empty())
       frames->turn(velocity);
-    element.internal_force(positions(U), velocity, f);
+    set_positions(U, work);
+    element.internal_force(work, velocity, f);
     frames->turn(f);
   }
 
@@ -238,7 +252,9 @@ namespace taut
   {
     if (data.linearised)
       return Substructure::mean_internal_force(U0, U1, step, f);
-    element.mean_force(positions(U0), positions(U1), step, f);
+    set_positions(U0, work_0);
+    set_positions(U1, work);
+    element.mean_force(work_0, work, step, f);
     frames->turn(f);
   }
 
@@ -267,7 +283,7 @@ namespace taut
       q[i] = .5 * (q0[i] + q1[i]);
     element.add_mean_tangent(q0, q1, definite, *A);
     element.add_damping(q, rate, *A);
-    return A;
+    return frames->turn(std::move(A));
   }
 
   LinearForm Cable::node_displacement(const unsigned int node, const Coordinates &direction) const

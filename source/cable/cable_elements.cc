@@ -107,15 +107,23 @@ namespace taut
     return x;
   }
 
-  /// Elements from @p first on; after the last one, that one again.
-  ElementBatch CableElements::batch(const std::vector<double> &q, const unsigned int first) const
+  /// Elements from @p first on; after the last node to and fro, so that no element lacks a length.
+  inline ElementBatch CableElements::batch(const std::vector<double> &q,
+                                           const unsigned int first) const
   {
-    ElementBatch x;
-    for (unsigned int l = 0; l < ElementBatch::size; ++l)
+    double node[dofs_per_node][ElementBatch::size + 1];
+    for (unsigned int l = 0; l <= ElementBatch::size; ++l)
     {
-      const double *const own = q.data() + dofs_per_node * std::min(first + l, n - 1);
-      for (unsigned int i = 0; i < element_dofs; ++i)
-        x.dof[i][l] = own[i];
+      const unsigned int k = first + l;
+      const double *const own = q.data() + dofs_per_node * (k <= n ? k : n - (k - n) % 2);
+      for (unsigned int i = 0; i < dofs_per_node; ++i)
+        node[i][l] = own[i];
+    }
+    ElementBatch x;
+    for (unsigned int i = 0; i < dofs_per_node; ++i)
+    {
+      std::copy_n(node[i], ElementBatch::size, x.dof[i].begin());
+      std::copy_n(node[i] + 1, ElementBatch::size, x.dof[dofs_per_node + i].begin());
     }
     const auto subtract_origin = [&x](const unsigned int a)
     {
@@ -346,20 +354,33 @@ namespace taut
 
   double CableElements::smallest_strain(const std::vector<double> &q, double *const place) const
   {
-    double least = std::numeric_limits<double>::max();
-    for (unsigned int e = 0; e < n; ++e)
-    {
-      const Local x = local(q, e);
-      for (const Point &p : axial_points)
-      {
-        const double stretch = combine(p.slope, x).norm();
-        if (!(stretch < least))
-          continue;
-        least = stretch;
-        if (place)
-          *place = h * (e + p.xi);
-      }
-    }
+    double least = std::numeric_limits<double>::max(), found = 0.;
+    vectorised(
+        [this, &q, all_least = &least, all_found = &found]
+        {
+          double smallest = *all_least, where = 0.;
+          for (unsigned int first = 0; first < n; first += ElementBatch::size)
+          {
+            const ElementBatch x = batch(q, first);
+            for (const Point &p : axial_points)
+            {
+              double stretch[ElementBatch::size];
+#pragma omp simd
+              for (unsigned int l = 0; l < ElementBatch::size; ++l)
+                stretch[l] = stretch_of(combine(p.slope, x, l));
+              const double *const shortest =
+                  std::min_element(stretch, stretch + std::min(n - first, ElementBatch::size));
+              if (!(*shortest < smallest))
+                continue;
+              smallest = *shortest;
+              where = h * (first + (shortest - stretch) + p.xi);
+            }
+          }
+          *all_least = smallest;
+          *all_found = where;
+        });
+    if (place)
+      *place = found;
     return least - 1.;
   }
 

@@ -19,7 +19,7 @@ namespace taut
       bodies = structure.all_bodies();
       own.resize(n_entries * bodies.size(), 0.);
       for (std::size_t k = 0; k < structure.size(); ++k)
-        if (dynamic_cast<const SlenderBody *>(&structure[k]) &&
+        if (dynamic_cast<const SlenderBody *>(&structure[k]) && !structure[k].is_linear() &&
             own[n_entries * structure.number(k)] == 0.)
           watched.push_back(k);
     }

@@ -59,13 +59,16 @@ namespace taut
         ++end;
       if (end - begin >= least)
       {
-        Repetition repetition{b * begin, b * end, true, {}};
+        Repetition repetition{b * begin, b * end, true, true, {}};
         for (int o = -width; o <= width; ++o)
           for (int k = 0; k < lanes; ++k)
           {
             const double value = entry(b * begin + k % b, o);
             repetition.rows[o + width][k] = value;
-            if (o % n_directions != 0 && value != 0.)
+            if (value == 0.)
+              continue;
+            repetition.is_zero = false;
+            if (o % n_directions != 0)
               repetition.directions_are_apart = false;
           }
         repetitions.push_back(repetition);
@@ -144,6 +147,9 @@ namespace taut
         read(done, repetition.begin);
       done = std::max(done, repetition.begin);
       const std::size_t stop = std::min(end, repetition.end);
+      if (repetition.is_zero)
+        for (; done < stop; ++done)
+          y[done] = result(y[done], 0.);
       const auto repeat = [&, rows = repetition.rows](const auto stride)
       {
         for (; done + lanes <= stop; done += lanes)

@@ -49,6 +49,7 @@ namespace taut
     struct Repetition
     {
       std::size_t begin, end;
+      bool is_zero;              ///< no damping
       bool directions_are_apart; ///< only every third diagonal is not zero: masses of cables
       std::array<std::array<double, lanes>, 2 * width + 1> rows;
     };

@@ -167,7 +167,7 @@ namespace taut
    */
   void TimeStepper::measure_energy_at_ends()
   {
-    double gain = nonlinear.energy_surplus(1.);
+    double gain = nonlinear.energy_surplus(1., current);
     std::vector<double> change, product;
     for (std::size_t k = 0; k < structure.size(); ++k)
     {

@@ -48,6 +48,7 @@ namespace taut
         own.U0[i] += before.U[k][i];
         own.known_V[i] = c.v_V * before.V[k][i] + c.v_A * before.A[k][i] + c.v_dU * before.dU[k][i];
       }
+      own.energy_is_known = own.U0 == own.U1;
       own.f0 = own.f = before.KU[k];
       own.dU.assign(own.U0.size(), 0.);
       own.remainder = own.dU;
@@ -96,16 +97,18 @@ namespace taut
   {
     Step &own = steps[k];
     const Substructure &body = (*structure)[k];
-    std::vector<double> difference = std::move(own.dU), unbalanced = own.remainder;
+    const std::vector<double> &f_ref = reference->force[k];
+    difference = own.dU;
+    unbalanced = own.remainder;
     own.dU = dU;
     end_force(k, c, own, dU, own.f);
     set_tangent(k, K);
-    std::vector<double> whole = own.f;
+    whole.resize(dU.size());
     for (std::size_t i = 0; i < dU.size(); ++i)
     {
       difference[i] -= dU[i];
       unbalanced[i] -= own.remainder[i];
-      whole[i] += reference->force[k][i];
+      whole[i] = own.f[i] + f_ref[i];
     }
     const PerKind change = largest(body, difference), size = largest(body, dU),
                   lack = beyond_rounding(body, unbalanced), force = largest(body, whole);
@@ -126,21 +129,21 @@ namespace taut
                                   std::vector<double> &f) const
   {
     const Substructure &body = (*structure)[k];
-    std::vector<double> U = own.U0;
-    for (std::size_t i = 0; i < U.size(); ++i)
-      U[i] += dU[i];
+    end_U.resize(dU.size());
+    for (std::size_t i = 0; i < dU.size(); ++i)
+      end_U[i] = own.U0[i] + dU[i];
     const std::vector<double> &f_ref = reference->force[k];
     if (coefficients.mean_force)
     {
-      body.mean_internal_force(own.U0, U, step, f);
+      body.mean_internal_force(own.U0, end_U, step, f);
       for (std::size_t i = 0; i < f.size(); ++i)
         f[i] = 2. * (f[i] - f_ref[i]) - own.f0[i];
       return;
     }
-    std::vector<double> V = own.known_V;
-    for (std::size_t i = 0; i < V.size(); ++i)
-      V[i] += coefficients.velocity * dU[i];
-    body.internal_force(U, V, f);
+    end_V.resize(dU.size());
+    for (std::size_t i = 0; i < dU.size(); ++i)
+      end_V[i] = own.known_V[i] + coefficients.velocity * dU[i];
+    body.internal_force(end_U, end_V, f);
     for (std::size_t i = 0; i < f.size(); ++i)
       f[i] -= f_ref[i];
   }
@@ -150,7 +153,11 @@ namespace taut
   {
     if (!coefficients.is_at_rest())
     {
-      end_force(k, coefficients, steps[k], state.dU[k], state.KU[k]);
+      const Step &own = steps[k];
+      if (coefficients == c && state.dU[k] == own.dU) // the last guess
+        state.KU[k] = own.f;
+      else
+        end_force(k, coefficients, own, state.dU[k], state.KU[k]);
       return;
     }
     std::vector<double> U = reference->displacement[k];
@@ -161,40 +168,45 @@ namespace taut
       state.KU[k][i] -= reference->force[k][i];
   }
 
-  double NonlinearBodies::energy_surplus(const double part_of_end) const
+  const std::vector<double> &NonlinearBodies::end_of_step(const std::size_t k, const State &state)
+  {
+    std::vector<double> &U = steps[k].U1;
+    U = reference->displacement[k];
+    for (std::size_t i = 0; i < U.size(); ++i)
+      U[i] += state.U[k][i];
+    return U;
+  }
+
+  double NonlinearBodies::energy_surplus(const double part_of_end, const State &state)
   {
     double sum = 0.;
     for (const std::size_t k : bodies)
     {
       const Substructure &body = (*structure)[k];
-      const Step &own = steps[k];
-      std::vector<double> U = own.U0;
-      for (std::size_t i = 0; i < U.size(); ++i)
-      {
-        U[i] += own.dU[i];
+      Step &own = steps[k];
+      const double before = own.energy_is_known ? own.energy : body.strain_energy(own.U0);
+      own.energy = body.strain_energy(end_of_step(k, state));
+      sum += own.energy - before;
+      for (std::size_t i = 0; i < own.dU.size(); ++i)
         sum -= ((1. - part_of_end) * own.f0[i] + part_of_end * own.f[i] + reference->force[k][i]) *
                own.dU[i];
-      }
-      sum += body.strain_energy(U) - body.strain_energy(own.U0);
     }
     return sum;
   }
 
-  void NonlinearBodies::set_own_force(State &state) const
+  void NonlinearBodies::set_own_force(State &state)
   {
     if (!c.mean_force)
       return;
     for (const std::size_t k : bodies)
     {
-      std::vector<double> U = reference->displacement[k], f;
-      for (std::size_t i = 0; i < U.size(); ++i)
-        U[i] += state.U[k][i];
-      (*structure)[k].internal_force(U, {}, f);
-      for (std::size_t i = 0; i < U.size(); ++i)
+      std::vector<double> &KU = state.KU[k], &f = own_force;
+      (*structure)[k].internal_force(end_of_step(k, state), {}, f);
+      for (std::size_t i = 0; i < f.size(); ++i)
       {
-        f[i] -= reference->force[k][i];
-        state.balance[k][i] += state.KU[k][i] - f[i];
-        state.KU[k][i] = f[i];
+        const double own = f[i] - reference->force[k][i];
+        state.balance[k][i] += KU[i] - own;
+        KU[i] = own;
       }
     }
   }

@@ -76,7 +76,7 @@ namespace taut
   }
 
   /// The step of the present length, or a shorter one if it has no answer.
-  void StepControl::solve(TimeStepper &stepper, const State &before)
+  void StepControl::solve(TimeStepper &stepper)
   {
     for (;;)
     {
@@ -105,13 +105,16 @@ namespace taut
       if (n_levels == 0)
         stepper.advance();
       else
-        solve(stepper, State(stepper.state()));
+      {
+        before = stepper.state();
+        solve(stepper);
+      }
       position += length();
       while (level < n_levels && position % (2 * length()) == 0)
         ++level;
       return;
     }
-    const State before = stepper.state();
+    before = stepper.state();
     const bool is_first = position == 0;
     while (position + length() > end)
       --level;
@@ -119,7 +122,7 @@ namespace taut
     bool has_changed;
     for (;;)
     {
-      solve(stepper, before);
+      solve(stepper);
       error = stepper.local_error() / parameters.tolerance;
       has_changed = stepper.rigid_constraint_changed(before);
       if (level == 0 || has_changed || had_changed || !(error > 1.))

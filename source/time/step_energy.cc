@@ -15,7 +15,7 @@ namespace taut
    */
   void TimeStepper::measure_energy()
   {
-    double sums[] = {0., nonlinear.energy_surplus(.5) - balance.work()};
+    double sums[] = {0., nonlinear.energy_surplus(.5, current) - balance.work()};
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       std::vector<double> &V = current.V[k], &product = work_a;

@@ -121,11 +121,13 @@ namespace taut
     void hold();
     void assemble();
     void linearise();
+    void set_positions(const std::vector<double> &U, std::vector<double> &q) const;
 
     CableData data;
     CableElements element;
     CableShape found;
     std::unique_ptr<EndFrames> frames;
+    mutable std::vector<double> work_0, work; ///< positions
   };
 } // namespace taut
 

@@ -69,14 +69,14 @@ namespace taut
     /// KU = f - f_ref at the end of a step that ends in @p state.
     void set_end_force(std::size_t k, const StepCoefficients &c, State &state) const;
 
-    /// The change of their energies in the step minus the work that went into it, of a force that
-    /// is @p part_of_end that of the end and else that of the start. Half: zero where the mean
-    /// force is that of the energy, negative where material damping takes some [J].
-    double energy_surplus(double part_of_end) const;
+    /// The change of their energies in the step to @p state minus the work that went into it, of a
+    /// force that is @p part_of_end that of the end and else that of the start. Half: zero where
+    /// the mean force is that of the energy, negative where material damping takes some [J].
+    double energy_surplus(double part_of_end, const State &state);
 
     /// After a step with mean forces: the internal force of the state itself, and the balance
     /// with it.
-    void set_own_force(State &state) const;
+    void set_own_force(State &state);
 
   private:
     struct Step
@@ -87,7 +87,11 @@ namespace taut
       std::vector<double> dU;      ///< the guess
       std::vector<double> f;       ///< with it
       std::vector<double> remainder;
+      std::vector<double> U1;       ///< that the last step ended with, as U0
+      double energy = 0.;           ///< there [J]
+      bool energy_is_known = false; ///< U0 is U1
     };
+    const std::vector<double> &end_of_step(std::size_t k, const State &state);
     void shift(std::size_t k, int attempt, SymmetricMatrix &K) const;
     void end_force(std::size_t k, const StepCoefficients &c, const Step &own,
                    const std::vector<double> &dU, std::vector<double> &f) const;
@@ -98,6 +102,8 @@ namespace taut
     std::vector<Step> steps; ///< of each body of this rank, linear ones too
     StepCoefficients c;
     double step = 0.;
+    std::vector<double> difference, unbalanced, whole, own_force;
+    mutable std::vector<double> end_U, end_V; ///< of end_force()
   };
 } // namespace taut
 

@@ -73,7 +73,7 @@ namespace taut
   private:
     long length() const { return 1L << level; }
 
-    void solve(TimeStepper &stepper, const State &before);
+    void solve(TimeStepper &stepper);
 
     const StepParameters parameters;
     const unsigned int n_levels; ///< how often a step may be halved
@@ -81,6 +81,7 @@ namespace taut
     const long end;              ///< in shortest steps
     long position = 0, repeated = 0;
     unsigned int level, n_calm = 0;
+    State before;             ///< the step
     bool had_changed = false; ///< a rigid constraint in the last step: its accelerations are a jump
   };
 } // namespace taut
