@@ -76,9 +76,51 @@ subsection Study
 end
 """
 
+BODIES = """
+set Generator = network
+set Start     = undeformed
+set Bodies    = solid, cable, rigid body
+set Contacts  = ITEM
+subsection Body solid
+  set Type            = solid
+  set Young's modulus = 1
+  set Density         = 1
+end
+subsection Body cable
+  set Type              = cable
+  set Unstressed length = 1
+  set Axial stiffness   = 1e6
+  set Mass per length   = 1
+end
+subsection Body rigid body
+  set Type               = rigid body
+  set Mass               = 1
+  set Moments of inertia = 1, 1, 1
+end
+subsection Contact ITEM
+  set Slave     = solid: 0
+  set Obstacle  = plane
+  set Direction = 1, 0
+end
+subsection Sweep
+  set Parameters = ITEM
+  subsection Parameter ITEM
+    set Entries = Time/Step
+    set Values  = 1
+  end
+end
+subsection Time
+  set End = 0
+end
+subsection Output
+  set Folder = run_of_bodies
+end
+"""
+
 GROUPS = {"Time": "Time and integration", "Partition": "Cutting into substructures", "Solver": "Solvers",
           "Output": "Output", "Statistics": "Statistics", "Study": "Error against cost",
-          "Catenary": "Generator `catenary`", "Network": "Generator `network`"}
+          "Sweep": "Many runs", "Catenary": "Generator `catenary`", "Network": "Generator `network`",
+          "Body": "Solids, cables and rigid bodies", "Contact": "Contact of surfaces"}
 
 
 def run(folder, *options):
@@ -111,8 +153,14 @@ def entries(text):
 
 def tidy(path):
     """Names of items are the reader's own."""
-    named = ("Wire", "Support", "Point mass", "Mass", "Spring", "Link", "Load", "Probe", "Pantograph", "Ladder", "Figure")
-    return tuple(re.sub(rf"^({'|'.join(named)}) (ITEM|mass|pantograph)$", r"\1 <name>", part) for part in path)
+    named = ("Wire", "Support", "Point mass", "Mass", "Spring", "Link", "Load", "Probe", "Pantograph", "Parameter", "Quantity",
+             "Contact")
+    path = tuple(re.sub(rf"^({'|'.join(named)}) (ITEM|mass|pantograph)$", r"\1 <name>", part) for part in path)
+    return tuple(re.sub(r"^Body (.*)$", r"Body <name> (Type = \1)", part) for part in path)
+
+
+def group_of(path):
+    return re.sub(" <name>.*", "", path[0])
 
 
 def table(rows):
@@ -130,16 +178,20 @@ with tempfile.TemporaryDirectory() as folder:
     pathlib.Path(folder, "network.prm").write_text(NETWORK)
     run(folder, "network.prm")
     net = entries(pathlib.Path(folder, "run", "used.prm").read_text())
+    pathlib.Path(folder, "bodies.prm").write_text(BODIES)
+    run(folder, "bodies.prm")
+    bodies = entries(pathlib.Path(folder, "run_of_bodies", "used.prm").read_text())
 
 sections = {}
-for source in (line, net):
+for source in (line, net, bodies):
     for path, name, value, text in source:
         text = re.sub(r"^(Listing of Parameters -+ )", "", text)
-        if name == "Generator":
+        if name == "Generator" and not path:
             value = "catenary"
         rows = sections.setdefault(tidy(path), [])
         if name not in [row[0] for row in rows]:
-            rows.append((name, "" if value in ("ITEM", "mass") else value, text))
+            own = ("ITEM", "mass", "solid", "cable", "rigid body")
+            rows.append((name, "" if value in own else value, text))
 
 HEAD = """# Parameter reference
 
@@ -148,17 +200,18 @@ Every entry of a parameter file, as the program describes it. This page is gener
 
 `taut` without a file writes these entries for a railway line, `used.prm` in a results folder those of its run. Names of
 items, `<name>` below, are yours: list them in the entry that says so, then give each its section. Units stand in
-brackets; a formula knows `pi`, `t` [s] and, on a wire, `s` [m].
+brackets; a formula knows `pi`, `t` [s], on a wire `s` [m], and in sections `Body` and `Contact` `x`, `y`, `z` [m]. Types of
+bodies from plugins have entries of their own.
 
 ## Top of the file
 """
 out = HEAD.splitlines() + [""]
 out += table(sections[()])
 group = None
-order = [*GROUPS, *(path[0] for path in sections if path and path[0] not in GROUPS)]
-for path in sorted((p for p in sections if p), key=lambda p: order.index(p[0])):
-    if path[0] != group:
-        group = path[0]
+order = [*GROUPS, *(group_of(path) for path in sections if path and group_of(path) not in GROUPS)]
+for path in sorted((p for p in sections if p), key=lambda p: order.index(group_of(p))):
+    if group_of(path) != group:
+        group = group_of(path)
         out += ["", f"## {GROUPS.get(group, group)}"]
     out += ["", f"### {' / '.join(path)}".replace("<", "\\<").replace(">", "\\>"), ""] + table(sections[path])
 text = "\n".join(out) + "\n"

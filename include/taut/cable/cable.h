@@ -21,7 +21,7 @@ namespace taut
     std::string name;
     std::string origin;   ///< path of its section in the parameter file, for messages; may be empty
     Coordinates from, to; ///< places of the ends of its found shape [m]
-    double length = 0.;   ///< unstressed [m]
+    double length = 0.;   ///< unstressed, more than zero [m]
     CableSection section;
     double mass_damping = 0.; ///< a in C = a M [1/s]
     Coordinates gravity;      ///< [m/s^2]
@@ -71,10 +71,10 @@ namespace taut
 
     const CableElements &elements() const { return element; }
 
-    /// The found shape; positions count from `from`.
+    /// The found shape; positions count from `from` [m, 1].
     const CableShape &shape() const { return found; }
 
-    /// Positions at U, counted from `from`.
+    /// Positions at the displacement U, counted from `from`, in the order of CableElements [m, 1].
     std::vector<double> positions(const std::vector<double> &U) const;
 
     /// At place[0], the unstressed arc length from `from`, along any direction in space.
@@ -85,7 +85,7 @@ namespace taut
     /// Translations, if no end is held: they change no stretch, whatever the shape.
     NullSpace null_space() const override;
 
-    /// Where it is compressed most, beyond rounding; a linearised cable never is.
+    /// Where it is compressed most, beyond rounding; a linearised cable never is slack.
     bool is_slack(const std::vector<double> &U, Slack &slack) const override;
 
     double axial_stiffness() const override { return data.section.axial_stiffness; }

@@ -71,11 +71,11 @@ namespace taut
     /// The same cable, as soft or stiff along its axis as given.
     CableElements with_axial_stiffness(double EA) const;
 
-    /// [J]
+    /// The integral of the energy above [J].
     double strain_energy(const std::vector<double> &q) const;
 
-    /// The gradient of the energy, and the force of the damping at the velocities @p v; empty: at
-    /// rest. @p f is resized [N, N m].
+    /// The gradient of the energy, and the force of the damping at the velocities @p v [m/s, 1/s];
+    /// empty: at rest. In equilibrium it is the external force. @p f is resized [N, N m].
     void internal_force(const std::vector<double> &q, const std::vector<double> &v,
                         std::vector<double> &f) const;
 
@@ -90,8 +90,8 @@ namespace taut
     void mean_force(const std::vector<double> &q0, const std::vector<double> &q1, double step,
                     std::vector<double> &f) const;
 
-    /// A += the Hessian of the energy; @p definite: a semidefinite part of it, without the
-    /// geometric stiffness of compression and of moments.
+    /// A += the Hessian of the energy [N/m, N, N m]; @p definite: a semidefinite part of it,
+    /// without the geometric stiffness of compression and of moments.
     void add_tangent(const std::vector<double> &q, bool definite, SymmetricMatrix &A) const;
 
     /**
@@ -102,7 +102,7 @@ namespace taut
     void add_mean_tangent(const std::vector<double> &q0, const std::vector<double> &q1,
                           bool definite, SymmetricMatrix &A) const;
 
-    /// A += @p factor times the derivative of the damping force with respect to velocities.
+    /// A += @p factor [1/s] times the derivative of the damping force with respect to velocities.
     void add_damping(const std::vector<double> &q, double factor, SymmetricMatrix &A) const;
 
     /// A += @p factor times the consistent mass matrix.
@@ -117,10 +117,11 @@ namespace taut
     Coordinates position(const std::vector<double> &q, double s) const;
     Coordinates tangent(const std::vector<double> &q, double s) const;
 
-    /// EA eps at s, interpolated between the points of the integral, where it is most accurate [N].
+    /// EA eps at s, interpolated between the points of the integral, where it is most accurate [N];
+    /// negative: compression.
     double tension(const std::vector<double> &q, double s) const;
 
-    /// Largest and smallest eps of all points of the integral, and where the smallest is [m].
+    /// Largest and smallest eps of all points of the integral [1], and where the smallest is [m].
     double largest_strain(const std::vector<double> &q) const;
     double smallest_strain(const std::vector<double> &q, double *place = nullptr) const;
 

@@ -11,15 +11,21 @@ namespace taut
   /// Makes the elements of a cable of an unstressed length [m].
   using MakeCable = std::function<CableElements(double length)>;
 
-  /// The unstressed length with which the cable has this horizontal tension [N] or sag [m] between
-  /// its ends. Throws UserError if there is none.
+  /**
+   * The unstressed length [m] with which the cable has this horizontal tension [N] or sag [m], both
+   * positive, between its ends [m] under a force per unstressed length [N/m], weight and wind. See
+   * horizontal_tension() and sag() for what is measured. A parabola is the first guess, then a root
+   * is bracketed (TOMS 748). Throws UserError if no length near the guess has it, if the ends
+   * are one above the other along @p force, and what hang() throws.
+   */
   double length_for_tension(const MakeCable &make, const Coordinates &from, const Coordinates &to,
                             const Coordinates &force, double tension);
   double length_for_sag(const MakeCable &make, const Coordinates &from, const Coordinates &to,
                         const Coordinates &force, double sag);
 
   /// The same with which it passes through a place [m], which is in the plane of its ends and
-  /// @p force, between the ends across @p force and below their straight line.
+  /// @p force, between the ends across @p force and below their straight line. Throws UserError for
+  /// a place elsewhere, and without a force: the cable then is a straight line.
   double length_through(const MakeCable &make, const Coordinates &from, const Coordinates &to,
                         const Coordinates &force, const Coordinates &place);
 } // namespace taut

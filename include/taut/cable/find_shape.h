@@ -11,7 +11,7 @@ namespace taut
   /// A stable equilibrium of a cable.
   struct CableShape
   {
-    std::vector<double> positions;
+    std::vector<double> positions; ///< one entry a DoF of CableElements [m, 1]
     unsigned int n_iterations = 0; ///< tangents that were factored
     double residual = 0.;          ///< largest force that is not balanced [N, N m]
   };
@@ -29,7 +29,8 @@ namespace taut
                         double tension = 0.);
 
   /// The same between two places, with hinges there, under a force per unstressed length [N/m]:
-  /// from a parabola of the cable's length, or from the straight line if that is longer.
+  /// from a parabola of the cable's length, or from the straight line if that is longer. Throws
+  /// UserError also for a slack cable without a force: it has no shape of its own.
   CableShape hang(const CableElements &cable, const Coordinates &from, const Coordinates &to,
                   const Coordinates &force);
 
@@ -38,7 +39,8 @@ namespace taut
   double horizontal_tension(const CableElements &cable, const CableShape &shape,
                             const Coordinates &force);
 
-  /// The largest distance of a shape from its chord, measured along @p force [m].
+  /// The largest distance of a shape from its chord, measured along @p force, positive where the
+  /// shape is on the side that the force points to [m].
   double sag(const CableElements &cable, const CableShape &shape, const Coordinates &force);
 
   /// How far a shape is below its chord, along @p force, at a part of the span across it, in

@@ -28,6 +28,8 @@ namespace taut
     void update();
 
     std::size_t size() const { return entries.size(); }
+
+    /// Of body k of this rank, as Structure counts them.
     const std::vector<Entry> &operator[](std::size_t k) const { return entries[k]; }
 
   private:

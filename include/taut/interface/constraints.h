@@ -26,11 +26,11 @@ namespace taut
     /// Position on what it moves along at time @p t [s], for tables [m].
     virtual double position(double t) const = 0;
 
-    /// B_i at time @p t; throws an EntryError if the constraint has no place then.
+    /// B_i at time @p t [s]; throws an EntryError if the constraint has no place then.
     virtual std::vector<Term> terms(double t) const = 0;
 
     /// The derivative of B_i by time: what the motion of the place adds to D', but for that of the
-    /// gap.
+    /// gap [1/s].
     virtual std::vector<Term> rates(double t) const = 0;
 
     /// D at U = 0, N = 0 [m].

@@ -39,7 +39,7 @@ namespace taut
     /// Y = F X, for each column of the multivectors over the constraints.
     int Apply(const Epetra_MultiVector &X, Epetra_MultiVector &Y) const override;
 
-    /// y = F x; both have one entry a constraint.
+    /// y = F x; both have one entry a constraint [m, rad; N, N m].
     void apply(const double *x, double *y) const;
 
     /// Products so far but those with zero, and systems of one A_k solved for them on this rank.

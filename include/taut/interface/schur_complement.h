@@ -15,8 +15,8 @@ namespace taut
   /// How systems with F are solved, by name.
   struct InterfaceParameters
   {
-    /// "assembled dense", "assembled sparse", "matrix-free", or "automatic" for the one that suits
-    /// number of constraints and step.
+    /// "assembled dense", "condensed" (dense without the columns A_k^-1 B_k), "assembled sparse",
+    /// "matrix-free", or "automatic" for the one that suits number of constraints and step.
     std::string form = "automatic";
 
     /// Of the matrix-free form: "diagonal", "lumped", "Dirichlet".
@@ -40,9 +40,10 @@ namespace taut
   };
 
   /**
-   * The contact Schur complement F = sum_k B_k^T A_k^-1 B_k + S of the constraints, in one of three
-   * forms: assembled dense or sparse, with the columns A_k^-1 B_k of the fixed constraints stored
-   * once, or matrix-free.
+   * The contact Schur complement F = sum_k B_k^T A_k^-1 B_k + S of the constraints [m/N, rad/(N
+   * m)], the interface operator of FETI (C. Farhat, F.-X. Roux, Int. J. Numer. Meth. Engng 32
+   * (1991)), in one of four forms: assembled dense or sparse, with the columns A_k^-1 B_k of the
+   * fixed constraints stored once, condensed, which is dense without these, or matrix-free.
    */
   class SchurComplement
   {

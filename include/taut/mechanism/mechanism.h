@@ -9,24 +9,27 @@
 
 namespace taut
 {
-  /// Masses that springs and dampers connect: one DoF a motion of a mass.
+  /// Masses that springs and dampers connect: one DoF a motion of a mass, x, y, rotation and z in
+  /// this order as far as the mass has them [m, rad], mass after mass in the order of the members.
   class Mechanism : public Substructure
   {
   public:
     /// @p members are indices of scene.masses.
     Mechanism(const Scene &scene, const std::vector<std::size_t> &members);
 
+    /// For messages and files: that of the first mass, "... and others".
     static std::string name_of(const Scene &scene, const std::vector<std::size_t> &members);
 
     void initial_state(std::vector<double> &U, std::vector<double> &V) const override;
     bool is_lumped() const override { return true; }
 
-    /// Of the mass whose number among those of this body is place[0].
+    /// Of the mass whose number among those of this body is place[0], counted from 0. Throws
+    /// UserError for a number that it does not have.
     LinearForm displacement(const Coordinates &place, const Coordinates &direction) const override;
     NullSpace null_space() const override;
 
-    /// Displacement along a direction, or the rotation, of a mass: result . U. Motions that the
-    /// mass lacks are zero.
+    /// Displacement along @p direction [m], or the rotation about z [rad], of a mass of the scene:
+    /// result . U. Motions that the mass lacks are zero.
     void motion(std::size_t mass, bool rotational, const Coordinates &direction,
                 LinearForm &result) const;
 

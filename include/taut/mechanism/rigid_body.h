@@ -38,8 +38,8 @@ namespace taut
    *     x = c + sum_i (xi_i / l) d_i,
    *
    * so that links, loads and contacts act on it as on any other body. U is the change of these
-   * twelve [m] and six multipliers s [1] of the conditions that keep the d_i orthogonal and of
-   * equal length,
+   * twelve [m], c, d_1, d_2, d_3, and six multipliers s [1] of the conditions that keep the d_i
+   * orthogonal and of equal length, in the order 11, 22, 33, 12, 13, 23,
    *
    *     g_ij = (d_i . d_j - D_i . D_j) / l^2 = 0, half of it for i = j,    f = Lambda (G^T s, g).
    *
@@ -61,7 +61,7 @@ namespace taut
     /// At a place in the undeformed position, on the body or not, along any direction in space.
     LinearForm displacement(const Coordinates &place, const Coordinates &direction) const override;
 
-    /// The displaced centre of mass [m].
+    /// The displaced centre of mass, in the coordinates of the scene [m].
     Coordinates centre(const std::vector<double> &U) const;
 
     /// The rotation from the undeformed position, along its axis, at most pi long [rad].

@@ -7,8 +7,9 @@
 
 namespace taut
 {
-  /// True if the wire's node under a rigid link carries no mass: its force then is that of the
-  /// elements beside it.
+  /// True if the wire's node under a rigid link carries no mass (mass redistribution: H. B.
+  /// Khenous, P. Laborde, Y. Renard, European J. Mech. A/Solids 27 (2008)): its force then is that
+  /// of the elements beside it.
   bool is_massless(const Link &link);
 
   /**

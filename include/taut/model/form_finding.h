@@ -23,7 +23,8 @@ namespace taut
    * bodies under these tensions give the lengths. Repeated until the lengths stand still where they
    * decide about stiffness and weight. Where the direction is found, too, the static state has each
    * dropper in line with its tension; turned out of it, it is pulled back by tension over length
-   * (its geometric stiffness), taut or slack.
+   * (its geometric stiffness, the force density of H.-J. Schek, Comput. Methods Appl. Mech. Engrg.
+   * 3 (1974)) [N/m], taut or slack.
    *
    * Returns the scene with gap, length, stiffness and direction of these links set and half of the
    * mass of each put on each of its ends; the form comes from @p shared if it is known there.

@@ -12,7 +12,8 @@
 
 namespace taut
 {
-  /// What holds two pieces of a wire or body together where it was cut: a linear form that is zero.
+  /// What holds two pieces of a wire or body together where it was cut: a linear form that is zero
+  /// [m], or [rad] if it is rotational.
   struct CutConstraint
   {
     std::string name;
@@ -54,7 +55,7 @@ namespace taut
       append_motion(point, false, direction, factor, true, terms);
     }
 
-    /// A motion of a point of a wire, whichever way the wire runs.
+    /// A motion of a point of a wire, s [m] from its first end, whichever way the wire runs.
     void motion(std::size_t wire, double s, WireMotion motion, std::vector<Term> &terms) const;
 
     /**

@@ -18,7 +18,8 @@ namespace taut
   };
 
   /// Of contact number @p contact of the scene, from the reference positions; the same on all
-  /// ranks. Throws EntryError.
+  /// ranks. Throws EntryError on the section of the contact, with what mortar_constraints() and the
+  /// others throw.
   ContactGeometry contact_geometry(const Scene &scene, std::size_t contact);
 
   /// The constraints of all contacts of a scene, one contact after the other, with the forms of the

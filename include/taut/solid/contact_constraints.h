@@ -22,7 +22,8 @@ namespace taut
    * not there, no area, an outer side that cannot be told), if dimensions do not fit, and if
    * nothing faces the other side within the search distance [m]. Between two surfaces the search
    * looks back, for penetration, by the size of the larger of the two faces at most: a surface may
-   * be the whole boundary of a body.
+   * be the whole boundary of a body. Signs are those of SurfaceConstraint: D > 0 is open, N > 0
+   * pushes the bodies apart.
    */
 
   /**
@@ -34,7 +35,8 @@ namespace taut
    * On triangles with 6 nodes these integrals vanish at the vertices. There the basis is changed
    * before: the function of a vertex gets 1/5 of those of the middles beside it, and a middle keeps
    * 3/5 of its own. All areas are positive then, loads of a uniform pressure stay consistent, and D
-   * of a middle m between vertices a, b is (5 D_m - D_a - D_b) / 3.
+   * of a middle m between vertices a, b is (5 D_m - D_a - D_b) / 3: A. Popp, B. I. Wohlmuth, M. W.
+   * Gee, W. A. Wall, SIAM J. Sci. Comput. 34 (2012).
    *
    * Nodes get a constraint if they are within the search distance and one of their faces faces the
    * obstacle. Of their faces those count whose cosine to the obstacle is at least half of the
@@ -60,6 +62,11 @@ namespace taut
    * On a face of which less than a tenth is covered, nodes become one, with the sum of their psi_i,
    * if one has less than a tenth of the area of the other, or if their constraints differ by less
    * than 0.1 in all weights. A node without overlap beside it has no constraint.
+   *
+   * Dual basis: B. I. Wohlmuth, SIAM J. Numer. Anal. 38 (2000). Segments: M. A. Puso, T. A.
+   * Laursen, Comput. Methods Appl. Mech. Engrg. 193 (2004); A. Popp, M. W. Gee, W. A. Wall, Int. J.
+   * Numer. Meth. Engng 79 (2009). Faces covered in part: T. Cichosz, M. Bischoff, Comput. Methods
+   * Appl. Mech. Engrg. 200 (2011). See also doc/theory.md, Contact surfaces.
    */
   std::vector<SurfaceConstraint>
   mortar_constraints(const ContactSurface &slave, const ContactSurface &master,

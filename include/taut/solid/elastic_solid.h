@@ -42,8 +42,11 @@ namespace taut
    * A solid that moves by small amounts: linear elasticity, discretised by deal.II,
    *
    *     stress = lambda tr(strain) 1 + 2 mu strain,
+   *     lambda = E nu / ((1 + nu) (1 - 2 nu)),    mu = E / (2 (1 + nu)),
    *
-   * in the plane (a body of some thickness) or in space, where it is.
+   * in the plane (a body of some thickness) or in space, where it is. In plane stress 2 lambda mu /
+   * (lambda + 2 mu) takes the place of lambda. Tension is positive. DoFs are those of
+   * SolidMesh::dof_handler() [m].
    */
   template <int dim>
   class ElasticSolid : public FEBody<dim>
@@ -69,7 +72,7 @@ namespace taut
       Coordinates gravity = {};      ///< [m/s^2]
       std::vector<BoundaryCondition> conditions;
 
-      /// Of all points at t = 0, for Start::given [m/s].
+      /// Of all points at t = 0, for Start::given; displacements are zero then [m/s].
       Coordinates initial_velocity = {};
     };
 

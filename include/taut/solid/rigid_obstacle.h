@@ -20,7 +20,7 @@ namespace taut
       Coordinates normal; ///< unit vector out of the obstacle: the gradient of the distance
     };
 
-    /// Signed distance of a point.
+    /// Signed distance of a point x [m].
     virtual Distance distance(const Coordinates &x) const = 0;
   };
 

@@ -21,7 +21,7 @@ namespace taut
     {
       displacement, ///< of the components that are held [m]
       symmetry,     ///< no motion along the normal of faces across the axes
-      traction,     ///< force per area [Pa]
+      traction,     ///< force per area, along x, y, z [Pa]
       pressure      ///< against the outward normal, the x of the value [Pa]
     };
     Kind kind = Kind::displacement;
@@ -44,7 +44,8 @@ namespace taut
     /// mesh does not have.
     SolidConditions(const SolidMesh<dim> &mesh, const std::vector<BoundaryCondition> &conditions);
 
-    /// Not closed, so that hanging nodes go on to depend on nodes whose displacement is given.
+    /// Homogeneous (see prescribed() for what is not zero) and not closed, so that hanging nodes go
+    /// on to depend on nodes whose displacement is given.
     const dealii::AffineConstraints<double> &constraints() const { return all; }
 
     /// A DoF whose displacement is not zero, and what gives it.

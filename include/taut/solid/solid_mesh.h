@@ -22,7 +22,7 @@
 
 namespace taut
 {
-  /// A point or direction of deal.II; in the plane z = 0.
+  /// A point [m] or direction [1] of deal.II; in the plane z = 0.
   template <int dim>
   Coordinates coordinates(const dealii::Tensor<1, dim> &x)
   {

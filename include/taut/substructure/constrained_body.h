@@ -16,8 +16,8 @@ namespace taut
   public:
     virtual ~ConstrainedBody() = default;
 
-    /// M and the conditions that velocities have to meet at the displacement U, for the local
-    /// solver of the body.
+    /// M [kg, kg m^2] and the conditions that velocities have to meet at the displacement U [m,
+    /// rad] from the undeformed body, with the pattern of K: for the local solver of the body.
     virtual std::unique_ptr<SymmetricMatrix> mass_at(const std::vector<double> &U) const = 0;
   };
 } // namespace taut

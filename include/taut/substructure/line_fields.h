@@ -13,7 +13,7 @@ namespace taut
   struct LinePoint
   {
     Coordinates place, displacement; ///< displaced place [m]
-    std::vector<double> values;      ///< of further fields
+    std::vector<double> values;      ///< of further fields, in the order of their names
   };
 
   /// Writes lines, each of two points or more, with `displacement` and the fields @p names as a

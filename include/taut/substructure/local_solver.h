@@ -26,8 +26,9 @@ namespace taut
     virtual ~LocalSolver() = default;
 
     /**
-     * Factors A = sum of the summands, which share one size and pattern. Throws BodyNotHeld, naming
-     * the DoF, at a pivot that is not positive to working precision.
+     * Factors A = sum of the summands, which share one size and pattern, with the DoFs @p
+     * constrained, sorted, held at zero. Throws BodyNotHeld, naming the DoF, at a pivot that is not
+     * positive to working precision.
      */
     virtual void factor(const std::vector<ScaledMatrix> &summands,
                         const std::vector<unsigned int> &constrained) = 0;
@@ -46,7 +47,7 @@ namespace taut
      */
     virtual void column(const LinearForm &rhs, WindowedVector &x) const = 0;
 
-    /// rhs^T A^-1 rhs, the flexibility of the body under one row.
+    /// rhs^T A^-1 rhs, the flexibility of the body under one row [m/N, rad/(N m)].
     virtual double flexibility(const LinearForm &rhs) const = 0;
 
     /// F_ij = b_i^T A^-1 b_j of all pairs of @p rows, the lower triangle row after row: i + 1
@@ -67,7 +68,7 @@ namespace taut
 
   /**
    * The solver @p name, "block tridiagonal" or "sparse direct", for a matrix; a matrix without
-   * blocks always gets the sparse one.
+   * blocks always gets the sparse one. Throws UserError for another name.
    */
   std::unique_ptr<LocalSolver> make_local_solver(const std::string &name,
                                                  const SymmetricMatrix &matrix);

@@ -32,7 +32,8 @@ namespace taut
       double axial_damping = 0.;     ///< [N s]
     };
 
-    /// True if the body is slack at a displacement from the undeformed body; fills @p slack.
+    /// True if the body is slack at a displacement U [m, rad] from the undeformed body; then fills
+    /// @p slack.
     virtual bool is_slack(const std::vector<double> &U, Slack &slack) const = 0;
   };
 } // namespace taut

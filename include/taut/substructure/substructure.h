@@ -57,6 +57,7 @@ namespace taut
     const std::string &origin() const { return body_origin; }
     unsigned int n_dofs() const { return K->size(); }
 
+    /// M [kg, kg m^2], C [N s/m, N m s/rad], K [N/m, N m/rad], rows of constraints() included.
     const SymmetricMatrix &mass() const { return *M; }
     const SymmetricMatrix &damping() const { return *C; }
     const SymmetricMatrix &stiffness() const { return *K; }
@@ -110,10 +111,11 @@ namespace taut
     virtual LinearForm displacement(const Coordinates &place, const Coordinates &direction) const;
 
     /// The same of a node of the surface that the body shows to contacts (BodyType::surface()).
+    /// Throws UserError if the body has no such surface.
     virtual LinearForm node_displacement(unsigned int node, const Coordinates &direction) const;
 
-    /// A local solver of its own for A = mass M + damping C + K; none: by the matrices, see
-    /// make_local_solver().
+    /// A local solver of its own for A = mass M + damping C + K, mass in 1/s^2, damping in 1/s;
+    /// nullptr: by the matrices, see make_local_solver().
     virtual std::unique_ptr<LocalSolver> make_solver() const;
 
     /// True if write_vtu() shows the body; wires and masses are shown together, elsewhere.
@@ -128,14 +130,14 @@ namespace taut
     virtual void initial_state(std::vector<double> &U, std::vector<double> &V) const;
 
     /**
-     * A basis of the motions that cost no energy and that no support prevents, and for each of them
-     * a DoF to hold: with springs on these DoFs the stiffness is definite. Empty for a body that is
-     * held.
+     * A basis of the motions that cost no energy and that no support prevents (rigid body modes),
+     * and for each of them a DoF to hold: with springs on these DoFs the stiffness is definite.
+     * Empty for a body that is held.
      */
     struct NullSpace
     {
-      std::vector<std::vector<double>> vectors;
-      std::vector<unsigned int> fixing_dofs;
+      std::vector<std::vector<double>> vectors; ///< one entry a DoF
+      std::vector<unsigned int> fixing_dofs;    ///< as many, different from each other
     };
     virtual NullSpace null_space() const { return {}; }
 
@@ -164,9 +166,10 @@ namespace taut
                                      double step, std::vector<double> &f) const;
 
     /**
-     * The tangent df/dU + rate df/dV at U and V = 0, symmetric, with the pattern of K. @p definite:
-     * without the parts that may make it indefinite, such as the geometric stiffness of
-     * compression; for searches of an equilibrium.
+     * The tangent df/dU + rate df/dV at U and V = 0, symmetric, with the pattern of K [N/m, N
+     * m/rad]; @p rate is dV/dU of the scheme [1/s], 0 at rest. @p definite: without the parts that
+     * may make it indefinite, such as the geometric stiffness of compression; for searches of an
+     * equilibrium.
      */
     virtual std::unique_ptr<SymmetricMatrix> tangent(const std::vector<double> &U, double rate,
                                                      bool definite) const;
@@ -192,11 +195,11 @@ namespace taut
     /// or a force is not finite.
     void finish();
 
-    std::unique_ptr<SymmetricMatrix> M, C, K;
-    std::vector<unsigned char> kinds = {0};
-    std::vector<double> constant_force;
-    std::vector<std::unique_ptr<TimeLoad>> time_loads;
-    std::vector<ConstrainedDof> constrained;
+    std::unique_ptr<SymmetricMatrix> M, C, K;          ///< of one size and kind
+    std::vector<unsigned char> kinds = {0};            ///< see kind_pattern()
+    std::vector<double> constant_force;                ///< one entry a DoF [N, N m]
+    std::vector<std::unique_ptr<TimeLoad>> time_loads; ///< added to it
+    std::vector<ConstrainedDof> constrained;           ///< a DoF once
 
   private:
     std::string body_name, body_origin;

@@ -34,11 +34,11 @@ namespace taut
    */
   struct StepCoefficients
   {
-    double velocity = 0.;     ///< [1/s]
-    double acceleration = 0.; ///< [1/s^2]
-    double v_V = 0., v_A = 0., v_dU = 0.;
-    double a_V = 0., a_A = 0., a_dU = 0., a_V_old = 0.;
-    double alpha_m = 0., alpha_f = 0.;
+    double velocity = 0.;                               ///< [1/s]
+    double acceleration = 0.;                           ///< [1/s^2]
+    double v_V = 0., v_A = 0., v_dU = 0.;               ///< [1, s, 1/s]
+    double a_V = 0., a_A = 0., a_dU = 0., a_V_old = 0.; ///< [1/s, 1, 1/s^2, 1/s]
+    double alpha_m = 0., alpha_f = 0.;                  ///< weights of the old step [1]
     bool mean_force = false; ///< of rigid constraints; bilateral ones then are at velocity level
     bool velocity_level = false;      ///< for rigid unilateral constraints; needs mean_force
     bool velocity_projection = false; ///< after conditions on gaps; needs mean_force
@@ -123,6 +123,8 @@ namespace taut
   std::unique_ptr<TimeIntegrator>
   make_integrator(const std::string &name, const std::map<std::string, std::string> &entries = {});
 
+  // Of all functions below, a step is in s, and parameters that make no method are a UserError.
+
   /// Backward Euler for the velocity and for the acceleration; first order.
   StepCoefficients backward_euler(double step);
 
@@ -132,7 +134,7 @@ namespace taut
   /// The same where the step before had another length [s].
   StepCoefficients bdf2(double step, double last_step);
 
-  /// Newmark's beta and gamma in the averaged balance of the generalised-alpha method.
+  /// Newmark's beta > 0 and gamma >= 1/2 in the averaged balance of the generalised-alpha method.
   StepCoefficients newmark(double step, double beta, double gamma, double alpha_m = 0.,
                            double alpha_f = 0.);
 
@@ -150,7 +152,8 @@ namespace taut
   /**
    * The theta method of Moreau and Jean: M (V - V0) = step [theta r + (1 - theta) r0] + B p and
    * U = U0 + step [theta V + (1 - theta) V0] with the impulses p of rigid constraints, whose
-   * complementarity is at velocity level with Newton's restitution e. @p theta in [1/2, 1].
+   * complementarity is at velocity level with Newton's restitution e in [0, 1]. @p theta in [1/2,
+   * 1]. M. Jean, Comput. Methods Appl. Mech. Engrg. 177 (1999).
    */
   StepCoefficients moreau_jean(double step, double theta, double restitution);
 

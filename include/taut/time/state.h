@@ -31,10 +31,10 @@ namespace taut
     double last_step = 0.; ///< length of the step that ended here; 0: none [s]
 
     BodyVectors U;     ///< displacement from the reference [m, rad]
-    BodyVectors V;     ///< velocity
-    BodyVectors A;     ///< acceleration
-    BodyVectors dU;    ///< increment of the last step
-    BodyVectors V_old; ///< velocity before the last step
+    BodyVectors V;     ///< velocity [m/s, rad/s]
+    BodyVectors A;     ///< acceleration [m/s^2, rad/s^2]
+    BodyVectors dU;    ///< increment of the last step [m, rad]
+    BodyVectors V_old; ///< velocity before the last step [m/s, rad/s]
     BodyVectors KU;    ///< K U [N, N m]
     /// P + B N - C V - K (U_ref + U), without forces that are means [N, N m].
     BodyVectors balance;

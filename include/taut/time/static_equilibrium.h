@@ -21,8 +21,9 @@ namespace taut
   };
 
   /**
-   * Solves K U = P(t) + B N with the links' complementarity, without inertia. Bodies that only
-   * links hold keep the amplitudes of their rigid body modes as unknowns. Throws BodyNotHeld,
+   * Solves K U = P(t) + B N, or f(U) = P(t) + B N of bodies that are not linear, with the links'
+   * complementarity, without inertia; t in s. Bodies that only links hold keep the amplitudes of
+   * their rigid body modes as unknowns. Called by all ranks together. Throws BodyNotHeld,
    * ContradictoryRows, or UserError if the certificate misses the contact tolerance.
    */
   StaticState static_equilibrium(const Structure &structure, const Constraints &constraints,

@@ -18,9 +18,9 @@ namespace taut
   /// How long steps are.
   struct StepParameters
   {
-    std::string control = "fixed";
-    double tolerance = 1e-4;
-    unsigned int n_halvings = 6, n_doublings = 4;
+    std::string control = "fixed";                ///< or "adaptive"
+    double tolerance = 1e-4;                      ///< of TimeStepper::local_error() [1]
+    unsigned int n_halvings = 6, n_doublings = 4; ///< bounds of the step, from Step
 
     /// Declares the members in the current subsection.
     void declare_parameters(dealii::ParameterHandler &prm);
@@ -44,9 +44,9 @@ namespace taut
    * Steps of a length times a power of two, so that matrices are factored anew only at a change and
    * times are multiples of the shortest step. A step is repeated at half its length if its local
    * error is above the tolerance, down to the shortest one, which counts as it is; the error is not
-   * known, and the length stays, in a step where a rigid
-   * unilateral constraint opens or closes and in the next one, whose accelerations are jumps. After
-   * four steps with a tenth of the tolerance the length doubles, at a multiple of the new one.
+   * known, and the length stays, in a step where a rigid unilateral constraint opens or closes and
+   * in the next one, whose accelerations are jumps. After four steps with a tenth of the tolerance
+   * the length doubles, at a multiple of the new one.
    */
   class StepControl
   {
