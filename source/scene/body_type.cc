@@ -18,9 +18,11 @@ namespace taut
   void BodyParameters::declare_names(dealii::ParameterHandler &prm)
   {
     check_item_names(names, "Bodies");
-    declare_item_names(prm, "Bodies", "Body",
-                       "bodies of types that are not Taut's own, from Additional shared libraries",
-                       names);
+    declare_item_names(
+        prm, "Bodies", "Body",
+        "bodies other than wires and lumped masses: solids, cables, rigid bodies, and "
+        "types of Additional shared libraries",
+        names);
   }
 
   void BodyParameters::declare_types(dealii::ParameterHandler &prm)

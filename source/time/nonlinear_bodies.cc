@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "row_tiles.h"
 #include "softer_bodies.h"
 
 #include <taut/time/matrix_norms.h>
@@ -15,11 +16,11 @@ namespace taut
     constexpr double weight_of_force = 100.;
   } // namespace
 
-  PerKind beyond_rounding(const Substructure &body, const std::vector<double> &force)
+  PerKind beyond_rounding(const Substructure &body, const PerKind &largest_force)
   {
     // The solve rounds, too.
     constexpr double of_all = 4.;
-    PerKind result = largest(body, force);
+    PerKind result = largest_force;
     for (int kind = 0; kind < 2; ++kind)
       result[kind] = result[kind] <= of_all * body.rounding_of_force(kind) ? 0. : result[kind];
     return result;
@@ -87,6 +88,7 @@ namespace taut
   void NonlinearBodies::set_tangent(const std::size_t k, const SymmetricMatrix &K)
   {
     Step &own = steps[k];
+    own.remainder.resize(own.f.size());
     for (std::size_t i = 0; i < own.f.size(); ++i)
       own.remainder[i] = own.f0[i] - own.f[i];
     K.vmult_add(1., own.dU.data(), own.remainder.data());
@@ -97,21 +99,30 @@ namespace taut
   {
     Step &own = steps[k];
     const Substructure &body = (*structure)[k];
-    const std::vector<double> &f_ref = reference->force[k];
-    difference = own.dU;
-    unbalanced = own.remainder;
+    last_dU.swap(own.dU);
+    last_remainder.swap(own.remainder);
     own.dU = dU;
     end_force(k, c, own, dU, own.f);
     set_tangent(k, K);
-    whole.resize(dU.size());
-    for (std::size_t i = 0; i < dU.size(); ++i)
-    {
-      difference[i] -= dU[i];
-      unbalanced[i] -= own.remainder[i];
-      whole[i] = own.f[i] + f_ref[i];
-    }
-    const PerKind change = largest(body, difference), size = largest(body, dU),
-                  lack = beyond_rounding(body, unbalanced), force = largest(body, whole);
+
+    for (std::vector<double> &rows : tile)
+      rows.resize(tile_size(body));
+    Largest<4> found(body);
+    visit_tiles(body,
+                [&](const std::size_t begin, const std::size_t end, std::size_t)
+                {
+                  double *const difference = tile[0].data(), *const unbalanced = tile[1].data(),
+                                *const whole = tile[2].data();
+                  for (std::size_t i = begin; i < end; ++i)
+                  {
+                    difference[i - begin] = last_dU[i] - dU[i];
+                    unbalanced[i - begin] = last_remainder[i] - own.remainder[i];
+                    whole[i - begin] = own.f[i] + reference->force[k][i];
+                  }
+                  found.add({difference, dU.data() + begin, unbalanced, whole}, end - begin);
+                });
+    const auto [change, size, unbalanced, force] = found.result();
+    const PerKind lack = beyond_rounding(body, unbalanced);
     double result = 0.;
     for (int kind = 0; kind < 2; ++kind)
     {

@@ -31,7 +31,8 @@ namespace taut
     prm.add_parameter(
         "Coarse space", interface.coarse_space,
         "Of the matrix-free operator. 'rigid body modes': those of floating bodies are solved "
-        "for directly, so that the iterations do not grow with the number of bodies or the step.",
+        "for directly, so that the iterations do not grow with the number of bodies or the step. "
+        "'none': the operator alone.",
         Patterns::Selection("rigid body modes|none"));
     prm.add_parameter("Complementarity", complementarity,
                       "Search for the closed links. 'semismooth Newton': starts from the last step "

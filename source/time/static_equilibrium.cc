@@ -151,7 +151,7 @@ namespace taut
           add_largest(own, moved);
           add_largest(largest(structure[k], to[k]), size);
           bodies.multiply(k, difference, product);
-          add_largest(beyond_rounding(structure[k], product), lack);
+          add_largest(beyond_rounding(structure[k], largest(structure[k], product)), lack);
           soft.force(k, to[k], product);
           add_largest(largest(structure[k], product), force);
         }

@@ -7,6 +7,7 @@
 #include <taut/time/matrix_norms.h>
 #include <taut/time/state.h>
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -14,7 +15,7 @@ namespace taut
 {
   /// The largest entries of a force on a body, as far as they stand out against what rounding
   /// leaves of its internal force, see Substructure::rounding_of_force() [N, N m].
-  PerKind beyond_rounding(const Substructure &body, const std::vector<double> &force);
+  PerKind beyond_rounding(const Substructure &body, const PerKind &largest_force);
 
   /**
    * The bodies of this rank whose internal force f is not K U, through one step. Their f at the end
@@ -102,7 +103,8 @@ namespace taut
     std::vector<Step> steps; ///< of each body of this rank, linear ones too
     StepCoefficients c;
     double step = 0.;
-    std::vector<double> difference, unbalanced, whole, own_force;
+    std::vector<double> last_dU, last_remainder, own_force;
+    std::array<std::vector<double>, 3> tile;  ///< rows of set_guess()
     mutable std::vector<double> end_U, end_V; ///< of end_force()
   };
 } // namespace taut
