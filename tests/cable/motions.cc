@@ -114,6 +114,31 @@ namespace
   }
 } // namespace
 
+// Where a step does not move, its tangent is that of the state, in the axes of clamped ends, too.
+TEST(CableMotions, tangent_of_a_step_at_rest_is_that_of_the_state)
+{
+  CableData data = slack_span();
+  data.to = {6., 4., 2.};
+  data.section.bending_stiffness = 50.;
+  data.clamped = true;
+  const Cable cable(data);
+  std::vector<double> U(cable.n_dofs()), direction(U.size()), a(U.size(), 0.), b = a;
+  for (std::size_t i = 0; i < U.size(); ++i)
+  {
+    U[i] = .01 * std::sin(.3 * i);
+    direction[i] = std::cos(2. * i);
+  }
+  cable.tangent(U, 1e-3, false)->vmult_add(1., direction.data(), a.data());
+  cable.mean_tangent(U, U, 1e-3, false)->vmult_add(1., direction.data(), b.data());
+  double largest = 0., difference = 0.;
+  for (std::size_t i = 0; i < U.size(); ++i)
+  {
+    largest = std::max(largest, std::fabs(a[i]));
+    difference = std::max(difference, std::fabs(a[i] - b[i]));
+  }
+  EXPECT_LT(difference, 1e-12 * largest);
+}
+
 // Released from the horizontal plane; it goes slack and snaps at each turn.
 TEST(CableMotions, slack_span_keeps_its_energy)
 {
