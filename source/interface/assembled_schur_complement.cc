@@ -88,7 +88,6 @@ namespace taut
   void CondensedSchurComplement::setup(const std::vector<double> &S)
   {
     compliance = S;
-    columns.setup_without_columns();
     const std::size_t n = constraints.n_fixed();
     const std::size_t n_bodies = solvers.structure().size();
     std::vector<std::vector<std::size_t>> row(n_bodies);

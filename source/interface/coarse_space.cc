@@ -3,7 +3,6 @@
 
 #include <taut/base/gather_entries.h>
 
-#include <algorithm>
 #include <map>
 #include <numeric>
 

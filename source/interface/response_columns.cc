@@ -35,13 +35,6 @@ namespace taut
     // Work of a solve: 4 products of b x b blocks a node, b of order 2; of a column: one product an
     // entry.
     by_columns = constraints.size() > 0 && in_columns < 8 * solvers.structure().n_dofs();
-    work = solvers.structure().zero();
-  }
-
-  void ResponseColumns::setup_without_columns()
-  {
-    by_columns = false;
-    work = solvers.structure().zero();
   }
 
   void ResponseColumns::compute(const std::size_t i)

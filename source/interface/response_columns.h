@@ -18,11 +18,9 @@ namespace taut
     /// The arguments are kept by reference.
     ResponseColumns(const FactoredStructure &solvers, const Constraints &constraints);
 
-    /// After a change of A_k: the columns of the fixed constraints anew.
+    /// After a change of A_k: the columns of the fixed constraints anew. Without it compute() is
+    /// for moving constraints only.
     void setup();
-
-    /// The same without those: compute() is for moving constraints only.
-    void setup_without_columns();
 
     /// Column of constraint i anew.
     void compute(std::size_t i);

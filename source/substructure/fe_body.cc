@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/dot.h>
 #include <taut/base/exceptions.h>
 #include <taut/base/memory.h>
 #include <taut/base/write_file.h>
@@ -15,7 +14,6 @@
 #include <deal.II/numerics/data_out.h>
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 
 namespace taut

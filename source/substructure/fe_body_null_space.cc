@@ -81,9 +81,10 @@ namespace taut
   }
 
   /**
-   * The combinations of the candidates that vanish on all prescribed DoFs, and DoFs that fix them.
-   * The candidates are reduced by their values there, largest pivots first (a rank-revealing LU of
-   * a few columns); those that are left have none.
+   * The combinations of the candidates that vanish on all prescribed DoFs and cost no energy, and
+   * DoFs that fix them. The candidates are reduced by their values there and by the work that K
+   * does on them, largest pivots first (a rank-revealing LU of a few columns); those that are left
+   * have none.
    */
   template <int dim>
   void FEBody<dim>::find_null_space(const Options &options)
@@ -136,7 +137,7 @@ namespace taut
       for (unsigned int i = 0; i < mode.size(); ++i)
         if (is_constrained[i])
           mode[i] = 0.;
-    // Only those that K does not resist.
+    // Only the combinations that K does not resist: those whose forces do no work on any of them.
     std::vector<double> diagonal(forms.size(), 0.);
     K->visit(
         [&](const unsigned int i, const unsigned int j, const double value)
@@ -144,20 +145,24 @@ namespace taut
           if (i == j)
             diagonal[i] = value;
         });
-    modes.erase(std::remove_if(modes.begin(), modes.end(),
-                               [&](const std::vector<double> &mode)
-                               {
-                                 std::vector<double> force(mode.size(), 0.);
-                                 K->vmult_add(1., mode.data(), force.data());
-                                 double scale = 0.;
-                                 for (std::size_t i = 0; i < mode.size(); ++i)
-                                   scale += diagonal[i] * mode[i] * mode[i];
-                                 return std::fabs(dot(force, mode)) > dependent * scale;
-                               }),
-                modes.end());
-    own_null_space = {};
-    std::vector<std::vector<double>> rest = modes;
-    while (eliminate(rest, kept, dof, pivot))
+    const std::vector<std::vector<double>> all = modes;
+    std::vector<unsigned int> work;
+    for (const std::vector<double> &mode : all)
+    {
+      std::vector<double> force(mode.size(), 0.);
+      K->vmult_add(1., mode.data(), force.data());
+      double scale = 0.;
+      for (std::size_t i = 0; i < mode.size(); ++i)
+        scale += diagonal[i] * mode[i] * mode[i];
+      work.push_back(forms.size() + work.size());
+      for (std::size_t m = 0; m < all.size(); ++m)
+        modes[m].push_back(scale > 0. ? dot(all[m], force) / scale : 0.);
+    }
+    while (eliminate(modes, work, dof, pivot))
+      ;
+    for (std::vector<double> &mode : modes)
+      mode.resize(forms.size());
+    while (eliminate(modes, kept, dof, pivot))
     {
       own_null_space.vectors.push_back(pivot);
       own_null_space.fixing_dofs.push_back(dof);

@@ -4,7 +4,6 @@
 #include <taut/time/choose_scheme.h>
 #include <taut/time/integrator.h>
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -111,15 +110,11 @@ namespace taut
                                              const Constraints &constraints,
                                              const SolverParameters &parameters, const double step)
   {
-    const auto is_unilateral = [&]()
-    {
-      for (std::size_t i = 0; i < constraints.size(); ++i)
-        if (constraints[i].unilateral)
-          return true;
-      return false;
-    };
     std::vector<std::size_t> result;
-    if (!is_unilateral())
+    bool has_unilateral = false;
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      has_unilateral = has_unilateral || constraints[i].unilateral;
+    if (!has_unilateral)
       return result;
     const StepCoefficients c = generalised_alpha(step, .8);
     const std::vector<double> flexibility = flexibilities(structure, constraints, parameters, c);

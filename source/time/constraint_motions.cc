@@ -338,14 +338,14 @@ namespace taut
   /// A displacement rounds with the largest of its body.
   void ConstraintMotions::add_body_terms(const BodyVectors &U)
   {
+    std::vector<PerKind> size;
+    for (std::size_t k = 0; k < structure.size(); ++k)
+      size.push_back(largest(structure[k], U[k]));
     std::vector<double> terms(constraints.size(), 0.);
     for (std::size_t i = 0; i < constraints.size(); ++i)
       for (const auto &[k, form] : constraints[i].terms)
-      {
-        const PerKind size = largest(structure[k], U[k]);
         for (std::size_t j = 0; j < form.index.size(); ++j)
-          terms[i] += std::fabs(form.value[j]) * size[structure[k].kind(form.index[j])];
-      }
+          terms[i] += std::fabs(form.value[j]) * size[k][structure[k].kind(form.index[j])];
     structure.communicator().sum(terms);
     for (std::size_t i = 0; i < constraints.size(); ++i)
       gap_terms[i] = std::max(gap_terms[i], std::fabs(constraints[i].gap) + terms[i]);

@@ -78,7 +78,6 @@ namespace taut
                                  noise = std::vector<double>(constraints.size()),
                                  work = std::vector<double>(constraints.size()));
     structure.communicator().sum(work);
-    noise.assign(constraints.size(), 0.);
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       noise[i] = rounding_of_gaps * (work[i] + std::fabs(constraints[i].gap));

@@ -76,15 +76,14 @@ namespace taut
     processes.sum(problem.free_gap);
     processes.sum(problem.gap_scale);
     const std::vector<double> lifted = constraints.motions(lift), moved = constraints.motions(from);
+    std::vector<PerKind> size;
+    for (std::size_t k = 0; k < structure.size(); ++k)
+      size.push_back(largest(structure[k], from[k]));
     std::vector<double> motion_size(constraints.size(), 0.);
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      for (const Term &term : constraints[i].terms)
-      {
-        const PerKind size = largest(structure[term.substructure], from[term.substructure]);
-        for (std::size_t j = 0; j < term.form.index.size(); ++j)
-          motion_size[i] += std::fabs(term.form.value[j]) *
-                            size[structure[term.substructure].kind(term.form.index[j])];
-      }
+      for (const auto &[k, form] : constraints[i].terms)
+        for (std::size_t j = 0; j < form.index.size(); ++j)
+          motion_size[i] += std::fabs(form.value[j]) * size[k][structure[k].kind(form.index[j])];
     processes.sum(motion_size);
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {

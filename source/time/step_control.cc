@@ -4,8 +4,6 @@
 
 #include <deal.II/base/parameter_handler.h>
 
-#include <cmath>
-
 namespace taut
 {
   namespace

@@ -5,8 +5,6 @@
 #include <taut/time/time_stepper.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numeric>
 #include <type_traits>
 

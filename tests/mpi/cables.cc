@@ -1,13 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "../verification/run.h"
+#include "nodes.h"
 
-#include <taut/scene/contact_surface.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -45,44 +38,10 @@ namespace
           result.force.insert(result.force.end(), view.state.multiplier.begin(),
                               view.state.multiplier.end());
           result.probes.insert(result.probes.end(), view.probes.begin(), view.probes.end());
-          if (n_nodes.empty())
-            for (const taut::CustomBody &body : view.scene.bodies)
-              n_nodes.push_back(body.type->surface({body.name, body.origin, view.scene.gravity}, {})
-                                    .points.size());
-          std::vector<double> own;
-          for (std::size_t b = 0; b < n_nodes.size(); ++b)
-            for (unsigned int node = 0; node < n_nodes[b]; ++node)
-            {
-              const std::size_t k = view.structure.index_at_node(b, node);
-              for (const taut::Coordinates &axis :
-                   {taut::Coordinates{1., 0., 0.}, taut::Coordinates{0., 1., 0.},
-                    taut::Coordinates{0., 0., 1.}})
-              {
-                own.push_back(0.);
-                if (k == taut::Structure::elsewhere)
-                  continue;
-                const taut::LinearForm form = view.structure[k].node_displacement(node, axis);
-                own.back() = form.dot(view.reference.displacement[k]) + form.dot(view.state.U[k]);
-              }
-            }
-          view.structure.communicator().sum(own);
-          result.displacement.insert(result.displacement.end(), own.begin(), own.end());
+          add_displacements(view, n_nodes, result.displacement);
         });
     result.slack = lines_with("Slack:", session.log());
     return result;
-  }
-
-  /// Largest difference over the largest number.
-  double difference(const std::vector<double> &a, const std::vector<double> &b)
-  {
-    EXPECT_EQ(a.size(), b.size());
-    double size = 0., error = 0.;
-    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
-    {
-      size = std::max(size, std::fabs(a[i]));
-      error = std::isnan(b[i]) ? INFINITY : std::max(error, std::fabs(a[i] - b[i]));
-    }
-    return size > 0. ? error / size : error;
   }
 
   void expect_same(const std::string &scene, const Overrides &overrides = {},
@@ -93,8 +52,9 @@ namespace
     const Record one = record(scene, overrides, taut::Communicator()),
                  many = record(scene, overrides, world);
     ASSERT_FALSE(one.displacement.empty());
-    const double u = difference(one.displacement, many.displacement),
-                 f = difference(one.force, many.force), p = difference(one.probes, many.probes);
+    const double u = relative_difference(one.displacement, many.displacement),
+                 f = relative_difference(one.force, many.force),
+                 p = relative_difference(one.probes, many.probes);
     EXPECT_LT(u, 1e-9);
     EXPECT_LT(f, 1e-9);
     EXPECT_LT(p, 1e-9);

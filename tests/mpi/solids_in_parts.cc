@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "../verification/run.h"
+#include "nodes.h"
 
-#include <taut/scene/contact_surface.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -27,6 +21,7 @@ namespace
     overrides.push_back("Partition/Number of substructures=" + std::to_string(n_parts));
     overrides.push_back("Output/Field interval=0"); // each rank has a folder of its own here
     Session session(scene_file(scene), overrides, processes);
+    std::vector<std::size_t> n_nodes;
     session.run(
         [&](const taut::StepView &view)
         {
@@ -36,43 +31,9 @@ namespace
               result.force.push_back(view.state.multiplier[i]);
               result.gap.push_back(view.state.geometric_gap[i]);
             }
-          std::vector<double> own;
-          for (std::size_t b = 0; b < view.scene.bodies.size(); ++b)
-          {
-            const taut::CustomBody &body = view.scene.bodies[b];
-            const std::size_t n_nodes =
-                body.type->surface({body.name, body.origin, {}}, {}).points.size();
-            for (unsigned int node = 0; node < n_nodes; ++node)
-            {
-              const std::size_t k = view.structure.index_at_node(b, node);
-              for (const taut::Coordinates &axis :
-                   {taut::Coordinates{1., 0., 0.}, taut::Coordinates{0., 1., 0.}})
-              {
-                own.push_back(0.);
-                if (k == taut::Structure::elsewhere)
-                  continue;
-                const taut::LinearForm form = view.structure[k].node_displacement(node, axis);
-                own.back() = form.dot(view.reference.displacement[k]) + form.dot(view.state.U[k]);
-              }
-            }
-          }
-          view.structure.communicator().sum(own);
-          result.displacement.insert(result.displacement.end(), own.begin(), own.end());
+          add_displacements(view, n_nodes, result.displacement);
         });
     return result;
-  }
-
-  /// Largest difference over the largest number.
-  double difference(const std::vector<double> &a, const std::vector<double> &b)
-  {
-    EXPECT_EQ(a.size(), b.size());
-    double size = 0., error = 0.;
-    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
-    {
-      size = std::max(size, std::fabs(a[i]));
-      error = std::isnan(b[i]) ? INFINITY : std::max(error, std::fabs(a[i] - b[i]));
-    }
-    return size > 0. ? error / size : error;
   }
 
   void expect_same(const std::string &scene, const Overrides &overrides)
@@ -87,8 +48,9 @@ namespace
           scene + ", " + std::to_string(n) + " parts, " + std::to_string(world.size()) + " ranks, ";
       SCOPED_TRACE(where);
       const Record many = record(scene, overrides, n, world);
-      const double u = difference(one.displacement, many.displacement),
-                   f = difference(one.force, many.force), d = difference(one.gap, many.gap);
+      const double u = relative_difference(one.displacement, many.displacement),
+                   f = relative_difference(one.force, many.force),
+                   d = relative_difference(one.gap, many.gap);
       EXPECT_LT(u, 1e-9);
       EXPECT_LT(f, 1e-7);
       figure(where + "displacement", u);

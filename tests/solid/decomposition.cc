@@ -118,8 +118,7 @@ TEST(Feti, StepsOfAnySize)
 // Claim: a contact does not slow FETI down: conjugate gradients of the whole search for the active
 // set, in which systems are solved roughly as long as the set changes. Expected: an independent
 // program for two blocks with mortar constraints between 40 and 32 elements, 39, 61, 74 in all with
-// 16, 64 and 256 parts to a relative residual of 1e-9, and 1.3 for another load; 1.4 with 256
-// parts, where the search takes six sets.
+// 16, 64 and 256 parts to a relative residual of 1e-9, and 1.3 for another load.
 TEST(Feti, ContactsOfTwoBlocks)
 {
   const unsigned int n_parts[] = {16, 64, 256}, allowed[] = {39, 61, 74};
@@ -136,7 +135,41 @@ TEST(Feti, ContactsOfTwoBlocks)
     verification::figure(name + "open", contact.n_open);
     EXPECT_GT(contact.n_closed, 8u << refinement);
     EXPECT_GT(contact.n_open, 4u << refinement);
-    EXPECT_LE(contact.statistics.n_iterations, (refinement < 2 ? 1.3 : 1.4) * allowed[refinement]);
+    EXPECT_LE(contact.statistics.n_iterations, 1.3 * allowed[refinement]);
+  }
+}
+
+// Claim: the diagonal of F at cuts, estimated from sixteen of a part, is that of F but for a factor
+// of a few: it bounds what gaps round with, and weighs them against contacts. Expected: products
+// with F. The diagonal of A alone is off by 3000.
+TEST(Feti, EstimatedFlexibilities)
+{
+  const auto problem = box_in_parts::problem<2>({2, 32});
+  for (const double step : {.1, 10., 1e3})
+  {
+    taut::FactoredStructure solvers(problem->structure, "block tridiagonal");
+    solvers.factor(1. / (step * step), 1. / step);
+    const auto schur = taut::make_schur_complement({"matrix-free", "Dirichlet", "rigid body modes"},
+                                                   solvers, problem->constraints);
+    const std::size_t n = problem->constraints.size();
+    schur->setup(std::vector<double>(n, 0.));
+    std::vector<double> unit(n, 0.), column;
+    double smallest = 1e300, largest = 0.;
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      unit[i] = 1.;
+      schur->matrix().apply(unit, column);
+      unit[i] = 0.;
+      const double ratio = schur->matrix().diagonal(i) / column[i];
+      smallest = std::min(smallest, ratio);
+      largest = std::max(largest, ratio);
+    }
+    const std::string name =
+        "diagonal of F at cuts over that of products, c tau / h " + std::to_string(step) + ", ";
+    verification::figure(name + "smallest", smallest);
+    verification::figure(name + "largest", largest);
+    EXPECT_GT(smallest, .5);
+    EXPECT_LT(largest, 10.);
   }
 }
 

@@ -102,6 +102,27 @@ namespace
     return tip / n_tip;
   }
 
+  /// x . A x.
+  double product(const taut::SymmetricMatrix &A, const std::vector<double> &x)
+  {
+    std::vector<double> Ax(x.size(), 0.);
+    A.vmult_add(1., x.data(), Ax.data());
+    return std::inner_product(x.begin(), x.end(), Ax.begin(), 0.);
+  }
+
+  /// Mass of a body, and the force on it along y.
+  template <int dim>
+  std::pair<double, double> mass_and_force(const taut::ElasticSolid<dim> &solid,
+                                           const taut::SolidMesh<dim> &mesh)
+  {
+    std::vector<double> P, along(solid.n_dofs(), 0.);
+    solid.external_force(0., P);
+    for (unsigned int i = 0; i < P.size(); ++i)
+      along[i] = mesh.component(i) == 1;
+    return {product(solid.mass(), along),
+            std::inner_product(P.begin(), P.end(), along.begin(), 0.)};
+  }
+
   /// P L^3 / (3 E I) + P L / (kappa G A).
   double timoshenko(const double length, const double E, const double nu)
   {
@@ -173,12 +194,10 @@ TEST(ElasticSolids, the_first_frequency_of_a_cantilever_is_that_of_a_beam)
       std::vector<double> y = Mx;
       solver->solve(y);
       const double yMx = std::inner_product(y.begin(), y.end(), Mx.begin(), 0.);
-      std::vector<double> My(x.size(), 0.);
-      solid.mass().vmult_add(1., y.data(), My.data());
-      omega2 = yMx / std::inner_product(y.begin(), y.end(), My.begin(), 0.);
-      const double size = std::sqrt(std::inner_product(y.begin(), y.end(), My.begin(), 0.));
+      const double yMy = product(solid.mass(), y);
+      omega2 = yMx / yMy;
       for (unsigned int i = 0; i < x.size(); ++i)
-        x[i] = y[i] / size;
+        x[i] = y[i] / std::sqrt(yMy);
     }
     const double exact =
         std::pow(1.8751040687, 2) * std::sqrt(E / 12. / density) / (length * length);
@@ -205,17 +224,8 @@ TEST(ElasticSolids, weight_and_pressure_are_carried_by_the_supports)
       return Coordinates{100. * x.x, 0., 0.};
     };
     const taut::ElasticSolid<3> solid("box", mesh, options);
-    std::vector<double> P, one(solid.n_dofs(), 0.), M(solid.n_dofs(), 0.);
-    solid.external_force(0., P);
-    double force = 0.;
-    for (unsigned int i = 0; i < P.size(); ++i)
-      if (mesh->component(i) == 1)
-      {
-        force += P[i];
-        one[i] = 1.;
-      }
-    solid.mass().vmult_add(1., one.data(), M.data());
-    EXPECT_NEAR(std::inner_product(one.begin(), one.end(), M.begin(), 0.), 500. * 6., 1e-9);
+    const auto [m, force] = mass_and_force(solid, *mesh);
+    EXPECT_NEAR(m, 500. * 6., 1e-9);
     // The side y = 1 is 3 m x 2 m; the mean of x is 1.5 m.
     EXPECT_NEAR(force, -9.81 * 500. * 6. - 100. * 1.5 * 6., 1e-8);
     EXPECT_EQ(solid.null_space().vectors.size(), 6u);
@@ -245,22 +255,12 @@ TEST(ElasticSolids, plates_have_the_thickness_that_is_given)
     return Coordinates{0., 70., 0.};
   };
   const taut::ElasticSolid<2> solid("plate", mesh, options);
-  std::vector<double> P, one(solid.n_dofs(), 0.), M(solid.n_dofs(), 0.), u(solid.n_dofs(), 0.),
-      Ku(solid.n_dofs(), 0.);
-  solid.external_force(0., P);
-  double force = 0.;
-  for (unsigned int i = 0; i < P.size(); ++i)
-    if (mesh->component(i) == 1)
-    {
-      force += P[i];
-      one[i] = 1.;
-    }
-    else
+  const auto [m, force] = mass_and_force(solid, *mesh);
+  std::vector<double> u(solid.n_dofs(), 0.);
+  for (unsigned int i = 0; i < u.size(); ++i)
+    if (mesh->component(i) == 0)
       u[i] = 1e-3 * mesh->points()[i][0];
-  solid.mass().vmult_add(1., one.data(), M.data());
-  solid.stiffness().vmult_add(1., u.data(), Ku.data());
-  EXPECT_NEAR(std::inner_product(one.begin(), one.end(), M.begin(), 0.), 500. * volume, 1e-9);
+  EXPECT_NEAR(m, 500. * volume, 1e-9);
   EXPECT_NEAR(force, -9.81 * 500. * volume + thickness * (-100. * 1.5 * 3. + 70. * 2.), 1e-9);
-  EXPECT_NEAR(std::inner_product(u.begin(), u.end(), Ku.begin(), 0.),
-              1e9 * .7 / (1.3 * .4) * 1e-6 * volume, 1e-9);
+  EXPECT_NEAR(product(solid.stiffness(), u), 1e9 * .7 / (1.3 * .4) * 1e-6 * volume, 1e-9);
 }

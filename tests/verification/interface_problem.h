@@ -150,6 +150,7 @@ namespace verification
 
     const taut::Scene scene;
     const taut::SceneBodies structure;
+    taut::Constraints constraints;
 
   private:
     void set_null_space(const std::vector<taut::Substructure::NullSpace> &null_spaces,
@@ -199,8 +200,6 @@ namespace verification
       }
       return solution;
     }
-
-    taut::Constraints constraints;
   };
 } // namespace verification
 

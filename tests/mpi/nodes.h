@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_mpi_nodes_h
+#define taut_mpi_nodes_h
+
+#include "../verification/run.h"
+
+#include <taut/scene/contact_surface.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace verification
+{
+  /// Adds the displacements from the undeformed bodies of all nodes that these show to contacts,
+  /// x, y and z of each, summed over the ranks [m]. @p n_nodes of each body is found if empty.
+  inline void add_displacements(const taut::StepView &view, std::vector<std::size_t> &n_nodes,
+                                std::vector<double> &result)
+  {
+    if (n_nodes.empty())
+      for (const taut::CustomBody &body : view.scene.bodies)
+        n_nodes.push_back(
+            body.type->surface({body.name, body.origin, view.scene.gravity}, {}).points.size());
+    std::vector<double> own;
+    for (std::size_t b = 0; b < n_nodes.size(); ++b)
+      for (unsigned int node = 0; node < n_nodes[b]; ++node)
+      {
+        const std::size_t k = view.structure.index_at_node(b, node);
+        for (const taut::Coordinates &axis :
+             {taut::Coordinates{1., 0., 0.}, taut::Coordinates{0., 1., 0.},
+              taut::Coordinates{0., 0., 1.}})
+        {
+          own.push_back(0.);
+          if (k == taut::Structure::elsewhere)
+            continue;
+          const taut::LinearForm form = view.structure[k].node_displacement(node, axis);
+          own.back() = form.dot(view.reference.displacement[k]) + form.dot(view.state.U[k]);
+        }
+      }
+    view.structure.communicator().sum(own);
+    result.insert(result.end(), own.begin(), own.end());
+  }
+
+  /// Largest difference over the largest number.
+  inline double relative_difference(const std::vector<double> &a, const std::vector<double> &b)
+  {
+    EXPECT_EQ(a.size(), b.size());
+    double size = 0., error = 0.;
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+    {
+      size = std::max(size, std::fabs(a[i]));
+      error = std::isnan(b[i]) ? INFINITY : std::max(error, std::fabs(a[i] - b[i]));
+    }
+    return size > 0. ? error / size : error;
+  }
+} // namespace verification
+
+#endif
