@@ -54,6 +54,8 @@ namespace taut
 
   Reactions::Reactions(const Scene &scene, const SceneBodies &structure) : structure(structure)
   {
+    for (std::size_t k = 0; k < structure.size(); ++k)
+      is_held.emplace_back(structure[k].n_dofs(), 0);
     for (const SupportPoint &point : support_points(scene))
     {
       const Support &support = scene.supports[point.support];
@@ -69,14 +71,51 @@ namespace taut
         place.body = terms[0].substructure;
         place.form = without_zeros(terms[0].form);
         if (place.fixed)
+        {
           place.mass = times(place.form, structure[place.body].mass());
+          for (const unsigned int dof : place.form.index)
+            is_held[place.body][dof] = 1;
+        }
       }
       places.push_back(std::move(place));
     }
     values.assign(places.size(), 0.);
   }
 
-  void Reactions::update(const Reference &reference, const State &state)
+  /**
+   * The balance of a state has the forces of all constraints but of those that are means over the
+   * step; where places move and velocities are projected, it has theirs, too.
+   */
+  void Reactions::update(const Reference &reference, const State &state,
+                         const Constraints &constraints, const StepCoefficients &scheme)
+  {
+    set_forces(reference, state);
+    for (std::size_t i = 0; i < state.is_mean.size(); ++i)
+      if (state.is_mean[i] && !(constraints[i].moving && scheme.velocity_projection))
+        subtract(constraints[i], state.multiplier[i]);
+    structure.communicator().sum(values);
+  }
+
+  /// form . B N of the places where it acts.
+  void Reactions::subtract(const ConstraintData &constraint, const double N)
+  {
+    if (N == 0.)
+      return;
+    for (const Term &term : constraint.terms)
+      for (std::size_t t = 0; t < term.form.index.size(); ++t)
+      {
+        const unsigned int dof = term.form.index[t];
+        if (!is_held[term.substructure][dof])
+          continue;
+        for (std::size_t p = 0; p < places.size(); ++p)
+          if (places[p].fixed && places[p].is_here && places[p].body == term.substructure)
+            for (std::size_t e = 0; e < places[p].form.index.size(); ++e)
+              if (places[p].form.index[e] == dof)
+                values[p] -= places[p].form.value[e] * term.form.value[t] * N;
+      }
+  }
+
+  void Reactions::set_forces(const Reference &reference, const State &state)
   {
     for (std::size_t i = 0; i < places.size(); ++i)
     {
@@ -93,7 +132,6 @@ namespace taut
             -place.stiffness * (form.dot(reference.displacement[k]) + form.dot(state.U[k])) -
             place.damping * form.dot(state.V[k]);
     }
-    structure.communicator().sum(values);
   }
 
   void Reactions::update_start(const Reference &reference, State state,
@@ -113,6 +151,7 @@ namespace taut
         r[i] -= f[i];
     }
     constraints.add_forces(state.multiplier, state.balance);
-    update(reference, state);
+    set_forces(reference, state);
+    structure.communicator().sum(values);
   }
 } // namespace taut

@@ -150,7 +150,7 @@ namespace taut
               });
     coefficients = stepper.scheme();
     update_probes(stepper.state());
-    reactions.update(reference, stepper.state());
+    reactions.update(reference, stepper.state(), links, coefficients);
     observers.resume(checkpoint->observers, view(stepper.state(), stepper.certificate()));
     log << "Resumed after t = " << checkpoint->time << " s\n";
   }

@@ -274,7 +274,7 @@ namespace taut
   {
     update_probes(state);
     if (&state != &start)
-      reactions.update(reference, state);
+      reactions.update(reference, state, links, coefficients);
     observers.record(view(state, certificate));
     limits->record(view(state, certificate));
   }

@@ -24,6 +24,9 @@ namespace taut
     /// Part of the energy of the reference that rounding gives or takes in a long run at rest.
     constexpr double rounding_of_energy = 1e-8;
 
+    /// The same of a step, and the turn through which moments that are rounding may do work [rad].
+    constexpr double rounding_of_step = 1e-14, noise_turn = 1e-2;
+
     /// Part of the terms of a gap that its carried value may be off by.
     constexpr double rounding_of_gaps = 1e-12;
 
@@ -93,12 +96,25 @@ namespace taut
     measure_scale(start, Certificate());
   }
 
-  /// What rounding may give at rest: of the strain energy, and of forces in gaps.
+  /// What rounding may give at rest: of the strain energy, and of forces in gaps. In bodies that
+  /// are not linear each step may give it again.
   void ContactMeasures::measure_rest(const State &start)
   {
+    double sums[] = {0., 0.};
     for (std::size_t k = 0; k < structure.size(); ++k)
-      rest += .5 * std::fabs(dot(reference.displacement[k], reference.force[k]));
-    structure.communicator().sum(&rest, 1);
+    {
+      const Substructure &body = structure[k];
+      sums[0] += .5 * std::fabs(dot(reference.displacement[k], reference.force[k]));
+      if (body.is_linear())
+        continue;
+      std::vector<double> U = reference.displacement[k];
+      for (std::size_t i = 0; i < U.size(); ++i)
+        U[i] += start.U[k][i];
+      sums[1] += rounding_of_step * body.strain_energy(U) + noise_turn * body.rounding_of_force(1);
+    }
+    structure.communicator().sum(sums, 2);
+    rest = sums[0];
+    rest_of_step = sums[1];
     for (std::size_t i = 0; i < constraints.size(); ++i)
       rest += std::fabs(start.multiplier[i]) * noise[i] / rounding_of_gaps;
     rest *= rounding_of_energy;
@@ -280,8 +296,8 @@ namespace taut
     result.scale = kinetic + strain + loads + rest;
     if (result.contact_energy > 0.)
       result.relative_energy = result.contact_energy / result.scale;
-    if (result.motion_energy > 0.)
-      result.relative_motion_energy = result.motion_energy / result.scale;
+    if (const double gain = result.motion_energy - n_steps * rest_of_step; gain > 0.)
+      result.relative_motion_energy = gain / result.scale;
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       const Force &force = forces[i];

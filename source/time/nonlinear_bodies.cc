@@ -128,7 +128,7 @@ namespace taut
     {
       if (!(change[kind] <= largest_number) || !(force[kind] <= largest_number))
         return std::nan("");
-      if (change[kind] > 0.)
+      if (change[kind] > 0. && lack[kind] > 0.)
         result = std::max(result, std::min(change[kind] / size[kind],
                                            weight_of_force * lack[kind] / force[kind]));
     }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/substructure/constrained_body.h>
 #include <taut/time/time_stepper.h>
 
 #include <algorithm>
@@ -27,6 +28,16 @@ namespace taut
     PerKind error = {0., 0.}, size = {0., 0.};
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
+      // Multipliers of conditions inside a body are no motions, and may be rounding.
+      const std::vector<unsigned int> multipliers =
+          dynamic_cast<const ConstrainedBody *>(&structure[k]) ? structure[k].dofs_without_mass()
+                                                               : std::vector<unsigned int>();
+      const auto largest_motion = [&](std::vector<double> &x)
+      {
+        for (const unsigned int dof : multipliers)
+          x[dof] = 0.;
+        return largest(structure[k], x);
+      };
       const std::vector<double> &dU = current.dU[k], &V = current.V_old[k], &A = current.A[k],
                                 &A0 = forces.old_A[k];
       const double mean = step * step / (6. * (1. + step_before / step));
@@ -34,10 +45,12 @@ namespace taut
         work_v[i] = coefficients.mean_force
                         ? mean * (A[i] - A0[i])
                         : dU[i] - step * (V[i] + step * (A0[i] / 3. + A[i] / 6.));
-      const PerKind e = largest(structure[k], work_v), v = largest(structure[k], V);
+      const PerKind e = largest_motion(work_v);
+      std::copy(V.begin(), V.end(), work_v.begin());
+      const PerKind v = largest_motion(work_v);
       for (std::size_t i = 0; i < dU.size(); ++i)
         work_v[i] = reference_state.displacement[k][i] + current.U[k][i];
-      const PerKind u = largest(structure[k], work_v);
+      const PerKind u = largest_motion(work_v);
       for (int kind = 0; kind < 2; ++kind)
       {
         error[kind] = std::max(error[kind], e[kind]);

@@ -304,3 +304,34 @@ TEST(RigidBodies, a_second_scheme)
   EXPECT_LE(norm(b - limit), .02);
   EXPECT_NEAR(norm(a - limit) / norm(b - limit), 2., .1);
 }
+
+// Where nothing turns the body, what its conditions miss and its multipliers are rounding: steps
+// have an answer for any numbers.
+TEST(RigidBodies, free_fall_and_rest_have_an_answer_for_any_mass)
+{
+  const double g = 9.81;
+  for (int mass = 1; mass <= 20; ++mass)
+    for (const std::array<double, 3> &moments :
+         {std::array<double, 3>{1., 2., 2.5}, {.3, .3, .5}, {7., 11., 13.}})
+    {
+      RigidBodyData data;
+      data.name = "body";
+      data.mass = .5 * mass;
+      data.centre = {0., -1., 0.};
+      data.moments = moments;
+      data.gravity = {0., -g, 0.};
+      OneBody falling(data), hanging(data);
+      hanging.hold({});
+      StepperOptions at_rest = given(1e-2);
+      at_rest.start = Start::equilibrium;
+      Stepper fall(falling.system, given(1e-2)), rest(hanging.system, at_rest);
+      for (int n = 0; n < 20; ++n)
+      {
+        fall.advance();
+        rest.advance();
+      }
+      EXPECT_NEAR(moved(falling, fall, {}).y, -.5 * g * fall.time() * fall.time(), 1e-12);
+      EXPECT_LE(norm(moved(hanging, rest, {.4, -1., .3})), 1e-10);
+      EXPECT_EQ(fall.measures().error() + rest.measures().error(), "");
+    }
+}

@@ -64,3 +64,26 @@ TEST(RigidBodyScenes, bar_on_two_cables)
   EXPECT_NEAR(turns, 1.5673 + .005, .0051);
   EXPECT_NEAR(first - lowest, .0808, 5e-4);
 }
+
+// The multipliers of its conditions are rounding, and no motion whose error shortens steps.
+TEST(RigidBodyScenes, a_body_that_flies_straight_takes_long_steps)
+{
+  int n_steps = 0;
+  run_scene(R"(set Generator = network
+set Start  = given
+set Bodies = bar
+subsection Body bar
+  set Type = rigid body
+  set Mass = 2
+  set Moments of inertia = 1, 2, 2.5
+  set Velocity = 1, 2, 3
+end
+subsection Time
+  set End = 1
+  set Step = 1e-2
+  set Step control = adaptive
+end
+)",
+            {}, [&](const taut::StepView &) { ++n_steps; });
+  EXPECT_LE(n_steps, 101);
+}

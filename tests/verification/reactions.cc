@@ -74,6 +74,56 @@ end
 )";
 } // namespace
 
+// Half of the string and of its tension, and the mass that a rigid dropper hangs at the support.
+TEST(Reactions, of_a_rigid_link_at_a_support_are_its_force)
+{
+  const std::string hung = R"(set Generator = network
+set Gravity = 0, -9.81
+set Start   = equilibrium
+subsection Network
+  set Wires    = string
+  set Masses   = mass
+  set Supports = ends
+  set Links    = dropper
+  subsection Wire string
+    set To              = 10, 0
+    set Components      = string
+    set Tension         = 1000
+    set Mass per length = 1
+    set Element size    = 0.5
+    set Weight          = true
+  end
+  subsection Support ends
+    set Wire      = string
+    set Positions = 0, 10
+  end
+  subsection Mass mass
+    set Position = 10, -1
+    set Mass     = 10
+  end
+  subsection Link dropper
+    set Type      = dropper
+    set From      = string @ 10
+    set To        = mass
+    set Direction = 0, -1
+    set Stiffness = rigid
+  end
+end
+subsection Time
+  set Step = 1e-2
+  set End  = 0.1
+end
+)";
+  for (const char *const scheme : {"automatic", "BDF2"})
+    run_scene(hung, {std::string("Time.Scheme=") + scheme},
+              [&](const taut::StepView &step)
+              {
+                ASSERT_EQ(step.supports.size(), 2u);
+                EXPECT_NEAR(step.supports[0], 49.05, 1e-9) << scheme << " " << step.state.time;
+                EXPECT_NEAR(step.supports[1], 147.15, 1e-9) << scheme << " " << step.state.time;
+              });
+}
+
 TEST(Reactions, of_the_guyed_mast_are_sums_of_forces)
 {
   // The left guy pulls with N = 520.833 N from 3/5 left and 4/5 below; the wind pushes with 500 N

@@ -4,6 +4,7 @@
 
 #include <taut/interface/constraints.h>
 #include <taut/model/scene_bodies.h>
+#include <taut/time/integrator.h>
 #include <taut/time/state.h>
 
 #include <string>
@@ -42,8 +43,10 @@ namespace taut
     /// @p scene and @p structure are kept by reference.
     Reactions(const Scene &scene, const SceneBodies &structure);
 
-    /// In a state whose balance is known: an accepted step. Called by all ranks together.
-    void update(const Reference &reference, const State &state);
+    /// In a state whose balance is known: an accepted step of @p scheme. Called by all ranks
+    /// together.
+    void update(const Reference &reference, const State &state, const Constraints &constraints,
+                const StepCoefficients &scheme);
 
     /// In a state whose balance is not known: the start. Called by all ranks together.
     void update_start(const Reference &reference, State state, const Constraints &constraints);
@@ -63,9 +66,13 @@ namespace taut
       bool fixed = false;
     };
 
+    void set_forces(const Reference &reference, const State &state);
+    void subtract(const ConstraintData &constraint, double N);
+
     const SceneBodies &structure;
     std::vector<Place> places;
-    std::vector<double> values;
+    std::vector<std::vector<char>> is_held; ///< of each body and DoF: a place prescribes its motion
+    std::vector<double> values;             ///< on this rank, then of all
   };
 } // namespace taut
 

@@ -130,6 +130,7 @@ namespace taut
     double worst_event = 0.;
     double kinetic = 0., strain = 0., loads = 0.; ///< largest so far [J]
     double rest = 0.;                             ///< rounding at rest [J]
+    double rest_of_step = 0.;                     ///< in a step of bodies that are not linear [J]
     long n_steps = 0;
     std::vector<double> work;
   };
