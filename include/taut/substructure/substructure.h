@@ -109,7 +109,11 @@ namespace taut
      */
     virtual LinearForm displacement(const Coordinates &place, const Coordinates &direction) const;
 
-    /// The same of a node of the surface that the body shows to contacts (BodyType::surface()).
+    /// Where such a place is at U = 0 [m]: the place itself, unless a body counts places otherwise.
+    virtual Coordinates position(const Coordinates &place) const { return place; }
+
+    /// The displacement of a node of the surface that the body shows to contacts
+    /// (BodyType::surface()).
     virtual LinearForm node_displacement(unsigned int node, const Coordinates &direction) const;
 
     /// A local solver of its own for A = mass M + damping C + K; none: by the matrices, see

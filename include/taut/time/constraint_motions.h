@@ -6,6 +6,7 @@
 #include <taut/time/constraint_laws.h>
 #include <taut/time/integrator.h>
 #include <taut/time/state.h>
+#include <taut/time/turning_constraints.h>
 #include <taut/time/step_system.h>
 
 #include <initializer_list>
@@ -49,7 +50,8 @@ namespace taut
     /// The arguments but @p start are kept by reference; @p constraints are where they are at the
     /// start.
     ConstraintMotions(const Structure &structure, const Constraints &constraints,
-                      const Reference &reference, const State &start);
+                      const TurningConstraints &turning, const Reference &reference,
+                      const State &start);
 
     /// For steps with these coefficients from now on.
     void prepare(const StepCoefficients &c, double step);
@@ -92,6 +94,9 @@ namespace taut
 
     /// B^T dU [m, rad].
     const std::vector<double> &increments() const { return motion; }
+
+    /// Of each constraint, what its gap has of springs besides S N [m, rad].
+    const std::vector<double> &spring_histories() const { return link_history; }
 
     /// After a change of the velocities: B^T V and D' anew. Called by all ranks together.
     void update_rates(State &state);
@@ -149,6 +154,7 @@ namespace taut
 
     const Structure &structure;
     const Constraints &constraints;
+    const TurningConstraints &turning;
     const Reference &reference;
     StepCoefficients c;
     double step = 0.;
