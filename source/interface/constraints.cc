@@ -120,9 +120,8 @@ namespace taut
     std::vector<Coordinates> result = differences(reference);
     const std::vector<Coordinates> motion = differences(U);
     for (std::size_t i = 0; i < result.size(); ++i)
-      result[i] =
-          add_scaled(add_scaled(constraints[fixed + i].direction->start, 1., result[i]), 1.,
-                     motion[i]);
+      result[i] = add_scaled(add_scaled(constraints[fixed + i].direction->start, 1., result[i]), 1.,
+                             motion[i]);
     return result;
   }
 

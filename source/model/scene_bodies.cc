@@ -3,9 +3,9 @@
 #include <taut/base/exceptions.h>
 #include <taut/mechanism/mechanism.h>
 #include <taut/model/scene_bodies.h>
-#include <taut/scene/entries.h>
 #include <taut/model/scene_part.h>
 #include <taut/model/shared_parts.h>
+#include <taut/scene/entries.h>
 #include <taut/scene/scene_values.h>
 #include <taut/wire/wire_component.h>
 

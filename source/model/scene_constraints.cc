@@ -20,9 +20,8 @@ namespace taut
     }
 
     /// The direction of a link that turns.
-    std::shared_ptr<const TurningDirection> turning_direction(const Scene &scene,
-                                                              const SceneBodies &bodies,
-                                                              const Link &link)
+    std::shared_ptr<const TurningDirection>
+    turning_direction(const Scene &scene, const SceneBodies &bodies, const Link &link)
     {
       auto result = std::make_shared<TurningDirection>();
       const Coordinates axes[] = {{1., 0., 0.}, {0., 1., 0.}, {0., 0., 1.}};

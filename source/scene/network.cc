@@ -99,10 +99,9 @@ namespace taut
         throw EntryError(title + "/Direction",
                          "a link that turns has that from end to end; leave it empty");
       if (item.find_length || item.axial_stiffness > 0. || item.mass_per_length > 0.)
-        throw EntryError(title + (item.find_length ? "/Find length"
-                                  : item.axial_stiffness > 0.
-                                      ? "/Axial stiffness"
-                                      : "/Mass per length"),
+        throw EntryError(title + (item.find_length            ? "/Find length"
+                                  : item.axial_stiffness > 0. ? "/Axial stiffness"
+                                                              : "/Mass per length"),
                          "it is of a dropper whose length is found, along a direction that stays; "
                          "give a link that turns its Length and Stiffness");
       if (link.unstressed_length > 0. && link.gap != 0.)

@@ -168,10 +168,11 @@ namespace taut
         "'x, y' or 'x, y, z' from From to To; a stop or sliding contact pushes To along it. Empty: "
         "along the straight line between the ends",
         List(Double(), 0, 3));
-    prm.add_parameter("Turns", turns,
-                      "The direction is that from end to end at each time, so that ends may move by "
-                      "any amount; a dropper then is a rope, a stop a prop. A ground end needs a "
-                      "place");
+    prm.add_parameter(
+        "Turns", turns,
+        "The direction is that from end to end at each time, so that ends may move by "
+        "any amount; a dropper then is a rope, a stop a prop. A ground end needs a "
+        "place");
     prm.add_parameter("Length", length,
                       "Of a link that turns, unstressed: the distance of its ends at which a rope "
                       "becomes taut or a prop touches, instead of Gap; 0: as Gap says [m]",

@@ -164,9 +164,11 @@ namespace taut
                               "' acts as rigid: it is stiffer than the bodies in one step";
     const std::string body = body_without_definite_mass(structure);
     if (!body.empty() && !turning.empty())
-      throw EntryError("Time/Scheme", "link '" + turning + "' turns, and that needs mass matrices "
-                                      "that can be inverted; that of body '" + body +
-                                      "' is 'reduced'. Take another Mass matrix, or 'backward Euler'");
+      throw EntryError("Time/Scheme",
+                       "link '" + turning +
+                           "' turns, and that needs mass matrices "
+                           "that can be inverted; that of body '" +
+                           body + "' is 'reduced'. Take another Mass matrix, or 'backward Euler'");
     if (body.empty())
     {
       std::ostringstream without_loss;
@@ -219,8 +221,8 @@ namespace taut
                            anyway);
     if (const std::string turning = link_that_turns(constraints); !turning.empty())
       throw EntryError("Time/Scheme", integrator.description() + " gains energy where link '" +
-                                          turning + "' turns. Take 'automatic' or 'backward Euler'" +
-                                          anyway);
+                                          turning +
+                                          "' turns. Take 'automatic' or 'backward Euler'" + anyway);
     const std::vector<std::size_t> rigid =
         rigid_constraints(structure, constraints, parameters, step);
     if (rigid.empty())

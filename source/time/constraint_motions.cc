@@ -362,6 +362,17 @@ namespace taut
       gap_terms[i] = std::max(gap_terms[i], std::fabs(constraints[i].gap) + terms[i]);
   }
 
+  bool ConstraintMotions::stays_closed(const std::size_t i, const State &state) const
+  {
+    // Part of the distance of its ends, and of the terms of its rate, by which one that is closed
+    // rounds.
+    constexpr double rounding = 1e-9;
+    const bool is_inconsistent =
+        is_first && std::fabs(rates_before[i]) > rounding * velocity_size[i];
+    return !is_inconsistent && constraints[i].direction && S[i] == 0. &&
+           state.geometric_gap[i] - turning.increment(i) <= rounding * turning.distance(i);
+  }
+
   double ConstraintMotions::drift(const State &state) const
   {
     double largest = 0.;

@@ -26,9 +26,9 @@ namespace taut
       for (std::size_t i = 0; i < constraints.size(); ++i)
       {
         const ConstraintData &constraint = constraints[i];
-        state.geometric_gap[i] =
-            constraint.direction ? constraint.direction->gap(ends[i - constraints.n_fixed()])
-                                 : constraint.gap + reference_motion[i] + motion[i];
+        state.geometric_gap[i] = constraint.direction
+                                     ? constraint.direction->gap(ends[i - constraints.n_fixed()])
+                                     : constraint.gap + reference_motion[i] + motion[i];
         // The spring of a link starts as compressed as its ends stand, and a compressed one as fast
         // as they move; a rigid one is not compressed.
         double u = constraint.compression(state.multiplier[i]);

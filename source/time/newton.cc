@@ -152,12 +152,11 @@ namespace taut
       current.multiplier = multiplier;
       find_increments();
       ++n_iterations;
-      const double change =
-          std::max(set_guess(), turning.empty() ? 0.
-                                                : turning.set_guess(
-                                                      right_hand_side, current,
-                                                      constraint_motions.applied().multiplier,
-                                                      constraint_motions.spring_histories()));
+      const double change = std::max(
+          set_guess(), turning.empty() ? 0.
+                                       : turning.set_guess(right_hand_side, current,
+                                                           constraint_motions.applied().multiplier,
+                                                           constraint_motions.spring_histories()));
       stagnant = change >= .5 * before ? stagnant + 1 : 0;
       if (change <= converged || (change <= stagnated && stagnant == most_stagnant))
       {
@@ -214,7 +213,6 @@ namespace taut
       gain -= std::inner_product(change.begin(), change.end(), product.begin(), 0.);
     }
     structure.communicator().sum(&gain, 1);
-    last.energy_gain =
-        gain + turning.surplus(current.multiplier, constraint_motions.increments());
+    last.energy_gain = gain + turning.surplus(current.multiplier, constraint_motions.increments());
   }
 } // namespace taut

@@ -171,6 +171,7 @@ namespace taut
       prepare(c);
     current.time = segment_start + ++n_in_segment * step;
     check.set_time(current.time);
+    constraint_motions.begin_step(is_first);
     step_before = current.last_step;
     current.last_step = step;
     constraints.update(current.time);

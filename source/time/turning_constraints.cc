@@ -88,16 +88,14 @@ namespace taut
                         "stiffness that keeps its ends apart, or join them by a ball joint");
       }
       next[k] = is_mean ? scaled(1. / sizes, sum) : scaled(1. / size, end);
-      next_offsets[k] =
-          is_mean ? 0. : increments[k] - turning.sign * dot(next[k], motion[k]);
+      next_offsets[k] = is_mean ? 0. : increments[k] - turning.sign * dot(next[k], motion[k]);
       if (is_open)
         continue;
       if (norm(next[k]) < shortest_mean)
         throw UserError("link '" + constraints[i].name +
                         "' turns by more than 120 degrees in a step. Take a smaller step");
-      const double change =
-          std::max(weight_of_direction * norm(next[k] - used[k]),
-                   weight_of_gap * std::fabs(increments[k] - linear) / size);
+      const double change = std::max(weight_of_direction * norm(next[k] - used[k]),
+                                     weight_of_gap * std::fabs(increments[k] - linear) / size);
       if (!(change <= result) && !std::isnan(result))
         result = change;
     }

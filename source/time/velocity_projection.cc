@@ -195,10 +195,11 @@ namespace taut
       p[i] = motions.mean_force(i) ? step * state.multiplier[i] : 0.;
       const bool is_spring = !constraints[i].unilateral && !std::isinf(constraints[i].stiffness);
       if (!motions.mean_force(i) || has_no_mass[i] || is_spring ||
-          (constraints[i].unilateral && !(p[i] > 0.)) ||
-          !std::isfinite(relative_softening[i]))
+          (constraints[i].unilateral && !(p[i] > 0.)) || !std::isfinite(relative_softening[i]))
         continue;
       takes_part[i] = 1;
+      if (motions.stays_closed(i, state))
+        continue;
       acts =
           acts || std::fabs(state.gap_rate[i]) >
                       rounding_of_rates * (motions.velocity_sizes()[i] +

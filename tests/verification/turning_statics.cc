@@ -171,24 +171,10 @@ TEST(TurningStatics, what_cannot_turn_is_refused)
                            "Time/Moreau-Jean/Conditions=" + std::string(conditions),
                            "Time/Moreau-Jean/Theta=1"}),
            "its length would drift");
-  expect(error_of(good, {"Network/Mass m0/Mass=0"}), "no mass");
-}
-
-TEST(TurningStatics, ends_that_meet_under_a_force_are_an_error)
-{
-  // A soft prop that the weight presses together.
-  Scene scene;
-  scene.masses = {{100., {0., 1., 0.}, {}}};
-  scene.links = {"set Type = stop\nset Stiffness = 10\nset From = ground @ 0, 0\nset To = m0"};
-  scene.start = "given";
-  scene.end = 1.;
-  try
-  {
-    at_rest(scene);
-    FAIL();
-  }
-  catch (const taut::UserError &e)
-  {
-    EXPECT_NE(std::string(e.what()).find("'l0'"), std::string::npos) << e.what();
-  }
+  expect(error_of(good, {"Network/Mass m0/Mass=0", "Network/Springs=x, y, z",
+                         "Network/Spring x/To=m0", "Network/Spring x/Direction=1, 0",
+                         "Network/Spring x/Stiffness=1", "Network/Spring y/To=m0",
+                         "Network/Spring y/Stiffness=1", "Network/Spring z/To=m0",
+                         "Network/Spring z/Direction=0, 0, 1", "Network/Spring z/Stiffness=1"}),
+         "no mass");
 }

@@ -45,8 +45,8 @@ namespace taut
   }
 
   /**
-   * Attachments from "ground", "ground @ 1, 2", "mass", "wire @ 12.5", or several on one wire, "wire @ 0:5:60"; on a
-   * body "plate @ 0.1, 0.2", or several, "plate @ 0.1, 0.2; 0.3, 0.2".
+   * Attachments from "ground", "ground @ 1, 2", "mass", "wire @ 12.5", or several on one wire,
+   * "wire @ 0:5:60"; on a body "plate @ 0.1, 0.2", or several, "plate @ 0.1, 0.2; 0.3, 0.2".
    * Unknown names are UserErrors that list the known ones.
    */
   std::vector<Attachment> parse_attachments(const std::string &text, const Scene &scene,

@@ -6,8 +6,8 @@
 #include <taut/time/constraint_laws.h>
 #include <taut/time/integrator.h>
 #include <taut/time/state.h>
-#include <taut/time/turning_constraints.h>
 #include <taut/time/step_system.h>
+#include <taut/time/turning_constraints.h>
 
 #include <initializer_list>
 #include <vector>
@@ -56,6 +56,9 @@ namespace taut
     /// For steps with these coefficients from now on.
     void prepare(const StepCoefficients &c, double step);
 
+    /// Before each step: whether it is the first one of all.
+    void begin_step(const bool first) { is_first = first; }
+
     /// S with the dampers of the links [m/N, rad/(N m)].
     const std::vector<double> &compliance() const { return S; }
 
@@ -91,6 +94,13 @@ namespace taut
     const std::vector<double> &velocities() const { return velocity; }
     const std::vector<double> &velocity_sizes() const { return velocity_size; }
     const std::vector<double> &rates_before_step() const { return rates_before; }
+
+    /**
+     * True of a rigid constraint that turns and was closed before the step, unless that is the
+     * first one, from velocities that open or close it. Its rate after the step, which ends in @p
+     * state, is of second order, and impulses that make it zero would take energy in each step.
+     */
+    bool stays_closed(std::size_t i, const State &state) const;
 
     /// B^T dU [m, rad].
     const std::vector<double> &increments() const { return motion; }
@@ -159,6 +169,7 @@ namespace taut
     StepCoefficients c;
     double step = 0.;
     bool supports_move = false; ///< of a body of this rank
+    bool is_first = false;      ///< step of all
 
     MixedComplementarityProblem conditions;
     ConstraintLaws laws;
