@@ -217,6 +217,12 @@ namespace taut
     return frames->turn(element.position(place.x, direction));
   }
 
+  Coordinates Cable::position(const Coordinates &place) const
+  {
+    const double s = std::clamp(place.x, 0., data.length);
+    return add_scaled(data.from, 1., element.position(found.positions, s));
+  }
+
   double Cable::strain_energy(const std::vector<double> &U) const
   {
     return data.linearised ? Substructure::strain_energy(U) : element.strain_energy(positions(U));

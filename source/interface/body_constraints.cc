@@ -15,7 +15,7 @@ namespace taut
     if (constraints.n_fixed() == constraints.size())
       return;
     for (std::vector<Entry> &of_body : entries)
-      while (!of_body.empty() && of_body.back().moving)
+      while (!of_body.empty() && of_body.back().varies)
         of_body.pop_back();
     for (std::size_t i = constraints.n_fixed(); i < constraints.size(); ++i)
       add(i);
@@ -26,7 +26,7 @@ namespace taut
     for (const auto &[k, form] : constraints[constraint].terms)
     {
       if (entries[k].empty() || entries[k].back().constraint != constraint)
-        entries[k].push_back({constraint, constraints[constraint].moving, {}});
+        entries[k].push_back({constraint, constraint >= constraints.n_fixed(), {}});
       for (std::size_t j = 0; j < form.index.size(); ++j)
         entries[k].back().form.add(form.index[j], form.value[j]);
     }

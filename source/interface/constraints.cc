@@ -22,13 +22,19 @@ namespace taut
   {
     for (ConstraintData &constraint : constraints)
       constraint.moving = constraint.place != nullptr;
-    fixed =
+    const auto stay =
         std::stable_partition(constraints.begin(), constraints.end(),
-                              [](const ConstraintData &constraint) { return !constraint.moving; }) -
-        constraints.begin();
+                              [](const ConstraintData &constraint) { return !constraint.moving; });
+    first_with_place = stay - constraints.begin();
+    fixed = std::stable_partition(constraints.begin(), stay,
+                                  [](const ConstraintData &constraint)
+                                  { return constraint.direction == nullptr; }) -
+            constraints.begin();
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
-      if (i >= fixed)
+      if (const TurningDirection *const turning = constraints[i].direction.get())
+        constraints[i].gap = turning->gap(turning->start);
+      if (i >= first_with_place)
       {
         constraints[i].terms = constraints[i].place->terms(0.);
         constraints[i].gap = constraints[i].place->gap(0.);
@@ -47,8 +53,8 @@ namespace taut
                        std::tie(b.body, b.kind, b.constraint);
               });
     n_fixed_sizes = sizes.size();
-    for (std::size_t i = fixed; i < constraints.size(); ++i)
-      append(i);
+    turn_to(structure.zero(), structure.zero());
+    append_varying();
   }
 
   /// Entries and sizes of a constraint, behind those that are known. At a node most entries are
@@ -74,17 +80,71 @@ namespace taut
     begin.push_back(entries.size());
   }
 
-  void Constraints::update(const double t)
+  void Constraints::append_varying()
   {
     begin.resize(fixed + 1);
     entries.resize(begin.back());
     sizes.resize(n_fixed_sizes);
     for (std::size_t i = fixed; i < constraints.size(); ++i)
+      append(i);
+  }
+
+  void Constraints::update(const double t)
+  {
+    for (std::size_t i = first_with_place; i < constraints.size(); ++i)
     {
       constraints[i].terms = constraints[i].place->terms(t);
       constraints[i].gap = constraints[i].place->gap(t);
-      append(i);
     }
+    append_varying();
+  }
+
+  std::vector<Coordinates> Constraints::differences(const BodyVectors &U) const
+  {
+    std::vector<double> sums;
+    for (std::size_t i = fixed; i < first_with_place; ++i)
+      for (const std::vector<Term> &motion : constraints[i].direction->motion)
+        sums.push_back(evaluate(motion, U));
+    structure.communicator().sum(sums);
+    std::vector<Coordinates> result;
+    for (std::size_t k = 0; k < sums.size(); k += 3)
+      result.push_back({sums[k], sums[k + 1], sums[k + 2]});
+    return result;
+  }
+
+  std::vector<Coordinates> Constraints::differences(const BodyVectors &reference,
+                                                    const BodyVectors &U) const
+  {
+    if (!has_turning())
+      return {};
+    std::vector<Coordinates> result = differences(reference);
+    const std::vector<Coordinates> motion = differences(U);
+    for (std::size_t i = 0; i < result.size(); ++i)
+      result[i] = add_scaled(add_scaled(constraints[fixed + i].direction->start, 1., result[i]), 1.,
+                             motion[i]);
+    return result;
+  }
+
+  void Constraints::turn(const std::vector<Coordinates> &directions)
+  {
+    for (std::size_t i = 0; i < directions.size(); ++i)
+    {
+      const TurningDirection &turning = *constraints[fixed + i].direction;
+      const Coordinates &d = directions[i];
+      constraints[fixed + i].terms =
+          turning.along({turning.sign * d.x, turning.sign * d.y, turning.sign * d.z});
+    }
+    append_varying();
+  }
+
+  void Constraints::turn_to(const BodyVectors &reference, const BodyVectors &U)
+  {
+    if (!has_turning())
+      return;
+    std::vector<Coordinates> d = differences(reference, U);
+    for (std::size_t i = 0; i < d.size(); ++i)
+      d[i] = constraints[fixed + i].direction->at(d[i]);
+    turn(d);
   }
 
   double Constraints::share_of_convection(const std::size_t i, const double t,
@@ -118,6 +178,12 @@ namespace taut
         if (entries[e].body == k)
           count[i] += std::binary_search(dofs.begin(), dofs.end(), entries[e].dof);
       }
+      for (std::size_t i = fixed; i < first_with_place; ++i)
+        for (const std::vector<Term> &motion : constraints[i].direction->motion)
+          for (const Term &term : motion)
+            if (term.substructure == k)
+              for (const unsigned int dof : term.form.index)
+                count[i] += std::binary_search(dofs.begin(), dofs.end(), dof);
     }
     structure.communicator().sum(count);
     return {count.begin(), count.end()};

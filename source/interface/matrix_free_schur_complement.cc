@@ -28,7 +28,7 @@ namespace taut
     {
       std::vector<char> result;
       for (std::size_t i = 0; i < constraints.size(); ++i)
-        result.push_back(!constraints[i].unilateral && !constraints[i].moving &&
+        result.push_back(!constraints[i].unilateral && i < constraints.n_fixed() &&
                          std::isinf(constraints[i].stiffness));
       return result;
     }
@@ -95,7 +95,7 @@ namespace taut
     {
       std::vector<std::size_t> marked;
       for (std::size_t k = 0; k < body_constraints.size(); ++k)
-        if (!body_constraints[k].empty() && body_constraints[k].back().moving)
+        if (!body_constraints[k].empty() && body_constraints[k].back().varies)
         {
           is_changed[k] = 1;
           marked.push_back(k);

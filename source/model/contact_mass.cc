@@ -32,7 +32,7 @@ namespace taut
         const Link &link = scene.links[i];
         if (!link.unilateral() || !link.rigid() || link.axial_stiffness != 0.)
           continue;
-        if (link.kind != LinkKind::stop || !is_on_wire(link))
+        if (link.kind != LinkKind::stop || link.turns || !is_on_wire(link))
           return {};
         for (const Attachment *end : {&link.from, &link.to})
         {

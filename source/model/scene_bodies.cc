@@ -5,6 +5,7 @@
 #include <taut/model/scene_bodies.h>
 #include <taut/model/scene_part.h>
 #include <taut/model/shared_parts.h>
+#include <taut/scene/entries.h>
 #include <taut/scene/scene_values.h>
 #include <taut/wire/wire_component.h>
 
@@ -222,6 +223,22 @@ namespace taut
         append(k, factor * part, form);
       }
     }
+  }
+
+  Coordinates SceneBodies::position(const Scene &scene, const Attachment &point) const
+  {
+    if (point.kind != Attachment::Kind::body)
+      return place(scene, point);
+    const std::size_t k = index_at(point.index, point.place);
+    double sums[] = {0., 0., 0.};
+    if (k != elsewhere)
+    {
+      const Coordinates at = (*this)[k].position(point.place);
+      for (unsigned int c = 0; c < 3; ++c)
+        sums[c] = at[c];
+    }
+    communicator().sum(sums, 3);
+    return {sums[0], sums[1], sums[2]};
   }
 
   void SceneBodies::motion(const std::size_t wire, const double s, const WireMotion motion,

@@ -19,6 +19,34 @@ namespace taut
       return terms;
     }
 
+    /// The direction of a link that turns.
+    std::shared_ptr<const TurningDirection>
+    turning_direction(const Scene &scene, const SceneBodies &bodies, const Link &link)
+    {
+      auto result = std::make_shared<TurningDirection>();
+      const Coordinates axes[] = {{1., 0., 0.}, {0., 1., 0.}, {0., 0., 1.}};
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        bodies.motion(link.to, false, axes[c], 1., result->motion[c]);
+        bodies.motion(link.from, false, axes[c], -1., result->motion[c]);
+      }
+      result->start = bodies.position(scene, link.to) - bodies.position(scene, link.from);
+      result->sign = link.kind == LinkKind::dropper ? -1. : 1.;
+      const double distance = norm(result->start);
+      if (!(distance > 0.))
+        throw EntryError(link.origin, "link '" + link.name +
+                                          "' turns, and its ends start at one place: it has no "
+                                          "direction. Move one of them, or take a ball joint");
+      result->length =
+          link.unstressed_length > 0. ? link.unstressed_length : distance - result->sign * link.gap;
+      if (!(result->length > 0.))
+        throw EntryError(link.origin.empty() ? "" : link.origin + "/Gap",
+                         "link '" + link.name +
+                             "' has no length left: its ends are nearer than that. Give it a "
+                             "Length");
+      return result;
+    }
+
     /// A contact that slides along a wire at constant speed.
     class SlidingPlace : public MovingPlace
     {
@@ -84,6 +112,8 @@ namespace taut
       constraint.gap = link.gap;
       if (link.moving())
         constraint.place = std::make_shared<SlidingPlace>(scene, bodies, link);
+      else if (link.turns)
+        constraint.direction = turning_direction(scene, bodies, link);
       else
         constraint.terms = link_terms(bodies, link, link.to);
       constraints.push_back(std::move(constraint));

@@ -150,7 +150,7 @@ namespace taut
     }
   }
 
-  /// Work of the forces of moving constraints on the bodies of this rank.
+  /// Work of the forces of constraints that move or turn on the bodies of this rank.
   void Energy::add_moving_rows(const StepView &step, Balance &share) const
   {
     const State &state = step.state;
@@ -161,7 +161,7 @@ namespace taut
       const double before = N0[i] * evaluate(terms0[i - step.constraints.n_fixed()], state.dU);
       if (!is_mean(step, i))
         share.contacts += .5 * (before + now);
-      else if (step.scheme.velocity_projection)
+      else if (constraint.moving && step.scheme.velocity_projection)
         share.contacts += step.scheme.alpha_f * before;
     }
   }
@@ -197,7 +197,8 @@ namespace taut
             spring.du;
       if (!std::isinf(constraint.stiffness))
         total.link_dampers += constraint.damping * .5 * (springs0[i].v + spring.v) * spring.du;
-      total.contacts += mean * (constraint.moving ? spring.du : state.gap[i] - gap0[i]);
+      const bool varies = constraint.moving || constraint.direction;
+      total.contacts += mean * (varies ? spring.du : state.gap[i] - gap0[i]);
     }
   }
 

@@ -157,7 +157,7 @@ namespace taut
         lines.emplace_back();
         names.push_back(link.name);
         for (const Attachment &end : {link.from, link.to})
-          if (end.kind != Attachment::Kind::ground)
+          if (end.kind != Attachment::Kind::ground || end.has_place)
           {
             lines.back().push_back(ends.size());
             ends.push_back(sample(scene, structure, end));
@@ -179,7 +179,7 @@ namespace taut
                                 const Attachment &at) const
   {
     Sample result;
-    result.place = place(scene, at);
+    result.place = structure.position(scene, at);
     for (unsigned int i = 0; i < 3; ++i)
       structure.motion(at, false, {i == 0 ? 1. : 0., i == 1 ? 1. : 0., i == 2 ? 1. : 0.}, 1.,
                        result.motion[i]);

@@ -68,7 +68,7 @@ namespace taut
     std::string text(const Scene &scene, const Attachment &end)
     {
       if (end.kind == Attachment::Kind::ground)
-        return "ground";
+        return end.has_place ? "ground @ " + text(end.place) : "ground";
       if (end.kind == Attachment::Kind::mass)
         return scene.masses[end.index].name;
       if (end.kind == Attachment::Kind::body)
@@ -175,7 +175,8 @@ namespace taut
       else
         stiffness << l.stiffness;
       links.add(l.name, kinds[static_cast<int>(l.kind)], text(scene, l.from), text(scene, l.to),
-                direction(l.rotational, l.direction), stiffness.str(), l.gap, l.length, l.speed);
+                l.turns ? "turns" : direction(l.rotational, l.direction), stiffness.str(), l.gap,
+                l.turns ? l.unstressed_length : l.length, l.speed);
     }
     links.print("Links", out);
 

@@ -211,6 +211,15 @@ namespace taut
                          { return wire.has(motion) && along(wire.axis(motion)); });
     }
 
+    /// Whether an end of a link can, along its direction or, if it turns, at all.
+    bool can_move(const Scene &scene, const Link &link, const Attachment &end)
+    {
+      if (!link.turns)
+        return can_move(scene, end, link.rotational, link.direction);
+      return can_move(scene, end, false, {1., 0., 0.}) || can_move(scene, end, false, {0., 1.}) ||
+             can_move(scene, end, false, {0., 0., 1.});
+    }
+
     /// Fixed links that act on the same two points would have no effect at all.
     bool same_point(const Attachment &a, const Attachment &b)
     {
@@ -269,8 +278,7 @@ namespace taut
           fail(link, "To", what, "both ends are the ground");
         if (!link.moving() && same_point(link.from, link.to))
           fail(link, "To", what, "both ends are the same point; a link acts between two");
-        if (!can_move(scene, link.from, link.rotational, link.direction) &&
-            !can_move(scene, link.to, link.rotational, link.direction))
+        if (!can_move(scene, link, link.from) && !can_move(scene, link, link.to))
           fail(link, "Direction", what,
                "neither end can move along it; add motions or components, or change it");
         if (link.damping > 0. && link.rigid())

@@ -46,7 +46,7 @@ namespace taut
 
   namespace
   {
-    /// Attachments at points of a body, "0.1, 0.2; 0.3, 0.2".
+    /// Attachments at points of a body or of the ground, "0.1, 0.2; 0.3, 0.2".
     std::vector<Attachment> on_body(Attachment attachment, const std::string &points,
                                     const std::string &entry)
     {
@@ -153,6 +153,11 @@ namespace taut
     }
     else
     {
+      if (name == "ground")
+      {
+        attachment.has_place = true;
+        return on_body(attachment, text.substr(at + 1), entry);
+      }
       attachment.kind = Attachment::Kind::wire;
       attachment.index = find_name(scene.wires, name);
       if (attachment.index != ground)
@@ -173,7 +178,7 @@ namespace taut
         return on_body(attachment, text.substr(at + 1), entry);
     }
     std::vector<std::string> names = {"ground"};
-    std::string known = "ground";
+    std::string known = "ground, ground @ x, y";
     for (const CustomBody &body : scene.bodies)
     {
       known += ", " + body.name + " @ x, y";
@@ -203,6 +208,7 @@ namespace taut
     case Attachment::Kind::wire:
       return scene.wires[point.index].at(point.position);
     case Attachment::Kind::body:
+    case Attachment::Kind::ground:
       return point.place;
     default:
       return scene.masses[point.index].position;

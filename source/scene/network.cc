@@ -76,6 +76,39 @@ namespace taut
     }
   } // namespace
 
+  namespace
+  {
+    /// What a link that turns cannot be, and what no other link has.
+    void check_turns(const Network::LinkItem &item, const Link &link, const bool is_ball_joint,
+                     const std::string &title)
+    {
+      if (!link.turns)
+      {
+        if (link.unstressed_length > 0.)
+          throw EntryError(title + "/Length", "it is of a link that turns; set 'Turns = true', or "
+                                              "give the Gap");
+        return;
+      }
+      if (is_ball_joint || link.moving())
+        throw EntryError(title + "/Turns", "a " + item.type +
+                                               " has no direction from end to end; take a joint, "
+                                               "a stop or a dropper");
+      if (link.rotational)
+        throw EntryError(title + "/Rotational", "a link that turns acts between displacements");
+      if (!item.direction.empty())
+        throw EntryError(title + "/Direction",
+                         "a link that turns has that from end to end; leave it empty");
+      if (item.find_length || item.axial_stiffness > 0. || item.mass_per_length > 0.)
+        throw EntryError(title + (item.find_length            ? "/Find length"
+                                  : item.axial_stiffness > 0. ? "/Axial stiffness"
+                                                              : "/Mass per length"),
+                         "it is of a dropper whose length is found, along a direction that stays; "
+                         "give a link that turns its Length and Stiffness");
+      if (link.unstressed_length > 0. && link.gap != 0.)
+        throw EntryError(title + "/Gap", "it follows from the Length; leave one of them out");
+    }
+  } // namespace
+
   void Network::fill(Scene &scene) const
   {
     add_wires(scene);
@@ -241,6 +274,9 @@ namespace taut
         link.stiffness = link.law->largest_stiffness();
       link.damping = item.damping;
       link.gap = item.gap;
+      link.turns = item.turns;
+      link.unstressed_length = item.length;
+      check_turns(item, link, is_ball_joint, title);
       link.speed = item.speed;
       link.profile =
           Expression(item.profile, title + "/Height profile", Expression::Variables::position);
@@ -267,12 +303,19 @@ namespace taut
         }
         if (!item.direction.empty())
           link.direction = parse_direction(item.direction, title + "/Direction");
+        else if (link.turns)
+        {
+          for (const auto &[end, entry] : {std::pair(&link.from, "/From"), {&link.to, "/To"}})
+            if (end->kind == Attachment::Kind::ground && !end->has_place)
+              throw EntryError(title + entry, "a link that turns needs the place of its end at the "
+                                              "ground; write 'ground @ x, y, z'");
+        }
         else if (!link.rotational)
         {
-          if (link.from.kind == Attachment::Kind::ground ||
-              link.to.kind == Attachment::Kind::ground)
-            throw EntryError(title + "/Direction",
-                             "give 'x, y' or 'x, y, z', the ground has no place of its own");
+          if ((link.from.kind == Attachment::Kind::ground && !link.from.has_place) ||
+              (link.to.kind == Attachment::Kind::ground && !link.to.has_place))
+            throw EntryError(title + "/Direction", "give 'x, y' or 'x, y, z', or a place of the "
+                                                   "ground, 'ground @ x, y, z'");
           link.direction =
               unit(place(scene, link.to) - place(scene, link.from), title + "/Direction");
         }

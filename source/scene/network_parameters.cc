@@ -160,14 +160,23 @@ namespace taut
         Selection("joint|ball joint|stop|dropper|sliding contact"));
     prm.add_parameter(
         "From", from,
-        "'ground', a mass, or 'wire @ position'; several positions (numbers and ranges "
-        "first:step:last) make one link each");
+        "'ground', 'ground @ x, y, z', a mass, 'wire @ position' or 'body @ x, y, z'; several "
+        "positions (numbers and ranges first:step:last) make one link each");
     prm.add_parameter("To", to, "As From; for a sliding contact 'wire @ start'");
     prm.add_parameter(
         "Direction", direction,
         "'x, y' or 'x, y, z' from From to To; a stop or sliding contact pushes To along it. Empty: "
         "along the straight line between the ends",
         List(Double(), 0, 3));
+    prm.add_parameter(
+        "Turns", turns,
+        "The direction is that from end to end at each time, so that ends may move by "
+        "any amount; a dropper then is a rope, a stop a prop. A ground end needs a "
+        "place");
+    prm.add_parameter("Length", length,
+                      "Of a link that turns, unstressed: the distance of its ends at which a rope "
+                      "becomes taut or a prop touches, instead of Gap; 0: as Gap says [m]",
+                      not_negative());
     prm.add_parameter("Rotational", rotational,
                       "Acts between slopes or rotations about z: moments and angular gaps");
     prm.add_parameter("Stiffness", stiffness, "A number or 'rigid' [N/m, N m/rad]");

@@ -47,7 +47,7 @@ namespace taut
       /// The entry that its messages name is in the section that the part comes from.
       void write(const Expression &e) { all(e.formula(), e.depends_on_time()); }
       void write(const InitialMotion &m) { all(m.displacement, m.velocity); }
-      void write(const Attachment &a) { all(a.kind, a.index, a.position, a.place); }
+      void write(const Attachment &a) { all(a.kind, a.index, a.position, a.place, a.has_place); }
       void write(const Wire &w)
       {
         all(w.name, w.origin, w.a, w.b, w.mass_per_length, w.has_axial, w.axial_stiffness,
@@ -77,10 +77,10 @@ namespace taut
       void write(const Link &l)
       {
         all(l.name, l.origin, l.kind, l.from, l.to, l.rotational, l.direction, l.stiffness,
-            l.law ? l.law->description() : std::string(), l.damping, l.gap, l.speed, l.profile,
-            l.find_length, l.prescribed_displacement, l.axial_stiffness, l.mass_per_length,
-            l.length, l.find_direction, l.sideways, l.sideways_stiffness, l.sideways_gap,
-            l.contact_mass);
+            l.law ? l.law->description() : std::string(), l.damping, l.gap, l.turns,
+            l.unstressed_length, l.speed, l.profile, l.find_length, l.prescribed_displacement,
+            l.axial_stiffness, l.mass_per_length, l.length, l.find_direction, l.sideways,
+            l.sideways_stiffness, l.sideways_gap, l.contact_mass);
       }
       void write(const Load &l)
       {

@@ -35,12 +35,12 @@ namespace taut
       basis.push_back(std::move(v));
     }
 
-    /// The work of a constraint on the rigid body modes of a body.
-    Vector work(const ConstraintData &constraint, const std::size_t body,
+    /// The work of the force of a linear form on the rigid body modes of a body.
+    Vector work(const std::vector<Term> &terms, const std::size_t body,
                 const Substructure::NullSpace &null_space)
     {
       Vector result(null_space.vectors.size(), 0.);
-      for (const Term &term : constraint.terms)
+      for (const Term &term : terms)
         if (term.substructure == body)
           for (std::size_t j = 0; j < result.size(); ++j)
             result[j] += term.form.dot(null_space.vectors[j]);
@@ -74,7 +74,13 @@ namespace taut
       {
         join(*ends.begin(), k);
         if (k < n && !null_spaces[k].vectors.empty())
-          extend(opposed[k], work(constraints[i], k, null_spaces[k]));
+        {
+          extend(opposed[k], work(constraints[i].terms, k, null_spaces[k]));
+          // Across itself a link that turns holds its ends like a pendulum.
+          if (const TurningDirection *const turning = constraints[i].direction.get())
+            for (const std::vector<Term> &motion : turning->motion)
+              extend(opposed[k], work(motion, k, null_spaces[k]));
+        }
       }
     }
     std::vector<char> result(n);

@@ -355,7 +355,7 @@ namespace taut
                                      : mass_redistribution == "inertia" ? ContactMass::keeps_inertia
                                                                         : ContactMass::stays;
     for (Link &link : scene.links)
-      if (link.rigid() && link.unilateral() && !link.moving())
+      if (link.rigid() && link.unilateral() && !link.moving() && !link.turns)
         link.contact_mass = contact_mass;
     for (std::size_t i = 0; i < output.probes.items.size(); ++i)
     {

@@ -216,7 +216,7 @@ namespace taut
     log << n_steps << " steps in " << all << " s, " << until / all
         << " x real time; without output " << 1e6 * seconds / n_steps << " us a step, "
         << until / seconds << " x real time\n";
-    if (!stepper.all_bodies_are_linear())
+    if (!stepper.is_linear())
       log << "Newton's method: " << static_cast<double>(stepper.n_newton_iterations()) / n_steps
           << " solves a step\n";
     const InterfaceStatistics solves = stepper.interface_statistics();
@@ -282,7 +282,7 @@ namespace taut
   void Simulation::advance(TimeStepper &stepper, const ObserverList &observers)
   {
     StepControl control(parameters.step_parameters, parameters.step, n_steps(),
-                        !stepper.all_bodies_are_linear());
+                        !stepper.is_linear());
     if (checkpoint)
       resume(stepper, control, observers);
     else

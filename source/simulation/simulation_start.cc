@@ -70,7 +70,7 @@ namespace taut
     if (!bodies.cut_constraints().empty())
       log << "\n  cut in " << counted(bodies.cut_constraints().size(), "constraint");
     log << "\n  " << counted(links.size(), "multiplier") << ": " << n_unilateral << " unilateral, "
-        << links.size() - n_unilateral << " bilateral; " << links.size() - links.n_fixed()
+        << links.size() - n_unilateral << " bilateral; " << links.size() - links.first_moving()
         << " moving; " << n_rigid << " rigid\n";
 
     const auto any_wire = [&](const auto &has)
@@ -85,6 +85,9 @@ namespace taut
       log << "  no links: the bodies move independently\n";
     else if (n_unilateral == 0)
       log << "  only bilateral links: one linear solve a step, no active set\n";
+    if (links.has_turning())
+      log << "  " << counted(links.first_moving() - links.n_fixed(), "link")
+          << " with the direction from end to end at each time\n";
     if (links.size() > 0 && links.n_fixed() == links.size())
       log << "  no moving link: the interface operator is constant\n";
     log << "  instruction set of the loops: " << instruction_set_in_use() << '\n';
@@ -139,10 +142,10 @@ namespace taut
     if (model.start != Start::equilibrium || probe_terms.empty())
       return;
     // Where nothing moves, the equilibrium is what there is to see.
-    if (parameters.end_time == 0. && links.n_fixed() == links.size())
+    if (parameters.end_time == 0. && links.first_moving() == links.size())
       return;
     BodyVectors rest = reference.displacement;
-    if (links.n_fixed() < links.size())
+    if (links.first_moving() < links.size())
     {
       const Scene without = without_sliding_contacts(model);
       const Constraints fixed_constraints = scene_constraints(without, bodies);

@@ -100,6 +100,12 @@ namespace taut
       return "";
     }
 
+    /// Name of a link that turns; empty: none.
+    std::string link_that_turns(const Constraints &constraints)
+    {
+      return constraints.has_turning() ? constraints[constraints.n_fixed()].name : "";
+    }
+
     std::string nonlinear_body(const Structure &structure)
     {
       return body_that(structure, [](const Substructure &body) { return !body.is_linear(); });
@@ -134,8 +140,9 @@ namespace taut
         rigid_constraints(structure, constraints, parameters, step);
     if (restitution > 0.)
       check_restitution(structure, constraints);
-    const std::string nonlinear = nonlinear_body(structure), law = link_with_law(constraints);
-    if (rigid.empty() && nonlinear.empty() && law.empty())
+    const std::string nonlinear = nonlinear_body(structure), law = link_with_law(constraints),
+                      turning = link_that_turns(constraints);
+    if (rigid.empty() && nonlinear.empty() && law.empty() && turning.empty())
       return {"generalised-alpha",
               {{"Generalised-alpha/Spectral radius", "0.8"}},
               "no unilateral link is stiffer than the bodies in one step"};
@@ -143,12 +150,20 @@ namespace taut
         !nonlinear.empty() && rigid.empty()
             ? "body '" + nonlinear +
                   "' moves by large amounts, and the mean forces of this scheme keep its energy"
+        : rigid.empty() && !turning.empty()
+            ? "link '" + turning + "' turns, and the mean forces of this scheme keep the energy"
         : rigid.empty() ? "link '" + law +
                               "' follows a law that is not linear, and the mean forces of this "
                               "scheme keep its energy"
                         : "unilateral link '" + constraints[rigid.front()].name +
                               "' acts as rigid: it is stiffer than the bodies in one step";
     const std::string body = body_without_definite_mass(structure);
+    if (!body.empty() && !turning.empty())
+      throw EntryError("Time/Scheme",
+                       "link '" + turning +
+                           "' turns, and that needs mass matrices "
+                           "that can be inverted; that of body '" +
+                           body + "' is 'reduced'. Take another Mass matrix, or 'backward Euler'");
     if (body.empty())
     {
       std::ostringstream without_loss;
@@ -199,6 +214,10 @@ namespace taut
                        integrator.description() + " gains energy in large motions, here of body '" +
                            nonlinear + "'. Take 'automatic', 'Moreau-Jean' or 'backward Euler'" +
                            anyway);
+    if (const std::string turning = link_that_turns(constraints); !turning.empty())
+      throw EntryError("Time/Scheme", integrator.description() + " gains energy where link '" +
+                                          turning +
+                                          "' turns. Take 'automatic' or 'backward Euler'" + anyway);
     const std::vector<std::size_t> rigid =
         rigid_constraints(structure, constraints, parameters, step);
     if (rigid.empty())

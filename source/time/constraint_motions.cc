@@ -16,8 +16,10 @@ namespace taut
   } // namespace
 
   ConstraintMotions::ConstraintMotions(const Structure &structure, const Constraints &constraints,
+                                       const TurningConstraints &turning,
                                        const Reference &reference, const State &start)
-      : structure(structure), constraints(constraints), reference(reference), laws(constraints)
+      : structure(structure), constraints(constraints), turning(turning), reference(reference),
+        laws(constraints)
   {
     const std::size_t n = constraints.size();
     for (auto *v : {&S, &solved.multiplier, &balanced, &impulses, &link_history, &gap_terms,
@@ -58,7 +60,8 @@ namespace taut
     {
       S[i] = 1. / (constraints[i].stiffness + c.velocity * constraints[i].damping);
       mean[i] = c.mean_force &&
-                (S[i] == 0. || (c.velocity_projection && constraints[i].unilateral)) &&
+                (S[i] == 0. || (c.velocity_projection &&
+                                (constraints[i].unilateral || constraints[i].direction))) &&
                 !(c.velocity_projection && quasi_static[i]);
     }
   }
@@ -85,12 +88,17 @@ namespace taut
         gap = moving_gap(i);
         scale = std::fabs(constraint.gap) + terms_size[i];
       }
+      if (constraint.direction)
+      {
+        gap += turning.offset(i);
+        scale += turning.distance(i);
+      }
       scale += motion_size[i];
       conditions.free_gap[i] = gap + motion[i] + link_history[i];
       scale += std::fabs(motion[i]) + std::fabs(link_history[i]);
       largest_scale[i] = std::max(largest_scale[i], scale);
       conditions.gap_scale[i] = std::max(scale, rest * largest_scale[i]);
-      convection[i] = gap - before.geometric_gap[i];
+      convection[i] = constraint.moving ? gap - before.geometric_gap[i] : 0.;
       if (velocity_level(i))
         set_velocity_condition(i, before);
     }
@@ -124,7 +132,7 @@ namespace taut
     if (supports_move)
       for (std::size_t i = 0; i < constraints.size(); ++i)
         motion[i] += evaluate(constraints[i].terms, lift);
-    for (std::size_t i = constraints.n_fixed(); i < constraints.size(); ++i)
+    for (std::size_t i = constraints.first_moving(); i < constraints.size(); ++i)
     {
       const std::vector<Term> &terms = constraints[i].terms;
       position[i] = evaluate(terms, reference.displacement) + evaluate(terms, before.U);
@@ -142,7 +150,7 @@ namespace taut
   {
     constraints.share_of_motions(state.dU, motion);
     constraints.share_of_motions(state.U, position, terms_size);
-    for (std::size_t i = constraints.n_fixed(); i < constraints.size(); ++i)
+    for (std::size_t i = constraints.first_moving(); i < constraints.size(); ++i)
       position[i] += evaluate(constraints[i].terms, reference.displacement);
     share({&motion, &position, &terms_size});
     if (c.mean_force)
@@ -155,12 +163,12 @@ namespace taut
   /// D' of the moving constraints besides B^T V, with their places exact.
   void ConstraintMotions::share_convection(const State &state)
   {
-    for (std::size_t i = constraints.n_fixed(); i < constraints.size(); ++i)
+    for (std::size_t i = constraints.first_moving(); i < constraints.size(); ++i)
       rate_of_place[i] =
           constraints.share_of_convection(i, state.time, reference.displacement, state.U);
-    if (constraints.n_fixed() < constraints.size())
+    if (constraints.first_moving() < constraints.size())
       share({&rate_of_place});
-    for (std::size_t i = constraints.n_fixed(); i < constraints.size(); ++i)
+    for (std::size_t i = constraints.first_moving(); i < constraints.size(); ++i)
       rate_of_place[i] += constraints.profile_rate(i, state.time, step);
   }
 
@@ -210,14 +218,17 @@ namespace taut
       double &gap = state.geometric_gap[i];
       if (constraints[i].moving)
         gap = moving_gap(i);
+      else if (constraints[i].direction)
+        gap += turning.increment(i);
       else
         gap += motion[i];
 
       State::LinkSpring &spring = state.link_springs[i];
       const double known_v = c.v_V * spring.v + c.v_A * spring.a + c.v_dU * spring.du;
       const double known_a = c.a_V * spring.v + c.a_A * spring.a + c.a_dU * spring.du;
-      const double u = elastic_mean(i) ? std::max(0., S[i] * solved.multiplier[i] + link_history[i])
-                                       : S[i] * balanced[i] + link_history[i];
+      const double own = elastic_mean(i) ? solved.multiplier[i] : balanced[i],
+                   free_u = S[i] * own + link_history[i],
+                   u = elastic_mean(i) && constraints[i].unilateral ? std::max(0., free_u) : free_u;
       spring.du = u - spring.u;
       spring.u = u;
       spring.v = c.velocity * spring.du + known_v;
@@ -349,6 +360,17 @@ namespace taut
     structure.communicator().sum(terms);
     for (std::size_t i = 0; i < constraints.size(); ++i)
       gap_terms[i] = std::max(gap_terms[i], std::fabs(constraints[i].gap) + terms[i]);
+  }
+
+  bool ConstraintMotions::stays_closed(const std::size_t i, const State &state) const
+  {
+    // Part of the distance of its ends, and of the terms of its rate, by which one that is closed
+    // rounds.
+    constexpr double rounding = 1e-9;
+    const bool is_inconsistent =
+        is_first && std::fabs(rates_before[i]) > rounding * velocity_size[i];
+    return !is_inconsistent && constraints[i].direction && S[i] == 0. &&
+           state.geometric_gap[i] - turning.increment(i) <= rounding * turning.distance(i);
   }
 
   double ConstraintMotions::drift(const State &state) const

@@ -64,10 +64,10 @@ namespace taut
 
   const std::vector<double> &ConstraintMotions::old_place(const State &before)
   {
-    if (!c.velocity_projection || constraints.n_fixed() == constraints.size())
+    if (!c.velocity_projection || constraints.first_moving() == constraints.size())
       return none;
     shifted.assign(constraints.size(), 0.);
-    for (std::size_t i = constraints.n_fixed(); i < constraints.size(); ++i)
+    for (std::size_t i = constraints.first_moving(); i < constraints.size(); ++i)
       if (mean[i])
         shifted[i] = -c.old_balance() * before.multiplier[i];
     return shifted;

@@ -91,7 +91,7 @@ namespace taut
     double n_far = 0.;
     for (std::size_t k = 0; k < structure.size(); ++k)
       n_far += !structure[k].is_linear();
-    moves_far = structure.communicator().max(n_far) > 0.;
+    moves_far = constraints.has_turning() || structure.communicator().max(n_far) > 0.;
     measure_rest(start);
     measure_scale(start, Certificate());
   }

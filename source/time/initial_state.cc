@@ -11,9 +11,12 @@ namespace taut
   namespace
   {
     /// Gaps, and the springs of the links with their forces.
-    void set_rows(const Constraints &constraints, const Start start, InitialState &result)
+    void set_rows(Constraints &constraints, const Start start, InitialState &result)
     {
       State &state = result.state;
+      constraints.turn_to(result.reference.displacement, state.U);
+      const std::vector<Coordinates> ends =
+          constraints.differences(result.reference.displacement, state.U);
       const std::vector<double> reference_motion =
                                     constraints.motions(result.reference.displacement),
                                 motion = constraints.motions(state.U),
@@ -23,7 +26,9 @@ namespace taut
       for (std::size_t i = 0; i < constraints.size(); ++i)
       {
         const ConstraintData &constraint = constraints[i];
-        state.geometric_gap[i] = constraint.gap + reference_motion[i] + motion[i];
+        state.geometric_gap[i] = constraint.direction
+                                     ? constraint.direction->gap(ends[i - constraints.n_fixed()])
+                                     : constraint.gap + reference_motion[i] + motion[i];
         // The spring of a link starts as compressed as its ends stand, and a compressed one as fast
         // as they move; a rigid one is not compressed.
         double u = constraint.compression(state.multiplier[i]);

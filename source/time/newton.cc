@@ -38,6 +38,29 @@ namespace taut
                             { return nonlinear.tangent(k, attempt); });
   }
 
+  /// Tangents and F anew.
+  void TimeStepper::linearise()
+  {
+    if (bodies_are_linear)
+      system->interface().update_moving();
+    else
+      system->linearise();
+  }
+
+  /// Inertia has to resist the force of a constraint whatever its direction is.
+  void TimeStepper::check_turning() const
+  {
+    if (turning.empty())
+      return;
+    const std::vector<char> without_mass = constraints.without_mass();
+    for (std::size_t i = constraints.n_fixed(); i < constraints.first_moving(); ++i)
+      if (without_mass[i])
+        throw EntryError(constraints.origin(i),
+                         "link '" + constraints[i].name +
+                             "' turns, and an end of it has no mass. Give that a mass, or a "
+                             "'Mass matrix' that is not 'reduced'");
+  }
+
   /// P^ of the step, which becomes the right-hand side.
   void TimeStepper::set_loads()
   {
@@ -65,11 +88,12 @@ namespace taut
   double TimeStepper::set_guess()
   {
     double change = 0.;
-    for (const std::size_t k : nonlinear.indices())
-    {
+    for (std::size_t k = 0; k < structure.size(); ++k)
       if (structure[k].has_moving_constraints())
         for (const ConstrainedDof &constraint : structure[k].constraints())
           right_hand_side[k][constraint.dof] = lift[k][constraint.dof];
+    for (const std::size_t k : nonlinear.indices())
+    {
       const double own = nonlinear.set_guess(k, right_hand_side[k], system->bodies().stiffness(k));
       if (!(own <= change) && !std::isnan(change))
         change = own;
@@ -110,8 +134,11 @@ namespace taut
   {
     const std::vector<double> multiplier = current.multiplier;
     nonlinear.begin(current, coefficients, step);
+    turning.begin(coefficients);
     if (!tangents_are_kept)
-      system->linearise();
+      linearise();
+    else if (!turning.empty())
+      system->interface().update_moving();
     set_loads();
     const BodyVectors loads = right_hand_side;
     double before = std::numeric_limits<double>::infinity();
@@ -125,7 +152,11 @@ namespace taut
       current.multiplier = multiplier;
       find_increments();
       ++n_iterations;
-      const double change = set_guess();
+      const double change = std::max(
+          set_guess(), turning.empty() ? 0.
+                                       : turning.set_guess(right_hand_side, current,
+                                                           constraint_motions.applied().multiplier,
+                                                           constraint_motions.spring_histories()));
       stagnant = change >= .5 * before ? stagnant + 1 : 0;
       if (change <= converged || (change <= stagnated && stagnant == most_stagnant))
       {
@@ -134,13 +165,16 @@ namespace taut
       }
       if (std::isinf(change))
         return false;
+      turning.turn();
       if (iteration > 1 && is_slow(change, before))
       {
         tangents_are_kept = false;
-        system->linearise();
+        linearise();
         for (const std::size_t k : nonlinear.indices())
           nonlinear.set_tangent(k, system->bodies().stiffness(k));
       }
+      else if (!turning.empty())
+        system->interface().update_moving();
       before = change;
     }
     return false;
@@ -179,6 +213,6 @@ namespace taut
       gain -= std::inner_product(change.begin(), change.end(), product.begin(), 0.);
     }
     structure.communicator().sum(&gain, 1);
-    last.energy_gain = gain;
+    last.energy_gain = gain + turning.surplus(current.multiplier, constraint_motions.increments());
   }
 } // namespace taut

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "static_step.h"
+#include "turning_at_rest.h"
 
 #include <taut/base/exceptions.h>
 #include <taut/time/matrix_norms.h>
@@ -42,7 +43,8 @@ namespace taut
       NonlinearEquilibrium(const Structure &structure, const Constraints &constraints,
                            const SolverParameters &parameters, const double t, SofterBodies &bodies)
           : structure(structure), constraints(constraints), parameters(parameters), time(t),
-            soft(bodies), motion_of_body(structure.all_bodies().size(), 0.)
+            soft(bodies), turning(structure, constraints, sum_of_loads()),
+            motion_of_body(structure.all_bodies().size(), 0.)
       {
       }
 
@@ -106,14 +108,32 @@ namespace taut
       bool iterate(const bool is_damped, const double tolerance, const BodyVectors &start,
                    StaticState &state)
       {
+        if (turning.empty() || is_damped)
+          return search(is_damped, tolerance, start, state);
+        try
+        {
+          return search(false, tolerance, start, state);
+        }
+        catch (const UserError &)
+        {
+          return false; // of directions far from those at rest
+        }
+      }
+
+      bool search(const bool is_damped, const double tolerance, const BodyVectors &start,
+                  StaticState &state)
+      {
         BodyVectors U = start;
         double before = std::numeric_limits<double>::infinity();
+        turning.begin(U);
         for (int iteration = 0; iteration < (is_damped ? most_iterations : most_full_steps);
              ++iteration)
         {
-          StaticStep step(structure, constraints, parameters, time, soft, U);
+          StaticStep step(structure, turning.constraints(), parameters, time, soft, U);
           state = step.solve();
           change = relative_change(step.bodies(), U, state.displacement);
+          if (!turning.empty())
+            change = std::max(change, turning.change(state));
           if (!std::isfinite(change))
             return false;
           if (tolerance > converged && change <= tolerance)
@@ -123,12 +143,14 @@ namespace taut
             if (structure.communicator().max(step.has_own_tangents() ? 0. : 1.) > 0.)
               return false;
             step.certify(state);
+            turning.finish(state);
             return true;
           }
           before = change;
           if (is_damped)
             shorten(U, state);
           U = state.displacement;
+          turning.go_on(state);
         }
         return false;
       }
@@ -207,10 +229,10 @@ namespace taut
           sum += soft.energy(k, U[k]) - std::inner_product(P.begin(), P.end(), U[k].begin(), 0.);
         }
         structure.communicator().sum(&sum, 1);
-        const std::vector<double> motions = constraints.motions(U);
+        const std::vector<double> gaps = turning.gaps(U);
         for (std::size_t i = 0; i < constraints.size(); ++i)
         {
-          const double gap = motions[i] + constraints[i].gap;
+          const double gap = gaps[i];
           if (std::isinf(constraints[i].stiffness))
             sum -= N[i] * gap;
           else if (!constraints[i].unilateral || gap < 0.)
@@ -243,6 +265,7 @@ namespace taut
       const SolverParameters &parameters;
       const double time;
       SofterBodies &soft;
+      TurningAtRest turning;
       double change = 0.;
       std::vector<double> motion_of_body; ///< of those of this rank, in the last iteration [m]
     };
@@ -255,7 +278,8 @@ namespace taut
     undeformed.displacement = undeformed.force = structure.zero();
     const NonlinearBodies nonlinear(structure, undeformed);
     SofterBodies bodies(structure, nonlinear);
-    if (!(structure.communicator().max(nonlinear.indices().empty() ? 0. : 1.) > 0.))
+    if (!constraints.has_turning() &&
+        !(structure.communicator().max(nonlinear.indices().empty() ? 0. : 1.) > 0.))
     {
       StaticStep step(structure, constraints, parameters, t, bodies, undeformed.displacement);
       StaticState state = step.solve();

@@ -66,7 +66,7 @@ namespace taut
   long advance_in_parts(TimeStepper &stepper, const double step,
                         const std::function<void()> &accept)
   {
-    if (!stepper.all_bodies_are_linear())
+    if (!stepper.is_linear())
       return advance_in_parts(stepper, step, accept, 0);
     stepper.advance();
     accept();

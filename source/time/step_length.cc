@@ -18,6 +18,7 @@ namespace taut
   void TimeStepper::restore(const State &before)
   {
     current = before;
+    turning.follow(current);
     --n_steps;
     segment_start = current.time;
     n_in_segment = 0;

@@ -29,6 +29,7 @@ namespace taut
     std::vector<double> largest_rates;
     archive >> largest_rates;
     constraints.update(current.time);
+    turning.follow(current);
     begin_anew(largest_rates);
   }
 

@@ -66,11 +66,14 @@ namespace taut
         current(std::move(start)), first_step_is_backward_euler(!at_rest),
         segment_start(current.time),
         system(std::make_unique<StepSystem>(structure, constraints, this->parameters)),
-        constraint_motions(structure, at_time(constraints, current.time), reference_state, current),
+        turning(at_time(constraints, current.time), reference_state),
+        constraint_motions(structure, constraints, turning, reference_state, current),
         nonlinear(structure, reference_state),
         balance(structure, constraints, reference_state, nonlinear),
         check(structure, constraints, this->parameters.contact_tolerance)
   {
+    check_turning();
+    turning.follow(current);
     for (BodyVectors *v : {&forces.P, &right_hand_side, &lift, &forces.old_A, &forces.old_balance})
       *v = structure.zero();
     forces.external_size.resize(structure.size());
@@ -99,7 +102,7 @@ namespace taut
     structure.communicator().sum(sums, 3);
     supports_move = sums[0] > 0.;
     current.kinetic_energy = sums[1];
-    is_linear = sums[2] == 0.;
+    bodies_are_linear = sums[2] == 0.;
     set_nonlinear();
     nonlinear.begin(current, c, step);
     prepare(first_step_is_backward_euler ? backward_euler(step) : c);
@@ -141,6 +144,7 @@ namespace taut
 
   void TimeStepper::prepare(const StepCoefficients &c)
   {
+    turning.prepare(c);
     coefficients = c;
     tangents_are_kept = false;
     constraint_motions.prepare(c, step);
@@ -165,12 +169,14 @@ namespace taut
       prepare(c);
     current.time = segment_start + ++n_in_segment * step;
     check.set_time(current.time);
+    constraint_motions.begin_step(is_first);
     step_before = current.last_step;
     current.last_step = step;
     constraints.update(current.time);
-    system->interface().update_moving();
+    if (turning.empty())
+      system->interface().update_moving();
 
-    if (is_linear)
+    if (is_linear())
     {
       set_loads();
       find_increments();
@@ -179,16 +185,22 @@ namespace taut
       iterate();
     accept_increments();
     constraint_motions.update(current);
-    if (is_linear)
+    if (is_linear())
       certify();
     else
       certify_iterations();
     nonlinear.set_own_force(current);
+    if (!turning.empty())
+    {
+      turning.follow(current);
+      if (c.velocity_projection)
+        constraint_motions.update_rates(current);
+    }
     if (c.velocity_projection)
       project_velocities();
-    if (c.mean_force && !c.velocity_level && (constraints.size() > 0 || !is_linear))
+    if (c.mean_force && !c.velocity_level && (constraints.size() > 0 || !is_linear()))
       measure_energy();
-    else if (!is_linear && c.is_backward_euler())
+    else if (!is_linear() && c.is_backward_euler())
       measure_energy_at_ends();
   }
 

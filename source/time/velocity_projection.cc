@@ -193,10 +193,13 @@ namespace taut
     {
       takes_part[i] = 0;
       p[i] = motions.mean_force(i) ? step * state.multiplier[i] : 0.;
-      if (!motions.mean_force(i) || has_no_mass[i] || (constraints[i].unilateral && !(p[i] > 0.)) ||
-          !std::isfinite(relative_softening[i]))
+      const bool is_spring = !constraints[i].unilateral && !std::isinf(constraints[i].stiffness);
+      if (!motions.mean_force(i) || has_no_mass[i] || is_spring ||
+          (constraints[i].unilateral && !(p[i] > 0.)) || !std::isfinite(relative_softening[i]))
         continue;
       takes_part[i] = 1;
+      if (motions.stays_closed(i, state))
+        continue;
       acts =
           acts || std::fabs(state.gap_rate[i]) >
                       rounding_of_rates * (motions.velocity_sizes()[i] +
@@ -328,7 +331,7 @@ namespace taut
     };
     const std::vector<double> of_plain = response(plain), of_rebounding = response(rebounding);
     double before = 0.;
-    for (std::size_t i = 0; i < constraints.n_fixed(); ++i)
+    for (std::size_t i = 0; i < constraints.first_moving(); ++i)
       before += p[i] * motions.increments()[i] / step;
     const double a = .5 * dot(rebounding, of_rebounding),
                  b = dot(rebounding, state.gap_rate) + dot(rebounding, of_plain),

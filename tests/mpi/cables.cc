@@ -68,7 +68,7 @@ namespace
 
 // Claim: nonlinear cables hang and move on any number of ranks as on one: all displacements, forces
 // and probes to 1e-9 of the largest. Expected: the run of one process. Guys that go slack, a net, a
-// cable that meets a mass, one that lies on a floor.
+// cable that meets a mass, one that lies on a floor, two that ropes join which turn.
 TEST(Ranks, cables_are_the_same)
 {
   expect_same("swinging_load_on_guys", {"Time/End=1.4"}, true);
@@ -76,4 +76,5 @@ TEST(Ranks, cables_are_the_same)
   expect_same("pendulum_cable", {"Time/End=0.5"});
   expect_same("cable_on_floor", {"Time/End=0.3"});
   expect_same("cable_in_wind");
+  expect_same("line_with_droppers", {"Time/End=0.5"});
 }

@@ -80,6 +80,9 @@ namespace taut
     /// At place[0], the unstressed arc length from `from`, along any direction in space.
     LinearForm displacement(const Coordinates &place, const Coordinates &direction) const override;
 
+    /// In space, of the found shape.
+    Coordinates position(const Coordinates &place) const override;
+
     bool is_linear() const override { return data.linearised; }
 
     /// Translations, if no end is held: they change no stretch, whatever the shape.

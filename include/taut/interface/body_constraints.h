@@ -17,14 +17,14 @@ namespace taut
     struct Entry
     {
       std::size_t constraint;
-      bool moving;
+      bool varies; ///< moves or turns
       LinearForm form;
     };
 
     /// The arguments are kept by reference.
     BodyConstraints(const Structure &structure, const Constraints &constraints);
 
-    /// After Constraints::update(): the moving constraints anew.
+    /// After Constraints::update() or turn(): the constraints that move or turn anew.
     void update();
 
     std::size_t size() const { return entries.size(); }
@@ -36,7 +36,7 @@ namespace taut
     void add(std::size_t constraint);
 
     const Constraints &constraints;
-    std::vector<std::vector<Entry>> entries; ///< the moving constraints of each are its last ones
+    std::vector<std::vector<Entry>> entries; ///< those that vary are the last ones of each
   };
 } // namespace taut
 

@@ -3,6 +3,7 @@
 #define taut_constraints_h
 
 #include <taut/base/force_law.h>
+#include <taut/interface/turning_direction.h>
 #include <taut/substructure/structure.h>
 
 #include <array>
@@ -57,6 +58,9 @@ namespace taut
         {};              ///< of a constraint that moves; sets terms and gap
     bool moving = false; ///< has a place
 
+    /// Of a constraint that turns with its ends; sets terms and gap.
+    std::shared_ptr<const TurningDirection> direction = {};
+
     bool is_link() const { return link != no_link; }
 
     /// Compression of the spring under a force, and the energy that it stores then; 0 of a rigid
@@ -65,7 +69,8 @@ namespace taut
     double stored_energy(double compression) const;
   };
 
-  /// The constraints of a system: the fixed ones in their order, then the moving ones.
+  /// The constraints of a system: the fixed ones in their order, then those that turn, then the
+  /// moving ones.
   class Constraints
   {
   public:
@@ -74,11 +79,25 @@ namespace taut
 
     std::size_t size() const { return constraints.size(); }
     std::size_t n_fixed() const { return fixed; }
+    std::size_t first_moving() const { return first_with_place; }
+    bool has_turning() const { return fixed < first_with_place; }
     const ConstraintData &operator[](std::size_t i) const { return constraints[i]; }
 
     /// Puts the moving constraints where they are at time t [s]. Throws UserError when one leaves
     /// its wire.
     void update(double t);
+
+    /// Delta of each constraint that turns, from n_fixed() on, at U = @p reference + @p U, and the
+    /// part that is linear in U alone. Called by all ranks together [m].
+    std::vector<Coordinates> differences(const BodyVectors &reference, const BodyVectors &U) const;
+    std::vector<Coordinates> differences(const BodyVectors &U) const;
+
+    /// Gives each constraint that turns B_i = sign times its motion along a direction.
+    void turn(const std::vector<Coordinates> &directions);
+
+    /// The same with the directions at U = @p reference + @p U. Called by all ranks
+    /// together.
+    void turn_to(const BodyVectors &reference, const BodyVectors &U);
 
     /// Position on its wire of a moving constraint at time t [m].
     double position(std::size_t i, double t) const { return constraints[i].place->position(t); }
@@ -137,11 +156,12 @@ namespace taut
 
     std::vector<char> acts_on(std::vector<unsigned int> (Substructure::*dofs)() const) const;
     void append(std::size_t i);
+    void append_varying();
 
     const Structure &structure;
     std::vector<ConstraintData> constraints;
     std::vector<std::size_t> row_index;
-    std::size_t fixed = 0;
+    std::size_t fixed = 0, first_with_place = 0;
 
     std::vector<Entry> entries;     ///< of all constraints, one constraint after the other
     std::vector<std::size_t> begin; ///< of each constraint; one number more
@@ -152,7 +172,7 @@ namespace taut
       double value;
       unsigned int body, kind, constraint;
     };
-    std::vector<Size> sizes; ///< of the fixed constraints by body and kind, then of the moving ones
+    std::vector<Size> sizes; ///< of the fixed constraints by body and kind, then of the others
     std::size_t n_fixed_sizes = 0;
   };
 } // namespace taut

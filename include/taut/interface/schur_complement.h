@@ -56,7 +56,7 @@ namespace taut
     /// After a change of the compliances alone: only the diagonal changes.
     virtual void set_compliance(const std::vector<double> &S) = 0;
 
-    /// After Constraints::update(): the moving constraints anew.
+    /// After Constraints::update() or turn(): the constraints that move or turn anew.
     virtual void update_moving() = 0;
 
     /// d = B^T A^-1 P, the motion of the constraints under forces P, and the sum of the absolute

@@ -47,6 +47,10 @@ namespace taut
       append_motion(point, rotational, direction, factor, false, terms);
     }
 
+    /// Where an attachment is in space, undeformed [m]; not of a ground without a place. Called by
+    /// all ranks together.
+    Coordinates position(const Scene &scene, const Attachment &point) const;
+
     /// The same of the derivative of the displacement by the position along the wire [1/m]: what a
     /// contact that slides is displaced by.
     void slope(const Attachment &point, const Coordinates &direction, double factor,

@@ -45,14 +45,14 @@ namespace taut
   }
 
   /**
-   * Attachments from "ground", "mass", "wire @ 12.5", or several on one wire, "wire @ 0:5:60"; on a
-   * body "plate @ 0.1, 0.2", or several, "plate @ 0.1, 0.2; 0.3, 0.2".
+   * Attachments from "ground", "ground @ 1, 2", "mass", "wire @ 12.5", or several on one wire,
+   * "wire @ 0:5:60"; on a body "plate @ 0.1, 0.2", or several, "plate @ 0.1, 0.2; 0.3, 0.2".
    * Unknown names are UserErrors that list the known ones.
    */
   std::vector<Attachment> parse_attachments(const std::string &text, const Scene &scene,
                                             const std::string &entry);
 
-  /// Place of an attachment in the undeformed scene; not for the ground.
+  /// Place of an attachment in the undeformed scene; of the ground, if it has one.
   Coordinates place(const Scene &scene, const Attachment &point);
 } // namespace taut
 

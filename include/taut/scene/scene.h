@@ -184,7 +184,8 @@ namespace taut
     Kind kind = Kind::ground;
     std::size_t index = 0;  ///< of the wire, mass or body
     double position = 0.;   ///< s on the wire [m], at t = 0 if it moves
-    Coordinates place = {}; ///< of a body, in its own coordinates, undeformed [m]
+    Coordinates place = {}; ///< of a body, in its own coordinates, undeformed; of the ground [m]
+    bool has_place = false; ///< of the ground, which need not have one
   };
 
   enum class LinkKind
@@ -211,7 +212,12 @@ namespace taut
    * along +n D = -n . (u_to - u_from) + gap          dropper: N > 0 is tension, n from `from` to
    * `to`
    *
-   * plus N over its stiffness; a rotational link has slopes and rotations instead of n . u.
+   * plus N over its stiffness; a rotational link has slopes and rotations instead of n . u. With
+   * `turns` n is the direction from end to end at each time, and D is
+   *
+   *     D = |Delta| - length    or of a dropper    D = length - |Delta|
+   *
+   * of the vector Delta from the `from` to the `to` end.
    */
   struct Link
   {
@@ -228,7 +234,12 @@ namespace taut
     std::shared_ptr<const ForceLaw> law = {};
     double damping = 0.; ///< [N s/m, N m s/rad]
     double gap = 0.;     ///< D at U = 0, N = 0 [m, rad]
-    double speed = 0.;   ///< of the `to` end along its wire [m/s]
+
+    /// The direction is that from end to end at each time, and `direction` counts for nothing.
+    bool turns = false;
+    double unstressed_length = 0.; ///< of a link that turns; 0: as `gap` says [m]
+
+    double speed = 0.; ///< of the `to` end along its wire [m/s]
     Expression
         profile; ///< height r(s) of the wire under a sliding contact [m]: adds to the gap along n
 

@@ -110,6 +110,9 @@ namespace taut
      */
     virtual LinearForm displacement(const Coordinates &place, const Coordinates &direction) const;
 
+    /// Where such a place is at U = 0 [m]: the place itself, unless a body counts places otherwise.
+    virtual Coordinates position(const Coordinates &place) const { return place; }
+
     /// The same of a node of the surface that the body shows to contacts (BodyType::surface()).
     /// Throws UserError if the body has no such surface.
     virtual LinearForm node_displacement(unsigned int node, const Coordinates &direction) const;

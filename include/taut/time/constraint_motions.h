@@ -7,6 +7,7 @@
 #include <taut/time/integrator.h>
 #include <taut/time/state.h>
 #include <taut/time/step_system.h>
+#include <taut/time/turning_constraints.h>
 
 #include <initializer_list>
 #include <vector>
@@ -49,10 +50,14 @@ namespace taut
     /// The arguments but @p start are kept by reference; @p constraints are where they are at the
     /// start.
     ConstraintMotions(const Structure &structure, const Constraints &constraints,
-                      const Reference &reference, const State &start);
+                      const TurningConstraints &turning, const Reference &reference,
+                      const State &start);
 
     /// For steps with these coefficients from now on.
     void prepare(const StepCoefficients &c, double step);
+
+    /// Before each step: whether it is the first one of all.
+    void begin_step(const bool first) { is_first = first; }
 
     /// S with the dampers of the links [m/N, rad/(N m)].
     const std::vector<double> &compliance() const { return S; }
@@ -90,8 +95,18 @@ namespace taut
     const std::vector<double> &velocity_sizes() const { return velocity_size; }
     const std::vector<double> &rates_before_step() const { return rates_before; }
 
+    /**
+     * True of a rigid constraint that turns and was closed before the step, unless that is the
+     * first one, from velocities that open or close it. Its rate after the step, which ends in @p
+     * state, is of second order, and impulses that make it zero would take energy in each step.
+     */
+    bool stays_closed(std::size_t i, const State &state) const;
+
     /// B^T dU [m, rad].
     const std::vector<double> &increments() const { return motion; }
+
+    /// Of each constraint, what its gap has of springs besides S N [m, rad].
+    const std::vector<double> &spring_histories() const { return link_history; }
 
     /// After a change of the velocities: B^T V and D' anew. Called by all ranks together.
     void update_rates(State &state);
@@ -149,10 +164,12 @@ namespace taut
 
     const Structure &structure;
     const Constraints &constraints;
+    const TurningConstraints &turning;
     const Reference &reference;
     StepCoefficients c;
     double step = 0.;
     bool supports_move = false; ///< of a body of this rank
+    bool is_first = false;      ///< step of all
 
     MixedComplementarityProblem conditions;
     ConstraintLaws laws;

@@ -13,6 +13,7 @@
 #include <taut/time/state.h>
 #include <taut/time/step_check.h>
 #include <taut/time/step_system.h>
+#include <taut/time/turning_constraints.h>
 #include <taut/time/velocity_projection.h>
 
 #include <memory>
@@ -84,9 +85,9 @@ namespace taut
     const StepCoefficients &scheme() const { return coefficients; }
     long n_steps_done() const { return n_steps; }
 
-    /// Solves of Newton's method so far; 0 if all bodies are linear.
+    /// Solves of Newton's method so far; 0 if all bodies are linear and no constraint turns.
     long n_newton_iterations() const { return n_iterations; }
-    bool all_bodies_are_linear() const { return is_linear; }
+    bool is_linear() const { return bodies_are_linear && turning.empty(); }
 
     /// Form and size of the interface operator, for the log.
     std::string interface_description() const { return system->interface().description(); }
@@ -104,6 +105,8 @@ namespace taut
     void iterate();
     bool solve_by_newton();
     void set_nonlinear();
+    void linearise();
+    void check_turning() const;
     double set_guess();
     void project_velocities();
     void measure_energy();
@@ -138,10 +141,11 @@ namespace taut
 
     std::unique_ptr<StepSystem> system;
     InterfaceStatistics earlier_systems; ///< of those before
+    TurningConstraints turning;
     ConstraintMotions constraint_motions;
     NonlinearBodies nonlinear;
     bool tangents_are_kept = false; ///< from step to step
-    bool is_linear = true;          ///< of all bodies of all ranks
+    bool bodies_are_linear = true;  ///< those of all ranks
     bool supports_move = false;     ///< of a body of some rank
     BalanceCertificate balance;
     double own_balance = 0.; ///< of this rank

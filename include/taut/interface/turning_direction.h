@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_turning_direction_h
+#define taut_turning_direction_h
+
+#include <taut/base/coordinates.h>
+#include <taut/substructure/structure.h>
+
+#include <array>
+#include <vector>
+
+namespace taut
+{
+  /**
+   * The direction of a constraint from one of its ends to the other, wherever these are:
+   *
+   *     D = sign (|Delta| - length),    Delta = start + motion . U.
+   *
+   * B_i is then sign times a direction d . motion, with d = Delta / |Delta| where forces act at one
+   * state.
+   */
+  struct TurningDirection
+  {
+    /// Of the second end minus that of the first along x, y and z, on the bodies of this rank [m].
+    std::array<std::vector<Term>, 3> motion;
+    Coordinates start;  ///< Delta at U = 0, the same on all ranks [m]
+    double length = 1.; ///< |Delta| at D = 0, positive [m]
+    double sign = 1.;   ///< 1: N > 0 pushes the ends apart; -1: it pulls them together
+
+    /// D without a spring, of ends so far from each other [m].
+    double gap(const Coordinates &difference) const { return sign * (norm(difference) - length); }
+
+    /// True of ends that are nearer to each other than a millionth of the length: they have no
+    /// direction.
+    bool vanishes(const Coordinates &difference) const
+    {
+      constexpr double least_part = 1e-6;
+      return !(norm(difference) > least_part * length);
+    }
+
+    /// Delta / |Delta|; where it vanishes, the direction at U = 0.
+    Coordinates at(const Coordinates &difference) const;
+
+    /// Motion along a direction, one term for each body.
+    std::vector<Term> along(const Coordinates &direction) const;
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_turning_constraints_h
+#define taut_turning_constraints_h
+
+#include <taut/interface/constraints.h>
+#include <taut/time/integrator.h>
+#include <taut/time/state.h>
+
+#include <vector>
+
+namespace taut
+{
+  /**
+   * The constraints that turn with their ends, through a step from Delta_0 to Delta_1. With mean
+   * forces the direction is
+   *
+   *     (Delta_0 + Delta_1) / (|Delta_0| + |Delta_1|),
+   *
+   * which times Delta_1 - Delta_0 is |Delta_1| - |Delta_0|: gaps do not drift, and the work of the
+   * force is that of its gap (O. Gonzalez, J. Nonlinear Sci. 6 (1996)). With forces at the ends of
+   * steps it is that of Delta_1, and D is linear about the last guess. Guesses are those of
+   * Newton's method. Indices are those of the constraints. All functions that take vectors of
+   * bodies are called by all ranks together.
+   */
+  class TurningConstraints
+  {
+  public:
+    /// The arguments are kept by reference.
+    TurningConstraints(Constraints &constraints, const Reference &reference);
+
+    bool empty() const { return !constraints.has_turning(); }
+
+    /// For steps with these coefficients from now on. Throws EntryError for a scheme without gaps
+    /// at the ends of steps.
+    void prepare(const StepCoefficients &c) const;
+
+    /// Directions at a state.
+    void follow(const State &state);
+
+    /// Begins a step from the state that follow() knows; the first guess is no motion.
+    void begin(const StepCoefficients &c);
+
+    /**
+     * Takes the increments of an iteration as the next guess, whose multipliers are @p N, and the
+     * parts of D besides Delta and N @p history. Returns by how much that guess misses: relative
+     * changes of directions, and errors of gaps over |Delta|, of constraints that carry a force or
+     * should, see weights in the source. Throws UserError if a direction vanishes under a force.
+     */
+    double set_guess(const BodyVectors &dU, const State &before, const std::vector<double> &N,
+                     const std::vector<double> &history);
+
+    /// Directions at the guess: B_i anew.
+    void turn() { constraints.turn(next); }
+
+    /// What the gap of the form B_i differs by from that of the state before, at dU = 0 [m].
+    double offset(const std::size_t i) const { return offsets[i - constraints.n_fixed()]; }
+
+    /// D_1 - D_0 of the last guess, without a spring [m].
+    double increment(const std::size_t i) const { return increments[i - constraints.n_fixed()]; }
+
+    /// |Delta_0| [m].
+    double distance(const std::size_t i) const { return norm(start[i - constraints.n_fixed()]); }
+
+    /// Work of the forces N on the bodies in the step beyond N (D_1 - D_0): 0 with mean forces [J].
+    double surplus(const std::vector<double> &N, const std::vector<double> &motion) const;
+
+  private:
+    Constraints &constraints;
+    const Reference &reference;
+    bool is_mean = false;
+    std::vector<Coordinates> start; ///< Delta_0
+    std::vector<Coordinates> used;  ///< directions of B_i
+    std::vector<Coordinates> next;  ///< those of the guess
+    std::vector<double> offsets, next_offsets, increments;
+  };
+} // namespace taut
+
+#endif

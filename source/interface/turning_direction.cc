@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/interface/turning_direction.h>
+
+#include <algorithm>
+
+namespace taut
+{
+  Coordinates TurningDirection::at(const Coordinates &difference) const
+  {
+    const Coordinates &d = vanishes(difference) ? start : difference;
+    const double size = norm(d);
+    return {d.x / size, d.y / size, d.z / size};
+  }
+
+  std::vector<Term> TurningDirection::along(const Coordinates &direction) const
+  {
+    std::vector<Term> terms;
+    for (unsigned int c = 0; c < 3; ++c)
+      for (const auto &[k, form] : motion[c])
+      {
+        const std::size_t body = k;
+        auto term = std::find_if(terms.begin(), terms.end(),
+                                 [&](const Term &t) { return t.substructure == body; });
+        if (term == terms.end())
+        {
+          terms.push_back({k, {}});
+          term = terms.end() - 1;
+        }
+        for (std::size_t j = 0; j < form.index.size(); ++j)
+          term->form.add(form.index[j], direction[c] * form.value[j]);
+      }
+    return terms;
+  }
+} // namespace taut

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "turning_at_rest.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace taut
+{
+  namespace
+  {
+    /// Part of the loads that stands in for N even where directions do not change any more: it
+    /// holds what nothing else does, and costs no iterations.
+    constexpr double least_part = 1e-8;
+
+    /// Two unit vectors across a unit vector and each other.
+    std::array<Coordinates, 2> across(const Coordinates &d)
+    {
+      const Coordinates axis =
+          std::fabs(d.x) < .6 ? Coordinates{1., 0., 0.} : Coordinates{0., 1., 0.};
+      Coordinates first = cross(d, axis);
+      const double size = norm(first);
+      first = {first.x / size, first.y / size, first.z / size};
+      return {first, cross(d, first)};
+    }
+  } // namespace
+
+  TurningAtRest::TurningAtRest(const Structure &structure, const Constraints &constraints,
+                               const double load)
+      : structure(structure), all(constraints), undeformed(structure.zero()),
+        load(load > 0. ? load : 1.)
+  {
+  }
+
+  void TurningAtRest::begin(const BodyVectors &U)
+  {
+    if (empty())
+      return;
+    turned = 1.;
+    set(U, std::vector<double>(all.size(), 0.));
+  }
+
+  void TurningAtRest::go_on(const StaticState &state)
+  {
+    if (!empty())
+      set(state.displacement, state.multiplier);
+  }
+
+  void TurningAtRest::add_spring(const ConstraintData &of, const Coordinates &direction,
+                                 const double stiffness, const Coordinates &motion,
+                                 std::vector<ConstraintData> &list) const
+  {
+    ConstraintData spring;
+    spring.name = of.name;
+    spring.origin = of.origin;
+    spring.stiffness = stiffness;
+    spring.terms = of.direction->along(direction);
+    spring.gap = -dot(direction, motion);
+    list.push_back(std::move(spring));
+  }
+
+  void TurningAtRest::set(const BodyVectors &U, const std::vector<double> &N)
+  {
+    std::vector<ConstraintData> list;
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+      list.push_back(all[i]);
+      list.back().place = nullptr;
+      list.back().direction = nullptr;
+    }
+    const std::vector<Coordinates> motions = all.differences(U);
+    directions.clear();
+    source.clear();
+    for (std::size_t k = 0; k < motions.size(); ++k)
+    {
+      const std::size_t i = all.n_fixed() + k;
+      const TurningDirection &turning = *all[i].direction;
+      const Coordinates difference = add_scaled(turning.start, 1., motions[k]),
+                        d = turning.at(difference);
+      directions.push_back(d);
+      list[i].terms = turning.along({turning.sign * d.x, turning.sign * d.y, turning.sign * d.z});
+      list[i].gap = turning.gap(difference) - turning.sign * dot(d, motions[k]);
+      const double size = std::max(norm(difference), turning.length),
+                   stand_in = load * std::clamp(turned, least_part, 1.) / size,
+                   geometric = std::max(0., -turning.sign * N[i]) / size;
+      const auto [first, second] = across(d);
+      add_spring(all[i], d, stand_in, motions[k], list);
+      add_spring(all[i], first, geometric + stand_in, motions[k], list);
+      add_spring(all[i], second, geometric + stand_in, motions[k], list);
+      source.insert(source.end(), 3, i);
+    }
+    linear = std::make_unique<Constraints>(structure, std::move(list));
+  }
+
+  double TurningAtRest::change(const StaticState &state)
+  {
+    const std::vector<Coordinates> motions = all.differences(state.displacement);
+    double result = 0.;
+    turned = 0.;
+    for (std::size_t k = 0; k < motions.size(); ++k)
+    {
+      const std::size_t i = all.n_fixed() + k;
+      const TurningDirection &turning = *all[i].direction;
+      const Coordinates difference = add_scaled(turning.start, 1., motions[k]);
+      const double gap = turning.gap(difference),
+                   change = norm(turning.at(difference) - directions[k]);
+      turned = std::max(turned, change);
+      if (all[i].unilateral && state.multiplier[i] == 0. && gap >= 0.)
+        continue;
+      const double miss =
+          std::fabs(gap - state.geometric_gap[i]) / std::max(norm(difference), turning.length);
+      result = std::max({result, change, miss});
+      if (std::isnan(change) || std::isnan(miss))
+        return std::numeric_limits<double>::infinity();
+    }
+    return result;
+  }
+
+  void TurningAtRest::finish(StaticState &state) const
+  {
+    if (empty())
+      return;
+    for (std::vector<double> *v : {&state.multiplier, &state.gap, &state.geometric_gap})
+      v->resize(all.size());
+    if (state.certificate.worst_constraint >= all.size())
+      state.certificate.worst_constraint = source[state.certificate.worst_constraint - all.size()];
+  }
+
+  std::vector<double> TurningAtRest::gaps(const BodyVectors &U) const
+  {
+    std::vector<double> result = all.motions(U);
+    for (std::size_t i = 0; i < all.size(); ++i)
+      result[i] += all[i].gap;
+    const std::vector<Coordinates> ends = all.differences(undeformed, U);
+    for (std::size_t k = 0; k < ends.size(); ++k)
+      result[all.n_fixed() + k] = all[all.n_fixed() + k].direction->gap(ends[k]);
+    return result;
+  }
+} // namespace taut

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: links whose direction is that from end to end at each time move masses with the right
+// period, keep their length, energy and momentum, and catch what falls into them. Expected values:
+// elliptic integrals, parabolas of flight, impulses and springs of Newton's laws, conservation.
+#include "turning_scene.h"
+
+#include <boost/math/special_functions/ellint_1.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+using namespace turning;
+
+namespace
+{
+  struct Swing
+  {
+    double period_error = 0., energy = 0., stretch = 0.;
+  };
+
+  /// Five periods of a mass on a rope or rod of 1 m, released from an angle to the vertical.
+  Swing swing(const double angle, const int steps_a_period, const std::string &type,
+              const Overrides &overrides = {})
+  {
+    const double period = 4. * std::sqrt(1. / g) * boost::math::ellint_1(std::sin(.5 * angle)),
+                 step = period / steps_a_period;
+    Scene scene;
+    scene.masses = {{2., {std::sin(angle), -std::cos(angle), 0.}, {}}};
+    scene.links = {"set Type = " + type +
+                   "\nset From = ground @ 0, 0\nset To = m0\nset Length = 1"};
+    scene.start = "given";
+    scene.step = step;
+    scene.end = 5. * period;
+    Swing result;
+    double first_energy = 0., before = 0., t = 0.;
+    std::vector<double> crossings;
+    scene.run(
+        [&](const Motion &m)
+        {
+          const double x = m.place[0].x;
+          if (m.time == 0.)
+            first_energy = m.energy;
+          else if (x * before < 0.)
+            crossings.push_back(t + (m.time - t) * before / (before - x));
+          before = x;
+          t = m.time;
+          result.energy = std::max(result.energy, std::fabs(m.energy - first_energy) / (2. * g));
+          const double stretch = norm(m.place[0]) - 1.;
+          result.stretch = std::max(result.stretch, type == "joint" ? std::fabs(stretch) : stretch);
+        },
+        overrides);
+    const double found = 2. * (crossings.back() - crossings.front()) / (crossings.size() - 1);
+    result.period_error = std::fabs(found / period - 1.);
+    return result;
+  }
+} // namespace
+
+TEST(TurningLinks, pendulum_on_a_rope)
+{
+  for (const char *const type : {"dropper", "joint"})
+  {
+    // At 90 degrees a rope has no tension.
+    const double angle = type == std::string("joint") ? .5 * pi : 80. * pi / 180.;
+    const Swing rough = swing(angle, 50, type), fine = swing(angle, 100, type);
+    EXPECT_LT(rough.period_error, 3.5e-3) << type;
+    EXPECT_LT(fine.period_error, 9e-4) << type;
+    EXPECT_NEAR(rough.period_error / fine.period_error, 4., .8) << type;
+    for (const Swing &s : {rough, fine})
+    {
+      EXPECT_LT(s.energy, 1e-7) << type;
+      EXPECT_LT(s.stretch, 1e-10) << type;
+    }
+    verification::figure("pendulum on a " + std::string(type) +
+                             ", 100 steps a period: error of the period",
+                         fine.period_error);
+  }
+}
+
+TEST(TurningLinks, pendulum_on_a_rod_from_170_degrees)
+{
+  const Swing s = swing(170. * pi / 180., 100, "joint");
+  EXPECT_LT(s.period_error, 3e-3);
+  EXPECT_LT(s.energy, 1e-7);
+  EXPECT_LT(s.stretch, 1e-10);
+}
+
+TEST(TurningLinks, backward_euler_keeps_lengths_and_gains_no_energy)
+{
+  const Swing s = swing(.5 * pi, 400, "dropper", {"Time/Scheme=backward Euler"});
+  EXPECT_LT(s.stretch, 1e-8);
+  EXPECT_LT(s.period_error, .1);
+  EXPECT_LT(s.energy, .8);
+}
+
+TEST(TurningLinks, slack_rope_catches_a_mass_that_is_thrown)
+{
+  Scene scene;
+  const Coordinates start = {.5, -.2, 0.}, v = {1., 2., 0.};
+  scene.masses = {{3., start, v}};
+  scene.links = {rope("ground @ 0, 0", "m0", 1.)};
+  scene.start = "given";
+  scene.step = 5e-4;
+  scene.end = .6;
+  // When the parabola leaves the circle.
+  const auto place = [&](const double t) {
+    return Coordinates{start.x + v.x * t, start.y + v.y * t - .5 * g * t * t, 0.};
+  };
+  double low = 0., high = .6;
+  for (int i = 0; i < 100; ++i)
+    (norm(place(.5 * (low + high))) < 1. ? low : high) = .5 * (low + high);
+  const Coordinates at = place(low), rate = {v.x, v.y - g * low, 0.};
+  const double radial = dot(at, rate), lost = .5 * 3. * radial * radial;
+  double caught = 0., first = 0., last = 0., highest = -1e9, gained = 0., before = 0.;
+  scene.run(
+      [&](const Motion &m)
+      {
+        if (m.time == 0.)
+          first = before = m.energy;
+        if (caught == 0. && m.multiplier[0] > 0.)
+          caught = m.time;
+        gained = std::max(gained, m.energy - before);
+        before = last = m.energy;
+        highest = std::max(highest, norm(m.place[0]));
+      });
+  EXPECT_NEAR(caught, low, 2.1 * scene.step);
+  EXPECT_NEAR(first - last, lost, 1e-2 * lost);
+  EXPECT_LT(gained, 1e-9);
+  EXPECT_LT(highest, 1. + 1e-10);
+}
+
+TEST(TurningLinks, tumbling_masses_keep_momentum)
+{
+  for (const char *const type : {"dropper", "joint", "elastic"})
+  {
+    Scene scene;
+    scene.gravity = {0., 0., 0.};
+    scene.masses = {{1., {0., 0., 0.}, {0., 0., 1.}},
+                    {3., {.8, .3, -.2}, {.2, 1.5, -.1}},
+                    {2., {.2, -1.1, .4}, {-1., 0., .2}}};
+    const std::string kind = type;
+    const std::string link = kind == "elastic" ? "set Type = joint\nset Stiffness = 2000\n"
+                                               : "set Type = " + kind + "\n";
+    scene.links = {link + "set From = m0\nset To = m1", link + "set From = m1\nset To = m2"};
+    scene.start = "given";
+    scene.step = 1e-3;
+    scene.end = 2.;
+    Coordinates momentum, moment, direction;
+    double least = 1.;
+    scene.run(
+        [&](const Motion &m)
+        {
+          const Coordinates d = m.place[1] - m.place[0];
+          if (m.time == 0.)
+          {
+            momentum = m.momentum;
+            moment = m.moment_of_momentum;
+            direction = {d.x / norm(d), d.y / norm(d), d.z / norm(d)};
+          }
+          least = std::min(least, dot(d, direction) / norm(d));
+          EXPECT_LT(norm(m.momentum - momentum), 1e-9) << kind << m.time;
+          EXPECT_LT(norm(m.moment_of_momentum - moment), 1e-9) << kind << m.time;
+        });
+    EXPECT_LT(least, 0.) << kind; // turned by more than 90 degrees
+  }
+}
+
+TEST(TurningLinks, mass_bounces_on_an_elastic_rope)
+{
+  constexpr double m = 10., k = 1e4, fall = 2.;
+  const double largest = m * g + std::sqrt(m * g * m * g + k * m * 2. * g * fall);
+  for (const auto &[steps, error] : {std::pair(20, .03), {50, .008}})
+  {
+    Scene scene;
+    scene.masses = {{m, {0., -1., 0.}, {}}};
+    scene.links = {rope("ground @ 0, 0", "m0", 3.) + "\nset Stiffness = 1e4"};
+    scene.start = "given";
+    scene.step = 2. * pi * std::sqrt(m / k) / steps;
+    scene.end = 1.6;
+    double N = 0., first = 0., top = -10.;
+    scene.run(
+        [&](const Motion &at)
+        {
+          if (at.time == 0.)
+            first = at.energy;
+          N = std::max(N, at.multiplier[0]);
+          EXPECT_LT(at.energy, first + 1e-9 * m * g);
+          if (at.time > 1.)
+            top = std::max(top, at.place[0].y);
+        });
+    EXPECT_NEAR(N / largest, 1., error);
+    EXPECT_NEAR(top, -1., 2.5 * error);
+  }
+}

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_verification_turning_scene_h
+#define taut_verification_turning_scene_h
+
+#include "run.h"
+
+#include <taut/mechanism/mechanism.h>
+
+#include <cmath>
+#include <functional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+/// Point masses in space and links between them that turn.
+namespace turning
+{
+  using taut::Coordinates;
+  using verification::Overrides;
+
+  const double pi = std::acos(-1.), g = 9.81;
+
+  /// What a step ends with.
+  struct Motion
+  {
+    double time = 0.;
+    std::vector<Coordinates> place, velocity; ///< of the masses
+    std::vector<double> multiplier, gap;      ///< of the links
+    double energy = 0.;                       ///< of motion, weight and springs
+    Coordinates momentum, moment_of_momentum; ///< the latter about the origin
+  };
+
+  inline std::string text(const Coordinates &c)
+  {
+    return verification::number(c.x) + ", " + verification::number(c.y) + ", " +
+           verification::number(c.z);
+  }
+
+  /// A link of a rope of a given length.
+  inline std::string rope(const std::string &from, const std::string &to, const double length)
+  {
+    return "set Type = dropper\nset From = " + from + "\nset To = " + to +
+           "\nset Length = " + verification::number(length);
+  }
+
+  struct Mass
+  {
+    double mass;
+    Coordinates place, velocity;
+  };
+
+  struct Scene
+  {
+    std::vector<Mass> masses;       ///< m0, m1, ...
+    std::vector<std::string> links; ///< entries of each but 'Turns'
+    Coordinates gravity = {0., -g, 0.};
+    std::string start = "equilibrium";
+    double step = 1e-3, end = 0.;
+
+    std::string parameters() const
+    {
+      std::ostringstream out;
+      out << "set Generator = network\nset Gravity = " << text(gravity) << "\nset Start = " << start
+          << "\nsubsection Network\nset Masses = ";
+      for (std::size_t i = 0; i < masses.size(); ++i)
+        out << (i > 0 ? ", m" : "m") << i;
+      out << "\nset Links = ";
+      for (std::size_t i = 0; i < links.size(); ++i)
+        out << (i > 0 ? ", l" : "l") << i;
+      for (std::size_t i = 0; i < masses.size(); ++i)
+      {
+        const Coordinates &v = masses[i].velocity;
+        out << "\nsubsection Mass m" << i << "\nset Position = " << text(masses[i].place)
+            << "\nset Mass = " << verification::number(masses[i].mass)
+            << "\nset Motions = x, y, z\nset Initial velocity = " << verification::number(v.x)
+            << ", " << verification::number(v.y) << ", 0, " << verification::number(v.z) << "\nend";
+      }
+      for (std::size_t i = 0; i < links.size(); ++i)
+        out << "\nsubsection Link l" << i << "\nset Turns = true\n" << links[i] << "\nend";
+      out << "\nend\nsubsection Time\nset Step = " << verification::number(step)
+          << "\nset End = " << verification::number(end) << "\nend\n";
+      return out.str();
+    }
+
+    Motion motion(const taut::StepView &view) const
+    {
+      Motion result;
+      result.time = view.state.time;
+      for (std::size_t i = 0; i < masses.size(); ++i)
+      {
+        double u[3], v[3];
+        for (unsigned int c = 0; c < 3; ++c)
+        {
+          std::vector<taut::Term> terms;
+          view.structure.motion({taut::Attachment::Kind::mass, i}, false,
+                                {c == 0 ? 1. : 0., c == 1 ? 1. : 0., c == 2 ? 1. : 0.}, 1., terms);
+          u[c] = verification::displacement(view, terms);
+          v[c] = evaluate(terms, view.state.V);
+        }
+        const Coordinates x = add_scaled(masses[i].place, 1., {u[0], u[1], u[2]}),
+                          rate = {v[0], v[1], v[2]};
+        const double m = masses[i].mass;
+        result.place.push_back(x);
+        result.velocity.push_back(rate);
+        result.energy += .5 * m * dot(rate, rate) - m * dot(gravity, x);
+        result.momentum = add_scaled(result.momentum, m, rate);
+        result.moment_of_momentum = add_scaled(result.moment_of_momentum, m, cross(x, rate));
+      }
+      for (std::size_t i = 0; i < links.size(); ++i)
+      {
+        const std::size_t row = view.constraints.index_of_link(i);
+        result.multiplier.push_back(view.state.multiplier[row]);
+        result.gap.push_back(view.state.geometric_gap[row]);
+        result.energy += view.constraints[row].stored_energy(view.state.link_springs[row].u);
+      }
+      return result;
+    }
+
+    void run(const std::function<void(const Motion &)> &callback,
+             const Overrides &overrides = {}) const
+    {
+      verification::run_scene(parameters(), overrides,
+                              [&](const taut::StepView &view) { callback(motion(view)); });
+    }
+  };
+} // namespace turning
+
+#endif

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: weights on links that turn come to rest where they hang, with the forces of closed forms,
+// and what such links cannot be is an error that says what to do.
+#include "turning_scene.h"
+
+#include <taut/base/exceptions.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+using namespace turning;
+
+namespace
+{
+  Motion at_rest(const Scene &scene, const Overrides &overrides = {})
+  {
+    Motion result;
+    scene.run([&](const Motion &m) { result = m; }, overrides);
+    return result;
+  }
+
+  /// Where two circles about level points meet, below.
+  Coordinates below(const double distance, const double a, const double b)
+  {
+    const double x = (a * a - b * b + distance * distance) / (2. * distance);
+    return {x, -std::sqrt(a * a - x * x), 0.};
+  }
+
+  std::string error_of(const std::string &entries, const Overrides &overrides = {})
+  {
+    Scene scene;
+    scene.masses = {{1., {1., 0., 0.}, {}}, {1., {2., 0., 0.}, {}}};
+    scene.links = {entries};
+    scene.start = "given";
+    scene.end = .01;
+    try
+    {
+      at_rest(scene, overrides);
+    }
+    catch (const taut::UserError &e)
+    {
+      return e.what();
+    }
+    return "";
+  }
+} // namespace
+
+TEST(TurningStatics, weight_on_two_ropes)
+{
+  for (const double size : {1., 10.})
+    for (const double weight : {100., 1e4})
+      for (const Coordinates &guess :
+           {Coordinates{.3, -.5, 0.}, {1.2, -1.4, .7}, {.9, -.05, 0.}, {.5, .2, .1}})
+      {
+        const double a = 1. * size, b = .9 * size, distance = 1.5 * size;
+        Scene scene;
+        scene.masses = {{weight / g, add_scaled({}, size, guess), {}}};
+        scene.links = {rope("ground @ 0, 0", "m0", a),
+                       rope("m0", "ground @ " + verification::number(distance) + ", 0", b)};
+        const Motion m = at_rest(scene);
+        const Coordinates expected = below(distance, a, b);
+        EXPECT_LT(norm(m.place[0] - expected), 1e-9 * size);
+        // N_a sin + N_b sin = 0, with the unit vectors from the weight to its ropes.
+        const double ax = -expected.x / a, ay = -expected.y / a, bx = (distance - expected.x) / b,
+                     by = -expected.y / b, det = ax * by - ay * bx;
+        EXPECT_NEAR(m.multiplier[0], -bx * weight / det, 1e-8 * weight);
+        EXPECT_NEAR(m.multiplier[1], ax * weight / det, 1e-8 * weight);
+      }
+}
+
+TEST(TurningStatics, weight_on_one_rope_hangs_down)
+{
+  for (const double degrees : {10., 90., 130.})
+  {
+    const double angle = degrees * pi / 180.;
+    Scene scene;
+    scene.masses = {{20., {2. * std::sin(angle), -2. * std::cos(angle), .3}, {}}};
+    scene.links = {rope("ground @ 0, 0", "m0", 2.)};
+    const Motion m = at_rest(scene);
+    EXPECT_LT(norm(m.place[0] - Coordinates{0., -2., 0.}), 1e-8) << degrees;
+    EXPECT_NEAR(m.multiplier[0], 20. * g, 1e-8 * 20. * g);
+  }
+}
+
+TEST(TurningStatics, chain_of_elastic_ropes)
+{
+  // Three weights on four ropes, from guesses on the straight line: balance at each weight.
+  Scene scene;
+  const double k = 5e3, length = 1.1;
+  for (int i = 0; i < 3; ++i)
+  {
+    scene.masses.push_back({10. * (i + 1), {1. + i, 0., 0.}, {}});
+    scene.links.push_back(rope(i == 0 ? "ground @ 0, 0" : "m" + std::to_string(i - 1),
+                               "m" + std::to_string(i), length) +
+                          "\nset Stiffness = 5000");
+  }
+  scene.links.push_back(rope("m2", "ground @ 4, 0.5", length) + "\nset Stiffness = 5000");
+  const Motion m = at_rest(scene);
+  const Coordinates ends[] = {{0., 0., 0.}, m.place[0], m.place[1], m.place[2], {4., .5, 0.}};
+  for (int i = 0; i < 3; ++i)
+  {
+    Coordinates force = {0., -g * 10. * (i + 1), 0.};
+    for (const int other : {i, i + 2})
+    {
+      const Coordinates d = ends[other] - ends[i + 1];
+      const double N = k * (norm(d) - length);
+      EXPECT_NEAR(m.multiplier[other == i ? i : i + 1], N, 1e-7 * k);
+      force = add_scaled(force, N / norm(d), d);
+    }
+    EXPECT_LT(norm(force), 1e-6);
+  }
+}
+
+TEST(TurningStatics, a_scene_that_is_turned_in_space_has_the_same_answers)
+{
+  const auto turned = [](const Coordinates &a, const bool is_turned)
+  {
+    if (!is_turned)
+      return a;
+    const double c = std::cos(1.1), s = std::sin(1.1), d = std::cos(.7), e = std::sin(.7);
+    const Coordinates first = {c * a.x - s * a.y, s * a.x + c * a.y, a.z};
+    return Coordinates{first.x, d * first.y - e * first.z, e * first.y + d * first.z};
+  };
+  std::vector<Motion> found[2];
+  for (const bool is_turned : {false, true})
+  {
+    Scene scene;
+    scene.gravity = turned({0., -g, 0.}, is_turned);
+    scene.masses = {{2., turned({1., -.4, .1}, is_turned), turned({.5, 1., -.3}, is_turned)},
+                    {1., turned({1.8, -.9, 0.}, is_turned), turned({0., 2., .4}, is_turned)}};
+    scene.links = {rope("ground @ " + text(turned({.1, 0., 0.}, is_turned)), "m0", 1.2),
+                   rope("m0", "m1", 1.1) + "\nset Stiffness = 3000\nset Damping = 5"};
+    scene.start = "given";
+    scene.end = .8;
+    scene.run([&](const Motion &m) { found[is_turned].push_back(m); });
+  }
+  double largest = 0.;
+  for (std::size_t n = 0; n < found[0].size(); ++n)
+    for (std::size_t i = 0; i < 2; ++i)
+    {
+      EXPECT_LT(norm(turned(found[0][n].place[i], true) - found[1][n].place[i]), 1e-10);
+      largest = std::max(largest, found[0][n].multiplier[i]);
+      EXPECT_NEAR(found[0][n].multiplier[i], found[1][n].multiplier[i], 1e-6);
+    }
+  EXPECT_GT(largest, 20.);
+}
+
+TEST(TurningStatics, what_cannot_turn_is_refused)
+{
+  const auto expect = [](const std::string &error, const std::string &part)
+  { EXPECT_NE(error.find(part), std::string::npos) << error; };
+  const std::string ends = "set From = ground @ 0, 0\nset To = m0\n";
+  expect(error_of(ends + "set Type = dropper\nset Direction = 1, 0"), "leave it empty");
+  expect(error_of(ends + "set Type = ball joint"), "no direction from end to end");
+  expect(error_of(ends + "set Type = stop\nset Rotational = true"), "between displacements");
+  expect(error_of(ends + "set Type = dropper\nset Length = 1\nset Gap = 1"), "leave one of them");
+  expect(error_of(ends + "set Type = stop\nset Gap = 2"), "Give it a Length");
+  expect(error_of("set From = ground\nset To = m0\nset Type = dropper"), "ground @ x, y, z");
+  expect(error_of("set From = ground @ 1, 0\nset To = m0\nset Type = dropper\nset Length = 1"),
+         "start at one place");
+  expect(error_of(ends + "set Type = dropper\nset Length = .9"), "starts with a gap");
+  expect(error_of(ends + "set Type = dropper\nset Turns = false\nset Length = .9\n"), "set before");
+  const std::string good = ends + "set Type = dropper\nset Length = 1";
+  EXPECT_EQ(error_of(good), "");
+  expect(error_of(good, {"Time/Scheme=Newmark"}), "gains energy where link 'l0' turns");
+  for (const char *const conditions : {"velocities", "gaps"})
+    expect(error_of(good, {"Time/Scheme=Moreau-Jean",
+                           "Time/Moreau-Jean/Conditions=" + std::string(conditions),
+                           "Time/Moreau-Jean/Theta=1"}),
+           "its length would drift");
+  expect(error_of(good, {"Network/Mass m0/Mass=0", "Network/Springs=x, y, z",
+                         "Network/Spring x/To=m0", "Network/Spring x/Direction=1, 0",
+                         "Network/Spring x/Stiffness=1", "Network/Spring y/To=m0",
+                         "Network/Spring y/Stiffness=1", "Network/Spring z/To=m0",
+                         "Network/Spring z/Direction=0, 0, 1", "Network/Spring z/Stiffness=1"}),
+         "no mass");
+}
