@@ -10,6 +10,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
+#include <sstream>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -135,4 +137,22 @@ TEST(CableContacts, what_is_out_of_reach_is_named)
     EXPECT_NE(std::string(e.what()).find("search distance of 1 m"), std::string::npos) << e.what();
     EXPECT_EQ(std::string(e.what()).find("boundary id"), std::string::npos) << e.what();
   }
+}
+
+TEST(CableContacts, the_force_acts_where_the_cable_lies)
+{
+  verification::Session session(scene);
+  session.run([](const StepView &) {});
+  std::ifstream file(session.folder() + "/contact_o.csv");
+  std::string line, last;
+  while (std::getline(file, line))
+    last = line;
+  std::istringstream in(last);
+  std::vector<double> numbers;
+  for (std::string number; std::getline(in, number, ',');)
+    numbers.push_back(std::stod(number));
+  ASSERT_EQ(numbers.size(), 11u) << last;
+  EXPECT_GT(numbers[2], 1.);
+  EXPECT_NEAR(numbers[4], 5., 1e-6);
+  EXPECT_NEAR(numbers[5], -.5, 1e-9); // on the floor; at rest without it the middle is lower
 }
