@@ -20,6 +20,38 @@ namespace taut
     {
       return data.origin.empty() ? name : data.origin + "/" + name;
     }
+    /// A held end that starts so much of the length from its place, or a clamped one that starts so
+    /// far from its direction, is none that is held there [1].
+    constexpr double same_start = 1e-5;
+
+    /// Strain of the differences that make the linear tension, whose relative error is its square.
+    constexpr double small_strain = 1e-4;
+
+    /// Throws EntryError if the straight line that a cable starts in does not fit what holds it.
+    void check_start(const CableData &data, const CableElements &element, const CableShape &found)
+    {
+      const Coordinates along =
+          add_scaled({}, 1. / norm(data.start_direction), data.start_direction);
+      const double off = norm(data.to - add_scaled(data.from, data.length, along));
+      if (data.holds_to && off > same_start * data.length)
+        throw EntryError(entry(data, "Held ends"),
+                         "it holds the last end at To, but the straight cable of Start direction "
+                         "ends " +
+                             text_of(off) + " m from there; set from or none, or another To");
+      for (const bool last : {false, true})
+      {
+        if (!data.clamped || !(last ? data.holds_to : data.holds_from))
+          continue;
+        Coordinates kept = element.tangent(found.positions, last ? data.length : 0.);
+        kept = add_scaled({}, 1. / norm(kept), kept);
+        if (norm(kept - along) > same_start)
+          throw EntryError(entry(data, "Clamped"),
+                           "it keeps the direction (" + text_of(kept.x) + ", " + text_of(kept.y) +
+                               ", " + text_of(kept.z) +
+                               ") of the shape at rest, which Start direction is not; set it to "
+                               "false, or Start direction to that");
+      }
+    }
   } // namespace
 
   Coordinates force_per_length(const CableData &data)
@@ -134,6 +166,8 @@ namespace taut
       throw EntryError(entry(data, "Geometry"),
                        "at rest the cable is slack somewhere, and has no small motions there; take "
                        "nonlinear, or a shorter cable");
+    if (data.starts_straight)
+      check_start(data, element, found);
   }
 
   void Cable::assemble()
@@ -314,6 +348,26 @@ namespace taut
   {
     constexpr unsigned int pieces = 4; ///< of an element
     const std::vector<double> q = positions(U);
+    double largest = 0.;
+    for (std::size_t i = 0; i < q.size(); ++i)
+      largest = std::max(largest, std::fabs(q[i] - found.positions[i]));
+    // Of a linearised cable T0 + EA t . u', t the tangent of the found shape: linear in U as its
+    // forces are, by differences so that it is taken at the points of the integral, too.
+    const double part = small_strain * std::min(1., element.element_length()) / largest;
+    std::vector<double> before = found.positions, after = found.positions;
+    if (data.linearised && largest > 0.)
+      for (std::size_t i = 0; i < q.size(); ++i)
+      {
+        before[i] -= part * (q[i] - found.positions[i]);
+        after[i] += part * (q[i] - found.positions[i]);
+      }
+    const auto tension = [&](const double s)
+    {
+      if (!data.linearised)
+        return element.tension(q, s);
+      const double change = element.tension(after, s) - element.tension(before, s);
+      return element.tension(found.positions, s) + (largest > 0. ? change / (2. * part) : 0.);
+    };
     std::vector<std::vector<LinePoint>> lines(element.n_elements());
     for (unsigned int e = 0; e < lines.size(); ++e)
       for (unsigned int k = 0; k <= pieces; ++k)
@@ -322,7 +376,7 @@ namespace taut
         const Coordinates r = element.position(q, s);
         lines[e].push_back({add_scaled(data.from, 1., r),
                             r - element.position(found.positions, s),
-                            {s, element.tension(q, s)}});
+                            {s, tension(s)}});
       }
     write_lines(path, lines, {"unstressed_arc_length", "tension"});
   }

@@ -180,7 +180,8 @@ namespace taut
       return std::make_unique<Cable>(result);
     }
 
-    /// Its nodes, with edges whose outer side is where weight and wind point: what it lies down on.
+    /// Its nodes, with edges. In the plane their outer side is where weight and wind point: what it
+    /// lies down on.
     ContactSurface CableType::surface(const BodySetting &setting,
                                       const std::vector<unsigned int> &boundaries) const
     {
@@ -190,6 +191,7 @@ namespace taut
       result.length = find_length(result);
       const Cable cable(result);
       ContactSurface surface;
+      surface.dim = 1;
       for (unsigned int i = 0; i <= cable.elements().n_elements(); ++i)
         surface.points.push_back(
             add_scaled(result.from, 1.,

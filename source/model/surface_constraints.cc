@@ -39,17 +39,38 @@ namespace taut
       }
     }
 
+    /// A line and a surface in the plane: the line is in it, too. EntryError for other pairs.
+    void lay_into_plane(const SurfaceContact &contact, ContactSurface &slave,
+                        ContactSurface &master)
+    {
+      ContactSurface &line = slave.dim == 1 ? slave : master;
+      const ContactSurface &other = slave.dim == 1 ? master : slave;
+      const std::string entry = contact.origin + "/Master";
+      if (other.dim != 2)
+        throw EntryError(entry, "a cable touches obstacles, and bodies in the plane that it lies "
+                                "in; '" +
+                                    other.name +
+                                    "' is none. Set Obstacle, or couple them by links");
+      for (const Coordinates &x : line.points)
+        if (x.z != 0.)
+          throw EntryError(entry, "the cable '" + line.name + "' leaves the plane z = 0 of '" +
+                                      other.name + "'; keep its ends, weight and wind in it");
+      line.dim = 2;
+    }
+
     std::vector<SurfaceConstraint> constraints_of(const Scene &scene, const SurfaceContact &contact,
-                                                  const ContactSurface &slave)
+                                                  ContactSurface slave)
     {
       const double reach = contact.search_distance;
       if (contact.obstacle.shape != ObstacleSetting::Shape::none)
       {
-        const auto obstacle = make_obstacle(contact.obstacle, slave.dim);
+        const auto obstacle = make_obstacle(contact.obstacle, slave.dim == 2 ? 2 : 3);
         return obstacle_constraints(slave, *obstacle, slave.thickness,
                                     reach > 0. ? reach : std::numeric_limits<double>::infinity());
       }
-      const ContactSurface master = surface_of(scene, contact.master);
+      ContactSurface master = surface_of(scene, contact.master);
+      if (slave.dim == 1 || master.dim == 1)
+        lay_into_plane(contact, slave, master);
       if (master.dim != slave.dim)
         throw UserError("one side is in the plane and the other in space");
       const double distance = reach > 0. ? reach : automatic_search_distance;

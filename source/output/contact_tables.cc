@@ -23,6 +23,37 @@ namespace taut
       std::snprintf(text, sizeof text, "_%05zu.vtu", number);
       return stem + text;
     }
+
+    /// Where the constraints of a contact act: on a line, which moves by large amounts, displaced,
+    /// otherwise undeformed. All ranks call it together.
+    std::vector<Coordinates> places_of(const ContactGeometry &geometry, const std::size_t body,
+                                       const StepView &step)
+    {
+      std::vector<Coordinates> places;
+      for (const SurfaceConstraint &constraint : geometry.constraints)
+        places.push_back(constraint.point);
+      if (geometry.slave.dim != 1)
+        return places;
+      const Coordinates axes[] = {{1., 0., 0.}, {0., 1., 0.}, {0., 0., 1.}};
+      std::vector<double> shares;
+      for (const SurfaceConstraint &constraint : geometry.constraints)
+      {
+        const std::size_t k = step.structure.index_at_node(body, constraint.node);
+        for (const Coordinates &axis : axes)
+        {
+          std::vector<Term> terms;
+          if (k != Structure::elsewhere)
+            terms.push_back({k, step.structure[k].node_displacement(constraint.node, axis)});
+          shares.push_back(evaluate(terms, step.reference.displacement) +
+                           evaluate(terms, step.state.U));
+        }
+      }
+      step.structure.communicator().sum(shares);
+      for (std::size_t i = 0; i < places.size(); ++i)
+        places[i] =
+            add_scaled(places[i], 1., {shares[3 * i], shares[3 * i + 1], shares[3 * i + 2]});
+      return places;
+    }
   } // namespace
 
   ContactTables::ContactTables(const Scene &scene, const double field_interval)
@@ -94,6 +125,9 @@ namespace taut
       next = state.time + interval;
     if (picture)
       next_field = state.time + field_interval;
+    std::vector<std::vector<Coordinates>> places(contacts.size());
+    for (std::size_t c = 0; line && c < contacts.size(); ++c)
+      places[c] = places_of(contacts[c].geometry, step.scene.contacts[c].slave.body, step);
     if (!is_root || (!line && !picture))
       return;
     for (std::size_t c = 0; c < contacts.size(); ++c)
@@ -102,13 +136,14 @@ namespace taut
       while (step.constraints[first].contact != c)
         ++first;
       if (line)
-        write_line(contacts[c], state, first);
+        write_line(contacts[c], state, first, places[c]);
       if (picture)
         write_picture(contacts[c], state, first);
     }
   }
 
-  void ContactTables::write_line(Contact &contact, const State &state, const std::size_t first)
+  void ContactTables::write_line(Contact &contact, const State &state, const std::size_t first,
+                                 const std::vector<Coordinates> &places)
   {
     Coordinates force, weighted;
     double area = 0., sum = 0., pressure = 0., gap = std::numeric_limits<double>::infinity();
@@ -122,7 +157,7 @@ namespace taut
         continue;
       ++n_closed;
       force = add_scaled(force, -N, all[i].normal);
-      weighted = add_scaled(weighted, N, all[i].point);
+      weighted = add_scaled(weighted, N, places[i]);
       sum += N;
       area += all[i].area;
       pressure = std::max(pressure, N / all[i].area);

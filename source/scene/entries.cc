@@ -48,7 +48,7 @@ namespace taut
   {
     /// Attachments at points of a body or of the ground, "0.1, 0.2; 0.3, 0.2".
     std::vector<Attachment> on_body(Attachment attachment, const std::string &points,
-                                    const std::string &entry)
+                                    const std::string &entry, const bool is_cable)
     {
       std::vector<Attachment> attachments;
       for (const std::string &point : split(points, ';'))
@@ -57,6 +57,10 @@ namespace taut
         for (const std::string &component : split(point, ','))
           components.push_back(parse_number(component, entry));
         attachment.place = parse_coordinates(components, entry);
+        if (is_cable && (attachment.place.y != 0. || attachment.place.z != 0.))
+          throw EntryError(entry, "'" + point +
+                                      "' is no place on a cable: write its unstressed "
+                                      "arc length and a zero, 's, 0'");
         attachments.push_back(attachment);
       }
       if (attachments.empty())
@@ -175,7 +179,8 @@ namespace taut
       attachment.kind = Attachment::Kind::body;
       attachment.index = find_name(scene.bodies, name);
       if (attachment.index != ground)
-        return on_body(attachment, text.substr(at + 1), entry);
+        return on_body(attachment, text.substr(at + 1), entry,
+                       scene.bodies[attachment.index].type_name == "cable");
     }
     std::vector<std::string> names = {"ground"};
     std::string known = "ground, ground @ x, y";

@@ -241,6 +241,30 @@ namespace taut
     }
   }
 
+  namespace
+  {
+    bool is_on_cable(const Attachment &end, const Scene &scene)
+    {
+      return end.kind == Attachment::Kind::body && scene.bodies[end.index].type_name == "cable";
+    }
+
+    /// Throws EntryError for ends on bodies that make no link.
+    void check_ends(const Link &link, const Scene &scene, const std::string &title,
+                    const bool has_direction)
+    {
+      if (link.from.kind == Attachment::Kind::body && link.to.kind == link.from.kind &&
+          link.from.index == link.to.index && link.from.place == link.to.place)
+        throw EntryError(title + "/To",
+                         "it is the place that From is; a link is between two places");
+      if (!has_direction && !link.rotational &&
+          (is_on_cable(link.from, scene) || is_on_cable(link.to, scene)))
+        throw EntryError(title + "/Direction",
+                         "give 'x, y' or 'x, y, z', or set 'Turns = true': places on a cable are "
+                         "counted along it, so that no straight line between the ends is known "
+                         "before its shape");
+    }
+  } // namespace
+
   void Network::add_links(Scene &scene) const
   {
     for (std::size_t i = 0; i < links.items.size(); ++i)
@@ -296,6 +320,7 @@ namespace taut
         link.name = links.names[i] + (n > 1 ? " " + std::to_string(k + 1) : "");
         link.from = from[from.size() > 1 ? k : 0];
         link.to = to[to.size() > 1 ? k : 0];
+        check_ends(link, scene, title, !item.direction.empty() || is_ball_joint || link.turns);
         if (is_ball_joint)
         {
           add_ball_joint(link, scene);

@@ -15,9 +15,10 @@ namespace taut
 {
   /**
    * The contacts of surfaces. `contact_<name>.csv`: a line each Output/Interval with the resultant
-   * force on the slave, where it acts, the area in contact, the largest pressure and the least gap.
-   * `contact_<name>_NNNNN.vtu`, joined by `contact_<name>.pvd`: the nodes of the slave that may
-   * touch, with pressure, gap and normal, for ParaView.
+   * force on the slave, where it acts (on cables displaced, else undeformed), the area in contact,
+   * the largest pressure and the least gap. `contact_<name>_NNNNN.vtu`, joined by
+   * `contact_<name>.pvd`: the nodes of the slave that may touch, with pressure, gap and normal, for
+   * ParaView.
    */
   class ContactTables : public Observer
   {
@@ -42,7 +43,8 @@ namespace taut
       std::unique_ptr<PvdFile> collection;
       std::size_t pressure = 0, gap = 0;
     };
-    void write_line(Contact &contact, const State &state, std::size_t first);
+    void write_line(Contact &contact, const State &state, std::size_t first,
+                    const std::vector<Coordinates> &places);
     void write_picture(Contact &contact, const State &state, std::size_t first);
 
     std::vector<Contact> contacts;

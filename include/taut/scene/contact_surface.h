@@ -17,7 +17,8 @@ namespace taut
    * its middle (degree 2). In space (dim 3) it is a quadrilateral with 4 or 9 nodes in the
    * lexicographic order of deal.II's tensor-product support points, or a triangle with 3 nodes or
    * 6: its vertices 0, 1, 2, then the middles of 01, 12 and 20, as FE_SimplexP has them. Faces of
-   * both forms may share a surface; its degree is one.
+   * both forms may share a surface; its degree is one. A line in space (dim 1) has edges with 2
+   * nodes, and a side towards whatever is near.
    *
    * The order of the nodes of a face says nothing about its outer side: @p outward does.
    */
@@ -25,7 +26,7 @@ namespace taut
   {
     std::string name; ///< for messages
     unsigned int dim = 2, degree = 1;
-    double thickness = 1.; ///< in the plane: areas are lengths times this [m]
+    double thickness = 1.; ///< in the plane and of lines: areas are lengths times this [m]
 
     /// Positions of the nodes [m]. In the plane z is not read.
     std::vector<Coordinates> points;
@@ -43,7 +44,8 @@ namespace taut
     std::vector<HangingNode> hanging;
 
     /// Of each face the direction out of the body at its centre, of any length. Only its side of
-    /// the face counts, normals themselves are those of the geometry.
+    /// the face counts, normals themselves are those of the geometry. Obstacles do not read it of
+    /// lines.
     std::vector<Coordinates> outward;
   };
 

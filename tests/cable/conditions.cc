@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: what holds a cable, what is linked to it and how it starts fit each other or are refused
+// by the name of the entry. Fields of linearised cables show their own tension. Expected values:
+// closed forms.
+#include "verification/run.h"
+
+#include <taut/base/exceptions.h>
+#include <taut/cable/cable.h>
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <string>
+#include <vector>
+
+namespace
+{
+  using namespace taut;
+
+  CableData cable_data()
+  {
+    CableData data;
+    data.name = "cable";
+    data.origin = "Body cable";
+    data.to = {60., 0., 0.};
+    data.length = 59.93;
+    data.section = {1.3e7, 0., 1.07, 0.};
+    data.gravity = {0., -9.81, 0.};
+    return data;
+  }
+
+  std::string error_of(const std::function<void()> &action)
+  {
+    try
+    {
+      action();
+    }
+    catch (const EntryError &e)
+    {
+      return e.what();
+    }
+    return "none";
+  }
+
+  void expect_entry(const std::string &entry, const std::string &error)
+  {
+    EXPECT_NE(error.find(entry), std::string::npos) << error;
+  }
+
+  /// The tensions of a .vtu file, as it has them encoded.
+  std::string tensions(const Cable &cable, const std::vector<double> &U)
+  {
+    const std::string path = testing::TempDir() + "taut_linear_tension.vtu";
+    cable.write_vtu(path, U);
+    std::ifstream file(path);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    std::remove(path.c_str());
+    const std::size_t begin = text.find('>', text.find("Name=\"tension\"")) + 1;
+    return text.substr(begin, text.find('<', begin) - begin);
+  }
+
+  const std::string scene = R"(set Generator = network
+set Gravity = 0, -9.81
+set Bodies = cable
+subsection Body cable
+  set Type = cable
+  set From = 0, 0
+  set To = 60, 0
+  set Unstressed length = 78
+  set Axial stiffness = 13e6
+  set Mass per length = 1.07
+  set Elements = 8
+end
+subsection Network
+  set Masses = m
+  set Links = l
+  subsection Mass m
+    set Position = 30, -30
+    set Motions = y
+    set Mass = 10
+  end
+  subsection Link l
+    set Type = dropper
+    set From = cable @ 39, 0
+    set To = m
+    set Stiffness = 1e5
+    set Direction = 0, -1
+  end
+end
+subsection Time
+  set End = 0
+end
+)";
+
+  std::string error_of_scene(const verification::Overrides &entries)
+  {
+    return error_of([&] { verification::run_scene(scene, entries, [](const StepView &) {}); });
+  }
+} // namespace
+
+/// Out of the plane of the cable a displacement changes nothing in first order, while half of the
+/// square of its slope would be 65 kN.
+TEST(CableConditions, tension_of_a_linearised_cable_is_linear)
+{
+  for (const CableElement element : {CableElement::ancf, CableElement::bar})
+  {
+    CableData data = cable_data();
+    data.linearised = true;
+    data.element = element;
+    const Cable cable(data);
+    const auto moved = [&](const Coordinates &slope)
+    {
+      return cable.elements().interpolate([&](const double s) { return add_scaled({}, s, slope); },
+                                          [&](double) { return slope; });
+    };
+    const std::string rest = tensions(cable, std::vector<double>(cable.n_dofs(), 0.));
+    ASSERT_GT(rest.size(), 100u);
+    EXPECT_EQ(tensions(cable, moved({0., 0., .1})), rest);
+    EXPECT_NE(tensions(cable, moved({1e-3, 0., 0.})), rest);
+  }
+}
+
+TEST(CableConditions, a_straight_start_fits_what_is_held)
+{
+  CableData data = cable_data();
+  data.length = 78.;
+  data.section.bending_stiffness = 1.;
+  data.starts_straight = true;
+  data.start_direction = {1., 0., 0.};
+  const auto make = [&] { Cable cable(data); };
+  expect_entry("Held ends", error_of(make));
+  data.holds_to = false;
+  EXPECT_EQ(error_of(make), "none");
+  data.clamped = true;
+  expect_entry("Clamped", error_of(make));
+  data.holds_from = false;
+  EXPECT_EQ(error_of(make), "none");
+}
+
+TEST(CableConditions, places_are_numbers_along_the_cable)
+{
+  EXPECT_EQ(error_of_scene({}), "none");
+  expect_entry("Link l/From", error_of_scene({"Network/Link l/From=cable @ 39, 7"}));
+  expect_entry("Link l/From", error_of_scene({"Network/Link l/From=cable @ 39, 0, 9"}));
+}
+
+TEST(CableConditions, a_link_needs_two_places)
+{
+  expect_entry("Link l/To", error_of_scene({"Network/Link l/To=cable @ 39, 0"}));
+}
+
+TEST(CableConditions, a_link_to_a_cable_needs_a_direction)
+{
+  expect_entry("Link l/Direction", error_of_scene({"Network/Link l/Direction="}));
+}

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: contacts of cables with obstacles are those of lines in space: the same wherever the scene
+// is and however it is turned, on any side of the cable. Expected values: closed forms, and the
+// same scene in the plane z = 0.
+#include "verification/run.h"
+
+#include <taut/base/exceptions.h>
+#include <taut/model/surface_constraints.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace
+{
+  using namespace taut;
+
+  const std::string scene = R"(set Generator = network
+set Gravity = 0, -9.81
+set Start = equilibrium
+set Bodies = cable
+set Contacts = o
+subsection Body cable
+  set Type = cable
+  set From = 0, 0, 0
+  set To = 10, 0, 0
+  set Unstressed length = 10.2
+  set Axial stiffness = 1e5
+  set Mass per length = 1
+end
+subsection Contact o
+  set Slave = cable
+  set Obstacle = plane
+  set Point = 0, -0.5
+end
+subsection Time
+  set End = 0
+end
+)";
+
+  struct Touch
+  {
+    double force = 0., area = 0., least_gap = 1e300;
+    std::size_t n_nodes = 0;
+  };
+
+  Touch touch(const verification::Overrides &entries)
+  {
+    Touch result;
+    verification::run_scene(scene, entries,
+                            [&](const StepView &step)
+                            {
+                              const auto rows = contact_geometry(step.scene, 0).constraints;
+                              result = Touch();
+                              result.n_nodes = rows.size();
+                              for (std::size_t i = 0; i < rows.size(); ++i)
+                              {
+                                const double N = step.state.multiplier[i];
+                                result.force += N;
+                                result.area += N > 0. ? rows[i].area : 0.;
+                                result.least_gap = std::min(result.least_gap, rows[i].gap);
+                              }
+                            });
+    return result;
+  }
+} // namespace
+
+TEST(CableContacts, a_sphere_beside_the_cable_is_not_touched)
+{
+  const verification::Overrides below = {"Contact o/Obstacle=sphere", "Contact o/Radius=0.8",
+                                         "Contact o/Point=5, -1.5, 0"};
+  EXPECT_GT(touch(below).force, 1.);
+  verification::Overrides far = below;
+  far.insert(far.end(), {"Body cable/From=0, 0, 100", "Body cable/To=10, 0, 100"});
+  const Touch none = touch(far);
+  EXPECT_EQ(none.force, 0.);
+  EXPECT_NEAR(none.least_gap, 100. - .8, .02);
+}
+
+TEST(CableContacts, the_scene_moves_along_z)
+{
+  const verification::Overrides slope = {"Contact o/Direction=0, 0.8, 0.6"};
+  verification::Overrides moved = slope;
+  moved.insert(moved.end(), {"Body cable/From=0, 0, -1", "Body cable/To=10, 0, -1",
+                             "Contact o/Point=0, -0.5, -1"});
+  const Touch here = touch(slope), there = touch(moved);
+  EXPECT_GT(here.force, 1.);
+  EXPECT_NEAR(there.force, here.force, 1e-6 * here.force);
+  EXPECT_NEAR(there.area, here.area, 1e-9);
+}
+
+TEST(CableContacts, the_cable_turns_about_y)
+{
+  const Touch along_x = touch({});
+  EXPECT_GT(along_x.force, 1.);
+  for (const char *const to : {"0, 0, 10", "6, 0, 8"})
+  {
+    const Touch turned = touch({std::string("Body cable/To=") + to});
+    EXPECT_NEAR(turned.force, along_x.force, 1e-6 * along_x.force) << to;
+    EXPECT_NEAR(turned.area, along_x.area, 1e-9) << to;
+  }
+}
+
+/// A ceiling and a wall beside the cable, and a floor without weight: whole lines, on any side.
+TEST(CableContacts, any_side_of_the_cable)
+{
+  for (const auto &[point, direction, gap] :
+       {std::tuple<const char *, const char *, double>{"0, 1", "0, -1", 1.},
+        {"0, 0, 1", "0, 0, -1", 1.},
+        {"0, 0, -2", "0, 0, 1", 2.}})
+  {
+    const Touch side = touch(
+        {std::string("Contact o/Point=") + point, std::string("Contact o/Direction=") + direction});
+    EXPECT_EQ(side.n_nodes, 17u) << direction;
+    EXPECT_EQ(side.force, 0.) << direction;
+    EXPECT_NEAR(side.least_gap, gap, 1e-9) << direction;
+  }
+  const Touch taut = touch({"Gravity=0, 0", "Body cable/Unstressed length=9.99"});
+  EXPECT_EQ(taut.n_nodes, 17u);
+  EXPECT_NEAR(taut.least_gap, .5, 1e-9);
+}
+
+TEST(CableContacts, what_is_out_of_reach_is_named)
+{
+  try
+  {
+    touch({"Contact o/Point=0, -50", "Contact o/Search distance=1"});
+    FAIL();
+  }
+  catch (const UserError &e)
+  {
+    EXPECT_NE(std::string(e.what()).find("search distance of 1 m"), std::string::npos) << e.what();
+    EXPECT_EQ(std::string(e.what()).find("boundary id"), std::string::npos) << e.what();
+  }
+}
+
+TEST(CableContacts, the_force_acts_where_the_cable_lies)
+{
+  verification::Session session(scene);
+  session.run([](const StepView &) {});
+  std::ifstream file(session.folder() + "/contact_o.csv");
+  std::string line, last;
+  while (std::getline(file, line))
+    last = line;
+  std::istringstream in(last);
+  std::vector<double> numbers;
+  for (std::string number; std::getline(in, number, ',');)
+    numbers.push_back(std::stod(number));
+  ASSERT_EQ(numbers.size(), 11u) << last;
+  EXPECT_GT(numbers[2], 1.);
+  EXPECT_NEAR(numbers[4], 5., 1e-6);
+  EXPECT_NEAR(numbers[5], -.5, 1e-9); // on the floor; at rest without it the middle is lower
+}
