@@ -199,8 +199,7 @@ namespace taut
       const auto &rows = index[number];
       values.reinit(cell);
       weights.reinit(cell);
-      const double density =
-          options.material(cell->material_id()).density * thickness;
+      const double density = options.material(cell->material_id()).density * thickness;
       double cell_mass = 0., diagonal_mass = 0.;
       std::vector<double> diagonal(n, 0.);
       for (unsigned int i = 0; i < n; ++i)

@@ -50,7 +50,8 @@ namespace taut
 
       std::shared_ptr<const DivisibleBody> division(const BodySetting &setting) const override
       {
-        return std::make_shared<DivisibleSolid<dim>>(mesh, entries.template options<dim>(setting, *mesh));
+        return std::make_shared<DivisibleSolid<dim>>(mesh,
+                                                     entries.template options<dim>(setting, *mesh));
       }
 
     private:

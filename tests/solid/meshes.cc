@@ -153,9 +153,9 @@ TEST(SolidMeshes, that_are_none_end_in_one_error)
                {"Body plate/Mesh/File", "no mesh of dimension 3"});
   expect_error(scene("set Young's modulus = 1e9\nset Fixed boundaries = 21", good),
                {"Body plate/Fixed boundaries", "no boundary 21; it has 11 12 13 14"});
-  expect_error(scene("set Materials = 1: 1e9, 0, 0; 3: 1e9, 0, 0\nset Fixed boundaries = 11", good),
-               {"Body plate/Materials",
-                "the mesh has cells of material 2, of which no material is given"});
+  expect_error(
+      scene("set Materials = 1: 1e9, 0, 0; 3: 1e9, 0, 0\nset Fixed boundaries = 11", good),
+      {"Body plate/Materials", "the mesh has cells of material 2, of which no material is given"});
   const auto wrong_materials = [&](const std::string &materials, const std::string &part)
   {
     expect_error(scene("set Materials = " + materials + "\nset Fixed boundaries = 11", good),
