@@ -33,20 +33,6 @@ namespace taut
         throw UserError("the density must not be negative, and it is " + std::to_string(m.density));
     }
 
-    template <int dim>
-    const ElasticMaterial &
-    material(const std::map<dealii::types::material_id, ElasticMaterial> &materials,
-             const dealii::types::material_id id)
-    {
-      if (materials.size() == 1)
-        return materials.begin()->second;
-      const auto found = materials.find(id);
-      if (found == materials.end())
-        throw UserError("the mesh has cells of material " + std::to_string(id) +
-                        ", of which no material is given");
-      return found->second;
-    }
-
     /// Lame's constants; plane stress is plane strain with another lambda.
     struct Lame
     {
@@ -59,6 +45,19 @@ namespace taut
       return {plane_stress ? 2. * lambda * mu / (lambda + 2. * mu) : lambda, mu};
     }
   } // namespace
+
+  template <int dim>
+  const ElasticMaterial &
+  ElasticSolid<dim>::Options::material(const dealii::types::material_id id) const
+  {
+    auto found = materials.find(id);
+    if (found == materials.end())
+      found = materials.find(other_materials);
+    if (found == materials.end())
+      throw UserError("the mesh has cells of material " + std::to_string(id) +
+                      ", of which no material is given");
+    return found->second;
+  }
 
   template <int dim>
   struct ElasticSolid<dim>::Assembled
@@ -145,7 +144,7 @@ namespace taut
     {
       const Cell &cell = cells[number];
       values.reinit(cell);
-      const auto [lambda, mu] = lame(material<dim>(options.materials, cell->material_id()),
+      const auto [lambda, mu] = lame(options.material(cell->material_id()),
                                      dim == 2 && options.plane_state == PlaneState::stress);
       k = 0.;
       for (const unsigned int q : values.quadrature_point_indices())
@@ -200,8 +199,7 @@ namespace taut
       const auto &rows = index[number];
       values.reinit(cell);
       weights.reinit(cell);
-      const double density =
-          material<dim>(options.materials, cell->material_id()).density * thickness;
+      const double density = options.material(cell->material_id()).density * thickness;
       double cell_mass = 0., diagonal_mass = 0.;
       std::vector<double> diagonal(n, 0.);
       for (unsigned int i = 0; i < n; ++i)

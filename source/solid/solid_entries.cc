@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "solid_entries.h"
 
+#include <taut/base/about_entry.h>
 #include <taut/base/exceptions.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace taut
 {
@@ -24,12 +26,14 @@ namespace taut
       for (const std::string &part : dealii::Utilities::split_string_list(text, ';'))
       {
         const std::size_t colon = part.find(':');
-        unsigned int id = 0;
+        int id = 0;
         try
         {
           if (colon == std::string::npos)
             throw std::invalid_argument("no colon");
           id = dealii::Utilities::string_to_int(dealii::Utilities::trim(part.substr(0, colon)));
+          if (id < 0)
+            throw std::invalid_argument("no id");
         }
         catch (const std::exception &)
         {
@@ -159,6 +163,25 @@ namespace taut
                       "Of all points, with Start = given: 'x, y' or 'x, y, z' [m/s]");
   }
 
+  template <int dim>
+  void SolidEntries::check_materials(const typename ElasticSolid<dim>::Options &options,
+                                     const SolidMesh<dim> &mesh)
+  {
+    std::set<dealii::types::material_id> ids;
+    for (const auto &cell : mesh.dof_handler().active_cell_iterators())
+      ids.insert(cell->material_id());
+    std::string names;
+    for (const auto id : ids)
+    {
+      options.material(id);
+      names += " " + std::to_string(id);
+    }
+    for (const auto &[id, material] : options.materials)
+      if (ids.count(id) == 0)
+        throw UserError("no cell of the mesh has material " + std::to_string(id) + "; they have" +
+                        names);
+  }
+
   std::vector<BoundaryCondition> SolidEntries::conditions(const std::string &origin) const
   {
     using Kind = BoundaryCondition::Kind;
@@ -186,7 +209,8 @@ namespace taut
   }
 
   template <int dim>
-  typename ElasticSolid<dim>::Options SolidEntries::options(const BodySetting &setting) const
+  typename ElasticSolid<dim>::Options SolidEntries::options(const BodySetting &setting,
+                                                            const SolidMesh<dim> &cells) const
   {
     const std::string origin = setting.origin.empty() ? "" : setting.origin + "/";
     typename ElasticSolid<dim>::Options o;
@@ -197,7 +221,7 @@ namespace taut
         throw EntryError(origin + "Young's modulus", "a solid needs a positive one [Pa]");
       if (!(poissons_ratio > -1. && poissons_ratio < .5))
         throw EntryError(origin + "Poisson's ratio", "it must be more than -1 and less than 0.5");
-      o.materials[0] = {youngs_modulus, poissons_ratio, density};
+      o.materials[ElasticSolid<dim>::other_materials] = {youngs_modulus, poissons_ratio, density};
     }
     for (const auto &[id, text] : by_id(materials, origin + "Materials"))
     {
@@ -206,10 +230,15 @@ namespace taut
         throw EntryError(origin + "Materials", "'" + text +
                                                    "' is not Young's modulus, Poisson's ratio and "
                                                    "density, as in '1: 210e9, 0.3, 7850'");
-      o.materials[id] = {number(parts[0], origin + "Materials"),
-                         number(parts[1], origin + "Materials"),
-                         number(parts[2], origin + "Materials")};
+      const ElasticMaterial material = {number(parts[0], origin + "Materials"),
+                                        number(parts[1], origin + "Materials"),
+                                        number(parts[2], origin + "Materials")};
+      if (!o.materials.emplace(id, material).second)
+        throw EntryError(origin + "Materials",
+                         "material " + std::to_string(id) + " is given twice; remove one");
     }
+    if (!materials.empty())
+      about_entry(origin + "Materials", [&] { check_materials<dim>(o, cells); });
     o.plane_state = plane_state == "stress" ? PlaneState::stress : PlaneState::strain;
     o.thickness = thickness;
     o.mass = mass_matrix == "lumped"    ? SolidMass::lumped
@@ -231,6 +260,8 @@ namespace taut
     return o;
   }
 
-  template ElasticSolid<2>::Options SolidEntries::options<2>(const BodySetting &) const;
-  template ElasticSolid<3>::Options SolidEntries::options<3>(const BodySetting &) const;
+  template ElasticSolid<2>::Options SolidEntries::options<2>(const BodySetting &,
+                                                             const SolidMesh<2> &) const;
+  template ElasticSolid<3>::Options SolidEntries::options<3>(const BodySetting &,
+                                                             const SolidMesh<3> &) const;
 } // namespace taut

@@ -46,15 +46,20 @@ namespace taut
   {
     void declare(dealii::ParameterHandler &prm);
 
-    /// Throws EntryError for what cannot be.
+    /// Throws EntryError for what cannot be, on this mesh.
     template <int dim>
-    typename ElasticSolid<dim>::Options options(const BodySetting &setting) const;
+    typename ElasticSolid<dim>::Options options(const BodySetting &setting,
+                                                const SolidMesh<dim> &cells) const;
 
     unsigned int dimension = 2, degree = 1;
     double thickness = 1.;
     MeshEntries mesh;
 
   private:
+    /// Throws UserError for cells without a material, and for one without cells.
+    template <int dim>
+    static void check_materials(const typename ElasticSolid<dim>::Options &options,
+                                const SolidMesh<dim> &mesh);
     std::vector<BoundaryCondition> conditions(const std::string &origin) const;
 
     double youngs_modulus = 0., poissons_ratio = .3, density = 0., mass_damping = 0.,

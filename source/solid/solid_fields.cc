@@ -135,9 +135,7 @@ namespace taut
       at_points.reinit(cell);
       cell->get_dof_indices(index);
       at_points[dealii::FEValuesExtractors::Vector(0)].get_function_gradients(U, gradients);
-      const auto &materials = solid.options.materials;
-      const ElasticMaterial &material =
-          materials.size() == 1 ? materials.begin()->second : materials.at(cell->material_id());
+      const ElasticMaterial &material = solid.options.material(cell->material_id());
       for (std::size_t n = 0; n < nodes.size(); ++n)
       {
         Sum &sum = at_node[key(cell, n)];

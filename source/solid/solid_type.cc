@@ -38,7 +38,7 @@ namespace taut
       std::unique_ptr<Substructure> make(const BodySetting &setting) const override
       {
         return std::make_unique<ElasticSolid<dim>>(setting.name, mesh,
-                                                   entries.template options<dim>(setting));
+                                                   entries.template options<dim>(setting, *mesh));
       }
 
       ContactSurface surface(const std::vector<unsigned int> &boundaries) const override
@@ -50,7 +50,8 @@ namespace taut
 
       std::shared_ptr<const DivisibleBody> division(const BodySetting &setting) const override
       {
-        return std::make_shared<DivisibleSolid<dim>>(mesh, entries.template options<dim>(setting));
+        return std::make_shared<DivisibleSolid<dim>>(mesh,
+                                                     entries.template options<dim>(setting, *mesh));
       }
 
     private:

@@ -60,7 +60,7 @@ namespace
     };
     const auto mesh = std::make_shared<const taut::SolidMesh<dim>>(std::move(cells), degree);
     typename taut::ElasticSolid<dim>::Options options;
-    options.materials[0] = {2e9, .3, 1e3};
+    options.materials[taut::ElasticSolid<dim>::other_materials] = {2e9, .3, 1e3};
     options.conditions.emplace_back();
     options.conditions.back().boundaries = mesh->boundary_ids();
     options.conditions.back().value = exact;
@@ -81,7 +81,7 @@ namespace
     const auto mesh = std::make_shared<const taut::SolidMesh<2>>(
         box<2>({n, 4}, dealii::Point<2>(length, height)), 2);
     taut::ElasticSolid<2>::Options options;
-    options.materials[0] = {E, .3, 0.};
+    options.materials[taut::ElasticSolid<2>::other_materials] = {E, .3, 0.};
     options.plane_state = state;
     options.conditions.resize(2);
     options.conditions[0].boundaries = {0};
@@ -175,7 +175,7 @@ TEST(ElasticSolids, the_first_frequency_of_a_cantilever_is_that_of_a_beam)
     const auto mesh = std::make_shared<const taut::SolidMesh<2>>(
         box<2>({100, 4}, dealii::Point<2>(length, 1.)), 2);
     taut::ElasticSolid<2>::Options options;
-    options.materials[0] = {E, .3, density};
+    options.materials[taut::ElasticSolid<2>::other_materials] = {E, .3, density};
     options.plane_state = taut::PlaneState::stress;
     options.mass = mass;
     options.conditions.resize(1);
@@ -214,7 +214,7 @@ TEST(ElasticSolids, weight_and_pressure_are_carried_by_the_supports)
   for (const taut::SolidMass mass : {taut::SolidMass::consistent, taut::SolidMass::lumped})
   {
     taut::ElasticSolid<3>::Options options;
-    options.materials[0] = {1e9, .2, 500.};
+    options.materials[taut::ElasticSolid<3>::other_materials] = {1e9, .2, 500.};
     options.mass = mass;
     options.gravity = {0., -9.81, 0.};
     options.conditions.resize(1);
@@ -240,7 +240,7 @@ TEST(ElasticSolids, plates_have_the_thickness_that_is_given)
       std::make_shared<const taut::SolidMesh<2>>(box<2>({3, 2}, dealii::Point<2>(3., 2.)), 1);
   constexpr double thickness = .25, volume = 6. * thickness;
   taut::ElasticSolid<2>::Options options;
-  options.materials[0] = {1e9, .3, 500.};
+  options.materials[taut::ElasticSolid<2>::other_materials] = {1e9, .3, 500.};
   options.thickness = thickness;
   options.gravity = {0., -9.81, 0.};
   options.conditions.resize(2);

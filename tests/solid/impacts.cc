@@ -203,7 +203,7 @@ TEST(Impacts, mass_that_leaves_a_boundary_keeps_total_centre_and_inertia)
         cells->execute_coarsening_and_refinement();
         const auto mesh = std::make_shared<const taut::SolidMesh<2>>(std::move(cells), degree);
         taut::ElasticSolid<2>::Options options;
-        options.materials[0] = {1e9, .3, 1e3};
+        options.materials[taut::ElasticSolid<2>::other_materials] = {1e9, .3, 1e3};
         options.mass = kind;
         const taut::ElasticSolid<2> whole("whole", mesh, options);
         options.without_mass = {2};

@@ -153,8 +153,20 @@ TEST(SolidMeshes, that_are_none_end_in_one_error)
                {"Body plate/Mesh/File", "no mesh of dimension 3"});
   expect_error(scene("set Young's modulus = 1e9\nset Fixed boundaries = 21", good),
                {"Body plate/Fixed boundaries", "no boundary 21; it has 11 12 13 14"});
-  expect_error(scene("set Materials = 1: 1e9, 0, 0; 3: 1e9, 0, 0\nset Fixed boundaries = 11", good),
-               {"Body plate", "the mesh has cells of material 2, of which no material is given"});
+  expect_error(
+      scene("set Materials = 1: 1e9, 0, 0; 3: 1e9, 0, 0\nset Fixed boundaries = 11", good),
+      {"Body plate/Materials", "the mesh has cells of material 2, of which no material is given"});
+  const auto wrong_materials = [&](const std::string &materials, const std::string &part)
+  {
+    expect_error(scene("set Materials = " + materials + "\nset Fixed boundaries = 11", good),
+                 {"Body plate/Materials", part});
+  };
+  wrong_materials("1: 1e9, 0, 0", "cells of material 2, of which no material is given");
+  wrong_materials("77: 1e9, 0, 0", "cells of material 1, of which no material is given");
+  wrong_materials("1: 1e9, 0, 0; 2: 1e9, 0, 0; 77: 1e9, 0, 0",
+                  "no cell of the mesh has material 77; they have 1 2");
+  wrong_materials("1: 1e9, 0, 0; 2: 1e9, 0, 0; 1: 2e9, 0, 0", "material 1 is given twice");
+  wrong_materials("-1: 1e9, 0, 0", "does not begin with the number of an id");
   for (const std::string corners :
        {"1 0 0 0\n2 1 0 0\n3 2 0 0\n4 3 0 0\n", "1 0 0 0\n2 1 0 0\n3 0 1 0\n4 1 1 0\n",
         "1 0 0 0\n2 1 0 0\n3 0.1 0.1 0\n4 0 1 0\n"})

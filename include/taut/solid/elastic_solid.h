@@ -52,12 +52,19 @@ namespace taut
   class ElasticSolid : public FEBody<dim>
   {
   public:
+    /// An id that no cell has, see Options::materials.
+    static constexpr dealii::types::material_id other_materials =
+        dealii::numbers::invalid_material_id;
+
     struct Options
     {
       std::string origin = {}; ///< path of its section in the parameter file, for messages
 
-      /// By material id of the cells; a single one is for all ids.
+      /// By material id of the cells; that of other_materials is for all ids without one.
       std::map<dealii::types::material_id, ElasticMaterial> materials;
+
+      /// Of cells of this id; throws UserError if none is given.
+      const ElasticMaterial &material(dealii::types::material_id id) const;
 
       PlaneState plane_state = PlaneState::strain; ///< if dim = 2
       double thickness = 1.;                       ///< if dim = 2 [m]
