@@ -160,7 +160,7 @@ namespace taut
       if (name == "ground")
       {
         attachment.has_place = true;
-        return on_body(attachment, text.substr(at + 1), entry);
+        return on_body(attachment, text.substr(at + 1), entry, false);
       }
       attachment.kind = Attachment::Kind::wire;
       attachment.index = find_name(scene.wires, name);
