@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace taut
 {
@@ -167,19 +166,8 @@ namespace taut
   void SolidEntries::check_materials(const typename ElasticSolid<dim>::Options &options,
                                      const SolidMesh<dim> &mesh)
   {
-    std::set<dealii::types::material_id> ids;
     for (const auto &cell : mesh.dof_handler().active_cell_iterators())
-      ids.insert(cell->material_id());
-    std::string names;
-    for (const auto id : ids)
-    {
-      options.material(id);
-      names += " " + std::to_string(id);
-    }
-    for (const auto &[id, material] : options.materials)
-      if (ids.count(id) == 0)
-        throw UserError("no cell of the mesh has material " + std::to_string(id) + "; they have" +
-                        names);
+      options.material(cell->material_id());
   }
 
   std::vector<BoundaryCondition> SolidEntries::conditions(const std::string &origin) const
