@@ -56,7 +56,7 @@ namespace taut
     MeshEntries mesh;
 
   private:
-    /// Throws UserError for cells without a material, and for one without cells.
+    /// Throws UserError for cells without a material.
     template <int dim>
     static void check_materials(const typename ElasticSolid<dim>::Options &options,
                                 const SolidMesh<dim> &mesh);
