@@ -69,7 +69,7 @@ def check_scene(scene, folder):
     for ranks in (1, *several):
         results = folder / f"{scene.stem}_{ranks}"
         cuts = [] if ranks == 1 else ["--set", "Partition/Number of substructures=4"]
-        if not any(word in scene.read_text().lower() for word in ("wire", "= solid\n")):
+        if not re.search(r"^\s*subsection (Wire|Contact wire) *|= solid$", scene.read_text(), re.MULTILINE):
             cuts = []
         done = run(ranks, [*options, "--set", f"Output/Folder={results}", *cuts])
         if done.returncode != 0:

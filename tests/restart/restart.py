@@ -155,7 +155,8 @@ def check_killed(folder, n, ranks, scenes, rng):
         expect_same(what, own, reference)
         shutil.rmtree(own)
     print(f"figure | {n} runs on {ranks} ranks, {n_kills} kills | {n_resumed} of the last starts from a checkpoint")
-    expect("checkpoints are used", n_resumed >= n / 3, n_resumed)
+    if n >= 6:  # of a few runs all may have been killed before the first one
+        expect("checkpoints are used", n_resumed >= n / 3, n_resumed)
 
 
 def check_other_ranks(folder, scene):
