@@ -5,7 +5,6 @@
 #include <taut/base/about_entry.h>
 #include <taut/base/exceptions.h>
 #include <taut/cable/cable.h>
-#include <taut/substructure/line_fields.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,9 +22,6 @@ namespace taut
     /// A held end that starts so much of the length from its place, or a clamped one that starts so
     /// far from its direction, is none that is held there [1].
     constexpr double same_start = 1e-5;
-
-    /// Strain of the differences that make the linear tension, whose relative error is its square.
-    constexpr double small_strain = 1e-4;
 
     /// Throws EntryError if the straight line that a cable starts in does not fit what holds it.
     void check_start(const CableData &data, const CableElements &element, const CableShape &found)
@@ -97,7 +93,7 @@ namespace taut
 
   bool Cable::is_slack(const std::vector<double> &U, Slack &slack) const
   {
-    if (data.linearised)
+    if (is_linear())
       return false;
     double place = 0.;
     set_positions(U, work);
@@ -162,7 +158,8 @@ namespace taut
                        "at rest the cable is stretched by " + text_of(strain) + ", more than " +
                            text_of(data.largest_strain) +
                            "; make it longer or stiffer, or allow more");
-    if (data.linearised && element.smallest_strain(found.positions) <= 0.)
+    if (data.geometry == CableGeometry::linearised &&
+        element.smallest_strain(found.positions) <= 0.)
       throw EntryError(entry(data, "Geometry"),
                        "at rest the cable is slack somewhere, and has no small motions there; take "
                        "nonlinear, or a shorter cable");
@@ -181,10 +178,11 @@ namespace taut
     K = zero();
     element.add_mass(1., *M);
     element.add_mass(data.mass_damping, *C);
-    element.add_tangent(found.positions, false, *K);
+    tangent_at = data.geometry == CableGeometry::linear ? straight_line() : found.positions;
+    element.add_tangent(tangent_at, false, *K);
     constant_force.assign(element.n_dofs(), 0.);
     element.add_load(force_per_length(data), constant_force);
-    if (data.linearised)
+    if (is_linear())
       linearise();
     for (auto *matrix : {&M, &C, &K})
       *matrix = frames->turn(std::move(*matrix));
@@ -193,13 +191,36 @@ namespace taut
 
   void Cable::linearise()
   {
-    element.add_damping(found.positions, 1., *C);
+    element.add_damping(tangent_at, 1., *C);
     std::vector<double> f, load(element.n_dofs(), 0.);
     element.internal_force(found.positions, {}, f);
     for (const bool last : {false, true})
       for (const unsigned int i : element.end_dofs(last))
         load[i] = constant_force[i] - f[i];
     constant_force = load;
+  }
+
+  /// Along the chord, stretched so far that the tangent has the string's stiffness across it: per
+  /// unstressed length N / |r'| = T (length / chord), with N = EA (|r'| - 1).
+  std::vector<double> Cable::straight_line() const
+  {
+    const Coordinates chord = data.to - data.from;
+    const double distance = norm(chord), EA = data.section.axial_stiffness;
+    std::vector<double> f;
+    element.internal_force(found.positions, {}, f);
+    double tension = 0.;
+    if (distance > 0.)
+      for (const double s : {0., data.length})
+        tension += .5 * (s > 0. ? 1. : -1.) / distance * element.position(s, chord).dot(f);
+    const double across = tension * data.length / std::max(distance, tension * data.length / EA);
+    if (!(tension > 0.) || !(across < EA))
+      throw EntryError(entry(data, "Geometry"),
+                       "at rest the cable has a tension of " + text_of(tension) +
+                           " N along the line between its ends, and as a straight wire no "
+                           "stiffness across it; take nonlinear, or a shorter cable");
+    const Coordinates stretched = add_scaled({}, 1. / ((1. - across / EA) * distance), chord);
+    return element.interpolate([&](const double s) { return add_scaled({}, s, stretched); },
+                               [&](double) { return stretched; });
   }
 
   void Cable::hold()
@@ -259,13 +280,13 @@ namespace taut
 
   double Cable::strain_energy(const std::vector<double> &U) const
   {
-    return data.linearised ? Substructure::strain_energy(U) : element.strain_energy(positions(U));
+    return is_linear() ? Substructure::strain_energy(U) : element.strain_energy(positions(U));
   }
 
   void Cable::internal_force(const std::vector<double> &U, const std::vector<double> &V,
                              std::vector<double> &f) const
   {
-    if (data.linearised)
+    if (is_linear())
       return Substructure::internal_force(U, V, f);
     std::vector<double> velocity = V;
     if (!V.empty())
@@ -278,7 +299,7 @@ namespace taut
   /// Positions round with the length of the cable, strains with positions over elements.
   double Cable::rounding_of_force(const unsigned int kind) const
   {
-    if (data.linearised)
+    if (is_linear())
       return 0.;
     constexpr double operations = 8.;
     const double h = element.element_length(), stiffness = data.section.axial_stiffness +
@@ -290,7 +311,7 @@ namespace taut
   void Cable::mean_internal_force(const std::vector<double> &U0, const std::vector<double> &U1,
                                   const double step, std::vector<double> &f) const
   {
-    if (data.linearised)
+    if (is_linear())
       return Substructure::mean_internal_force(U0, U1, step, f);
     set_positions(U0, work_0);
     set_positions(U1, work);
@@ -301,7 +322,7 @@ namespace taut
   std::unique_ptr<SymmetricMatrix> Cable::tangent(const std::vector<double> &U, const double rate,
                                                   const bool definite) const
   {
-    if (data.linearised)
+    if (is_linear())
       return Substructure::tangent(U, rate, definite);
     auto A = make_block_tridiagonal(CableElements::dofs_per_node, element.n_dofs());
     const std::vector<double> q = positions(U);
@@ -314,7 +335,7 @@ namespace taut
                                                        const std::vector<double> &U1,
                                                        const double rate, const bool definite) const
   {
-    if (data.linearised)
+    if (is_linear())
       return Substructure::mean_tangent(U0, U1, rate, definite);
     auto A = make_block_tridiagonal(CableElements::dofs_per_node, element.n_dofs());
     const std::vector<double> q0 = positions(U0), q1 = positions(U1);
@@ -342,42 +363,5 @@ namespace taut
     for (std::size_t i = 0; i < U.size(); ++i)
       U[i] -= found.positions[i];
     frames->turn(U);
-  }
-
-  void Cable::write_vtu(const std::string &path, const std::vector<double> &U) const
-  {
-    constexpr unsigned int pieces = 4; ///< of an element
-    const std::vector<double> q = positions(U);
-    double largest = 0.;
-    for (std::size_t i = 0; i < q.size(); ++i)
-      largest = std::max(largest, std::fabs(q[i] - found.positions[i]));
-    // Of a linearised cable T0 + EA t . u', t the tangent of the found shape: linear in U as its
-    // forces are, by differences so that it is taken at the points of the integral, too.
-    const double part = small_strain * std::min(1., element.element_length()) / largest;
-    std::vector<double> before = found.positions, after = found.positions;
-    if (data.linearised && largest > 0.)
-      for (std::size_t i = 0; i < q.size(); ++i)
-      {
-        before[i] -= part * (q[i] - found.positions[i]);
-        after[i] += part * (q[i] - found.positions[i]);
-      }
-    const auto tension = [&](const double s)
-    {
-      if (!data.linearised)
-        return element.tension(q, s);
-      const double change = element.tension(after, s) - element.tension(before, s);
-      return element.tension(found.positions, s) + (largest > 0. ? change / (2. * part) : 0.);
-    };
-    std::vector<std::vector<LinePoint>> lines(element.n_elements());
-    for (unsigned int e = 0; e < lines.size(); ++e)
-      for (unsigned int k = 0; k <= pieces; ++k)
-      {
-        const double s = std::min(element.element_length() * (e + double(k) / pieces), data.length);
-        const Coordinates r = element.position(q, s);
-        lines[e].push_back({add_scaled(data.from, 1., r),
-                            r - element.position(found.positions, s),
-                            {s, tension(s)}});
-      }
-    write_lines(path, lines, {"unstressed_arc_length", "tension"});
   }
 } // namespace taut

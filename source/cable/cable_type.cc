@@ -87,8 +87,8 @@ namespace taut
                         "A cable at rest with more is an error [1]", Double(0.));
       prm.add_parameter("Geometry", geometry,
                         "nonlinear: motions of any size; linearised: small ones about the shape at "
-                        "rest",
-                        Selection("nonlinear|linearised"));
+                        "rest; linear: small ones of a straight wire of the same tension",
+                        Selection("nonlinear|linearised|linear"));
       prm.add_parameter("Start direction", start_direction,
                         "With Start = given, unstressed in a straight line from From along x, y, "
                         "z; empty: in the shape at rest",
@@ -129,7 +129,9 @@ namespace taut
       result.clamped = clamped;
       result.starts_straight = !start_direction.empty();
       result.start_direction = coordinates(start_direction);
-      result.linearised = geometry == "linearised";
+      result.geometry = geometry == "linear"       ? CableGeometry::linear
+                        : geometry == "linearised" ? CableGeometry::linearised
+                                                   : CableGeometry::nonlinear;
       result.largest_strain = largest_strain;
       return result;
     }

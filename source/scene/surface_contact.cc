@@ -8,6 +8,8 @@
 #include <deal.II/base/patterns.h>
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
+
 namespace taut
 {
   namespace
@@ -45,6 +47,31 @@ namespace taut
                                     "' is not a list of ids of the boundary, as in 'body: 2, 3'");
       }
       return result;
+    }
+
+    bool overlap(const SurfaceContact::Side &a, const SurfaceContact::Side &b)
+    {
+      return a.body == b.body &&
+             (a.boundaries.empty() || b.boundaries.empty() ||
+              std::find_first_of(a.boundaries.begin(), a.boundaries.end(), b.boundaries.begin(),
+                                 b.boundaries.end()) != a.boundaries.end());
+    }
+
+    bool are_same(const ObstacleSetting &a, const ObstacleSetting &b)
+    {
+      return a.shape == b.shape && a.point == b.point && a.direction == b.direction &&
+             a.radius == b.radius && a.encloses_body == b.encloses_body &&
+             a.height.formula() == b.height.formula();
+    }
+
+    /// Whether nodes would have two constraints for one contact, which share its force out.
+    bool have_same_sides(const SurfaceContact &a, const SurfaceContact &b)
+    {
+      if (a.obstacle.shape != ObstacleSetting::Shape::none ||
+          b.obstacle.shape != ObstacleSetting::Shape::none)
+        return are_same(a.obstacle, b.obstacle) && overlap(a.slave, b.slave);
+      return (overlap(a.slave, b.slave) && overlap(a.master, b.master)) ||
+             (overlap(a.slave, b.master) && overlap(a.master, b.slave));
     }
   } // namespace
 
@@ -133,6 +160,12 @@ namespace taut
       contact.gap = item.gap;
       contact.compliance = item.compliance;
       contact.search_distance = item.search_distance;
+      for (const SurfaceContact &other : result)
+        if (have_same_sides(other, contact))
+          throw EntryError(
+              contact.origin,
+              "'" + other.origin +
+                  "' has the same two sides; remove one, or boundaries that both name");
       result.push_back(std::move(contact));
     }
     return result;

@@ -44,6 +44,7 @@ namespace taut
       all.add_entries(line.index, line.entries);
     }
     const auto ids = mesh.boundary_ids();
+    Holders holders;
     for (const BoundaryCondition &condition : conditions)
     {
       try
@@ -51,7 +52,7 @@ namespace taut
         for (const auto id : condition.boundaries)
           if (ids.count(id) == 0)
             throw UserError(mesh.no_boundary(id));
-        constrain(mesh, condition);
+        constrain(mesh, condition, holders);
       }
       catch (const UserError &e)
       {
@@ -62,7 +63,7 @@ namespace taut
 
   template <int dim>
   void SolidConditions<dim>::constrain(const SolidMesh<dim> &mesh,
-                                       const BoundaryCondition &condition)
+                                       const BoundaryCondition &condition, Holders &holders)
   {
     using Kind = BoundaryCondition::Kind;
     if (condition.kind != Kind::displacement && condition.kind != Kind::symmetry)
@@ -84,10 +85,22 @@ namespace taut
           held = {false, false, false};
           held[axis_of<dim>(values.get_normal_vectors())] = true;
         }
+        const auto id = cell->face(f)->boundary_id();
+        for (unsigned int c = 0; c < dim; ++c)
+          if (held[c])
+          {
+            const BoundaryCondition &other =
+                *holders.try_emplace({id, c}, &condition).first->second;
+            if (&other != &condition && (condition.value || other.value))
+              throw UserError("boundary " + std::to_string(id) + " is held along " +
+                              std::string(1, "xyz"[c]) + " by '" + other.origin +
+                              "' as well; leave it to one of them");
+          }
         cell->face(f)->get_dof_indices(dofs);
         for (const auto dof : dofs)
         {
-          // The first condition that is written counts where two meet, as do hanging nodes.
+          // The first condition that is written counts where two boundaries meet, as do hanging
+          // nodes.
           if (!held[mesh.component(dof)] || all.is_constrained(dof))
             continue;
           all.add_line(dof);

@@ -3,6 +3,7 @@
 #include <taut/interface/schur_complement.h>
 #include <taut/time/choose_scheme.h>
 #include <taut/time/integrator.h>
+#include <taut/time/largest_frequency.h>
 
 #include <cmath>
 #include <functional>
@@ -16,6 +17,10 @@ namespace taut
     /// Part of itself that the error of a rigid constraint's force may keep from step to step: with
     /// this one it is below a thousandth after ten steps.
     constexpr double most_ringing = .5;
+
+    /// Part of the longest stable step that is taken for stable, as the largest frequency is known
+    /// from below only: see largest_frequency().
+    constexpr double surely_stable = .98;
 
     /// B^T A^-1 B of the unilateral constraints, 0 for the others.
     std::vector<double> flexibilities(const Structure &structure, const Constraints &constraints,
@@ -184,12 +189,38 @@ namespace taut
             reason + ", and the mass matrix of '" + body + "', 'reduced', has no inverse"};
   }
 
+  namespace
+  {
+    const std::string anyway = ", or set 'Time/Allow unsuitable scheme'";
+
+    void check_stability(const TimeIntegrator &integrator, const Structure &structure,
+                         const Constraints &constraints, const SolverParameters &parameters,
+                         const double step)
+    {
+      const double limit = integrator.largest_stable_frequency(step);
+      if (std::isinf(limit) || !body_without_definite_mass(structure).empty())
+        return;
+      const double largest = largest_frequency(structure, constraints, parameters);
+      if (largest <= surely_stable * limit)
+        return;
+      std::ostringstream out;
+      out.precision(3);
+      out << integrator.description() << " is stable for steps up to "
+          << surely_stable * limit * step / largest
+          << " s here, as bodies and links have frequencies up to " << largest
+          << " rad/s. Take such a step, larger elements, or a scheme that is stable at every step, "
+             "as Newmark with a Beta of at least Gamma / 2"
+          << anyway;
+      throw EntryError("Time/Step", out.str());
+    }
+  } // namespace
+
   void check_scheme(const TimeIntegrator &integrator, const Structure &structure,
                     const Constraints &constraints, const SolverParameters &parameters,
                     const double step)
   {
+    check_stability(integrator, structure, constraints, parameters, step);
     const StepCoefficients c = integrator.coefficients(step);
-    const std::string anyway = ", or set 'Time/Allow unsuitable scheme'";
     const std::vector<char> without_mass = constraints.without_mass();
     for (std::size_t i = 0; c.velocity_level && i < constraints.size(); ++i)
     {

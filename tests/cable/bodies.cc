@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: a cable as a body of a scene is in balance in its found shape, moves as closed forms say,
-// linearised and not, and refuses what makes no cable. Expected values: closed forms; the element
+// and refuses what makes no cable. Expected values: closed forms; the element
 // of the other kind.
 #include "cable/elastic_catenary.h"
+#include "cable/slack_cable.h"
 #include "verification/run.h"
 
 #include <taut/base/dot.h>
@@ -24,108 +25,10 @@
 namespace
 {
   using namespace taut;
-
-  const double pi = std::acos(-1.);
-
-  CableData slack_cable(const CableElement element = CableElement::ancf)
-  {
-    CableData data;
-    data.name = "cable";
-    data.origin = "Body cable";
-    data.from = {100., 20., -3.};
-    data.to = {160., 20., -3.};
-    data.length = 78.;
-    data.section = {1.3e7, 0., 1.07, 0.};
-    data.gravity = {0., -9.81, 0.};
-    data.n_elements = 32;
-    data.element = element;
-    return data;
-  }
-
-  std::vector<double> unbalanced(const Cable &cable, const std::vector<double> &U)
-  {
-    std::vector<double> f, P;
-    cable.internal_force(U, {}, f);
-    cable.external_force(0., P);
-    for (std::size_t i = 0; i < P.size(); ++i)
-      P[i] -= f[i];
-    return P;
-  }
-
-  double largest_of(std::vector<double> x, const std::vector<unsigned int> &left_out)
-  {
-    for (const unsigned int i : left_out)
-      x[i] = 0.;
-    double size = 0.;
-    for (const double value : x)
-      size = std::max(size, std::fabs(value));
-    return size;
-  }
-
-  /// Newton's method from the found shape.
-  std::vector<double> equilibrium(const Cable &cable)
-  {
-    std::vector<double> U(cable.n_dofs(), 0.);
-    const auto solver = make_local_solver("block tridiagonal", cable.stiffness());
-    for (int k = 0; k < 100; ++k)
-    {
-      std::vector<double> step = unbalanced(cable, U);
-      if (largest_of(step, cable.constrained_dofs()) < 1e-6)
-        return U;
-      const auto K = cable.tangent(U, 0., true);
-      solver->factor({{1., K.get()}, {k < 20 ? 1. : 0., &cable.mass()}}, cable.constrained_dofs());
-      solver->solve(step);
-      for (std::size_t i = 0; i < U.size(); ++i)
-        U[i] += step[i];
-    }
-    ADD_FAILURE() << "no equilibrium";
-    return U;
-  }
-
-  /// The lowest natural frequencies by subspace iteration one after the other [rad/s].
-  std::vector<double> frequencies(const Substructure &body, const unsigned int n)
-  {
-    const auto solver = make_local_solver("block tridiagonal", body.stiffness());
-    solver->factor({{1., &body.stiffness()}}, body.constrained_dofs());
-    std::vector<std::vector<double>> modes;
-    std::vector<double> result;
-    for (unsigned int mode = 0; mode < n; ++mode)
-    {
-      std::vector<double> x(body.n_dofs());
-      for (std::size_t i = 0; i < x.size(); ++i)
-        x[i] = std::sin(1. + 1.7 * i * (mode + 1));
-      for (const unsigned int i : body.constrained_dofs())
-        x[i] = 0.;
-      double omega = 0.;
-      for (int iteration = 0; iteration < 300; ++iteration)
-      {
-        const auto times_mass = [&](const std::vector<double> &v)
-        {
-          std::vector<double> Mv(v.size(), 0.);
-          body.mass().vmult_add(1., v.data(), Mv.data());
-          return Mv;
-        };
-        for (const auto &other : modes)
-        {
-          const double part = dot(times_mass(other), x);
-          for (std::size_t i = 0; i < x.size(); ++i)
-            x[i] -= part * other[i];
-        }
-        const double size = std::sqrt(dot(times_mass(x), x));
-        for (double &value : x)
-          value /= size;
-        std::vector<double> y = times_mass(x);
-        const std::vector<double> Mx = y;
-        solver->solve(y);
-        omega = 1. / std::sqrt(dot(y, Mx));
-        if (iteration < 299)
-          x = y;
-      }
-      modes.push_back(x);
-      result.push_back(omega);
-    }
-    return result;
-  }
+  using verification::equilibrium;
+  using verification::largest_of;
+  using verification::slack_cable;
+  using verification::unbalanced;
 
   TEST(CableBodies, FoundShapeIsInBalance)
   {
@@ -185,64 +88,6 @@ namespace
     }
     EXPECT_LT(norm(places[0] - places[1]), .02);
     EXPECT_GT(places[0].z, 1.);
-  }
-
-  TEST(CableBodies, LinearisedCableSwings)
-  {
-    CableData data = slack_cable();
-    data.linearised = true;
-    data.n_elements = 64;
-    const MakeCable make = [&](const double length) { return make_elements(data, length); };
-    const double H = 16e3, m = 1.07, l = 60., w = m * 9.81;
-    data.length = length_for_tension(make, data.from, data.to, force_per_length(data), H);
-    const Cable cable(data);
-    EXPECT_TRUE(cable.is_linear());
-    std::vector<double> P;
-    cable.external_force(0., P);
-    EXPECT_EQ(largest_of(P, cable.constrained_dofs()), 0.);
-    EXPECT_NEAR(std::hypot(P[0], P[1]), std::hypot(H, .5 * w * data.length), 1e-3);
-
-    // Irvine 1981, chapter 3: across the plane and antisymmetric n pi / l sqrt(H/m); symmetric ones
-    // in the plane tan(x) = x - 4 x^3 / lambda^2 with x = omega l / 2 sqrt(m/H).
-    const double sag_ratio = w * l / (8. * H), stretched = l * (1. + 8. * sag_ratio * sag_ratio),
-                 lambda2 = std::pow(w * l / H, 2) * l * 1.3e7 / (H * stretched);
-    double low = .5 * pi + 1e-6, high = 1.5 * pi - 1e-6;
-    for (int k = 0; k < 200; ++k)
-    {
-      const double x = .5 * (low + high);
-      (std::tan(x) - x + 4. * x * x * x / lambda2 < 0. ? low : high) = x;
-    }
-    const double string = pi / l * std::sqrt(H / m), symmetric = 2. * low / l * std::sqrt(H / m);
-    std::vector<double> expected = {string, 2. * string, 2. * string, symmetric};
-    std::sort(expected.begin(), expected.end());
-    const std::vector<double> found = frequencies(cable, 4);
-    for (int k = 0; k < 4; ++k)
-    {
-      verification::figure("frequency " + std::to_string(k + 1) +
-                               " of a cable over that of a shallow one",
-                           found[k] / expected[k]);
-      EXPECT_NEAR(found[k] / expected[k], 1., 3e-3);
-    }
-  }
-
-  TEST(CableBodies, LinearisedOnlyUnderTension)
-  {
-    // So stiff in bending that the weight does not take all of its compression.
-    CableData data = slack_cable();
-    data.to = {110., 20., -3.};
-    data.length = 10.05;
-    data.section.bending_stiffness = 1e4;
-    EXPECT_NO_THROW(Cable{data});
-    data.linearised = true;
-    try
-    {
-      const Cable cable(data);
-      ADD_FAILURE() << "was taken";
-    }
-    catch (const EntryError &e)
-    {
-      EXPECT_EQ(e.entry(), "Body cable/Geometry");
-    }
   }
 
   TEST(CableBodies, ClampsHoldTheDirectionAndNotTheStrain)

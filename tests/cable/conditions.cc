@@ -108,7 +108,7 @@ TEST(CableConditions, tension_of_a_linearised_cable_is_linear)
   for (const CableElement element : {CableElement::ancf, CableElement::bar})
   {
     CableData data = cable_data();
-    data.linearised = true;
+    data.geometry = taut::CableGeometry::linearised;
     data.element = element;
     const Cable cable(data);
     const auto moved = [&](const Coordinates &slope)

@@ -365,6 +365,23 @@ end
            "here\nend\nsubsection Contact wall\n  set Slave = solid: 0\n  set Obstacle = "
            "plane\nend"}},
          {"Fixed boundaries = '7'", "the mesh has no boundary 7; it has 0 1 2 3"}},
+        {"boundary_that_is_fixed_and_moved",
+         network,
+         {{"set Generator = network",
+           "set Generator = network\nset Bodies = solid\nset Contacts = wall\nsubsection Body "
+           "solid\n  set Type = solid\n  set Young's modulus = 1e9\n  set Fixed boundaries = 1\n  "
+           "set Displacement = 1: , 1e-3 # here\nend\nsubsection Contact wall\n  set Slave = "
+           "solid: 0\n  set Obstacle = plane\nend"}},
+         {"Displacement = '1: , 1e-3'", "boundary 1 is held along y by",
+          "Fixed boundaries' as well"}},
+        {"one_contact_listed_twice",
+         network,
+         {{"set Generator = network",
+           "set Generator = network\nset Bodies = solid\nset Contacts = wall, again\nsubsection "
+           "Body solid\n  set Type = solid\n  set Young's modulus = 1e9\nend\nsubsection Contact "
+           "wall\n  set Slave = solid: 0\n  set Obstacle = plane\nend\nsubsection Contact again "
+           "# here\n  set Slave = solid: 3, 0\n  set Obstacle = plane\nend"}},
+         {"Contact again", "'Contact wall' has the same two sides"}},
         {"contact_of_an_unknown_body",
          network,
          {{"set Generator = network",

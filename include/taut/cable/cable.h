@@ -15,6 +15,14 @@ namespace taut
 {
   class EndFrames;
 
+  /// What of a cable's geometry changes as it moves.
+  enum class CableGeometry
+  {
+    nonlinear,  ///< all of it: motions of any size
+    linearised, ///< nothing: small motions about the found shape
+    linear      ///< nothing: small motions of a straight wire from end to end, of the same tension
+  };
+
   /// What a cable is made of.
   struct CableData
   {
@@ -37,7 +45,7 @@ namespace taut
     bool starts_straight = false;
     Coordinates start_direction;
 
-    bool linearised = false;     ///< small motions about the found shape
+    CableGeometry geometry = CableGeometry::nonlinear;
     double largest_strain = .02; ///< of the found shape; more is an error [1]
   };
 
@@ -59,8 +67,12 @@ namespace taut
    * shape as K, with the axial damping in C, and as load only what the found shape does not
    * balance: zero but at the ends, where it is the load without the internal force of the found
    * shape. So the forces that hold an end are whole ones in both cases, and an end that nothing
-   * holds starts to move in both. The DoFs of r' at a clamped end are components along the cable
-   * and across it, not along x, y, z; use displacement() and positions().
+   * holds starts to move in both. A linear cable has all that of a linearised one but for its K and
+   * axial damping, which are those of the straight line between `from` and `to`, as long as the
+   * cable is when unstressed, EA along it and across it the tension of the found shape along this
+   * line: what the sag adds to the stiffness is left out. The DoFs of r' at a clamped end are
+   * components along the cable and across it, not along x, y, z; use displacement() and
+   * positions().
    */
   class Cable : public Substructure, public SlenderBody
   {
@@ -83,12 +95,12 @@ namespace taut
     /// In space, of the found shape.
     Coordinates position(const Coordinates &place) const override;
 
-    bool is_linear() const override { return data.linearised; }
+    bool is_linear() const override { return data.geometry != CableGeometry::nonlinear; }
 
     /// Translations, if no end is held: they change no stretch, whatever the shape.
     NullSpace null_space() const override;
 
-    /// Where it is compressed most, beyond rounding; a linearised cable never is slack.
+    /// Where it is compressed most, beyond rounding; one that is linear never is slack.
     bool is_slack(const std::vector<double> &U, Slack &slack) const override;
 
     double axial_stiffness() const override { return data.section.axial_stiffness; }
@@ -124,11 +136,13 @@ namespace taut
     void hold();
     void assemble();
     void linearise();
+    std::vector<double> straight_line() const;
     void set_positions(const std::vector<double> &U, std::vector<double> &q) const;
 
     CableData data;
     CableElements element;
     CableShape found;
+    std::vector<double> tangent_at; ///< positions, of a cable that is linear
     std::unique_ptr<EndFrames> frames;
     mutable std::vector<double> work_0, work; ///< positions
   };

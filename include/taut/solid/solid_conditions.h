@@ -8,8 +8,10 @@
 
 #include <array>
 #include <functional>
+#include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace taut
@@ -41,7 +43,7 @@ namespace taut
   {
   public:
     /// @p conditions are kept by reference. Throws EntryError about one with a boundary that the
-    /// mesh does not have.
+    /// mesh does not have, and about two that give one boundary's displacement along one axis.
     SolidConditions(const SolidMesh<dim> &mesh, const std::vector<BoundaryCondition> &conditions);
 
     /// Homogeneous (see prescribed() for what is not zero) and not closed, so that hanging nodes go
@@ -57,7 +59,12 @@ namespace taut
     const std::vector<Prescribed> &prescribed() const { return given; }
 
   private:
-    void constrain(const SolidMesh<dim> &mesh, const BoundaryCondition &condition);
+    /// The condition that holds a boundary along an axis.
+    using Holders =
+        std::map<std::pair<dealii::types::boundary_id, unsigned int>, const BoundaryCondition *>;
+
+    void constrain(const SolidMesh<dim> &mesh, const BoundaryCondition &condition,
+                   Holders &holders);
 
     dealii::AffineConstraints<double> all;
     std::vector<Prescribed> given;

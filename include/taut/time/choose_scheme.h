@@ -41,7 +41,8 @@ namespace taut
    * Throws an EntryError if a scheme is known to fail on a constraint: on Time/Scheme if its forces
    * ring (StepCoefficients::ringing) at a unilateral constraint that acts as rigid, on
    * Time/Moreau-Jean/Conditions if gaps of a moving rigid constraint would drift, on Time/Mass
-   * redistribution where conditions on velocities without damping meet a node without mass.
+   * redistribution where conditions on velocities without damping meet a node without mass, on
+   * Time/Step if the scheme is not stable for the largest frequency of the system.
    */
   void check_scheme(const TimeIntegrator &integrator, const Structure &structure,
                     const Constraints &constraints, const SolverParameters &parameters,

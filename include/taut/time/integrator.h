@@ -4,6 +4,7 @@
 
 #include <taut/base/registry.h>
 
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -106,6 +107,14 @@ namespace taut
     {
       (void)last_step;
       return coefficients(step);
+    }
+
+    /// Frequency of free undamped vibrations beyond which steps of this length [s] are unstable
+    /// [rad/s]; infinite where all are stable.
+    virtual double largest_stable_frequency(double step) const
+    {
+      (void)step;
+      return std::numeric_limits<double>::infinity();
     }
 
     /// Newton's restitution that its entries ask for, whether they make a method or not [1].

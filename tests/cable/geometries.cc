@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: a cable that is linear, about its shape at rest or as a straight wire, moves as closed
+// forms say, and is refused where it has none. Expected values: closed forms.
+#include "cable/slack_cable.h"
+#include "verification/run.h"
+
+#include <taut/base/dot.h>
+#include <taut/base/exceptions.h>
+#include <taut/cable/cable.h>
+#include <taut/cable/find_length.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace
+{
+  using namespace taut;
+  using verification::equilibrium;
+  using verification::largest_of;
+  using verification::slack_cable;
+
+  const double pi = std::acos(-1.);
+
+  /// The lowest natural frequencies by subspace iteration one after the other [rad/s].
+  std::vector<double> frequencies(const Substructure &body, const unsigned int n)
+  {
+    const auto solver = make_local_solver("block tridiagonal", body.stiffness());
+    solver->factor({{1., &body.stiffness()}}, body.constrained_dofs());
+    std::vector<std::vector<double>> modes;
+    std::vector<double> result;
+    for (unsigned int mode = 0; mode < n; ++mode)
+    {
+      std::vector<double> x(body.n_dofs());
+      for (std::size_t i = 0; i < x.size(); ++i)
+        x[i] = std::sin(1. + 1.7 * i * (mode + 1));
+      for (const unsigned int i : body.constrained_dofs())
+        x[i] = 0.;
+      double omega = 0.;
+      for (int iteration = 0; iteration < 300; ++iteration)
+      {
+        const auto times_mass = [&](const std::vector<double> &v)
+        {
+          std::vector<double> Mv(v.size(), 0.);
+          body.mass().vmult_add(1., v.data(), Mv.data());
+          return Mv;
+        };
+        for (const auto &other : modes)
+        {
+          const double part = dot(times_mass(other), x);
+          for (std::size_t i = 0; i < x.size(); ++i)
+            x[i] -= part * other[i];
+        }
+        const double size = std::sqrt(dot(times_mass(x), x));
+        for (double &value : x)
+          value /= size;
+        std::vector<double> y = times_mass(x);
+        const std::vector<double> Mx = y;
+        solver->solve(y);
+        omega = 1. / std::sqrt(dot(y, Mx));
+        if (iteration < 299)
+          x = y;
+      }
+      modes.push_back(x);
+      result.push_back(omega);
+    }
+    return result;
+  }
+
+  TEST(CableGeometries, LinearisedCableSwings)
+  {
+    CableData data = slack_cable();
+    data.geometry = CableGeometry::linearised;
+    data.n_elements = 64;
+    const MakeCable make = [&](const double length) { return make_elements(data, length); };
+    const double H = 16e3, m = 1.07, l = 60., w = m * 9.81;
+    data.length = length_for_tension(make, data.from, data.to, force_per_length(data), H);
+    const Cable cable(data);
+    EXPECT_TRUE(cable.is_linear());
+    std::vector<double> P;
+    cable.external_force(0., P);
+    EXPECT_EQ(largest_of(P, cable.constrained_dofs()), 0.);
+    EXPECT_NEAR(std::hypot(P[0], P[1]), std::hypot(H, .5 * w * data.length), 1e-3);
+
+    // Irvine 1981, chapter 3: across the plane and antisymmetric n pi / l sqrt(H/m); symmetric ones
+    // in the plane tan(x) = x - 4 x^3 / lambda^2 with x = omega l / 2 sqrt(m/H).
+    const double sag_ratio = w * l / (8. * H), stretched = l * (1. + 8. * sag_ratio * sag_ratio),
+                 lambda2 = std::pow(w * l / H, 2) * l * 1.3e7 / (H * stretched);
+    double low = .5 * pi + 1e-6, high = 1.5 * pi - 1e-6;
+    for (int k = 0; k < 200; ++k)
+    {
+      const double x = .5 * (low + high);
+      (std::tan(x) - x + 4. * x * x * x / lambda2 < 0. ? low : high) = x;
+    }
+    const double string = pi / l * std::sqrt(H / m), symmetric = 2. * low / l * std::sqrt(H / m);
+    std::vector<double> expected = {string, 2. * string, 2. * string, symmetric};
+    std::sort(expected.begin(), expected.end());
+    const std::vector<double> found = frequencies(cable, 4);
+    for (int k = 0; k < 4; ++k)
+    {
+      verification::figure("frequency " + std::to_string(k + 1) +
+                               " of a cable over that of a shallow one",
+                           found[k] / expected[k]);
+      EXPECT_NEAR(found[k] / expected[k], 1., 3e-3);
+    }
+  }
+
+  // The tension along the chord is H over its slope's cosine: weight acts across the level.
+  TEST(CableGeometries, LinearCableIsAStraightWire)
+  {
+    CableData data = slack_cable();
+    data.geometry = CableGeometry::linear;
+    data.n_elements = 64;
+    data.from = {};
+    data.to = {48., 36., 0.};
+    data.section.bending_stiffness = 0.;
+    const MakeCable make = [&](const double length) { return make_elements(data, length); };
+    const double H = 16e3, T = H / .8, l = 60., F = 10., EA = data.section.axial_stiffness;
+    data.length = length_for_tension(make, data.from, data.to, force_per_length(data), H);
+    const double m = data.section.mass_per_length * data.length / l;
+    const Cable wire(data);
+    const double string = pi / l * std::sqrt(T / m);
+    const std::vector<double> found = frequencies(wire, 4);
+    for (int k = 0; k < 4; ++k)
+      EXPECT_NEAR(found[k] / (string * (1 + k / 2)), 1., 1e-4) << k;
+
+    const Coordinates middle = {.5 * data.length, 0.}, along = {.8, .6, 0.};
+    for (const Coordinates &direction : {along, {-.6, .8, 0.}, {0., 0., 1.}})
+    {
+      data.element = CableElement::bar; // which has a kink where it is pulled
+      Cable pulled(data);
+      const LinearForm form = pulled.displacement(middle, direction);
+      pulled.add_force(form, F);
+      const double expected = direction == along ? F * data.length / (4. * EA) : F * l / (4. * T);
+      EXPECT_NEAR(form.dot(equilibrium(pulled)) / expected, 1., 1e-4);
+    }
+  }
+
+  TEST(CableGeometries, LinearisedOnlyUnderTension)
+  {
+    // So stiff in bending that the weight does not take all of its compression.
+    CableData data = slack_cable();
+    data.to = {110., 20., -3.};
+    data.length = 10.05;
+    data.section.bending_stiffness = 1e4;
+    EXPECT_NO_THROW(Cable{data});
+    const auto refused = [&](const CableGeometry geometry)
+    {
+      data.geometry = geometry;
+      try
+      {
+        const Cable cable(data);
+        ADD_FAILURE() << "was taken";
+      }
+      catch (const EntryError &e)
+      {
+        EXPECT_EQ(e.entry(), "Body cable/Geometry");
+      }
+    };
+    refused(CableGeometry::linearised);
+    refused(CableGeometry::linear);
+  }
+} // namespace

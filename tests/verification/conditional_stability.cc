@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: Newmark's method with beta = 1/12 is of fourth order in motions without damping, and
+// schemes are refused where a frequency of the scene makes them unstable, and nowhere else.
+// Sources: Hughes, The Finite Element Method, 1987, section 9.1; u of a mass on a spring k under P
+// (1 - cos Omega t), P/k [1 - (omega^2 cos Omega t - Omega^2 cos omega t)/(omega^2 - Omega^2)];
+// frequencies of two masses on springs.
+#include "run.h"
+
+#include <taut/base/exceptions.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+using namespace verification;
+
+namespace
+{
+  /// m = 1, 3 kg on springs of 4000, 2000 N/m, with one of 9000 N/m between them, one pushed.
+  const char *const two_masses =
+      "set Generator = network\nset Gravity = 0, 0\nset Start = undeformed\n"
+      "subsection Network\n set Masses = one, two\n set Springs = first, second\n set Loads = "
+      "push\n set Links = joint\n"
+      " subsection Mass one\n  set Position = 0, 0\n  set Mass = 1\n  set Motions = y\n end\n"
+      " subsection Mass two\n  set Position = 0, 1\n  set Mass = 3\n  set Motions = y\n end\n"
+      " subsection Spring first\n  set From = ground\n  set To = one\n  set Direction = 0, 1\n"
+      "  set Stiffness = 4000\n end\n"
+      " subsection Spring second\n  set From = ground\n  set To = two\n  set Direction = 0, 1\n"
+      "  set Stiffness = 2000\n end\n"
+      " subsection Load push\n  set On = one\n  set Direction = 0, 1\n  set Magnitude = 10\n end\n"
+      " subsection Link joint\n  set Type = joint\n  set From = one\n  set To = two\n"
+      "  set Direction = 0, 1\n  set Stiffness = 9000\n end\nend\n"
+      "subsection Time\n set Scheme = Newmark\n subsection Newmark\n  set Beta = 0.1\n end\nend\n";
+
+  /// Of them: the larger root of (k1 + k - m1 w)(k2 + k - m2 w) = k^2 with w = omega^2.
+  double largest_frequency_of_two_masses()
+  {
+    const double a = 13000., b = 11000. / 3., c = 9000. * 9000. / 3.;
+    return std::sqrt(.5 * (a + b) + std::sqrt(.25 * (a - b) * (a - b) + c));
+  }
+
+  /// Largest motion of the first mass over 4000 steps.
+  double largest_motion(const double step, const std::vector<std::string> &settings = {})
+  {
+    std::vector<std::string> all = {"Time/Step=" + std::to_string(step),
+                                    "Time/End=" + std::to_string(4000 * step)};
+    all.insert(all.end(), settings.begin(), settings.end());
+    double largest = 0.;
+    run_scene(two_masses, all,
+              [&](const taut::StepView &view)
+              { largest = std::max(largest, std::fabs(view.state.U[0][0])); });
+    return largest;
+  }
+} // namespace
+
+TEST(ConditionalStability, fourth_order_with_beta_one_twelfth)
+{
+  const double k = 800., omega = std::sqrt(k / 2.), Omega = 7., P = 8.;
+  const char *const scene =
+      "set Generator = network\nset Gravity = 0, 0\nset Start = equilibrium\n"
+      "subsection Network\n set Masses = mass\n set Springs = spring\n set Loads = push\n"
+      " subsection Mass mass\n  set Position = 0, 0\n  set Mass = 2\n  set Motions = y\n end\n"
+      " subsection Spring spring\n  set From = ground\n  set To = mass\n  set Direction = 0, 1\n"
+      "  set Stiffness = 800\n end\n"
+      " subsection Load push\n  set On = mass\n  set Direction = 0, 1\n"
+      "  set Magnitude = 8*(1-cos(7*t))\n end\nend\n"
+      "subsection Time\n set Scheme = Newmark\n set End = 3.2\n subsection Newmark\n"
+      "  set Beta = 0.08333333333333333\n end\nend\n";
+  std::vector<double> errors;
+  for (const char *const step : {"0.02", "0.01", "0.005"})
+  {
+    double error = 0.;
+    run_scene(scene, {std::string("Time/Step=") + step},
+              [&](const taut::StepView &view)
+              {
+                const double t = view.state.time;
+                const double u = P / k *
+                                 (1. - (omega * omega * std::cos(Omega * t) -
+                                        Omega * Omega * std::cos(omega * t)) /
+                                           (omega * omega - Omega * Omega));
+                error = std::max(error, std::fabs(view.state.U[0][0] - u));
+              });
+    errors.push_back(error / (P / k));
+  }
+  figure("Newmark with beta 1/12, a forced oscillator, error at 16 steps a period", errors[0]);
+  for (std::size_t i = 1; i < errors.size(); ++i)
+  {
+    figure("Newmark with beta 1/12, order", std::log2(errors[i - 1] / errors[i]));
+    EXPECT_GT(errors[i - 1], 14. * errors[i]);
+  }
+}
+
+TEST(ConditionalStability, unstable_steps_are_refused_and_no_others)
+{
+  // 1/sqrt(gamma/2 - beta), of which 2 % are kept away.
+  const double limit = 1. / std::sqrt(.15) / largest_frequency_of_two_masses();
+  EXPECT_LT(largest_motion(.979 * limit), .02);
+  try
+  {
+    largest_motion(.981 * limit);
+    ADD_FAILURE() << "was taken";
+  }
+  catch (const taut::EntryError &e)
+  {
+    EXPECT_EQ(e.entry(), "Time/Step");
+    EXPECT_NE(std::string(e.what()).find("stable for steps up to"), std::string::npos);
+  }
+  const std::vector<std::string> anyway = {"Time/Allow unsuitable scheme=true"};
+  EXPECT_LT(largest_motion(.999 * limit, anyway), .04);
+  EXPECT_THROW(largest_motion(1.01 * limit, anyway), taut::UserError); // beyond 1e100
+  EXPECT_LT(largest_motion(3. * limit, {"Time/Newmark/Beta=0.25"}), .04);
+}
