@@ -272,6 +272,11 @@ namespace taut
     return frames->turn(element.position(place.x, direction));
   }
 
+  LinearForm Cable::slope(const double place, const Coordinates &direction) const
+  {
+    return frames->turn(element.tangent(std::clamp(place, 0., data.length), direction));
+  }
+
   Coordinates Cable::position(const Coordinates &place) const
   {
     const double s = std::clamp(place.x, 0., data.length);

@@ -7,6 +7,7 @@
 #include <taut/model/shared_parts.h>
 #include <taut/scene/entries.h>
 #include <taut/scene/scene_values.h>
+#include <taut/substructure/slender_body.h>
 #include <taut/wire/wire_component.h>
 
 #include <algorithm>
@@ -196,10 +197,13 @@ namespace taut
     }
     else if (point.kind == Attachment::Kind::body)
     {
-      const std::size_t k =
-          rotational || derivative ? elsewhere : index_at(point.index, point.place);
-      if (k != elsewhere)
-        append(k, factor, (*this)[k].displacement(point.place, direction));
+      const std::size_t k = rotational ? elsewhere : index_at(point.index, point.place);
+      if (k == elsewhere)
+        return;
+      if (!derivative)
+        return append(k, factor, (*this)[k].displacement(point.place, direction));
+      if (const auto *body = dynamic_cast<const SlenderBody *>(&(*this)[k]))
+        append(k, factor, body->slope(point.place.x, direction));
     }
     else if (point.kind == Attachment::Kind::wire)
     {
@@ -223,6 +227,15 @@ namespace taut
         append(k, factor * part, form);
       }
     }
+  }
+
+  Attachment SceneBodies::moved(const Attachment &point, const double position)
+  {
+    Attachment result = point;
+    result.position = position;
+    if (point.kind == Attachment::Kind::body)
+      result.place.x = position;
+    return result;
   }
 
   Coordinates SceneBodies::position(const Scene &scene, const Attachment &point) const

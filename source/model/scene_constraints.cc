@@ -47,12 +47,12 @@ namespace taut
       return result;
     }
 
-    /// A contact that slides along a wire at constant speed.
+    /// A contact that slides along a wire or a cable at constant speed.
     class SlidingPlace : public MovingPlace
     {
     public:
       SlidingPlace(const Scene &scene, const SceneBodies &bodies, const Link &link)
-          : scene(scene), bodies(bodies), link(link)
+          : scene(scene), bodies(bodies), link(link), start(height(0.))
       {
       }
 
@@ -60,18 +60,14 @@ namespace taut
 
       std::vector<Term> terms(const double t) const override
       {
-        const Wire &wire = scene.wires[link.to.index];
-        const double length = wire.length(), s = position(t);
-        // A step that ends on the end of the wire up to rounding is on the wire.
-        if (s < -1e-9 * length || s > (1. + 1e-9) * length)
+        if (is_on_wire())
         {
-          std::ostringstream out;
-          out << "sliding contact '" << link.name << "' leaves wire '" << wire.name
-              << "' at t = " << t << " s, position " << s << " m of " << length
-              << " m. End the run earlier or lengthen the wire.";
-          throw EntryError(link.origin, out.str());
+          check(t);
+          return link_terms(bodies, link, place(t));
         }
-        return link_terms(bodies, link, place(t));
+        std::vector<Term> result;
+        bodies.communicator().agree([&] { result = terms_on_cable(t); });
+        return result;
       }
 
       std::vector<Term> rates(const double t) const override
@@ -81,19 +77,57 @@ namespace taut
         return slope;
       }
 
-      double gap(const double t) const override { return link.gap + link.profile(position(t), t); }
+      /// Displacements of a cable count from its shape at rest, along which the contact rises.
+      double gap(const double t) const override
+      {
+        return link.gap + link.profile(position(t), t) + (height(t) - start);
+      }
 
     private:
-      Attachment place(const double t) const
+      Attachment place(const double t) const { return SceneBodies::moved(link.to, position(t)); }
+
+      /// Of the place on a cable at rest along the direction of the contact [m].
+      double height(const double t) const
       {
-        Attachment to = link.to;
-        to.position = position(t);
-        return to;
+        return is_on_wire() ? 0. : dot(link.direction, bodies.position(scene, place(t)));
+      }
+
+      /// The cable alone knows its length.
+      std::vector<Term> terms_on_cable(const double t) const
+      {
+        try
+        {
+          return link_terms(bodies, link, place(t));
+        }
+        catch (const UserError &e)
+        {
+          std::ostringstream out;
+          out << "sliding contact '" << link.name << "' at t = " << t << " s: " << e.what()
+              << ". End the run earlier or lengthen the cable.";
+          throw EntryError(link.origin, out.str());
+        }
+      }
+
+      bool is_on_wire() const { return link.to.kind == Attachment::Kind::wire; }
+
+      /// A step that ends on the end of the wire up to rounding is on the wire.
+      void check(const double t) const
+      {
+        const Wire &wire = scene.wires[link.to.index];
+        const double length = wire.length(), s = position(t);
+        if (s >= -1e-9 * length && s <= (1. + 1e-9) * length)
+          return;
+        std::ostringstream out;
+        out << "sliding contact '" << link.name << "' leaves wire '" << wire.name
+            << "' at t = " << t << " s, position " << s << " m of " << length
+            << " m. End the run earlier or lengthen the wire.";
+        throw EntryError(link.origin, out.str());
       }
 
       const Scene &scene;
       const SceneBodies &bodies;
       const Link link;
+      const double start;
     };
   } // namespace
 

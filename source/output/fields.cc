@@ -281,12 +281,12 @@ namespace taut
       const Link &link = step.scene.links[link_of_end[e]];
       const double s = step.constraints.position(step.constraints.index_of_link(link_of_end[e]),
                                                  step.state.time);
-      const Attachment contact = {Attachment::Kind::wire, link.to.index, s};
+      const Attachment contact = SceneBodies::moved(link.to, s);
       // The `to` end is the last of its link. What slides along is drawn where it touches.
       if (e + 1 == ends.size() || link_of_end[e + 1] != link_of_end[e])
         ends[e] = sample(step.scene, step.structure, contact);
       else
-        ends[e].place = place(step.scene, contact);
+        ends[e].place = step.structure.position(step.scene, contact);
     }
   }
 

@@ -138,6 +138,8 @@ namespace taut
   {
     const auto compare = [&](const std::string &name, const Attachment &on, const double speed)
     {
+      if (on.kind != Attachment::Kind::wire)
+        return;
       const Wire &wire = scene.wires[on.index];
       const double waves = std::sqrt(wire.tension / wire.mass_per_length), v = std::fabs(speed);
       if (!(wire.tension > 0.) || v <= waves)

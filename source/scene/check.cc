@@ -231,8 +231,11 @@ namespace taut
     void check_sliding(const Scene &scene, const Link &link, const std::string &what,
                        const double end_time)
     {
+      if (link.to.kind == Attachment::Kind::body &&
+          scene.bodies[link.to.index].type_name == "cable")
+        return; // its length is known when it is made
       if (link.to.kind != Attachment::Kind::wire)
-        fail(link, "To", what, "a sliding contact slides on a wire, 'wire @ start'");
+        fail(link, "To", what, "a sliding contact slides on a wire or a cable, 'wire @ start'");
       const double end = link.to.position + link.speed * end_time;
       const Wire &wire = scene.wires[link.to.index];
       if (wire.transverse == TransverseKind::none)

@@ -320,6 +320,8 @@ namespace taut
         link.name = links.names[i] + (n > 1 ? " " + std::to_string(k + 1) : "");
         link.from = from[from.size() > 1 ? k : 0];
         link.to = to[to.size() > 1 ? k : 0];
+        if (link.moving() && link.to.kind == Attachment::Kind::body)
+          link.to.position = link.to.place.x;
         check_ends(link, scene, title, !item.direction.empty() || is_ball_joint || link.turns);
         if (is_ball_joint)
         {

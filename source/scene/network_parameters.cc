@@ -156,13 +156,14 @@ namespace taut
         "Type", type,
         "'joint': holds its ends together. 'ball joint': does so along x, y and z, as joints "
         "named '<name> x' and so on. 'stop': pushes them apart. 'dropper': pulls "
-        "them together. 'sliding contact': a stop whose second end moves on a wire",
+        "them together. 'sliding contact': a stop whose second end moves on a wire or a cable",
         Selection("joint|ball joint|stop|dropper|sliding contact"));
     prm.add_parameter(
         "From", from,
         "'ground', 'ground @ x, y, z', a mass, 'wire @ position' or 'body @ x, y, z'; several "
         "positions (numbers and ranges first:step:last) make one link each");
-    prm.add_parameter("To", to, "As From; for a sliding contact 'wire @ start'");
+    prm.add_parameter("To", to,
+                      "As From; for a sliding contact 'wire @ start' or 'cable @ start, 0'");
     prm.add_parameter(
         "Direction", direction,
         "'x, y' or 'x, y, z' from From to To; a stop or sliding contact pushes To along it. Empty: "
@@ -199,7 +200,9 @@ namespace taut
         "Of the undeformed bodies: distance to contact of a stop, slack of a dropper; "
         "negative: prestressed [m, rad]",
         any_number());
-    prm.add_parameter("Speed", speed, "Of a sliding contact along its wire [m/s]", any_number());
+    prm.add_parameter("Speed", speed,
+                      "Of a sliding contact along its wire or its unstressed cable [m/s]",
+                      any_number());
     prm.add_parameter("Height profile", profile,
                       "Of the wire under a sliding contact along Direction, a formula in s [m]");
     prm.add_parameter(

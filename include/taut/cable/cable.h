@@ -95,6 +95,8 @@ namespace taut
     /// In space, of the found shape.
     Coordinates position(const Coordinates &place) const override;
 
+    LinearForm slope(double place, const Coordinates &direction) const override;
+
     bool is_linear() const override { return data.geometry != CableGeometry::nonlinear; }
 
     /// Translations, if no end is held: they change no stretch, whatever the shape.

@@ -51,13 +51,16 @@ namespace taut
     /// all ranks together.
     Coordinates position(const Scene &scene, const Attachment &point) const;
 
-    /// The same of the derivative of the displacement by the position along the wire [1/m]: what a
-    /// contact that slides is displaced by.
+    /// The same of the derivative of the displacement by the position along the wire or slender
+    /// body [1/m]: what a contact that slides is displaced by.
     void slope(const Attachment &point, const Coordinates &direction, double factor,
                std::vector<Term> &terms) const
     {
       append_motion(point, false, direction, factor, true, terms);
     }
+
+    /// The attachment at another place along its wire or slender body [m].
+    static Attachment moved(const Attachment &point, double position);
 
     /// A motion of a point of a wire, s [m] from its first end, whichever way the wire runs.
     void motion(std::size_t wire, double s, WireMotion motion, std::vector<Term> &terms) const;

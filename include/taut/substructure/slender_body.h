@@ -16,6 +16,10 @@ namespace taut
   public:
     virtual ~SlenderBody() = default;
 
+    /// The derivative of Substructure::displacement() at a place along the body by this place, that
+    /// of x [1/m]: what a contact that slides along is displaced by.
+    virtual LinearForm slope(double place, const Coordinates &direction) const = 0;
+
     /// EA [N]
     virtual double axial_stiffness() const = 0;
 

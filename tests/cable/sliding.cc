@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: a contact slides along a cable as along a wire, and follows its shape at rest. Sources:
+// the same scene with a straight wire; a taut string under a force, F x (l - x)/(l T) below its
+// parabola.
+#include "verification/run.h"
+
+#include <taut/base/exceptions.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+using namespace verification;
+
+namespace
+{
+  constexpr double tension = 16e3, length = 60.;
+
+  /// A mass that is pushed up slides under a line of 60 m from s = 10 m on, named by `To`.
+  std::string scene(const std::string &to, const std::string &rest)
+  {
+    return "set Generator = network\nset Start = equilibrium\n" + rest +
+           "subsection Network\n set Masses = head\n set Springs = soft\n set Loads = push\n"
+           " set Links = contact\n"
+           " subsection Mass head\n  set Position = 0, -1\n  set Mass = 8\n  set Motions = y\n"
+           " end\n"
+           " subsection Spring soft\n  set From = ground\n  set To = head\n"
+           "  set Direction = 0, 1\n  set Stiffness = 50\n  set Damping = 90\n end\n"
+           " subsection Load push\n  set On = head\n  set Direction = 0, 1\n"
+           "  set Magnitude = 120\n end\n"
+           " subsection Link contact\n  set Type = sliding contact\n  set From = head\n"
+           "  set To = " +
+           to +
+           "\n  set Direction = 0, 1\n  set Stiffness = 5e4\n end\n"
+           "end\n";
+  }
+
+  std::string cable(const std::string &geometry, const std::string &weight)
+  {
+    return "set Gravity = 0, " + weight +
+           "\nset Bodies = cable\n"
+           "subsection Body cable\n  set Type = cable\n  set To = 60, 0\n"
+           "  set Axial stiffness = 13e6\n  set Mass per length = 1.07\n  set Elements = 120\n  "
+           "set Bending stiffness = 200\n"
+           "  set Mass damping = 0.02\n  set Geometry = " +
+           geometry + "\nend\n";
+  }
+
+  std::vector<double> forces(const std::string &text, const std::vector<std::string> &settings)
+  {
+    std::vector<double> result;
+    std::vector<std::string> all = {"Time/Step=5e-3", "Time/End=1.9",
+                                    "Network/Link contact/Speed=20"};
+    all.insert(all.end(), settings.begin(), settings.end());
+    run_scene(text, all,
+              [&](const taut::StepView &view) { result.push_back(view.state.multiplier.back()); });
+    return result;
+  }
+} // namespace
+
+TEST(CableSliding, as_along_a_wire)
+{
+  const std::string wire =
+      scene("wire @ 10", "set Gravity = 0, 0\n") +
+      "subsection Network\n set Wires = wire\n set Supports = ends\n"
+      " subsection Wire wire\n  set To = 60, 0\n  set Components = beam\n"
+      "  set Bending stiffness = 200\n  set Mass per length = 1.07\n  set Mass damping = 0.02\n"
+      "  set Tension = 16000\n  set Element size = 0.5\n end\n"
+      " subsection Support ends\n  set Wire = wire\n  set Positions = 0, 60\n end\nend\n";
+  // The same mass, and the same place at each time.
+  const double unstressed = length / (1. + tension / 13e6), part = unstressed / length;
+  std::vector<double> coarser;
+  for (const int elements : {120, 240})
+  {
+    const std::vector<double> expected =
+        forces(wire, {"Network/Wire wire/Mass per length=" + std::to_string(1.07 * part),
+                      "Network/Wire wire/Element size=" + std::to_string(length / elements)});
+    double size = 0.;
+    for (const double force : expected)
+      size = std::hypot(size, force - 120.);
+    std::vector<double> errors;
+    for (const std::string geometry : {"linear", "linearised", "nonlinear"})
+    {
+      const std::vector<double> found =
+          forces(scene("cable @ " + std::to_string(10. * part) + ", 0", cable(geometry, "0")),
+                 {"Body cable/Unstressed length=" + std::to_string(unstressed),
+                  "Body cable/Elements=" + std::to_string(elements),
+                  "Network/Link contact/Speed=" + std::to_string(20. * part)});
+      ASSERT_EQ(found.size(), expected.size());
+      double error = 0.;
+      for (std::size_t i = 0; i < found.size(); ++i)
+        error = std::hypot(error, found[i] - expected[i]);
+      errors.push_back(error / size);
+      figure("force under a " + geometry + " cable beside that under a wire, r.m.s., " +
+                 std::to_string(elements) + " elements",
+             errors.back());
+    }
+    EXPECT_NEAR(errors[1], errors[0], 1e-8); // without weight they are the same
+    EXPECT_LT(errors[2], errors[0] + .1);   // the tension changes as the cable moves
+    if (!coarser.empty())
+    {
+      EXPECT_LT(errors[0], .02);
+      EXPECT_GT(coarser[0], 6. * errors[0]);
+    }
+    coarser = errors;
+  }
+}
+
+TEST(CableSliding, follows_the_shape_at_rest)
+{
+  const double weight = 1.07 * 9.81;
+  const auto sag = [&](const double x) { return weight * x * (length - x) / (2. * tension); };
+  const auto raised = [&](const double x)
+  { return 120. * x * (length - x) / (length * tension) + 120. / 5e4; };
+  const auto way = [](const std::string &geometry, const double start, const double end)
+  {
+    double up = 0.;
+    run_scene(scene("cable @ " + std::to_string(start) + ", 0", cable(geometry, "-9.81")),
+              {"Body cable/Horizontal tension=16000", "Network/Link contact/Speed=1",
+               "Network/Load push/Magnitude=120+8*9.81", "Network/Spring soft/Stiffness=1e-3",
+               "Time/Step=0.05", "Time/End=" + std::to_string(end)},
+              [&](const taut::StepView &view)
+              { up = view.state.U[0][0] + view.reference.displacement[0][0]; });
+    return up;
+  };
+  const double across = sag(30.) - sag(10.), rise = raised(30.) - raised(10.);
+  EXPECT_NEAR(way("linear", 10., 0.), raised(10.), .01 * raised(10.));
+  const double linear = way("linear", 10., 20.);
+  figure("way of a mass that slides under a linear cable", linear, "m");
+  EXPECT_NEAR(linear - raised(10.), rise - across, .05 * across);
+
+  // At rest under the middle, whose height then is the start's.
+  const double there = way("nonlinear", 30., 0.) - across, slid = way("nonlinear", 10., 20.);
+  figure("way of a mass that slides under a nonlinear cable beside that at rest", slid - there,
+         "m");
+  EXPECT_NEAR(slid, there, .05 * across);
+}
+
+TEST(CableSliding, leaves_the_cable)
+{
+  try
+  {
+    forces(scene("cable @ 10, 0", cable("linear", "0")),
+           {"Body cable/Unstressed length=59.9", "Time/End=3"});
+    ADD_FAILURE() << "was taken";
+  }
+  catch (const taut::UserError &e)
+  {
+    EXPECT_NE(std::string(e.what()).find("sliding contact 'contact' at t = 2.5 s"),
+              std::string::npos);
+    EXPECT_NE(std::string(e.what()).find("has no place"), std::string::npos);
+  }
+}
