@@ -5,6 +5,7 @@
 #include <taut/base/exceptions.h>
 #include <taut/base/interruption.h>
 #include <taut/base/memory.h>
+#include <taut/model/check_joints.h>
 #include <taut/model/contact_mass.h>
 #include <taut/model/form_finding.h>
 #include <taut/model/scene_constraints.h>
@@ -47,9 +48,10 @@ namespace taut
       : parameters(parameters), log(log), processes(processes),
         model(prepare_scene(parameters, shared)),
         bodies(model, make_partition(model, choose_parts()), processes, shared),
-        links(scene_constraints(model, bodies)), reactions(model, bodies),
-        figures(parameters.statistics, model, links)
+        grounded_links(check_held_ends(model, bodies)), links(scene_constraints(model, bodies)),
+        reactions(model, bodies), figures(parameters.statistics, model, links)
   {
+    check_ball_joints(model, bodies);
     for (const Probe &probe : model.probes)
     {
       probe_terms.emplace_back();

@@ -91,6 +91,16 @@ namespace taut
     if (links.size() > 0 && links.n_fixed() == links.size())
       log << "  no moving link: the interface operator is constant\n";
     log << "  instruction set of the loops: " << instruction_set_in_use() << '\n';
+    if (!grounded_links.empty())
+    {
+      constexpr std::size_t most_links = 6;
+      log << "  at held ends of cables, which stand like the ground:";
+      for (std::size_t i = 0; i < std::min(grounded_links.size(), most_links); ++i)
+        log << (i > 0 ? "," : "") << " '" << grounded_links[i] << "'";
+      log << (grounded_links.size() > most_links ? " and more\n" : "\n");
+    }
+    for (const std::string &entry : parameters.unused_entries())
+      log << "  not used: " << entry << '\n';
     if (parameters.end_time > 0. &&
         std::fabs(n_steps() * parameters.step - parameters.end_time) > 1e-6 * parameters.step)
       log << "  Time/End = " << parameters.end_time

@@ -159,3 +159,109 @@ TEST(CablePlaces, a_load_elsewhere_has_no_arc_length)
   const std::string scene = span("set Loads = a\n" + lamp + load("a", "lamp", "2*s"));
   expect(error_of(scene), {"Load a/Magnitude", "does not depend on s", "formula in t"});
 }
+
+TEST(CablePlaces, what_acts_at_a_held_end_only_is_refused)
+{
+  const std::string remedy = "Held ends of the cable leave that end free";
+  expect(error_of(span("set Loads = a\n" + load("a", "span @ 31, 0", "5"))),
+         {"Load a/On", "a held end of cable 'span'", "no effect", remedy});
+  expect(error_of(span("set Loads = a\n" + load("a", "span @ 1e-11, 0", "5"))), {"Load a/On"});
+  expect(error_of(span("set Links = a\n" + link("a", "ball joint", "ground", "span @ 0, 0"))),
+         {"Link a/To", "a held end of cable 'span'", "does not move either", remedy});
+  expect(error_of(span("set Links = a\n" + link("a", "dropper", "span @ 31, 0", "ground @ 30, -3",
+                                                "set Turns = true\nset Stiffness = 10\n"))),
+         {"Link a/From", "does not move either"});
+  expect(error_of(span("set Links = a\n" + link("a", "joint", "span @ 31, 0", "span @ 0, 0",
+                                                "set Direction = 1, 0\n"))),
+         {"Link a/From", "does not move either"});
+  EXPECT_EQ(error_of(span("set Loads = a\n" + load("a", "span @ 0.01, 0", "5"))), "");
+  EXPECT_EQ(error_of(span("set Loads = a\nset Links = b\n" + load("a", "span @ 31, 0", "5") +
+                          link("b", "ball joint", "span @ 31, 0", "ground")),
+                     {"Body span/Held ends=from"}),
+            "");
+}
+
+TEST(CablePlaces, links_that_a_held_end_grounds_are_named)
+{
+  const std::string scene =
+      span("set Links = tie\n" + lamp + link("tie", "ball joint", "span @ 31, 0", "lamp"));
+  Session held(scene), free(scene, {"Body span/Held ends=from", "Start=undeformed"});
+  held.run([](const StepView &) {});
+  free.run([](const StepView &) {});
+  expect(held.log(), {"at held ends of cables, which stand like the ground: 'tie x', 'tie y', "
+                      "'tie z'\n"});
+  EXPECT_EQ(free.log().find("held ends"), std::string::npos);
+}
+
+TEST(CablePlaces, ball_joints_hold_one_place)
+{
+  // A thousandth of the cable of 31 m.
+  const auto scene = [](const std::string &place)
+  {
+    return span("set Links = tie\nset Masses = lamp\nsubsection Mass lamp\nset Position = " +
+                place + "\nset Motions = x, y, z\nset Mass = 2\nend\n" +
+                link("tie", "ball joint", "span @ 31, 0", "lamp"));
+  };
+  EXPECT_EQ(error_of(scene("30, 0.03, 0")), "");
+  expect(error_of(scene("30, 0, 0.2")), {"Link tie/To", "0.2 m apart", "From is at 30, 0, 0",
+                                         "To at 30, 0, 0.2", "to 0.031 m", "joint along each"});
+  expect(error_of(scene("30, 0.032, 0")), {"0.032 m apart"});
+}
+
+TEST(CablePlaces, ball_joints_of_wires_and_rigid_bodies)
+{
+  const std::string bar = R"(set Generator = network
+set Bodies = bar
+subsection Body bar
+  set Type = rigid body
+  set Mass = 8
+  set Centre = 1, 0
+  set Moments of inertia = 4, 4, 8
+end
+subsection Time
+  set End = 0
+end
+subsection Network
+set Links = pin
+)";
+  const auto pinned = [&](const std::string &to)
+  { return error_of(bar + link("pin", "ball joint", "bar @ 0, 0", "ground @ " + to) + "end\n"); };
+  EXPECT_EQ(pinned("0, 0.0009"), ""); // a radius of gyration of 1 m
+  expect(pinned("0, 0.0011"), {"Link pin/To", "0.0011 m apart", "to 0.001 m"});
+  EXPECT_EQ(error_of(bar + link("pin", "ball joint", "bar @ 0, 0", "ground") + "end\n"), "");
+
+  const auto wire = [](const std::string &place)
+  {
+    return error_of(R"(set Generator = network
+subsection Time
+  set End = 0
+end
+subsection Network
+set Wires = line
+set Supports = ends, aside
+set Links = tie
+set Masses = lamp
+subsection Wire line
+  set To = 10, 0
+  set Components = string, lateral
+  set Mass per length = 1
+  set Tension = 1000
+end
+subsection Support ends
+  set Wire = line
+  set Positions = 0, 10
+end
+subsection Support aside
+  set Wire = line
+  set Motion = lateral
+  set Positions = 0, 10
+end
+subsection Mass lamp
+  set Motions = x, y, z
+  set Mass = 1
+  set Position = )" +
+                    place + "\nend\n" + link("tie", "ball joint", "line @ 5", "lamp") + "end\n");
+  };
+  EXPECT_EQ(wire("5, 0.009"), "");
+  expect(wire("5, 0, 1"), {"Link tie/To", "1 m apart", "From is at 5, 0, 0"});
+}

@@ -105,6 +105,7 @@ namespace taut
     std::string parts_reason; ///< why the parts are so many, if that was left to Taut
     SceneBodies bodies;
     Constraints links;
+    std::vector<std::string> grounded_links; ///< at held ends of cables
 
     Reference reference;
     State start;
