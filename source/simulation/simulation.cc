@@ -84,6 +84,7 @@ namespace taut
       log << "Interface operator: " << time_stepper->interface_description() << '\n';
 
     stop_before_start();
+    const ScenePlaces places = places_in_space(model, bodies);
     // Nothing on the disk was touched until here, where the scene is known to make sense.
     on_root(
         [&]
@@ -96,7 +97,7 @@ namespace taut
           for (const std::string &entry : unused_entries)
             comments.push_back("Not used by it: " + entry);
           prepare_folder(parameters, comments);
-          write_start();
+          write_start(places);
         });
     // At least a hundred times a run, and too seldom to be felt.
     limits = std::make_unique<ModelLimits>(
@@ -240,7 +241,7 @@ namespace taut
 
   void Simulation::check()
   {
-    print_scene(model, log);
+    print_scene(model, places_in_space(model, bodies), log);
     describe();
     find_start();
     stop_before_start();

@@ -5,7 +5,7 @@
 #include <taut/model/scene_constraints.h>
 #include <taut/output/csv_file.h>
 #include <taut/output/reactions.h>
-#include <taut/scene/entries.h>
+#include <taut/output/scene_report.h>
 #include <taut/simulation/free_bodies.h>
 #include <taut/simulation/simulation.h>
 #include <taut/time/initial_state.h>
@@ -174,7 +174,7 @@ namespace taut
     processes.sum(probe_rest);
   }
 
-  void Simulation::write_start() const
+  void Simulation::write_start(const ScenePlaces &places) const
   {
     const std::vector<SupportPoint> supports = support_points(model);
     if (parameters.end_time == 0. && !supports.empty())
@@ -192,16 +192,17 @@ namespace taut
     }
     if (model.links.empty())
       return;
-    CsvFile file(parameters.output.folder + "/start.csv",
-                 {"link", "x [m]", "y [m]", "force [N or N m]", "gap [m or rad]", "length [m]"});
+    CsvFile file(
+        parameters.output.folder + "/start.csv",
+        {"link", "x [m]", "y [m]", "z [m]", "force [N or N m]", "gap [m or rad]", "length [m]"});
     for (std::size_t i = 0; i < links.size(); ++i)
     {
       if (!links[i].is_link())
         continue;
       const Link &link = model.links[links[i].link];
-      const Attachment &end = link.to.kind == Attachment::Kind::ground ? link.from : link.to;
-      const Coordinates at = place(model, end);
-      file << links[i].name << at.x << at.y << start.multiplier[i] << start.geometric_gap[i]
+      const Coordinates &at = link.to.kind == Attachment::Kind::ground ? places.from[links[i].link]
+                                                                       : places.to[links[i].link];
+      file << links[i].name << at.x << at.y << at.z << start.multiplier[i] << start.geometric_gap[i]
            << (link.length > 0. ? link.length : 0.);
       file.end_line();
     }

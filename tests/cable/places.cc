@@ -265,3 +265,49 @@ subsection Mass lamp
   EXPECT_EQ(wire("5, 0.009"), "");
   expect(wire("5, 0, 1"), {"Link tie/To", "1 m apart", "From is at 5, 0, 0"});
 }
+
+TEST(CablePlaces, places_in_space_are_shown)
+{
+  const std::string scene = span(
+      "set Loads = a\nset Links = tie, rope\n" + lamp + load("a", "span @ 15.5, 0", "1") +
+          link("tie", "ball joint", "span @ 31, 0", "lamp") +
+          link("rope", "dropper", "lamp", "span @ 15.5, 0", "set Turns = true\nset Length = 40\n"),
+      "subsection Output\nset Probes = p\nsubsection Probe p\nset Point = "
+      "span @ 15.5, 0\nend\nend\n");
+  Session session(scene, {"Body span/From=0, 0, 4", "Body span/To=30, 0, 4",
+                          "Network/Mass lamp/Position=30, 0, 4"});
+  const ScenePlaces places =
+      places_in_space(session.simulation().scene(), session.simulation().structure());
+  const double lowest = places.loads[0].y;
+  EXPECT_NEAR(lowest, -3.40, .03); // a catenary without stretch: -3.395
+  for (const Coordinates &at : {places.loads[0], places.probes[0], places.to.back()})
+  {
+    EXPECT_NEAR(at.x, 15., 1e-6);
+    EXPECT_EQ(at.y, lowest);
+    EXPECT_NEAR(at.z, 4., 1e-12);
+  }
+  ASSERT_EQ(places.cables.size(), 1u);
+  EXPECT_NEAR(places.cables[0][16].y, lowest, 1e-9);
+  EXPECT_NEAR(places.cables[0].back().x, 30., 1e-9);
+
+  std::ostringstream tables;
+  print_scene(session.simulation().scene(), places, tables);
+  expect(tables.str(), {"span @ 31 (at 30, 0, 4)", "span @ 15.5 (at 15, -3."});
+  write_sketch(session.simulation().scene(), places, session.folder() + ".svg");
+  const std::string drawing = text_in(session.folder() + ".svg");
+  std::remove((session.folder() + ".svg").c_str());
+  expect(drawing, {">span</text>", "cx=\"540\""}); // half of 1000 beside a margin of 40
+  EXPECT_EQ(drawing.find("nan"), std::string::npos);
+  EXPECT_EQ(drawing.find("e+"), std::string::npos);
+
+  session.run([](const StepView &) {});
+  const std::string start = text_in(session.folder() + "/start.csv");
+  EXPECT_EQ(start.substr(0, 29), "link,x [m],y [m],z [m],force ");
+  std::istringstream rope(start.substr(start.find("\nrope,") + 6));
+  for (const double expected : {15., lowest, 4.})
+  {
+    std::string cell;
+    std::getline(rope, cell, ',');
+    EXPECT_NEAR(std::stod(cell), expected, 1e-6);
+  }
+}
