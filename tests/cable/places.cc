@@ -311,3 +311,30 @@ TEST(CablePlaces, places_in_space_are_shown)
     EXPECT_NEAR(std::stod(cell), expected, 1e-6);
   }
 }
+
+TEST(CablePlaces, contacts_are_drawn_where_the_cable_is)
+{
+  const std::string scene = span("", R"(set Contacts = floor
+subsection Contact floor
+  set Slave = span
+  set Obstacle = plane
+  set Point = 0, -0.5
+end
+)");
+  Session session(scene, {"Body span/To=10, 0, 0", "Body span/Unstressed length=10.2",
+                          "Body span/Axial stiffness=1e5", "Output/Field interval=1"});
+  session.run([](const StepView &) {});
+  const std::string file = session.folder() + "/contact_floor_00000.vtu";
+  const std::vector<float> places = array_in(file, "positions"),
+                           displacement = array_in(file, "displacement"),
+                           gap = array_in(file, "gap");
+  ASSERT_EQ(places.size(), 3 * gap.size());
+  ASSERT_EQ(displacement.size(), places.size());
+  double lifted = 0.;
+  for (std::size_t i = 0; i < gap.size(); ++i)
+  {
+    EXPECT_NEAR(places[3 * i + 1] + .5, gap[i], 1e-6);
+    lifted = std::max<double>(lifted, displacement[3 * i + 1]);
+  }
+  EXPECT_NEAR(lifted, .88 - .5, .03); // from its own sag
+}
