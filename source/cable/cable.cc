@@ -5,7 +5,6 @@
 #include <taut/base/about_entry.h>
 #include <taut/base/exceptions.h>
 #include <taut/cable/cable.h>
-#include <taut/substructure/line_fields.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,9 +22,6 @@ namespace taut
     /// A held end that starts so much of the length from its place, or a clamped one that starts so
     /// far from its direction, is none that is held there [1].
     constexpr double same_start = 1e-5;
-
-    /// Strain of the differences that make the linear tension, whose relative error is its square.
-    constexpr double small_strain = 1e-4;
 
     /// Throws EntryError if the straight line that a cable starts in does not fit what holds it.
     void check_start(const CableData &data, const CableElements &element, const CableShape &found)
@@ -156,12 +152,7 @@ namespace taut
   {
     about_entry(origin(),
                 [&] { found = hang(element, {}, data.to - data.from, force_per_length(data)); });
-    const double strain = element.largest_strain(found.positions);
-    if (!(strain <= data.largest_strain))
-      throw EntryError(entry(data, "Largest strain"),
-                       "at rest the cable is stretched by " + text_of(strain) + ", more than " +
-                           text_of(data.largest_strain) +
-                           "; make it longer or stiffer, or allow more");
+    check_strain(std::vector<double>(element.n_dofs(), 0.));
     if (data.linearised && element.smallest_strain(found.positions) <= 0.)
       throw EntryError(entry(data, "Geometry"),
                        "at rest the cable is slack somewhere, and has no small motions there; take "
@@ -342,42 +333,5 @@ namespace taut
     for (std::size_t i = 0; i < U.size(); ++i)
       U[i] -= found.positions[i];
     frames->turn(U);
-  }
-
-  void Cable::write_vtu(const std::string &path, const std::vector<double> &U) const
-  {
-    constexpr unsigned int pieces = 4; ///< of an element
-    const std::vector<double> q = positions(U);
-    double largest = 0.;
-    for (std::size_t i = 0; i < q.size(); ++i)
-      largest = std::max(largest, std::fabs(q[i] - found.positions[i]));
-    // Of a linearised cable T0 + EA t . u', t the tangent of the found shape: linear in U as its
-    // forces are, by differences so that it is taken at the points of the integral, too.
-    const double part = small_strain * std::min(1., element.element_length()) / largest;
-    std::vector<double> before = found.positions, after = found.positions;
-    if (data.linearised && largest > 0.)
-      for (std::size_t i = 0; i < q.size(); ++i)
-      {
-        before[i] -= part * (q[i] - found.positions[i]);
-        after[i] += part * (q[i] - found.positions[i]);
-      }
-    const auto tension = [&](const double s)
-    {
-      if (!data.linearised)
-        return element.tension(q, s);
-      const double change = element.tension(after, s) - element.tension(before, s);
-      return element.tension(found.positions, s) + (largest > 0. ? change / (2. * part) : 0.);
-    };
-    std::vector<std::vector<LinePoint>> lines(element.n_elements());
-    for (unsigned int e = 0; e < lines.size(); ++e)
-      for (unsigned int k = 0; k <= pieces; ++k)
-      {
-        const double s = std::min(element.element_length() * (e + double(k) / pieces), data.length);
-        const Coordinates r = element.position(q, s);
-        lines[e].push_back({add_scaled(data.from, 1., r),
-                            r - element.position(found.positions, s),
-                            {s, tension(s)}});
-      }
-    write_lines(path, lines, {"unstressed_arc_length", "tension"});
   }
 } // namespace taut

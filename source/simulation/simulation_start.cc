@@ -8,6 +8,7 @@
 #include <taut/output/scene_report.h>
 #include <taut/simulation/free_bodies.h>
 #include <taut/simulation/simulation.h>
+#include <taut/substructure/slender_body.h>
 #include <taut/time/initial_state.h>
 #include <taut/time/static_equilibrium.h>
 
@@ -120,6 +121,18 @@ namespace taut
         << start_certificate.balance << " (balance), "
         << counted(start_certificate.iterations, "active-set iteration") << '\n';
     report_free_bodies();
+    processes.agree(
+        [&]
+        {
+          for (std::size_t k = 0; k < bodies.size(); ++k)
+            if (const auto *slender = dynamic_cast<const SlenderBody *>(&bodies[k]))
+            {
+              std::vector<double> U = reference.displacement[k];
+              for (std::size_t i = 0; i < U.size(); ++i)
+                U[i] += start.U[k][i];
+              slender->check_strain(U);
+            }
+        });
   }
 
   /// Says which bodies are at rest only because nothing pushes them.

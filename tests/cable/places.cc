@@ -338,3 +338,25 @@ end
   }
   EXPECT_NEAR(lifted, .88 - .5, .03); // from its own sag
 }
+
+TEST(CablePlaces, strain_is_checked_under_the_loads_of_the_start)
+{
+  // Of a straight cable with EA = 1 MN, linearised, half of the force is added to 3.7 kN in one
+  // half. The other half goes slack at 7 kN and has some 0.2 kN left.
+  for (const auto &[geometry, enough, too_much] :
+       {std::tuple<std::string, const char *, const char *>{"linearised", "32e3", "34e3"},
+        {"nonlinear", "19e3", "20.5e3"}})
+  {
+    const auto stretched =
+        [&geometry = geometry](const std::string &force, const std::string &limit)
+    {
+      return error_of(span("set Loads = a\n" + load("a", "span @ 14.95, 0", force)),
+                      {"Body span/Element=bar", "Body span/Unstressed length=29.9",
+                       "Body span/Geometry=" + geometry, "Network/Load a/Direction=1, 0",
+                       "Body span/Largest strain=" + limit});
+    };
+    EXPECT_EQ(stretched(enough, "0.02"), "") << geometry;
+    expect(stretched(too_much, "0.02"), {"Body span/Largest strain", "at rest", "more than 0.02"});
+    EXPECT_EQ(stretched(too_much, "0.021"), "") << geometry;
+  }
+}

@@ -7,6 +7,7 @@
 #include <taut/cable/find_shape.h>
 #include <taut/substructure/slender_body.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -38,7 +39,7 @@ namespace taut
     Coordinates start_direction;
 
     bool linearised = false;     ///< small motions about the found shape
-    double largest_strain = .02; ///< of the found shape; more is an error [1]
+    double largest_strain = .02; ///< at rest; more is an error [1]
   };
 
   /// The force per unstressed length on a cable: weight and the rest [N/m].
@@ -91,6 +92,8 @@ namespace taut
     /// Where it is compressed most, beyond rounding; a linearised cable never is slack.
     bool is_slack(const std::vector<double> &U, Slack &slack) const override;
 
+    void check_strain(const std::vector<double> &U) const override;
+
     double axial_stiffness() const override { return data.section.axial_stiffness; }
     std::unique_ptr<Substructure> with_axial_stiffness(double EA) const override;
 
@@ -124,6 +127,7 @@ namespace taut
     void hold();
     void assemble();
     void linearise();
+    std::function<double(double)> tension_at(const std::vector<double> &q) const;
     void set_positions(const std::vector<double> &U, std::vector<double> &q) const;
 
     CableData data;
