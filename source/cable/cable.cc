@@ -144,6 +144,8 @@ namespace taut
             "Bending stiffness", "bars have none; take Element = ANCF, or zero");
     require(data.element == CableElement::ancf || !data.clamped, "Clamped",
             "bars have no direction at their ends; take Element = ANCF");
+    require(!data.clamped || data.holds_from || data.holds_to, "Clamped",
+            "it is of held ends, and Held ends = none; hold one, or set it to false");
     require(!data.starts_straight || norm(data.start_direction) > 0., "Start direction",
             "it has no length");
   }

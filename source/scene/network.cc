@@ -358,6 +358,9 @@ namespace taut
       load.rotational = item.rotational;
       load.direction = parse_direction(item.direction, title + "/Direction");
       load.speed = item.speed;
+      if (load.speed != 0. && load.kind != Load::Kind::moving)
+        throw EntryError(title + "/Speed",
+                         "a " + item.type + " load stands; set 'Type = moving', or Speed to 0");
       std::string on = item.on;
       if (load.kind == Load::Kind::distributed && on.find('@') == std::string::npos)
         on += " @ 0";

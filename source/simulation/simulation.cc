@@ -94,6 +94,8 @@ namespace taut
           std::vector<std::string> comments;
           if (!scheme.empty())
             comments.push_back("The scheme was " + scheme + ".");
+          for (const std::string &entry : parameters.unused_entries())
+            comments.push_back("Not used: " + entry);
           for (const std::string &entry : unused_entries)
             comments.push_back("Not used by it: " + entry);
           prepare_folder(parameters, comments);

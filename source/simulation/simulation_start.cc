@@ -91,7 +91,6 @@ namespace taut
           << " with the direction from end to end at each time\n";
     if (links.size() > 0 && links.n_fixed() == links.size())
       log << "  no moving link: the interface operator is constant\n";
-    log << "  instruction set of the loops: " << instruction_set_in_use() << '\n';
     if (!grounded_links.empty())
     {
       constexpr std::size_t most_links = 6;
@@ -102,6 +101,7 @@ namespace taut
     }
     for (const std::string &entry : parameters.unused_entries())
       log << "  not used: " << entry << '\n';
+    log << "  instruction set of the loops: " << instruction_set_in_use() << '\n';
     if (parameters.end_time > 0. &&
         std::fabs(n_steps() * parameters.step - parameters.end_time) > 1e-6 * parameters.step)
       log << "  Time/End = " << parameters.end_time

@@ -360,3 +360,36 @@ TEST(CablePlaces, strain_is_checked_under_the_loads_of_the_start)
     EXPECT_EQ(stretched(too_much, "0.021"), "") << geometry;
   }
 }
+
+TEST(CablePlaces, entries_without_effect_are_named)
+{
+  expect(error_of(span(""), {"Body span/Held ends=none", "Body span/Clamped=true"}),
+         {"Body span/Clamped", "Held ends = none", "set it to false"});
+  expect(error_of(span("set Loads = a\n" + load("a", "span @ 15, 0", "1")),
+                  {"Network/Load a/Speed=3"}),
+         {"Load a/Speed", "Type = moving"});
+  const std::string floor = "set Contacts = floor\nsubsection Contact floor\nset Slave = span\nset "
+                            "Obstacle = plane\nset Point = 0, -10\nend\n";
+  expect(error_of(span("", floor), {"Contact floor/Encloses body=true"}),
+         {"Contact floor/Encloses body", "cylinder or a sphere", "Direction"});
+
+  Session said(span(lamp, floor),
+               {"Contact floor/Radius=2", "Contact floor/Height=0.1*x", "Start=undeformed",
+                "Network/Mass lamp/Initial velocity=0, 0, 0, 1", "Body span/Start direction=1, 0",
+                "Body span/Held ends=from"}),
+      silent(span(lamp, floor), {"Contact floor/Radius=1.0", "Start=given",
+                                 "Network/Mass lamp/Initial velocity=0, 0, 0, 1",
+                                 "Body span/Held ends=from", "Body span/Start direction=1, 0"});
+  said.run([](const StepView &) {});
+  silent.run([](const StepView &) {});
+  for (const char *const entry :
+       {"Contact floor/Radius = 2 (with Obstacle = plane)",
+        "Contact floor/Height = 0.1*x (with Obstacle = plane)",
+        "Network/Mass lamp/Initial velocity = 0, 0, 0, 1 (without Start = given)",
+        "Body span/Start direction = 1, 0 (without Start = given)"})
+  {
+    expect(said.log(), {std::string("not used: ") + entry + "\n"});
+    expect(text_in(said.folder() + "/used.prm"), {std::string("Not used: ") + entry});
+  }
+  EXPECT_EQ(silent.log().find("not used"), std::string::npos) << silent.log();
+}

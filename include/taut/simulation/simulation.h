@@ -105,8 +105,8 @@ namespace taut
     const Scene model;
     std::string parts_reason; ///< why the parts are so many, if that was left to Taut
     SceneBodies bodies;
-    Constraints links;
     std::vector<std::string> grounded_links; ///< at held ends of cables
+    Constraints links;
 
     Reference reference;
     State start;
