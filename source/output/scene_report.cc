@@ -70,9 +70,11 @@ namespace taut
     {
       if (is_on_cable(scene, end))
       {
+        const double rounding = 1e-12 * norm(in_space); // of a place along a shape
+        const auto cleaned = [&](const double x) { return std::fabs(x) <= rounding ? 0. : x; };
+        const Coordinates at = {cleaned(in_space.x), cleaned(in_space.y), cleaned(in_space.z)};
         std::ostringstream out;
-        out << scene.bodies[end.index].name << " @ " << end.place.x << " (at " << text(in_space)
-            << ')';
+        out << scene.bodies[end.index].name << " @ " << end.place.x << " (at " << text(at) << ')';
         return out.str();
       }
       if (end.kind == Attachment::Kind::ground)

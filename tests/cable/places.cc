@@ -293,6 +293,7 @@ TEST(CablePlaces, places_in_space_are_shown)
   std::ostringstream tables;
   print_scene(session.simulation().scene(), places, tables);
   expect(tables.str(), {"span @ 31 (at 30, 0, 4)", "span @ 15.5 (at 15, -3."});
+  EXPECT_EQ(tables.str().find("e-1"), std::string::npos) << tables.str();
   write_sketch(session.simulation().scene(), places, session.folder() + ".svg");
   const std::string drawing = text_in(session.folder() + ".svg");
   std::remove((session.folder() + ".svg").c_str());
