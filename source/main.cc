@@ -99,8 +99,13 @@ namespace
       taut::Simulation simulation(parameters, std::cout, processes);
       simulation.stop_if(taut::interruption);
       // Before what may fail: the drawing shows why.
-      if (arguments.count("sketch") && processes.is_root())
-        taut::write_sketch(simulation.scene(), arguments["sketch"].as<std::string>());
+      if (arguments.count("sketch"))
+      {
+        const taut::ScenePlaces places =
+            taut::places_in_space(simulation.scene(), simulation.structure());
+        if (processes.is_root())
+          taut::write_sketch(simulation.scene(), places, arguments["sketch"].as<std::string>());
+      }
       if (arguments.count("check"))
       {
         simulation.check();

@@ -144,6 +144,8 @@ namespace taut
             "Bending stiffness", "bars have none; take Element = ANCF, or zero");
     require(data.element == CableElement::ancf || !data.clamped, "Clamped",
             "bars have no direction at their ends; take Element = ANCF");
+    require(!data.clamped || data.holds_from || data.holds_to, "Clamped",
+            "it is of held ends, and Held ends = none; hold one, or set it to false");
     require(!data.starts_straight || norm(data.start_direction) > 0., "Start direction",
             "it has no length");
   }
@@ -152,12 +154,7 @@ namespace taut
   {
     about_entry(origin(),
                 [&] { found = hang(element, {}, data.to - data.from, force_per_length(data)); });
-    const double strain = element.largest_strain(found.positions);
-    if (!(strain <= data.largest_strain))
-      throw EntryError(entry(data, "Largest strain"),
-                       "at rest the cable is stretched by " + text_of(strain) + ", more than " +
-                           text_of(data.largest_strain) +
-                           "; make it longer or stiffer, or allow more");
+    check_strain(std::vector<double>(element.n_dofs(), 0.));
     if (data.geometry == CableGeometry::linearised &&
         element.smallest_strain(found.positions) <= 0.)
       throw EntryError(entry(data, "Geometry"),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/about_entry.h>
 #include <taut/model/scene_bodies.h>
+#include <taut/scene/entries.h>
 
 #include <algorithm>
 #include <map>
@@ -165,10 +166,11 @@ namespace taut
                       });
       if (form.index.empty())
         continue;
+      const double s = is_on_cable(scene, load.target) ? load.target.place.x : 0.;
       if (load.magnitude.depends_on_time())
-        made.add_force(form, [f = load.magnitude](const double t) { return f(0., t); });
+        made.add_force(form, [f = load.magnitude, s](const double t) { return f(s, t); });
       else
-        made.add_force(form, load.magnitude(0., 0.));
+        made.add_force(form, load.magnitude(s, 0.));
     }
   }
 

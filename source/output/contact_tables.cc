@@ -24,16 +24,11 @@ namespace taut
       return stem + text;
     }
 
-    /// Where the constraints of a contact act: on a line, which moves by large amounts, displaced,
-    /// otherwise undeformed. All ranks call it together.
-    std::vector<Coordinates> places_of(const ContactGeometry &geometry, const std::size_t body,
-                                       const StepView &step)
+    /// Of the nodes whose constraints a contact has, from the undeformed body [m]. All ranks call
+    /// it together.
+    std::vector<Coordinates> displacements_of(const ContactGeometry &geometry,
+                                              const std::size_t body, const StepView &step)
     {
-      std::vector<Coordinates> places;
-      for (const SurfaceConstraint &constraint : geometry.constraints)
-        places.push_back(constraint.point);
-      if (geometry.slave.dim != 1)
-        return places;
       const Coordinates axes[] = {{1., 0., 0.}, {0., 1., 0.}, {0., 0., 1.}};
       std::vector<double> shares;
       for (const SurfaceConstraint &constraint : geometry.constraints)
@@ -49,10 +44,25 @@ namespace taut
         }
       }
       step.structure.communicator().sum(shares);
-      for (std::size_t i = 0; i < places.size(); ++i)
-        places[i] =
-            add_scaled(places[i], 1., {shares[3 * i], shares[3 * i + 1], shares[3 * i + 2]});
-      return places;
+      std::vector<Coordinates> result;
+      for (std::size_t i = 0; i < shares.size(); i += 3)
+        result.push_back({shares[i], shares[i + 1], shares[i + 2]});
+      return result;
+    }
+
+    /// Where a constraint acts: on a line, which moves by large amounts, displaced, otherwise
+    /// undeformed [m].
+    Coordinates place_of(const ContactGeometry &geometry, const std::size_t constraint,
+                         const Coordinates &displacement)
+    {
+      const Coordinates &point = geometry.constraints[constraint].point;
+      return geometry.slave.dim == 1 ? add_scaled(point, 1., displacement) : point;
+    }
+
+    void append(const Coordinates &p, std::vector<float> &values)
+    {
+      for (unsigned int d = 0; d < 3; ++d)
+        values.push_back(static_cast<float>(p[d]));
     }
   } // namespace
 
@@ -97,18 +107,14 @@ namespace taut
         continue;
       const std::vector<SurfaceConstraint> &all = contact.geometry.constraints;
       std::vector<std::vector<std::int32_t>> cells;
-      std::vector<float> points, normals;
+      std::vector<float> normals;
       for (const SurfaceConstraint &constraint : all)
       {
         cells.push_back({static_cast<std::int32_t>(cells.size())});
-        for (int d = 0; d < 3; ++d)
-        {
-          points.push_back(static_cast<float>(constraint.point[d]));
-          normals.push_back(static_cast<float>(constraint.normal[d]));
-        }
+        append(constraint.normal, normals);
       }
       contact.picture = std::make_unique<VtuFile>(all.size(), cells);
-      contact.picture->set(VtuFile::positions, points);
+      contact.displacement = contact.picture->add(VtuFile::Location::points, "displacement", 3);
       contact.pressure = contact.picture->add(VtuFile::Location::points, "pressure", 1);
       contact.gap = contact.picture->add(VtuFile::Location::points, "gap", 1);
       contact.picture->set(contact.picture->add(VtuFile::Location::points, "normal", 3), normals);
@@ -125,10 +131,18 @@ namespace taut
       next = state.time + interval;
     if (picture)
       next_field = state.time + field_interval;
-    std::vector<std::vector<Coordinates>> places(contacts.size());
-    for (std::size_t c = 0; line && c < contacts.size(); ++c)
-      places[c] = places_of(contacts[c].geometry, step.scene.contacts[c].slave.body, step);
-    if (!is_root || (!line && !picture))
+    if (!line && !picture)
+      return;
+    std::vector<std::vector<Coordinates>> displacements;
+    for (std::size_t c = 0; c < contacts.size(); ++c)
+    {
+      const ContactGeometry &geometry = contacts[c].geometry;
+      displacements.push_back(
+          picture || geometry.slave.dim == 1
+              ? displacements_of(geometry, step.scene.contacts[c].slave.body, step)
+              : std::vector<Coordinates>(geometry.constraints.size()));
+    }
+    if (!is_root)
       return;
     for (std::size_t c = 0; c < contacts.size(); ++c)
     {
@@ -136,14 +150,14 @@ namespace taut
       while (step.constraints[first].contact != c)
         ++first;
       if (line)
-        write_line(contacts[c], state, first, places[c]);
+        write_line(contacts[c], state, first, displacements[c]);
       if (picture)
-        write_picture(contacts[c], state, first);
+        write_picture(contacts[c], state, first, displacements[c]);
     }
   }
 
   void ContactTables::write_line(Contact &contact, const State &state, const std::size_t first,
-                                 const std::vector<Coordinates> &places)
+                                 const std::vector<Coordinates> &displacements)
   {
     Coordinates force, weighted;
     double area = 0., sum = 0., pressure = 0., gap = std::numeric_limits<double>::infinity();
@@ -157,7 +171,7 @@ namespace taut
         continue;
       ++n_closed;
       force = add_scaled(force, -N, all[i].normal);
-      weighted = add_scaled(weighted, N, places[i]);
+      weighted = add_scaled(weighted, N, place_of(contact.geometry, i, displacements[i]));
       sum += N;
       area += all[i].area;
       pressure = std::max(pressure, N / all[i].area);
@@ -171,15 +185,20 @@ namespace taut
     contact.table->end_line();
   }
 
-  void ContactTables::write_picture(Contact &contact, const State &state, const std::size_t first)
+  void ContactTables::write_picture(Contact &contact, const State &state, const std::size_t first,
+                                    const std::vector<Coordinates> &displacements)
   {
-    std::vector<float> pressure, gap;
+    std::vector<float> places, moved, pressure, gap;
     const std::vector<SurfaceConstraint> &all = contact.geometry.constraints;
     for (std::size_t i = 0; i < all.size(); ++i)
     {
+      append(place_of(contact.geometry, i, displacements[i]), places);
+      append(displacements[i], moved);
       pressure.push_back(static_cast<float>(state.multiplier[first + i] / all[i].area));
       gap.push_back(static_cast<float>(state.geometric_gap[first + i]));
     }
+    contact.picture->set(VtuFile::positions, places);
+    contact.picture->set(contact.displacement, moved);
     contact.picture->set(contact.pressure, pressure);
     contact.picture->set(contact.gap, gap);
     const std::string file = frame(contact.stem, contact.collection->size());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/archive.h>
+#include <taut/cable/cable.h>
 #include <taut/output/model_limits.h>
 
 #include <algorithm>
@@ -72,6 +73,7 @@ namespace taut
       : interval(std::max(1L, interval))
   {
     add_slopes(scene, structure);
+    add_cables(scene, structure);
     add_distances(scene, structure);
     compare_speeds(scene);
     compare_filter(scene, filter_frequency, step);
@@ -84,16 +86,86 @@ namespace taut
       const Wire &wire = scene.wires[w];
       if (wire.transverse == TransverseKind::none)
         continue;
-      Line line{wire.name, "", forms.ends.size(), 0, thinned(grid(scene, w), most_slopes), {}};
+      Line line{"wire '" + wire.name + "'",           "", forms.ends.size(),          0,
+                thinned(grid(scene, w), most_slopes), {}, wire.has_lateral ? 2u : 1u, {}};
       line.n = line.positions.size();
-      for (const double s : line.positions)
-      {
-        std::vector<Term> terms;
-        structure.motion({Attachment::Kind::wire, w, s}, false, wire.normal(), 1., terms);
-        forms.add(terms);
-      }
+      for (unsigned int d = 0; d < line.n_directions; ++d)
+        for (const double s : line.positions)
+        {
+          std::vector<Term> terms;
+          structure.motion({Attachment::Kind::wire, w, s}, false,
+                           d == 0 ? wire.normal() : wire.binormal(), 1., terms);
+          forms.add(terms);
+        }
       lines.push_back(std::move(line));
     }
+  }
+
+  void ModelLimits::add_cables(const Scene &scene, const SceneBodies &structure)
+  {
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    {
+      if (scene.bodies[i].type_name != "cable")
+        continue;
+      const std::size_t k = structure.indices_of_body(i)[0];
+      double known[] = {0., 0.}; // length and number of elements, on all ranks
+      if (k != Structure::elsewhere && structure[k].is_linear())
+      {
+        const CableElements &elements = dynamic_cast<const Cable &>(structure[k]).elements();
+        known[0] = elements.length();
+        known[1] = elements.n_elements();
+      }
+      structure.communicator().sum(known, 2);
+      if (known[1] == 0.)
+        continue;
+      std::vector<double> nodes;
+      for (unsigned int e = 0; e <= known[1]; ++e)
+        nodes.push_back(known[0] * e / known[1]);
+      Line line{"linearised cable '" + scene.bodies[i].name + "'",
+                "",
+                forms.ends.size(),
+                0,
+                thinned(nodes, most_slopes),
+                {},
+                3,
+                {}};
+      line.n = line.positions.size();
+      std::vector<Coordinates> places;
+      const auto at = [&](const double s)
+      {
+        Attachment point{Attachment::Kind::body, i};
+        point.place = {s};
+        return point;
+      };
+      for (const double s : line.positions)
+        places.push_back(structure.position(scene, at(s)));
+      for (std::size_t j = 0; j + 1 < line.n; ++j)
+        line.chords.push_back(places[j + 1] - places[j]);
+      for (const Coordinates &axis :
+           {Coordinates{1.}, Coordinates{0., 1.}, Coordinates{0., 0., 1.}})
+        for (const double s : line.positions)
+        {
+          std::vector<Term> terms;
+          structure.motion(at(s), false, axis, 1., terms);
+          forms.add(terms);
+        }
+      lines.push_back(std::move(line));
+    }
+  }
+
+  /// Between a sample and the next one [rad].
+  double ModelLimits::slope_after(const Line &line, const double *const u,
+                                  const std::size_t sample) const
+  {
+    double change[3] = {0., 0., 0.};
+    for (unsigned int d = 0; d < line.n_directions; ++d)
+      change[d] = u[d * line.n + sample + 1] - u[d * line.n + sample];
+    Coordinates across = {change[0], change[1], change[2]};
+    if (line.chords.empty())
+      return norm(across) / (line.positions[sample + 1] - line.positions[sample]);
+    const Coordinates &chord = line.chords[sample];
+    across = add_scaled(across, -dot(across, chord) / dot(chord, chord), chord);
+    return norm(across) / norm(chord);
   }
 
   void ModelLimits::add_distances(const Scene &scene, const SceneBodies &structure)
@@ -107,7 +179,14 @@ namespace taut
         if (a == b || std::fabs(slope_a) < least_part_along_x ||
             std::fabs(slope_b) < least_part_along_x || are_in_contact(scene, a, b))
           continue;
-        Line line{lower.name, upper.name, forms.ends.size(), 0, {}, {}};
+        Line line{"wire '" + lower.name + "'",
+                  "wire '" + upper.name + "'",
+                  forms.ends.size(),
+                  0,
+                  {},
+                  {},
+                  1,
+                  {}};
         for (const double s : thinned(grid(scene, a), most_distances))
         {
           const double s_above = (lower.at(s).x - upper.a.x) / slope_b;
@@ -203,8 +282,8 @@ namespace taut
         if (!line.distances.empty())
           keep(distance, u[i], line.distances[i], line.positions[i], l);
         else if (i + 1 < line.n)
-          keep(slope, std::fabs(u[i + 1] - u[i]) / (line.positions[i + 1] - line.positions[i]),
-               largest_slope, .5 * (line.positions[i] + line.positions[i + 1]), l);
+          keep(slope, slope_after(line, u, i), largest_slope,
+               .5 * (line.positions[i] + line.positions[i + 1]), l);
     }
   }
 
@@ -231,21 +310,25 @@ namespace taut
   {
     std::vector<ModelWarning> result = constant;
     if (slope.excess > 1.)
-      result.push_back({"slope",
-                        text("wire '", lines[slope.line].name, "' has a slope of ", slope.value,
-                             " rad at ", slope.position, " m, t = ", slope.time,
-                             " s: the equations are those of small slopes, up to ", slope.limit,
-                             " rad. Check loads and tension"),
-                        slope.value, slope.limit, "rad", slope.time});
-    if (distance.excess > 1.)
+    {
+      const Line &line = lines[slope.line];
+      const bool is_wire = line.chords.empty();
       result.push_back(
-          {"distance",
-           text("wire '", lines[distance.line].name, "' comes ", distance.value,
-                " m nearer to wire '", lines[distance.line].other, "', which is ", distance.limit,
-                " m above it, at ", distance.position, " m, t = ", distance.time,
-                " s: it passes through it, for no contact between them is part of "
-                "the model. Check loads and the distance"),
-           distance.value, distance.limit, "m", distance.time});
+          {"slope",
+           text(line.name, is_wire ? " has a slope of " : " turns by ", slope.value, " rad at ",
+                slope.position, " m, t = ", slope.time, " s: the equations are those of small ",
+                is_wire ? "slopes" : "turns", ", up to ", slope.limit,
+                " rad. Check loads and tension", is_wire ? "" : ", or take Geometry = nonlinear"),
+           slope.value, slope.limit, "rad", slope.time});
+    }
+    if (distance.excess > 1.)
+      result.push_back({"distance",
+                        text(lines[distance.line].name, " comes ", distance.value, " m nearer to ",
+                             lines[distance.line].other, ", which is ", distance.limit,
+                             " m above it, at ", distance.position, " m, t = ", distance.time,
+                             " s: it passes through it, for no contact between them is part of "
+                             "the model. Check loads and the distance"),
+                        distance.value, distance.limit, "m", distance.time});
     return result;
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/memory.h>
 #include <taut/base/write_file.h>
+#include <taut/cable/cable.h>
 #include <taut/output/scene_report.h>
 #include <taut/scene/entries.h>
 
@@ -65,8 +66,17 @@ namespace taut
       return out.str();
     }
 
-    std::string text(const Scene &scene, const Attachment &end)
+    std::string text(const Scene &scene, const Attachment &end, const Coordinates &in_space)
     {
+      if (is_on_cable(scene, end))
+      {
+        const double rounding = 1e-12 * norm(in_space); // of a place along a shape
+        const auto cleaned = [&](const double x) { return std::fabs(x) <= rounding ? 0. : x; };
+        const Coordinates at = {cleaned(in_space.x), cleaned(in_space.y), cleaned(in_space.z)};
+        std::ostringstream out;
+        out << scene.bodies[end.index].name << " @ " << end.place.x << " (at " << text(at) << ')';
+        return out.str();
+      }
       if (end.kind == Attachment::Kind::ground)
         return end.has_place ? "ground @ " + text(end.place) : "ground";
       if (end.kind == Attachment::Kind::mass)
@@ -158,15 +168,51 @@ namespace taut
     }
   } // namespace
 
-  void print_scene(const Scene &scene, std::ostream &out)
+  ScenePlaces places_in_space(const Scene &scene, const SceneBodies &bodies)
+  {
+    constexpr unsigned int n_pieces = 32; ///< of the line of a cable
+    ScenePlaces places;
+    for (const Link &link : scene.links)
+    {
+      places.from.push_back(bodies.position(scene, link.from));
+      places.to.push_back(bodies.position(scene, link.to));
+    }
+    for (const Load &load : scene.loads)
+      places.loads.push_back(bodies.position(scene, load.target));
+    for (const Probe &probe : scene.probes)
+      places.probes.push_back(bodies.position(scene, probe.point));
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+    {
+      places.cables.emplace_back();
+      if (scene.bodies[i].type_name != "cable")
+        continue;
+      std::vector<double> numbers(3 * (n_pieces + 1), 0.);
+      const std::size_t k = bodies.indices_of_body(i)[0];
+      if (k != Structure::elsewhere)
+        for (unsigned int j = 0; j <= n_pieces; ++j)
+        {
+          const auto &cable = dynamic_cast<const Cable &>(bodies[k]);
+          const Coordinates at = cable.position({cable.elements().length() * j / n_pieces});
+          for (unsigned int c = 0; c < 3; ++c)
+            numbers[3 * j + c] = at[c];
+        }
+      bodies.communicator().sum(numbers);
+      for (unsigned int j = 0; j <= n_pieces; ++j)
+        places.cables.back().push_back({numbers[3 * j], numbers[3 * j + 1], numbers[3 * j + 2]});
+    }
+    return places;
+  }
+
+  void print_scene(const Scene &scene, const ScenePlaces &places, std::ostream &out)
   {
     print_bodies(scene, out);
 
     const char *kinds[] = {"joint", "stop", "dropper", "sliding contact"};
     Table links({"name", "type", "from", "to", "direction", "stiffness [N/m]", "gap [m]",
                  "length [m]", "speed [m/s]"});
-    for (const Link &l : scene.links)
+    for (std::size_t i = 0; i < scene.links.size(); ++i)
     {
+      const Link &l = scene.links[i];
       std::ostringstream stiffness;
       if (l.law)
         stiffness << l.law->description();
@@ -174,7 +220,8 @@ namespace taut
         stiffness << "rigid";
       else
         stiffness << l.stiffness;
-      links.add(l.name, kinds[static_cast<int>(l.kind)], text(scene, l.from), text(scene, l.to),
+      links.add(l.name, kinds[static_cast<int>(l.kind)], text(scene, l.from, places.from[i]),
+                text(scene, l.to, places.to[i]),
                 l.turns ? "turns" : direction(l.rotational, l.direction), stiffness.str(), l.gap,
                 l.turns ? l.unstressed_length : l.length, l.speed);
     }
@@ -182,19 +229,27 @@ namespace taut
 
     const char *load_kinds[] = {"point", "distributed", "moving"};
     Table loads({"name", "type", "on", "direction", "magnitude", "speed [m/s]"});
-    for (const Load &l : scene.loads)
-      loads.add(l.name, load_kinds[static_cast<int>(l.kind)], text(scene, l.target),
-                direction(l.rotational, l.direction), l.magnitude.formula(), l.speed);
+    for (std::size_t i = 0; i < scene.loads.size(); ++i)
+    {
+      const Load &l = scene.loads[i];
+      loads.add(l.name, load_kinds[static_cast<int>(l.kind)],
+                text(scene, l.target, places.loads[i]), direction(l.rotational, l.direction),
+                l.magnitude.formula(), l.speed);
+    }
     loads.print("Loads", out);
 
     Table probes({"name", "point", "direction"});
-    for (const Probe &p : scene.probes)
-      probes.add(p.name, text(scene, p.point), direction(p.rotational, p.direction));
+    for (std::size_t i = 0; i < scene.probes.size(); ++i)
+    {
+      const Probe &p = scene.probes[i];
+      probes.add(p.name, text(scene, p.point, places.probes[i]),
+                 direction(p.rotational, p.direction));
+    }
     probes.print("Probes", out);
     out << "Gravity " << text(scene.gravity) << " m/s^2\n";
   }
 
-  void write_sketch(const Scene &scene, const std::string &path)
+  void write_sketch(const Scene &scene, const ScenePlaces &places, const std::string &path)
   {
     double left = 1e300, right = -1e300, bottom = 1e300, top = -1e300;
     const auto include = [&](const Coordinates &p)
@@ -211,6 +266,16 @@ namespace taut
     }
     for (const Mass &mass : scene.masses)
       include(mass.position);
+    for (const std::vector<Coordinates> &cable : places.cables)
+      for (const Coordinates &p : cable)
+        include(p);
+    for (std::size_t i = 0; i < scene.links.size(); ++i)
+      for (const auto &[end, at] :
+           {std::pair(&scene.links[i].from, places.from[i]), {&scene.links[i].to, places.to[i]}})
+        if (end->kind == Attachment::Kind::body)
+          include(at);
+    if (left > right) // nothing to draw
+      left = right = bottom = top = 0.;
     constexpr double width = 1000., margin = 40., least_height = 120.;
     const double span = std::max({right - left, top - bottom, 1e-12});
     const double sx = width / std::max(right - left, .1 * span);
@@ -242,13 +307,22 @@ namespace taut
         safe += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
       out << "<text x=\"" << X(p) + 6. << "\" y=\"" << Y(p) - 6. << "\">" << safe << "</text>\n";
     };
-    for (const Link &link : scene.links)
+    for (std::size_t i = 0; i < scene.links.size(); ++i)
     {
+      const Link &link = scene.links[i];
       if (link.from.kind != Attachment::Kind::ground && link.to.kind != Attachment::Kind::ground)
-        line(place(scene, link.from), place(scene, link.to), "stroke=\"#888\"");
-      const Attachment &end = link.to.kind == Attachment::Kind::ground ? link.from : link.to;
-      dot(place(scene, end), link.moving() ? 5. : 2.5,
+        line(places.from[i], places.to[i], "stroke=\"#888\"");
+      dot(link.to.kind == Attachment::Kind::ground ? places.from[i] : places.to[i],
+          link.moving() ? 5. : 2.5,
           link.unilateral() ? "fill=\"none\" stroke=\"#c33\"" : "fill=\"#c33\"");
+    }
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    {
+      const std::vector<Coordinates> &cable = places.cables[b];
+      for (std::size_t j = 1; j < cable.size(); ++j)
+        line(cable[j - 1], cable[j], "stroke=\"black\" stroke-width=\"2\"");
+      if (!cable.empty())
+        label(cable[0], scene.bodies[b].name);
     }
     for (const Wire &wire : scene.wires)
     {
@@ -263,7 +337,8 @@ namespace taut
       dot(mass.position, 5., "fill=\"#393\"");
       label(mass.position, mass.name);
     }
-    out << "<text x=\"8\" y=\"14\">black: wires, blue: supports, green: masses, red: links "
+    out << "<text x=\"8\" y=\"14\">black: wires and cables, blue: supports, green: masses, red: "
+           "links "
            "(hollow: "
            "unilateral); heights x "
         << sy / sx << "</text>\n</svg>\n";

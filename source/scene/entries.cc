@@ -179,8 +179,7 @@ namespace taut
       attachment.kind = Attachment::Kind::body;
       attachment.index = find_name(scene.bodies, name);
       if (attachment.index != ground)
-        return on_body(attachment, text.substr(at + 1), entry,
-                       scene.bodies[attachment.index].type_name == "cable");
+        return on_body(attachment, text.substr(at + 1), entry, is_on_cable(scene, attachment));
     }
     std::vector<std::string> names = {"ground"};
     std::string known = "ground, ground @ x, y";
@@ -204,6 +203,11 @@ namespace taut
       throw EntryError(entry, "it says not where; write one of: " + known);
     throw EntryError(entry, "'" + text + "' is not known; known are: " + known +
                                 (near.empty() ? "" : "; did you mean '" + near + "'?"));
+  }
+
+  bool is_on_cable(const Scene &scene, const Attachment &point)
+  {
+    return point.kind == Attachment::Kind::body && scene.bodies[point.index].type_name == "cable";
   }
 
   Coordinates place(const Scene &scene, const Attachment &point)

@@ -243,11 +243,6 @@ namespace taut
 
   namespace
   {
-    bool is_on_cable(const Attachment &end, const Scene &scene)
-    {
-      return end.kind == Attachment::Kind::body && scene.bodies[end.index].type_name == "cable";
-    }
-
     /// Throws EntryError for ends on bodies that make no link.
     void check_ends(const Link &link, const Scene &scene, const std::string &title,
                     const bool has_direction)
@@ -257,7 +252,7 @@ namespace taut
         throw EntryError(title + "/To",
                          "it is the place that From is; a link is between two places");
       if (!has_direction && !link.rotational &&
-          (is_on_cable(link.from, scene) || is_on_cable(link.to, scene)))
+          (is_on_cable(scene, link.from) || is_on_cable(scene, link.to)))
         throw EntryError(title + "/Direction",
                          "give 'x, y' or 'x, y, z', or set 'Turns = true': places on a cable are "
                          "counted along it, so that no straight line between the ends is known "
@@ -364,12 +359,20 @@ namespace taut
                                              : Load::Kind::point;
       load.rotational = item.rotational;
       load.direction = parse_direction(item.direction, title + "/Direction");
-      load.magnitude = Expression(item.magnitude, title + "/Magnitude");
       load.speed = item.speed;
+      if (load.speed != 0. && load.kind != Load::Kind::moving)
+        throw EntryError(title + "/Speed",
+                         "a " + item.type + " load stands; set 'Type = moving', or Speed to 0");
       std::string on = item.on;
       if (load.kind == Load::Kind::distributed && on.find('@') == std::string::npos)
         on += " @ 0";
-      for (const Attachment &target : parse_attachments(on, scene, title + "/On"))
+      const std::vector<Attachment> targets = parse_attachments(on, scene, title + "/On");
+      const bool has_arc_length =
+          targets[0].kind == Attachment::Kind::wire || is_on_cable(scene, targets[0]);
+      load.magnitude =
+          Expression(item.magnitude, title + "/Magnitude",
+                     has_arc_length ? Expression::Variables::both : Expression::Variables::time);
+      for (const Attachment &target : targets)
       {
         load.name = loads.names[i];
         load.target = target;

@@ -225,12 +225,15 @@ namespace taut
                       "'point': at a mass or a point of a wire. 'distributed': along a wire. "
                       "'moving': travels on a wire from its position with Speed",
                       Selection("point|distributed|moving"));
-    prm.add_parameter(
-        "On", on, "A mass or 'wire @ position'; of a distributed load the position is not used");
+    prm.add_parameter("On", on,
+                      "A mass, 'wire @ position' or 'body @ x, y, z'; of a distributed load the "
+                      "position is not used");
     prm.add_parameter("Direction", direction, "'x, y' or 'x, y, z'; the length does not matter",
                       coordinates());
     prm.add_parameter("Rotational", rotational, "A moment about z instead of a force");
-    prm.add_parameter("Magnitude", magnitude, "A formula in s and t [N, N/m, N m]");
+    prm.add_parameter(
+        "Magnitude", magnitude,
+        "A formula in t and, on a wire or a cable, in the position s there [N, N/m, N m]");
     prm.add_parameter("Speed", speed, "Of a moving load [m/s]", any_number());
   }
 } // namespace taut

@@ -148,6 +148,11 @@ namespace taut
       if ((obstacle.shape == Shape::cylinder || obstacle.shape == Shape::sphere) &&
           !(item.radius > 0.))
         throw EntryError(section + "Radius", "it must be positive");
+      if (item.encloses_body && obstacle.shape != Shape::cylinder &&
+          obstacle.shape != Shape::sphere)
+        throw EntryError(section + "Encloses body",
+                         "only a cylinder or a sphere encloses a body; set it to false, and "
+                         "Direction to the side that is free");
       obstacle.encloses_body = item.encloses_body;
       obstacle.height = Expression(item.height, section + "Height", Expression::Variables::space);
       if (obstacle.height.depends_on_time())

@@ -41,8 +41,9 @@ namespace taut
         throw EntryError(entry, "the first number is the smaller one; swap them");
     }
 
-    /// All entries by path, with their values.
-    std::map<std::string, std::string> values_in(const dealii::ParameterHandler &prm)
+    /// All entries by path, with their values, or with their defaults.
+    std::map<std::string, std::string> values_in(const dealii::ParameterHandler &prm,
+                                                 const std::string &which = "value")
     {
       std::ostringstream json;
       prm.print_parameters(json, dealii::ParameterHandler::JSON);
@@ -52,7 +53,7 @@ namespace taut
       {
         for (const auto &[name, child] : node.items())
           if (child.is_object() && child.contains("pattern_description"))
-            values[path + name] = child.at("value").get<std::string>();
+            values[path + name] = child.at(which).get<std::string>();
           else if (child.is_object())
             walk(child, path + name + "/");
       };
@@ -317,6 +318,7 @@ namespace taut
   void Parameters::keep_values()
   {
     entry_values = values_in(*entries);
+    entry_defaults = values_in(*entries, "default_value");
   }
 
   void Parameters::set_defaults()

@@ -5,6 +5,7 @@
 #include <taut/base/exceptions.h>
 #include <taut/base/interruption.h>
 #include <taut/base/memory.h>
+#include <taut/model/check_joints.h>
 #include <taut/model/contact_mass.h>
 #include <taut/model/form_finding.h>
 #include <taut/model/scene_constraints.h>
@@ -47,9 +48,10 @@ namespace taut
       : parameters(parameters), log(log), processes(processes),
         model(prepare_scene(parameters, shared)),
         bodies(model, make_partition(model, choose_parts()), processes, shared),
-        links(scene_constraints(model, bodies)), reactions(model, bodies),
-        figures(parameters.statistics, model, links)
+        grounded_links(check_held_ends(model, bodies)), links(scene_constraints(model, bodies)),
+        reactions(model, bodies), figures(parameters.statistics, model, links)
   {
+    check_ball_joints(model, bodies);
     for (const Probe &probe : model.probes)
     {
       probe_terms.emplace_back();
@@ -82,6 +84,7 @@ namespace taut
       log << "Interface operator: " << time_stepper->interface_description() << '\n';
 
     stop_before_start();
+    const ScenePlaces places = places_in_space(model, bodies);
     // Nothing on the disk was touched until here, where the scene is known to make sense.
     on_root(
         [&]
@@ -91,10 +94,12 @@ namespace taut
           std::vector<std::string> comments;
           if (!scheme.empty())
             comments.push_back("The scheme was " + scheme + ".");
+          for (const std::string &entry : parameters.unused_entries())
+            comments.push_back("Not used: " + entry);
           for (const std::string &entry : unused_entries)
             comments.push_back("Not used by it: " + entry);
           prepare_folder(parameters, comments);
-          write_start();
+          write_start(places);
         });
     // At least a hundred times a run, and too seldom to be felt.
     limits = std::make_unique<ModelLimits>(
@@ -238,7 +243,7 @@ namespace taut
 
   void Simulation::check()
   {
-    print_scene(model, log);
+    print_scene(model, places_in_space(model, bodies), log);
     describe();
     find_start();
     stop_before_start();

@@ -5,9 +5,10 @@
 #include <taut/model/scene_constraints.h>
 #include <taut/output/csv_file.h>
 #include <taut/output/reactions.h>
-#include <taut/scene/entries.h>
+#include <taut/output/scene_report.h>
 #include <taut/simulation/free_bodies.h>
 #include <taut/simulation/simulation.h>
+#include <taut/substructure/slender_body.h>
 #include <taut/time/initial_state.h>
 #include <taut/time/static_equilibrium.h>
 
@@ -90,6 +91,16 @@ namespace taut
           << " with the direction from end to end at each time\n";
     if (links.size() > 0 && links.n_fixed() == links.size())
       log << "  no moving link: the interface operator is constant\n";
+    if (!grounded_links.empty())
+    {
+      constexpr std::size_t most_links = 6;
+      log << "  at held ends of cables, which stand like the ground:";
+      for (std::size_t i = 0; i < std::min(grounded_links.size(), most_links); ++i)
+        log << (i > 0 ? "," : "") << " '" << grounded_links[i] << "'";
+      log << (grounded_links.size() > most_links ? " and more\n" : "\n");
+    }
+    for (const std::string &entry : parameters.unused_entries())
+      log << "  not used: " << entry << '\n';
     log << "  instruction set of the loops: " << instruction_set_in_use() << '\n';
     if (parameters.end_time > 0. &&
         std::fabs(n_steps() * parameters.step - parameters.end_time) > 1e-6 * parameters.step)
@@ -110,6 +121,18 @@ namespace taut
         << start_certificate.balance << " (balance), "
         << counted(start_certificate.iterations, "active-set iteration") << '\n';
     report_free_bodies();
+    processes.agree(
+        [&]
+        {
+          for (std::size_t k = 0; k < bodies.size(); ++k)
+            if (const auto *slender = dynamic_cast<const SlenderBody *>(&bodies[k]))
+            {
+              std::vector<double> U = reference.displacement[k];
+              for (std::size_t i = 0; i < U.size(); ++i)
+                U[i] += start.U[k][i];
+              slender->check_strain(U);
+            }
+        });
   }
 
   /// Says which bodies are at rest only because nothing pushes them.
@@ -164,7 +187,7 @@ namespace taut
     processes.sum(probe_rest);
   }
 
-  void Simulation::write_start() const
+  void Simulation::write_start(const ScenePlaces &places) const
   {
     const std::vector<SupportPoint> supports = support_points(model);
     if (parameters.end_time == 0. && !supports.empty())
@@ -182,16 +205,17 @@ namespace taut
     }
     if (model.links.empty())
       return;
-    CsvFile file(parameters.output.folder + "/start.csv",
-                 {"link", "x [m]", "y [m]", "force [N or N m]", "gap [m or rad]", "length [m]"});
+    CsvFile file(
+        parameters.output.folder + "/start.csv",
+        {"link", "x [m]", "y [m]", "z [m]", "force [N or N m]", "gap [m or rad]", "length [m]"});
     for (std::size_t i = 0; i < links.size(); ++i)
     {
       if (!links[i].is_link())
         continue;
       const Link &link = model.links[links[i].link];
-      const Attachment &end = link.to.kind == Attachment::Kind::ground ? link.from : link.to;
-      const Coordinates at = place(model, end);
-      file << links[i].name << at.x << at.y << start.multiplier[i] << start.geometric_gap[i]
+      const Coordinates &at = link.to.kind == Attachment::Kind::ground ? places.from[links[i].link]
+                                                                       : places.to[links[i].link];
+      file << links[i].name << at.x << at.y << at.z << start.multiplier[i] << start.geometric_gap[i]
            << (link.length > 0. ? link.length : 0.);
       file.end_line();
     }

@@ -137,6 +137,8 @@ TEST(CableConditions, a_straight_start_fits_what_is_held)
   data.clamped = true;
   expect_entry("Clamped", error_of(make));
   data.holds_from = false;
+  expect_entry("Clamped", error_of(make)); // of no end at all
+  data.clamped = false;
   EXPECT_EQ(error_of(make), "none");
 }
 

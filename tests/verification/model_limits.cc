@@ -131,3 +131,95 @@ TEST(ModelLimits, a_step_that_does_not_resolve_the_filter)
   EXPECT_EQ(coarse["limit"], 10.);
   EXPECT_TRUE(filter("50").is_null());
 }
+
+// Claim: motions along z count as those along y, and both together. Expected: slopes of a string
+// under a force in its middle, F / 2 T along each.
+TEST(ModelLimits, a_wire_in_space)
+{
+  const auto slope = [](const std::string &direction, const std::string &force)
+  {
+    const std::string scene = R"(set Generator = network
+set Gravity = 0, 0
+subsection Network
+set Wires = line
+set Supports = ends, aside
+set Loads = push
+subsection Wire line
+  set To = 10, 0
+  set Components = string, lateral
+  set Mass per length = 1
+  set Tension = 1000
+end
+subsection Support ends
+  set Wire = line
+  set Positions = 0, 10
+end
+subsection Support aside
+  set Wire = line
+  set Motion = lateral
+  set Positions = 0, 10
+end
+subsection Load push
+  set On = line @ 5
+  set Direction = )" + direction +
+                              "\n  set Magnitude = " + force + R"(
+end
+end
+subsection Time
+  set Step = 0.01
+  set End = 0.01
+end
+)";
+    return find(run(scene, {}, nothing), "slope");
+  };
+  EXPECT_TRUE(slope("0, 0, 1", "190").is_null());
+  EXPECT_NEAR(slope("0, 0, 1", "300")["value"].get<double>(), .15, 1e-9);
+  EXPECT_NEAR(slope("0, 3, -4", "300")["value"].get<double>(), .15, 1e-9);
+}
+
+// Claim: a linearised cable is watched, from the shape that it is linearised about; a nonlinear one
+// is not. Expected: the same, F / 2 T under the tension at rest.
+TEST(ModelLimits, a_linearised_cable)
+{
+  const auto slope = [](const std::string &geometry, const std::string &force)
+  {
+    const std::string scene = R"(set Generator = network
+set Bodies = span
+subsection Body span
+  set Type = cable
+  set From = 0, 0, 0
+  set To = 60, 20, 0
+  set Horizontal tension = 16e3
+  set Axial stiffness = 13e6
+  set Mass per length = 1.07
+  set Element = bar
+  set Elements = 64
+  set Geometry = )" + geometry +
+                              R"(
+end
+subsection Network
+set Loads = push
+subsection Load push
+  set On = span @ 31.6, 0
+  set Direction = 0, 0, 1
+  set Magnitude = )" + force +
+                              R"(
+end
+end
+subsection Time
+  set Step = 0.01
+  set End = 0.01
+end
+)";
+    return find(run(scene, {}, nothing), "slope");
+  };
+  const double tension = 16e3 * std::hypot(60., 20.) / 60.;
+  EXPECT_TRUE(slope("linearised", "3000").is_null());
+  EXPECT_TRUE(slope("nonlinear", "4000").is_null());
+  const nlohmann::json said = slope("linearised", "4000");
+  ASSERT_FALSE(said.is_null());
+  EXPECT_NEAR(said["value"].get<double>(), 4000. / (2. * tension), .01);
+  EXPECT_NE(said["message"].get<std::string>().find("linearised cable 'span' turns by"),
+            std::string::npos);
+  EXPECT_NE(said["message"].get<std::string>().find("Geometry = nonlinear"), std::string::npos);
+}

@@ -7,6 +7,7 @@
 #include <taut/cable/find_shape.h>
 #include <taut/substructure/slender_body.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -46,7 +47,7 @@ namespace taut
     Coordinates start_direction;
 
     CableGeometry geometry = CableGeometry::nonlinear;
-    double largest_strain = .02; ///< of the found shape; more is an error [1]
+    double largest_strain = .02; ///< at rest; more is an error [1]
   };
 
   /// The force per unstressed length on a cable: weight and the rest [N/m].
@@ -105,6 +106,8 @@ namespace taut
     /// Where it is compressed most, beyond rounding; one that is linear never is slack.
     bool is_slack(const std::vector<double> &U, Slack &slack) const override;
 
+    void check_strain(const std::vector<double> &U) const override;
+
     double axial_stiffness() const override { return data.section.axial_stiffness; }
     std::unique_ptr<Substructure> with_axial_stiffness(double EA) const override;
 
@@ -139,6 +142,7 @@ namespace taut
     void assemble();
     void linearise();
     std::vector<double> straight_line() const;
+    std::function<double(double)> tension_at(const std::vector<double> &q) const;
     void set_positions(const std::vector<double> &U, std::vector<double> &q) const;
 
     CableData data;

@@ -61,6 +61,9 @@ namespace taut
     /// At a place in the undeformed position, on the body or not, along any direction in space.
     LinearForm displacement(const Coordinates &place, const Coordinates &direction) const override;
 
+    /// l above [m].
+    double radius_of_gyration() const { return length; }
+
     /// The displaced centre of mass, in the coordinates of the scene [m].
     Coordinates centre(const std::vector<double> &U) const;
 

@@ -17,8 +17,9 @@ namespace taut
    * The contacts of surfaces. `contact_<name>.csv`: a line each Output/Interval with the resultant
    * force on the slave, where it acts (on cables displaced, else undeformed), the area in contact,
    * the largest pressure and the least gap. `contact_<name>_NNNNN.vtu`, joined by
-   * `contact_<name>.pvd`: the nodes of the slave that may touch, with pressure, gap and normal, for
-   * ParaView.
+   * `contact_<name>.pvd`: the nodes of the slave that may touch, with displacement, pressure, gap
+   * and normal, for ParaView: of cables in their displaced places, of solids undeformed, as in
+   * `body_<name>.pvd`.
    */
   class ContactTables : public Observer
   {
@@ -41,11 +42,12 @@ namespace taut
       std::unique_ptr<CsvFile> table; ///< on the root
       std::unique_ptr<VtuFile> picture;
       std::unique_ptr<PvdFile> collection;
-      std::size_t pressure = 0, gap = 0;
+      std::size_t displacement = 0, pressure = 0, gap = 0;
     };
     void write_line(Contact &contact, const State &state, std::size_t first,
-                    const std::vector<Coordinates> &places);
-    void write_picture(Contact &contact, const State &state, std::size_t first);
+                    const std::vector<Coordinates> &displacements);
+    void write_picture(Contact &contact, const State &state, std::size_t first,
+                       const std::vector<Coordinates> &displacements);
 
     std::vector<Contact> contacts;
     std::string folder;

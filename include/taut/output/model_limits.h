@@ -26,7 +26,9 @@ namespace taut
    * Of each kind the worst case of a run is kept.
    *
    * - A slope of 0.1 rad stretches a wire by slope^2 / 2 = 0.5 %, which the equations neglect: a
-   *   copper wire of 100 mm^2 would gain 60 kN of tension.
+   *   copper wire of 100 mm^2 would gain 60 kN of tension. It is that of all motions across the
+   *   wire, also of lateral ones; of a linearised cable it is the change of direction since the
+   *   shape at rest that it is linearised about.
    * - Two wires above each other at the start, with nothing between them that pushes, are as far
    *   apart as their displacements may bring them together.
    * - Waves of a wire run at sqrt(T / m); nothing runs ahead of a faster contact.
@@ -69,13 +71,18 @@ namespace taut
       void evaluate(const BodyVectors &U, double *result) const;
     };
 
-    /// Samples along a wire, or along the place where one is above another.
+    /// Samples along a wire or a cable, or along the place where one wire is above another.
     struct Line
     {
-      std::string name, other;
+      std::string name, other;       ///< "wire 'contact'"
       std::size_t first = 0, n = 0;  ///< samples
       std::vector<double> positions; ///< on the wire [m]
       std::vector<double> distances; ///< to the wire above; empty: slopes are watched [m]
+
+      /// Forms of a sample, one after the other for all samples of one direction: directions across
+      /// a wire, or x, y, z.
+      unsigned int n_directions = 1;
+      std::vector<Coordinates> chords; ///< of a cable, from sample to sample, undeformed [m]
     };
 
     /// The worst of a kind so far.
@@ -89,6 +96,8 @@ namespace taut
     template <typename Archive>
     void store(Archive &archive);
     void add_slopes(const Scene &scene, const SceneBodies &structure);
+    void add_cables(const Scene &scene, const SceneBodies &structure);
+    double slope_after(const Line &line, const double *u, std::size_t sample) const;
     void add_distances(const Scene &scene, const SceneBodies &structure);
     void compare_speeds(const Scene &scene);
     void compare_filter(const Scene &scene, double frequency, double step);

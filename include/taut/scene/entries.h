@@ -52,7 +52,11 @@ namespace taut
   std::vector<Attachment> parse_attachments(const std::string &text, const Scene &scene,
                                             const std::string &entry);
 
-  /// Place of an attachment in the undeformed scene; of the ground, if it has one.
+  /// Whether a place is on a cable, so that its first coordinate is an unstressed arc length.
+  bool is_on_cable(const Scene &scene, const Attachment &point);
+
+  /// Place of an attachment in the undeformed scene, of a body in its own coordinates, see
+  /// SceneBodies::position(); of the ground, if it has one.
   Coordinates place(const Scene &scene, const Attachment &point);
 } // namespace taut
 

@@ -149,6 +149,10 @@ namespace taut
     unused_scheme_entries(const std::string &name,
                           const std::map<std::string, std::string> &entries) const;
 
+    /// "Body bar/Velocity = 1, 0, 0 (without Start = given)" of each entry of a body, contact, mass
+    /// or wire that is not at its default and has no part in a scene like this one.
+    std::vector<std::string> unused_entries() const;
+
     /// The parameter file, without its folder.
     std::string file_name() const;
 
@@ -173,7 +177,7 @@ namespace taut
     /// All entries with the members that they set: an object stays where it is.
     std::unique_ptr<dealii::ParameterHandler> entries;
     std::set<std::string> structural_entries; ///< those that decide which others there are
-    std::map<std::string, std::string> entry_values;
+    std::map<std::string, std::string> entry_values, entry_defaults;
     ParameterFile file;
     std::unique_ptr<SceneGenerator> generator;
     std::map<std::string, std::unique_ptr<TimeIntegrator>> integrators;

@@ -20,6 +20,7 @@ namespace taut
   class ObserverList;
   class StepControl;
   struct Checkpoint;
+  struct ScenePlaces;
   struct SharedParts;
 
   /**
@@ -82,7 +83,7 @@ namespace taut
     void find_rest_of_probes();
     const TimeIntegrator &choose_integrator();
     void keep_scheme(const TimeIntegrator &integrator, std::vector<std::string> unused);
-    void write_start() const;
+    void write_start(const ScenePlaces &places) const;
     StepView view(const State &state, const Certificate &certificate) const;
     void update_probes(const State &state);
     void stop_before_start();
@@ -104,6 +105,7 @@ namespace taut
     const Scene model;
     std::string parts_reason; ///< why the parts are so many, if that was left to Taut
     SceneBodies bodies;
+    std::vector<std::string> grounded_links; ///< at held ends of cables
     Constraints links;
 
     Reference reference;

@@ -39,6 +39,10 @@ namespace taut
     /// True if the body is slack at a displacement U [m, rad] from the undeformed body; then fills
     /// @p slack.
     virtual bool is_slack(const std::vector<double> &U, Slack &slack) const = 0;
+
+    /// Throws EntryError if the body is stretched more than it may be at rest, at a displacement U
+    /// from the undeformed body.
+    virtual void check_strain(const std::vector<double> &U) const = 0;
   };
 } // namespace taut
 

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Entries that another entry leaves without effect: a run says so.
+#include <taut/simulation/parameters.h>
+#include <taut/simulation/text_lists.h>
+
+#include <deal.II/base/patterns.h>
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <functional>
+
+namespace taut
+{
+  namespace
+  {
+    /// The value of another entry of the same section; empty if it has none of this name.
+    using ValueOf = std::function<std::string(const std::string &entry)>;
+
+    /// Entries of sections whose path begins in the same way, and why they have no effect; empty:
+    /// they have one.
+    struct Rule
+    {
+      std::string section;
+      std::vector<std::string> entries;
+      std::function<std::string(const ValueOf &value, const std::string &start)> reason;
+    };
+
+    std::string without_given_start(const ValueOf &, const std::string &start)
+    {
+      return start == "given" ? "" : "without Start = given";
+    }
+
+    /// Of a contact, unless its Obstacle is one of these.
+    std::function<std::string(const ValueOf &, const std::string &)>
+    unless_obstacle_is(const std::vector<std::string> &obstacles)
+    {
+      return [obstacles](const ValueOf &value, const std::string &)
+      {
+        const std::string obstacle = value("Obstacle");
+        return std::find(obstacles.begin(), obstacles.end(), obstacle) != obstacles.end()
+                   ? ""
+                   : "with Obstacle = " + obstacle;
+      };
+    }
+
+    const std::vector<Rule> &rules()
+    {
+      static const std::vector<Rule> all = {
+          {"Body ",
+           {"Velocity", "Angular velocity", "Start direction", "Initial velocity"},
+           without_given_start},
+          {"Network/Mass ", {"Initial displacement", "Initial velocity"}, without_given_start},
+          {"Network/Wire ",
+           {"Initial axial displacement", "Initial axial velocity",
+            "Initial transverse displacement", "Initial transverse velocity",
+            "Initial lateral displacement", "Initial lateral velocity"},
+           without_given_start},
+          {"Contact ", {"Radius", "Encloses body"}, unless_obstacle_is({"cylinder", "sphere"})},
+          {"Contact ", {"Height", "Height difference"}, unless_obstacle_is({"height"})},
+          {"Contact ", {"Point"}, unless_obstacle_is({"plane", "cylinder", "sphere"})},
+          {"Contact ", {"Direction"}, unless_obstacle_is({"plane", "cylinder", "height"})},
+          {"Contact ", {"Method"}, unless_obstacle_is({"none"})}};
+      return all;
+    }
+
+    /// Equal as texts, or number by number.
+    bool is_same(const std::string &a, const std::string &b)
+    {
+      const std::vector<std::string> p = split(a, ','), q = split(b, ',');
+      const dealii::Patterns::Double number;
+      return p.size() == q.size() &&
+             std::equal(p.begin(), p.end(), q.begin(),
+                        [&](const std::string &x, const std::string &y)
+                        {
+                          return x == y || (number.match(x) && number.match(y) &&
+                                            dealii::Utilities::string_to_double(x) ==
+                                                dealii::Utilities::string_to_double(y));
+                        });
+    }
+  } // namespace
+
+  std::vector<std::string> Parameters::unused_entries() const
+  {
+    std::vector<std::string> unused;
+    for (const auto &[path, value] : entry_values)
+    {
+      const std::size_t slash = path.rfind('/');
+      if (slash == std::string::npos)
+        continue;
+      const std::string section = path.substr(0, slash), entry = path.substr(slash + 1);
+      const ValueOf value_of = [&](const std::string &other)
+      {
+        const auto found = entry_values.find(section + "/" + other);
+        return found == entry_values.end() ? std::string() : found->second;
+      };
+      for (const Rule &rule : rules())
+      {
+        if (section.compare(0, rule.section.size(), rule.section) != 0 ||
+            std::find(rule.entries.begin(), rule.entries.end(), entry) == rule.entries.end() ||
+            is_same(value, entry_defaults.at(path)))
+          continue;
+        const std::string reason = rule.reason(value_of, start);
+        if (!reason.empty())
+          unused.push_back(path + " = " + value + " (" + reason + ")");
+      }
+    }
+    return unused;
+  }
+} // namespace taut

@@ -1,0 +1,396 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: what acts at a place on a cable acts there or is refused, and results say where the place
+// is in space. Expected values: the same scene written otherwise, closed forms, and the messages.
+#include "verification/run.h"
+
+#include <taut/base/exceptions.h>
+#include <taut/output/scene_report.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace
+{
+  using namespace taut;
+  using verification::Overrides;
+  using verification::Session;
+
+  /// A span with sections of a network, which lists these items.
+  std::string span(const std::string &network, const std::string &top = "")
+  {
+    return R"(set Generator = network
+set Gravity = 0, -9.81
+set Start = equilibrium
+set Bodies = span
+subsection Body span
+  set Type = cable
+  set From = 0, 0, 0
+  set To = 30, 0, 0
+  set Unstressed length = 31
+  set Axial stiffness = 1e6
+  set Mass per length = 1
+end
+subsection Time
+  set End = 0
+  set Step = 0.01
+end
+)" + top + "subsection Network\n" +
+           network + "end\n";
+  }
+
+  std::string load(const std::string &name, const std::string &on, const std::string &magnitude)
+  {
+    return "subsection Load " + name + "\nset On = " + on +
+           "\nset Direction = 0.3, -1, 0.5\nset Magnitude = " + magnitude + "\nend\n";
+  }
+
+  std::string link(const std::string &name, const std::string &type, const std::string &from,
+                   const std::string &to, const std::string &more = "")
+  {
+    return "subsection Link " + name + "\nset Type = " + type + "\nset From = " + from +
+           "\nset To = " + to + "\n" + more + "end\n";
+  }
+
+  const std::string lamp = "set Masses = lamp\nsubsection Mass lamp\nset Position = 30, 0\nset "
+                           "Motions = x, y, z\nset Mass = 2\nend\n";
+
+  /// All displacements of the last step.
+  BodyVectors last(const std::string &scene, const Overrides &overrides)
+  {
+    BodyVectors U;
+    verification::run_scene(scene, overrides,
+                            [&](const StepView &step)
+                            {
+                              U = step.reference.displacement;
+                              for (std::size_t k = 0; k < U.size(); ++k)
+                                for (std::size_t i = 0; i < U[k].size(); ++i)
+                                  U[k][i] += step.state.U[k][i];
+                            });
+    return U;
+  }
+
+  /// "entry: message" of the error that a run ends with.
+  std::string error_of(const std::string &scene, const Overrides &overrides = {})
+  {
+    try
+    {
+      verification::run_scene(scene, overrides, [](const StepView &) {});
+    }
+    catch (const EntryError &e)
+    {
+      return e.entry() + ": " + e.message();
+    }
+    catch (const std::exception &e)
+    {
+      return e.what();
+    }
+    return "";
+  }
+
+  void expect(const std::string &text, const std::vector<std::string> &parts)
+  {
+    for (const std::string &part : parts)
+      EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' in\n" << text;
+  }
+
+  std::string text_in(const std::string &path)
+  {
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+
+  /// An array of a .vtu file.
+  std::vector<float> array_in(const std::string &path, const std::string &name)
+  {
+    const std::string text = text_in(path), mark = "Name=\"" + name + "\"";
+    const std::size_t at = text.find(mark), offset = text.find("offset=\"", at) + 8,
+                      data = text.find("encoding=\"raw\">\n_") + 17;
+    EXPECT_NE(at, std::string::npos) << name;
+    const char *const begin = text.data() + data + std::stoul(text.substr(offset));
+    std::uint64_t size = 0;
+    std::memcpy(&size, begin, sizeof size);
+    std::vector<float> values(size / sizeof(float));
+    std::memcpy(values.data(), begin + sizeof size, size);
+    return values;
+  }
+} // namespace
+
+TEST(CablePlaces, a_load_knows_its_arc_length)
+{
+  const std::string one = "set Loads = a\n";
+  for (const std::string geometry : {"linearised", "nonlinear"})
+    for (const std::string factor : {"2", "(2+t)"})
+    {
+      // Slack has no small motions.
+      const Overrides entries = {"Body span/Geometry=" + geometry,
+                                 "Body span/Unstressed length=" +
+                                     std::string(geometry == "linearised" ? "29.9" : "31"),
+                                 "Time/End=" + std::string(factor == "2" ? "0" : "0.02")};
+      const auto formula =
+                     last(span(one + load("a", "span @ 9, 0; 21.5, 0", factor + "*s")), entries),
+                 numbers =
+                     last(span("set Loads = a, b\n" + load("a", "span @ 9, 0", factor + "*9") +
+                               load("b", "span @ 21.5, 0", factor + "*21.5")),
+                          entries),
+                 none = last(span(one + load("a", "span @ 9, 0", "0")), entries);
+      double largest = 0.;
+      ASSERT_EQ(formula.size(), 1u);
+      for (std::size_t i = 0; i < formula[0].size(); ++i)
+      {
+        EXPECT_NEAR(formula[0][i], numbers[0][i], 1e-9) << i;
+        largest = std::max(largest, std::fabs(formula[0][i] - none[0][i]));
+      }
+      EXPECT_GT(largest, 1e-5) << geometry << factor;
+    }
+}
+
+TEST(CablePlaces, a_load_elsewhere_has_no_arc_length)
+{
+  const std::string scene = span("set Loads = a\n" + lamp + load("a", "lamp", "2*s"));
+  expect(error_of(scene), {"Load a/Magnitude", "does not depend on s", "formula in t"});
+}
+
+TEST(CablePlaces, what_acts_at_a_held_end_only_is_refused)
+{
+  const std::string remedy = "Held ends of the cable leave that end free";
+  expect(error_of(span("set Loads = a\n" + load("a", "span @ 31, 0", "5"))),
+         {"Load a/On", "a held end of cable 'span'", "no effect", remedy});
+  expect(error_of(span("set Loads = a\n" + load("a", "span @ 1e-11, 0", "5"))), {"Load a/On"});
+  expect(error_of(span("set Links = a\n" + link("a", "ball joint", "ground", "span @ 0, 0"))),
+         {"Link a/To", "a held end of cable 'span'", "does not move either", remedy});
+  expect(error_of(span("set Links = a\n" + link("a", "dropper", "span @ 31, 0", "ground @ 30, -3",
+                                                "set Turns = true\nset Stiffness = 10\n"))),
+         {"Link a/From", "does not move either"});
+  expect(error_of(span("set Links = a\n" + link("a", "joint", "span @ 31, 0", "span @ 0, 0",
+                                                "set Direction = 1, 0\n"))),
+         {"Link a/From", "does not move either"});
+  EXPECT_EQ(error_of(span("set Loads = a\n" + load("a", "span @ 0.01, 0", "5"))), "");
+  EXPECT_EQ(error_of(span("set Loads = a\nset Links = b\n" + load("a", "span @ 31, 0", "5") +
+                          link("b", "ball joint", "span @ 31, 0", "ground")),
+                     {"Body span/Held ends=from"}),
+            "");
+}
+
+TEST(CablePlaces, links_that_a_held_end_grounds_are_named)
+{
+  const std::string scene =
+      span("set Links = tie\n" + lamp + link("tie", "ball joint", "span @ 31, 0", "lamp"));
+  Session held(scene), free(scene, {"Body span/Held ends=from", "Start=undeformed"});
+  held.run([](const StepView &) {});
+  free.run([](const StepView &) {});
+  expect(held.log(), {"at held ends of cables, which stand like the ground: 'tie x', 'tie y', "
+                      "'tie z'\n"});
+  EXPECT_EQ(free.log().find("held ends"), std::string::npos);
+}
+
+TEST(CablePlaces, ball_joints_hold_one_place)
+{
+  // A thousandth of the cable of 31 m.
+  const auto scene = [](const std::string &place)
+  {
+    return span("set Links = tie\nset Masses = lamp\nsubsection Mass lamp\nset Position = " +
+                place + "\nset Motions = x, y, z\nset Mass = 2\nend\n" +
+                link("tie", "ball joint", "span @ 31, 0", "lamp"));
+  };
+  EXPECT_EQ(error_of(scene("30, 0.03, 0")), "");
+  expect(error_of(scene("30, 0, 0.2")), {"Link tie/To", "0.2 m apart", "From is at 30, 0, 0",
+                                         "To at 30, 0, 0.2", "to 0.031 m", "joint along each"});
+  expect(error_of(scene("30, 0.032, 0")), {"0.032 m apart"});
+}
+
+TEST(CablePlaces, ball_joints_of_wires_and_rigid_bodies)
+{
+  const std::string bar = R"(set Generator = network
+set Bodies = bar
+subsection Body bar
+  set Type = rigid body
+  set Mass = 8
+  set Centre = 1, 0
+  set Moments of inertia = 4, 4, 8
+end
+subsection Time
+  set End = 0
+end
+subsection Network
+set Links = pin
+)";
+  const auto pinned = [&](const std::string &to)
+  { return error_of(bar + link("pin", "ball joint", "bar @ 0, 0", "ground @ " + to) + "end\n"); };
+  EXPECT_EQ(pinned("0, 0.0009"), ""); // a radius of gyration of 1 m
+  expect(pinned("0, 0.0011"), {"Link pin/To", "0.0011 m apart", "to 0.001 m"});
+  EXPECT_EQ(error_of(bar + link("pin", "ball joint", "bar @ 0, 0", "ground") + "end\n"), "");
+
+  const auto wire = [](const std::string &place)
+  {
+    return error_of(R"(set Generator = network
+subsection Time
+  set End = 0
+end
+subsection Network
+set Wires = line
+set Supports = ends, aside
+set Links = tie
+set Masses = lamp
+subsection Wire line
+  set To = 10, 0
+  set Components = string, lateral
+  set Mass per length = 1
+  set Tension = 1000
+end
+subsection Support ends
+  set Wire = line
+  set Positions = 0, 10
+end
+subsection Support aside
+  set Wire = line
+  set Motion = lateral
+  set Positions = 0, 10
+end
+subsection Mass lamp
+  set Motions = x, y, z
+  set Mass = 1
+  set Position = )" +
+                    place + "\nend\n" + link("tie", "ball joint", "line @ 5", "lamp") + "end\n");
+  };
+  EXPECT_EQ(wire("5, 0.009"), "");
+  expect(wire("5, 0, 1"), {"Link tie/To", "1 m apart", "From is at 5, 0, 0"});
+}
+
+TEST(CablePlaces, places_in_space_are_shown)
+{
+  const std::string scene = span(
+      "set Loads = a\nset Links = tie, rope\n" + lamp + load("a", "span @ 15.5, 0", "1") +
+          link("tie", "ball joint", "span @ 31, 0", "lamp") +
+          link("rope", "dropper", "lamp", "span @ 15.5, 0", "set Turns = true\nset Length = 40\n"),
+      "subsection Output\nset Probes = p\nsubsection Probe p\nset Point = "
+      "span @ 15.5, 0\nend\nend\n");
+  Session session(scene, {"Body span/From=0, 0, 4", "Body span/To=30, 0, 4",
+                          "Network/Mass lamp/Position=30, 0, 4"});
+  const ScenePlaces places =
+      places_in_space(session.simulation().scene(), session.simulation().structure());
+  const double lowest = places.loads[0].y;
+  EXPECT_NEAR(lowest, -3.40, .03); // a catenary without stretch: -3.395
+  for (const Coordinates &at : {places.loads[0], places.probes[0], places.to.back()})
+  {
+    EXPECT_NEAR(at.x, 15., 1e-6);
+    EXPECT_EQ(at.y, lowest);
+    EXPECT_NEAR(at.z, 4., 1e-12);
+  }
+  ASSERT_EQ(places.cables.size(), 1u);
+  EXPECT_NEAR(places.cables[0][16].y, lowest, 1e-9);
+  EXPECT_NEAR(places.cables[0].back().x, 30., 1e-9);
+
+  std::ostringstream tables;
+  print_scene(session.simulation().scene(), places, tables);
+  expect(tables.str(), {"span @ 31 (at 30, 0, 4)", "span @ 15.5 (at 15, -3."});
+  EXPECT_EQ(tables.str().find("e-1"), std::string::npos) << tables.str();
+  write_sketch(session.simulation().scene(), places, session.folder() + ".svg");
+  const std::string drawing = text_in(session.folder() + ".svg");
+  std::remove((session.folder() + ".svg").c_str());
+  expect(drawing, {">span</text>", "cx=\"540\""}); // half of 1000 beside a margin of 40
+  EXPECT_EQ(drawing.find("nan"), std::string::npos);
+  EXPECT_EQ(drawing.find("e+"), std::string::npos);
+
+  session.run([](const StepView &) {});
+  const std::string start = text_in(session.folder() + "/start.csv");
+  EXPECT_EQ(start.substr(0, 29), "link,x [m],y [m],z [m],force ");
+  std::istringstream rope(start.substr(start.find("\nrope,") + 6));
+  for (const double expected : {15., lowest, 4.})
+  {
+    std::string cell;
+    std::getline(rope, cell, ',');
+    EXPECT_NEAR(std::stod(cell), expected, 1e-6);
+  }
+}
+
+TEST(CablePlaces, contacts_are_drawn_where_the_cable_is)
+{
+  const std::string scene = span("", R"(set Contacts = floor
+subsection Contact floor
+  set Slave = span
+  set Obstacle = plane
+  set Point = 0, -0.5
+end
+)");
+  Session session(scene, {"Body span/To=10, 0, 0", "Body span/Unstressed length=10.2",
+                          "Body span/Axial stiffness=1e5", "Output/Field interval=1"});
+  session.run([](const StepView &) {});
+  const std::string file = session.folder() + "/contact_floor_00000.vtu";
+  const std::vector<float> places = array_in(file, "positions"),
+                           displacement = array_in(file, "displacement"),
+                           gap = array_in(file, "gap");
+  ASSERT_EQ(places.size(), 3 * gap.size());
+  ASSERT_EQ(displacement.size(), places.size());
+  double lifted = 0.;
+  for (std::size_t i = 0; i < gap.size(); ++i)
+  {
+    EXPECT_NEAR(places[3 * i + 1] + .5, gap[i], 1e-6);
+    lifted = std::max<double>(lifted, displacement[3 * i + 1]);
+  }
+  EXPECT_NEAR(lifted, .88 - .5, .03); // from its own sag
+}
+
+TEST(CablePlaces, strain_is_checked_under_the_loads_of_the_start)
+{
+  // Of a straight cable with EA = 1 MN, linearised, half of the force is added to 3.7 kN in one
+  // half. The other half goes slack at 7 kN and has some 0.2 kN left.
+  for (const auto &[geometry, enough, too_much] :
+       {std::tuple<std::string, const char *, const char *>{"linearised", "32e3", "34e3"},
+        {"nonlinear", "19e3", "20.5e3"}})
+  {
+    const auto stretched =
+        [&geometry = geometry](const std::string &force, const std::string &limit)
+    {
+      return error_of(span("set Loads = a\n" + load("a", "span @ 14.95, 0", force)),
+                      {"Body span/Element=bar", "Body span/Unstressed length=29.9",
+                       "Body span/Geometry=" + geometry, "Network/Load a/Direction=1, 0",
+                       "Body span/Largest strain=" + limit});
+    };
+    EXPECT_EQ(stretched(enough, "0.02"), "") << geometry;
+    expect(stretched(too_much, "0.02"), {"Body span/Largest strain", "at rest", "more than 0.02"});
+    EXPECT_EQ(stretched(too_much, "0.021"), "") << geometry;
+  }
+}
+
+TEST(CablePlaces, entries_without_effect_are_named)
+{
+  expect(error_of(span(""), {"Body span/Held ends=none", "Body span/Clamped=true"}),
+         {"Body span/Clamped", "Held ends = none", "set it to false"});
+  expect(error_of(span("set Loads = a\n" + load("a", "span @ 15, 0", "1")),
+                  {"Network/Load a/Speed=3"}),
+         {"Load a/Speed", "Type = moving"});
+  const std::string floor = "set Contacts = floor\nsubsection Contact floor\nset Slave = span\nset "
+                            "Obstacle = plane\nset Point = 0, -10\nend\n";
+  expect(error_of(span("", floor), {"Contact floor/Encloses body=true"}),
+         {"Contact floor/Encloses body", "cylinder or a sphere", "Direction"});
+
+  Session said(span(lamp, floor),
+               {"Contact floor/Radius=2", "Contact floor/Height=0.1*x", "Start=undeformed",
+                "Network/Mass lamp/Initial velocity=0, 0, 0, 1", "Body span/Start direction=1, 0",
+                "Body span/Held ends=from"}),
+      silent(span(lamp, floor), {"Contact floor/Radius=1.0", "Start=given",
+                                 "Network/Mass lamp/Initial velocity=0, 0, 0, 1",
+                                 "Body span/Held ends=from", "Body span/Start direction=1, 0"});
+  said.run([](const StepView &) {});
+  silent.run([](const StepView &) {});
+  for (const char *const entry :
+       {"Contact floor/Radius = 2 (with Obstacle = plane)",
+        "Contact floor/Height = 0.1*x (with Obstacle = plane)",
+        "Network/Mass lamp/Initial velocity = 0, 0, 0, 1 (without Start = given)",
+        "Body span/Start direction = 1, 0 (without Start = given)"})
+  {
+    expect(said.log(), {std::string("not used: ") + entry + "\n"});
+    expect(text_in(said.folder() + "/used.prm"), {std::string("Not used: ") + entry});
+  }
+  EXPECT_EQ(silent.log().find("not used"), std::string::npos) << silent.log();
+}
