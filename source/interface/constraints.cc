@@ -125,6 +125,18 @@ namespace taut
     return result;
   }
 
+  std::array<Coordinates, 2> Constraints::ends(const std::size_t i, const BodyVectors &reference,
+                                               const BodyVectors &U) const
+  {
+    const LinkEnd &first = constraints[i].direction->first;
+    double motion[3];
+    for (unsigned int c = 0; c < 3; ++c)
+      motion[c] = evaluate(first.motion[c], reference) + evaluate(first.motion[c], U);
+    structure.communicator().sum(motion, 3);
+    const Coordinates place = add_scaled(first.position, 1., {motion[0], motion[1], motion[2]});
+    return {place, add_scaled(place, 1., differences(reference, U)[i - fixed])};
+  }
+
   void Constraints::turn(const std::vector<Coordinates> &directions)
   {
     for (std::size_t i = 0; i < directions.size(); ++i)

@@ -40,8 +40,46 @@ namespace taut
     return result;
   }
 
+  Constraint Constraint::turning(const std::string &name, const bool unilateral, const double push,
+                                 const LinkEnd &a, const LinkEnd &b, const double length)
+  {
+    auto direction = std::make_shared<TurningDirection>(a, b, push);
+    if (!(direction->length > 0.))
+      throw UserError("constraint '" + name + "' turns, and its ends start at one place, " +
+                      text_of(a.position) + ": it has no direction. Move one of them, or take a " +
+                      "bilateral constraint along each axis");
+    if (!(length > 0.))
+      throw UserError("constraint '" + name + "' needs a positive length, not " +
+                      std::to_string(length) + " m");
+    direction->length = length;
+    Constraint result(name, unilateral, {}, {});
+    result.data.direction = std::move(direction);
+    return result;
+  }
+
+  Constraint Constraint::rope(const std::string &name, const LinkEnd &a, const LinkEnd &b,
+                              const double length)
+  {
+    return turning(name, true, -1., a, b, length);
+  }
+
+  Constraint Constraint::prop(const std::string &name, const LinkEnd &a, const LinkEnd &b,
+                              const double length)
+  {
+    return turning(name, true, 1., a, b, length);
+  }
+
+  Constraint Constraint::rod(const std::string &name, const LinkEnd &a, const LinkEnd &b,
+                             const double length)
+  {
+    return turning(name, false, 1., a, b, length);
+  }
+
   Constraint &Constraint::gap(const double value)
   {
+    if (data.direction)
+      throw UserError("constraint '" + data.name +
+                      "': the gap of a rope, prop or rod follows from its length; change that");
     data.gap = value;
     return *this;
   }
@@ -94,6 +132,30 @@ namespace taut
             result.push_back({index[body], bodies[index[body]].displacement(place, direction)});
         });
     return result;
+  }
+
+  LinkEnd System::link_end(const std::size_t body, const Coordinates &place) const
+  {
+    double position[] = {0., 0., 0.};
+    communicator().agree(
+        [&]
+        {
+          if (index[body] == Structure::elsewhere)
+            return;
+          const Coordinates own = bodies[index[body]].position(place);
+          for (unsigned int c = 0; c < 3; ++c)
+            position[c] = own[c];
+        });
+    communicator().sum(position, 3);
+    return link_end(body, place, {position[0], position[1], position[2]});
+  }
+
+  LinkEnd System::link_end(const std::size_t body, const Coordinates &place,
+                           const Coordinates &position) const
+  {
+    return {position,
+            {displacement(body, place, {1., 0., 0.}), displacement(body, place, {0., 1., 0.}),
+             displacement(body, place, {0., 0., 1.})}};
   }
 
   std::size_t System::add(const Constraint &constraint)

@@ -2,9 +2,24 @@
 #include <taut/interface/turning_direction.h>
 
 #include <algorithm>
+#include <sstream>
+#include <utility>
 
 namespace taut
 {
+  TurningDirection::TurningDirection(const LinkEnd &from, const LinkEnd &to, const double push)
+      : first(from), motion(to.motion), start(to.position - from.position), length(norm(start)),
+        sign(push)
+  {
+    for (unsigned int c = 0; c < 3; ++c)
+      for (Term term : first.motion[c])
+      {
+        for (double &value : term.form.value)
+          value = -value;
+        motion[c].push_back(std::move(term));
+      }
+  }
+
   Coordinates TurningDirection::at(const Coordinates &difference) const
   {
     const Coordinates &d = vanishes(difference) ? start : difference;
@@ -30,5 +45,12 @@ namespace taut
           term->form.add(form.index[j], direction[c] * form.value[j]);
       }
     return terms;
+  }
+
+  std::string text_of(const Coordinates &place)
+  {
+    std::ostringstream out;
+    out << '(' << place.x << ", " << place.y << ", " << place.z << ") m";
+    return out.str();
   }
 } // namespace taut

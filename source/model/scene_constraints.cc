@@ -19,26 +19,33 @@ namespace taut
       return terms;
     }
 
+    LinkEnd link_end(const Scene &scene, const SceneBodies &bodies, const Attachment &at)
+    {
+      LinkEnd end{bodies.position(scene, at)};
+      const Coordinates axes[] = {{1., 0., 0.}, {0., 1., 0.}, {0., 0., 1.}};
+      for (unsigned int c = 0; c < 3; ++c)
+        bodies.motion(at, false, axes[c], 1., end.motion[c]);
+      return end;
+    }
+
     /// The direction of a link that turns.
     std::shared_ptr<const TurningDirection>
     turning_direction(const Scene &scene, const SceneBodies &bodies, const Link &link)
     {
-      auto result = std::make_shared<TurningDirection>();
-      const Coordinates axes[] = {{1., 0., 0.}, {0., 1., 0.}, {0., 0., 1.}};
-      for (unsigned int c = 0; c < 3; ++c)
-      {
-        bodies.motion(link.to, false, axes[c], 1., result->motion[c]);
-        bodies.motion(link.from, false, axes[c], -1., result->motion[c]);
-      }
-      result->start = bodies.position(scene, link.to) - bodies.position(scene, link.from);
-      result->sign = link.kind == LinkKind::dropper ? -1. : 1.;
-      const double distance = norm(result->start);
+      auto result = std::make_shared<TurningDirection>(link_end(scene, bodies, link.from),
+                                                       link_end(scene, bodies, link.to),
+                                                       link.kind == LinkKind::dropper ? -1. : 1.);
+      const double distance = result->length;
       if (!(distance > 0.))
         throw EntryError(link.origin, "link '" + link.name +
-                                          "' turns, and its ends start at one place: it has no "
-                                          "direction. Move one of them, or take a ball joint");
-      result->length =
-          link.unstressed_length > 0. ? link.unstressed_length : distance - result->sign * link.gap;
+                                          "' turns, and its ends start at one place, " +
+                                          text_of(result->first.position) +
+                                          ": it has no direction. Move one of them, or take a "
+                                          "ball joint");
+      if (link.unstressed_length > 0.)
+        result->length = link.unstressed_length;
+      else
+        result->length -= result->sign * link.gap;
       if (!(result->length > 0.))
         throw EntryError(link.origin.empty() ? "" : link.origin + "/Gap",
                          "link '" + link.name +

@@ -2,6 +2,7 @@
 #include <taut/base/exceptions.h>
 #include <taut/time/initial_state.h>
 #include <taut/time/static_equilibrium.h>
+#include <taut/time/turning_constraints.h>
 
 #include <algorithm>
 #include <cmath>
@@ -52,6 +53,13 @@ namespace taut
         else if (start == Start::equilibrium)
           state.geometric_gap[i] = std::max(0., state.geometric_gap[i]);
         state.gap[i] = state.geometric_gap[i] + u;
+        if (constraint.direction &&
+            constraint.direction->vanishes(ends[i - constraints.n_fixed()]) &&
+            !(constraint.unilateral && state.gap[i] >= 0. && state.multiplier[i] == 0.))
+          throw EntryError(
+              constraints.origin(i),
+              message_of_meeting(constraint.name, 0.,
+                                 constraints.ends(i, result.reference.displacement, state.U)));
         if (start != Start::equilibrium && state.gap[i] < 0. && constraint.unilateral)
           throw EntryError(constraints.origin(i),
                            "link '" + constraint.name + "' starts with a gap of " +

@@ -20,6 +20,10 @@ namespace taut
     /// part of themselves, or no longer by less and by no more than the second one.
     constexpr double converged = 1e-12, stagnated = 1e-7;
 
+    /// Displacements count as this part of the longest link that turns at least: where a structure
+    /// is at rest as it is made, they are nothing but rounding.
+    constexpr double least_part_of_links = 1e-3;
+
     /// The same with bodies that are softer than their own, as a start for the next search.
     constexpr double near = 1e-3;
 
@@ -29,6 +33,40 @@ namespace taut
     /// Part of the expected decrease of the energy that a step has to make (L. Armijo, 1966).
     constexpr double sufficient = 1e-4;
     constexpr double shortest_step = 1e-6;
+
+    /// A pivot below this part of the stiffness of its spring is not positive.
+    constexpr double least_pivot = 1e-6;
+
+    /**
+     * Whether the structure stays definite with -2 s in place of 0 across the links that push, s
+     * the stiffness of the springs that it has there for the check: by a Cholesky factor of 1/(2 s)
+     * - flexibility, which is the Schur complement of the structure in these springs. Returns the
+     * first spring without a positive pivot, or their number. Without flexibilities nothing is
+     * known.
+     */
+    std::size_t first_that_gives_way(StaticStep &step,
+                                     const std::vector<TurningAtRest::Across> &springs)
+    {
+      const std::size_t n = springs.size();
+      std::vector<std::size_t> rows;
+      for (const TurningAtRest::Across &spring : springs)
+        rows.push_back(spring.row);
+      std::vector<std::vector<double>> L;
+      if (!step.flexibility(rows, L))
+        return n;
+      for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j <= i; ++j)
+        {
+          double sum = (i == j ? 1. : 0.) -
+                       2. * std::sqrt(springs[i].stiffness * springs[j].stiffness) * L[i][j];
+          for (std::size_t k = 0; k < j; ++k)
+            sum -= L[i][k] * L[j][k];
+          if (i == j && !(sum > least_pivot))
+            return i;
+          L[i][j] = i == j ? std::sqrt(sum) : sum / L[j][j];
+        }
+      return n;
+    }
 
     /**
      * Newton's method with the complementarity problem solved exactly in each iteration (N. H.
@@ -108,11 +146,11 @@ namespace taut
       bool iterate(const bool is_damped, const double tolerance, const BodyVectors &start,
                    StaticState &state)
       {
-        if (turning.empty() || is_damped)
+        if (turning.empty() || (is_damped && gives_way.empty()))
           return search(is_damped, tolerance, start, state);
         try
         {
-          return search(false, tolerance, start, state);
+          return search(is_damped, tolerance, start, state);
         }
         catch (const UserError &)
         {
@@ -144,7 +182,7 @@ namespace taut
               return false;
             step.certify(state);
             turning.finish(state);
-            return true;
+            return is_stable(state);
           }
           before = change;
           if (is_damped)
@@ -152,6 +190,30 @@ namespace taut
           U = state.displacement;
           turning.go_on(state);
         }
+        return false;
+      }
+
+      /// False if links that push give way to the side.
+      bool is_stable(const StaticState &state)
+      {
+        const std::vector<TurningAtRest::Across> springs = turning.begin_check(state);
+        if (springs.empty())
+          return true;
+        StaticStep step(structure, turning.constraints(), parameters, time, soft,
+                        state.displacement);
+        step.solve();
+        const std::size_t unstable = first_that_gives_way(step, springs);
+        if (unstable == springs.size())
+          return true;
+        const std::size_t i = turning.constraint_of(springs[unstable]);
+        std::ostringstream out;
+        out << "static equilibrium: none that is stable was found; links that push give way to the "
+            << "side, link '" << constraints[i].name << "' with " << std::fabs(state.multiplier[i])
+            << " N: what holds its ends across it has to be "
+            << "stiffer than that over its length, " << springs[unstable].stiffness
+            << " N/m. Hold its ends, or start from 'undeformed'";
+        gives_way = out.str();
+        origin_of_unstable = constraints.origin(i);
         return false;
       }
 
@@ -182,6 +244,8 @@ namespace taut
           double sums[] = {moved[kind], size[kind], lack[kind], force[kind]};
           for (double &value : sums)
             value = structure.communicator().max(value);
+          if (kind == 0)
+            sums[1] = std::max(sums[1], least_part_of_links * turning.largest_length());
           if (sums[0] > 0.)
             result = std::max(result, sums[3] > 0. ? std::min(sums[0] / sums[1], sums[2] / sums[3])
                                                    : sums[0] / sums[1]);
@@ -199,6 +263,8 @@ namespace taut
       /// Names the body that moves most, with its section on its rank.
       [[noreturn]] void fail()
       {
+        if (!gives_way.empty())
+          throw EntryError(origin_of_unstable, gives_way);
         structure.communicator().sum(motion_of_body);
         const std::size_t body =
             std::max_element(motion_of_body.begin(), motion_of_body.end()) - motion_of_body.begin();
@@ -267,6 +333,7 @@ namespace taut
       SofterBodies &soft;
       TurningAtRest turning;
       double change = 0.;
+      std::string gives_way, origin_of_unstable; ///< of the last equilibrium that is not stable
       std::vector<double> motion_of_body; ///< of those of this rank, in the last iteration [m]
     };
   } // namespace

@@ -2,6 +2,7 @@
 #include "static_step.h"
 
 #include <taut/base/exceptions.h>
+#include <taut/complementarity/active_set_system.h>
 #include <taut/time/balance_certificate.h>
 
 #include <algorithm>
@@ -14,6 +15,9 @@ namespace taut
     /// Iterative refinement ends where the error of the closed constraints is rounding, or here.
     constexpr double rounding = 1e-15;
     constexpr int most_refinements = 3;
+
+    /// Part of the terms of a gap below which its constraint touches.
+    constexpr double touching = 1e-9;
 
     /// Part of the displacements of bodies that came here by large motions with which gaps round,
     /// whatever their direction.
@@ -205,6 +209,38 @@ namespace taut
       solution = std::move(refined);
       state = std::move(refined_state);
     }
+  }
+
+  bool StaticStep::flexibility(const std::vector<std::size_t> &rows,
+                               std::vector<std::vector<double>> &result)
+  {
+    MixedComplementarityProblem unit = problem;
+    unit.gap_scale.clear();
+    std::fill(unit.null_space_load.begin(), unit.null_space_load.end(), 0.);
+    std::vector<std::size_t> closed;
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      if (solution.closed[i] || std::fabs(solution.gap[i]) <= touching * problem.gap_scale[i])
+        closed.push_back(i);
+    const ComplementarityOptions options;
+    ActiveSetSystem answers(options);
+    MixedComplementaritySolution answer;
+    std::vector<double> terms;
+    result.clear();
+    for (const std::size_t row : rows)
+    {
+      unit.free_gap.assign(constraints.size(), 0.);
+      unit.free_gap[row] = -compliance[row];
+      answer.reset(unit);
+      if (answers.solve(unit, system.interface().matrix(), closed, options.linear_tolerance, answer,
+                        terms) == ActiveSetSystem::Outcome::inadmissible)
+        return false;
+      // Under a unit force a spring lacks what it answers to the gap that it would have alone.
+      result.emplace_back();
+      for (const std::size_t other : rows)
+        result.back().push_back(compliance[other] *
+                                ((other == row ? 1. : 0.) - answer.multiplier[other]));
+    }
+    return true;
   }
 
   /// The same certificate as of a step in time, with nothing that moves.

@@ -26,6 +26,15 @@ namespace taut
     /// True if all tangents are those of the bodies and positive definite.
     bool has_own_tangents() const { return system.has_own_tangents(); }
 
+    /**
+     * After solve(): the displacements along springs of the constraints, given by their @p rows,
+     * that unit forces along each of them cause, with all other closed constraints closed and
+     * those that just touch, too [m/N]. False if there is no such answer, as of a body that nothing
+     * holds.
+     */
+    bool flexibility(const std::vector<std::size_t> &rows,
+                     std::vector<std::vector<double>> &result);
+
     const FactoredStructure &bodies() const { return system.bodies(); }
 
   private:

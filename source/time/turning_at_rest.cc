@@ -13,6 +13,9 @@ namespace taut
     /// holds what nothing else does, and costs no iterations.
     constexpr double least_part = 1e-8;
 
+    /// Of each link: one along it, then two across it.
+    constexpr std::size_t n_springs = 3;
+
     /// Two unit vectors across a unit vector and each other.
     std::array<Coordinates, 2> across(const Coordinates &d)
     {
@@ -59,7 +62,7 @@ namespace taut
     list.push_back(std::move(spring));
   }
 
-  void TurningAtRest::set(const BodyVectors &U, const std::vector<double> &N)
+  void TurningAtRest::set(const BodyVectors &U, const std::vector<double> &N, const bool is_check)
   {
     std::vector<ConstraintData> list;
     for (std::size_t i = 0; i < all.size(); ++i)
@@ -82,14 +85,23 @@ namespace taut
       list[i].gap = turning.gap(difference) - turning.sign * dot(d, motions[k]);
       const double size = std::max(norm(difference), turning.length),
                    stand_in = load * std::clamp(turned, least_part, 1.) / size,
-                   geometric = std::max(0., -turning.sign * N[i]) / size;
+                   geometric = is_check ? std::fabs(N[i]) / norm(difference)
+                                        : std::max(0., -turning.sign * N[i]) / size;
       const auto [first, second] = across(d);
       add_spring(all[i], d, stand_in, motions[k], list);
       add_spring(all[i], first, geometric + stand_in, motions[k], list);
       add_spring(all[i], second, geometric + stand_in, motions[k], list);
-      source.insert(source.end(), 3, i);
+      source.insert(source.end(), n_springs, i);
     }
     linear = std::make_unique<Constraints>(structure, std::move(list));
+  }
+
+  double TurningAtRest::largest_length() const
+  {
+    double largest = 0.;
+    for (std::size_t i = all.n_fixed(); i < all.first_moving(); ++i)
+      largest = std::max(largest, all[i].direction->length);
+    return largest;
   }
 
   double TurningAtRest::change(const StaticState &state)
@@ -135,5 +147,25 @@ namespace taut
     for (std::size_t k = 0; k < ends.size(); ++k)
       result[all.n_fixed() + k] = all[all.n_fixed() + k].direction->gap(ends[k]);
     return result;
+  }
+
+  std::vector<TurningAtRest::Across> TurningAtRest::begin_check(const StaticState &state)
+  {
+    std::vector<Across> springs;
+    const std::vector<double> &N = state.multiplier;
+    const std::vector<Coordinates> motions = all.differences(state.displacement);
+    for (std::size_t k = 0; k < motions.size(); ++k)
+    {
+      const std::size_t i = all.n_fixed() + k;
+      const TurningDirection &turning = *all[i].direction;
+      const double stiffness = N[i] / norm(add_scaled(turning.start, 1., motions[k]));
+      if (turning.sign * N[i] > 0.)
+        for (std::size_t spring = 1; spring < n_springs; ++spring)
+          springs.push_back({all.size() + n_springs * k + spring, std::fabs(stiffness)});
+    }
+    turned = 0.;
+    if (!springs.empty())
+      set(state.displacement, N, true);
+    return springs;
   }
 } // namespace taut

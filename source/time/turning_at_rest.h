@@ -14,8 +14,12 @@ namespace taut
    * The constraints for the iterations of a search of an equilibrium: those that turn become linear
    * about the last displacements, D + B (U - U_i), and have their geometric stiffness N / |Delta|
    * across them, as two springs without force at U_i, if they pull. As long as directions change, a
-   * part of the loads stands in for N, along them, too, so that no iteration goes far. All
-   * functions are called by all ranks together.
+   * part of the loads stands in for N, along them, too, so that no iteration goes far.
+   *
+   * The geometric stiffness of those that push is negative, and left out of the iterations. A state
+   * that they end in is checked for stability: with springs +|N| / |Delta| across these links in
+   * place of -|N| / |Delta|, the state is stable if -2 |N| / |Delta| more leaves the structure
+   * definite. All functions are called by all ranks together.
    */
   class TurningAtRest
   {
@@ -31,6 +35,9 @@ namespace taut
     /// For one iteration: in the order of the given ones, then the springs.
     const Constraints &constraints() const { return empty() ? all : *linear; }
 
+    /// Of the links that turn; 0: there are none [m].
+    double largest_length() const;
+
     /// By how much the result of an iteration misses its own directions and gaps: changes of
     /// directions [1], gaps over |Delta|, of constraints that carry a force or should.
     double change(const StaticState &state);
@@ -44,8 +51,25 @@ namespace taut
     /// D of the given constraints, without springs [m].
     std::vector<double> gaps(const BodyVectors &U) const;
 
+    /// A spring across a link that pushes: its row in constraints(), and N / |Delta| [N/m].
+    struct Across
+    {
+      std::size_t row;
+      double stiffness;
+    };
+
+    /// Makes constraints() those of the check of a state, with the springs returned; empty: nothing
+    /// pushes, and constraints() are as before.
+    std::vector<Across> begin_check(const StaticState &state);
+
+    /// The constraint that a spring across it belongs to.
+    std::size_t constraint_of(const Across &spring) const
+    {
+      return source[spring.row - all.size()];
+    }
+
   private:
-    void set(const BodyVectors &U, const std::vector<double> &N);
+    void set(const BodyVectors &U, const std::vector<double> &N, bool is_check = false);
     void add_spring(const ConstraintData &of, const Coordinates &direction, double stiffness,
                     const Coordinates &motion, std::vector<ConstraintData> &list) const;
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace taut
 {
@@ -13,8 +14,11 @@ namespace taut
     /// 1e-12 of the distance of the ends.
     constexpr double weight_of_direction = 1e2, weight_of_gap = 1e3;
 
-    /// A mean direction shorter than that turns by more than 120 degrees in a step.
-    constexpr double shortest_mean = .5;
+    /// Cosine of the largest angle by which a link that has a force turns in a step, 120 degrees.
+    constexpr double largest_turn = -.5;
+
+    /// Ends that turn by more and pass each other by less than this part of the length meet.
+    constexpr double nearest_pass = 1e-3;
 
     Coordinates scaled(const double s, const Coordinates &a)
     {
@@ -64,6 +68,7 @@ namespace taut
                                        const std::vector<double> &history)
   {
     const std::vector<Coordinates> motion = constraints.differences(dU);
+    end.resize(motion.size());
     used = next;
     offsets = next_offsets;
     double result = 0.;
@@ -71,35 +76,59 @@ namespace taut
     {
       const std::size_t i = constraints.n_fixed() + k;
       const TurningDirection &turning = *constraints[i].direction;
-      const Coordinates end = add_scaled(start[k], 1., motion[k]),
-                        sum = add_scaled(start[k], 1., end);
-      const double size = norm(end), sizes = norm(start[k]) + size;
+      end[k] = add_scaled(start[k], 1., motion[k]);
+      const Coordinates sum = add_scaled(start[k], 1., end[k]);
+      const double size = norm(end[k]), sizes = norm(start[k]) + size;
       // Without cancellation.
       increments[k] = sizes > 0. ? turning.sign * dot(sum, motion[k]) / sizes : 0.;
       const double linear = offsets[k] + turning.sign * dot(used[k], motion[k]),
                    gap = before.geometric_gap[i] + increments[k] + history[i];
       const bool is_open = constraints[i].unilateral && N[i] == 0. && gap >= 0.;
-      if (turning.vanishes(end) || turning.vanishes(start[k]))
-      {
-        if (is_open)
-          continue;
-        throw UserError("link '" + constraints[i].name +
-                        "' has a force, and its ends meet: it has no direction. Give it a "
-                        "stiffness that keeps its ends apart, or join them by a ball joint");
-      }
-      next[k] = is_mean ? scaled(1. / sizes, sum) : scaled(1. / size, end);
+      if (!is_open)
+        check_turn(k, before);
+      if (turning.vanishes(end[k]) || turning.vanishes(start[k]))
+        continue;
+      next[k] = is_mean ? scaled(1. / sizes, sum) : scaled(1. / size, end[k]);
       next_offsets[k] = is_mean ? 0. : increments[k] - turning.sign * dot(next[k], motion[k]);
       if (is_open)
         continue;
-      if (norm(next[k]) < shortest_mean)
-        throw UserError("link '" + constraints[i].name +
-                        "' turns by more than 120 degrees in a step. Take a smaller step");
       const double change = std::max(weight_of_direction * norm(next[k] - used[k]),
                                      weight_of_gap * std::fabs(increments[k] - linear) / size);
       if (!(change <= result) && !std::isnan(result))
         result = change;
     }
     return result;
+  }
+
+  /// Of one with a force: its ends neither meet nor pass each other.
+  void TurningConstraints::check_turn(const std::size_t k, const State &before) const
+  {
+    const std::size_t i = constraints.n_fixed() + k;
+    const TurningDirection &turning = *constraints[i].direction;
+    const Coordinates &a = start[k], &b = end[k], way = b - a;
+    const bool vanishes = turning.vanishes(a) || turning.vanishes(b);
+    if (!vanishes && !(dot(a, b) < largest_turn * norm(a) * norm(b)))
+      return;
+    const double part = std::clamp(-dot(a, way) / dot(way, way), 0., 1.);
+    const std::string &name = constraints[i].name;
+    if (vanishes || norm(add_scaled(a, part, way)) < nearest_pass * turning.length)
+      throw UserError(message_of_meeting(name, before.time,
+                                         constraints.ends(i, reference.displacement, before.U)));
+    std::ostringstream out;
+    out << "at t = " << before.time << " s: link '" << name
+        << "' turns by more than 120 degrees in a step. Take a smaller step";
+    throw UserError(out.str());
+  }
+
+  std::string message_of_meeting(const std::string &name, const double t,
+                                 const std::array<Coordinates, 2> &ends)
+  {
+    std::ostringstream out;
+    out << "at t = " << t << " s: the ends of link '" << name << "' meet, from " << text_of(ends[0])
+        << " and " << text_of(ends[1])
+        << ", while it has a force: it has no direction there. Give it a stiffness that keeps its "
+           "ends apart, keep them apart by a stop, or join them by a ball joint";
+    return out.str();
   }
 
   double TurningConstraints::surplus(const std::vector<double> &N,

@@ -32,7 +32,7 @@ namespace
     unsigned int n_elements = 4;
   };
 
-  std::string text_of(const Coordinates &a)
+  std::string numbers_of(const Coordinates &a)
   {
     std::ostringstream out;
     out.precision(17);
@@ -64,8 +64,8 @@ namespace
       const bool holds_from = cable.from >= system.n_free, holds_to = cable.to >= system.n_free;
       name(body_names, "c" + std::to_string(k));
       bodies << "subsection Body c" << k
-             << "\nset Type = cable\nset From = " << text_of(system.places[cable.from])
-             << "\nset To = " << text_of(system.places[cable.to])
+             << "\nset Type = cable\nset From = " << numbers_of(system.places[cable.from])
+             << "\nset To = " << numbers_of(system.places[cable.to])
              << "\nset Unstressed length = " << cable.length
              << "\nset Axial stiffness = " << cable.EA
              << "\nset Mass per length = " << -cable.load.y / 9.81
@@ -86,7 +86,7 @@ namespace
       if (!net.masses.empty())
       {
         name(mass_names, node);
-        masses << "subsection Mass " << node << "\nset Position = " << text_of(system.places[i])
+        masses << "subsection Mass " << node << "\nset Position = " << numbers_of(system.places[i])
                << "\nset Motions = x, y, z\nset Mass = " << net.masses[i] << "\nend\n";
         ends[i].insert(ends[i].begin(), node);
       }

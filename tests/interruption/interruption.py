@@ -49,6 +49,36 @@ subsection Time
   set End  = 2
 end
 """
+# A mass on a soft prop is thrown at its anchor: 1 m - 2 m sin(10 t).
+MEETING = """set Generator = network
+set Gravity   = 0, 0
+set Start     = given
+subsection Network
+  set Masses = ball
+  set Links  = prop
+  subsection Mass ball
+    set Position         = 1, 0
+    set Motions          = x, y, z
+    set Mass             = 1
+    set Initial velocity = -20, 0, 0
+  end
+  subsection Link prop
+    set Type      = stop
+    set From      = ground @ 0, 0
+    set To        = ball
+    set Turns     = true
+    set Length    = 1
+    set Stiffness = 100
+  end
+end
+subsection Time
+  set Step = 1e-3
+  set End  = 1
+end
+"""
+# What the error says, and between which times it comes: that of a push that becomes infinite in mid-run and those of MEETING.
+ERRORS = [(FAILING, "push", .5, .5),
+          (MEETING, r"^taut: .*t = 0\.052\d* s: the ends of link 'prop' meet.*\(0, 0, 0\) m", .052, .0524)]
 errors = []
 
 
@@ -212,17 +242,17 @@ def check_before_start(folder, option):
     expect(f"{what}: nothing written", not results.exists())
 
 
-def check_error(folder, ranks):
-    """A force that becomes infinite in mid-run."""
+def check_error(folder, ranks, text, words, begin, end):
+    """An error in mid-run, after the step at begin and not later than end."""
     scene, results = folder / "failing.prm", folder / "results"
-    scene.write_text(FAILING)
+    scene.write_text(text)
     program = Program(folder, [str(scene), "--set", f"Output/Folder={results}"], ranks)
     code = program.end()
-    what = f"error on {ranks} ranks"
+    what = f"error of {words} on {ranks} ranks"
     expect(f"{what}: exit code", code == 1, code)
-    expect(f"{what}: it is said", "push" in program.err.read_text(), program.err.read_text())
+    expect(f"{what}: it is said", re.search(words, program.err.read_text()), program.err.read_text())
     until = check_partial(what, program, results)
-    expect(f"{what}: until the step before", math.isclose(until, 0.5), until)
+    expect(f"{what}: until the step before", begin - 1e-9 <= until <= end + 1e-9, until)
 
 
 def check_study(folder):
@@ -253,12 +283,12 @@ with tempfile.TemporaryDirectory() as name:
              (check_ranks, signal.SIGINT, None),
              (check_second_signal, signal.SIGINT, signal.SIGINT), (check_second_signal, signal.SIGINT, signal.SIGTERM),
              (check_before_start, []), (check_before_start, ["--check"]),
-             (check_error, 1), (check_error, 2), (check_study,)]
+             *((check_error, ranks, *error) for ranks in (1, 2) for error in ERRORS), (check_study,)]
     for i, (check, *options) in enumerate(cases):
         folder = pathlib.Path(name) / str(i)
         folder.mkdir()
         begin = time.monotonic()
         check(folder, *options)
-        print(f"{check.__name__} {options}: {time.monotonic() - begin:.1f} s", flush=True)
+        print(f"{check.__name__} {str(options)[:40]}: {time.monotonic() - begin:.1f} s", flush=True)
 
 sys.exit("\n".join(error[:2000] for error in errors) or None)

@@ -179,18 +179,22 @@ TEST(TurningLinks, mass_bounces_on_an_elastic_rope)
     scene.start = "given";
     scene.step = 2. * pi * std::sqrt(m / k) / steps;
     scene.end = 1.6;
-    double N = 0., first = 0., top = -10.;
+    double N = 0., at_end = 0., first = 0., top = -10.;
     scene.run(
         [&](const Motion &at)
         {
           if (at.time == 0.)
             first = at.energy;
           N = std::max(N, at.multiplier[0]);
+          at_end = std::max(at_end, -k * at.gap[0]);
           EXPECT_LT(at.energy, first + 1e-9 * m * g);
           if (at.time > 1.)
             top = std::max(top, at.place[0].y);
         });
+    // A mean over the step, and the spring at the end of it.
     EXPECT_NEAR(N / largest, 1., error);
+    EXPECT_LT(N, at_end);
+    EXPECT_NEAR(at_end / largest, 1., .75 * error);
     EXPECT_NEAR(top, -1., 2.5 * error);
   }
 }

@@ -92,6 +92,11 @@ namespace taut
     std::vector<Coordinates> differences(const BodyVectors &reference, const BodyVectors &U) const;
     std::vector<Coordinates> differences(const BodyVectors &U) const;
 
+    /// Where both ends of a constraint that turns are at U = @p reference + @p U. Called by all
+    /// ranks together [m].
+    std::array<Coordinates, 2> ends(std::size_t i, const BodyVectors &reference,
+                                    const BodyVectors &U) const;
+
     /// Gives each constraint that turns B_i = sign times its motion along a direction.
     void turn(const std::vector<Coordinates> &directions);
 

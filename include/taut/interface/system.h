@@ -31,7 +31,26 @@ namespace taut
     /// One whose displacement and gap @p place gives anew at each time.
     static Constraint unilateral(const std::string &name, std::shared_ptr<const MovingPlace> place);
 
-    /// D at U = 0, N = 0 [m].
+    /**
+     * Constraints along the line from end @p a to end @p b at each time, however far these move.
+     * With their distance and a @p length [m], N in N:
+     *
+     *     rope:  D = length - distance >= 0, N > 0 pulls the ends together
+     *     prop:  D = distance - length >= 0, N > 0 pushes them apart
+     *     rod:   distance = length,          N > 0 pushes them apart
+     *
+     * with the spring of stiffness() or law() in series; the length is that without force. At least
+     * one end is on a body. Throws UserError if the length is not positive, or if both ends are at
+     * one place at U = 0.
+     */
+    static Constraint rope(const std::string &name, const LinkEnd &a, const LinkEnd &b,
+                           double length);
+    static Constraint prop(const std::string &name, const LinkEnd &a, const LinkEnd &b,
+                           double length);
+    static Constraint rod(const std::string &name, const LinkEnd &a, const LinkEnd &b,
+                          double length);
+
+    /// D at U = 0, N = 0 [m]. Throws UserError for ropes, props and rods, whose length says it.
     Constraint &gap(double value);
 
     /// Of a spring in series, rigid without it, and of a damper beside the spring [N/m; N s/m].
@@ -47,6 +66,8 @@ namespace taut
   private:
     Constraint(const std::string &name, bool unilateral, const Displacement &a,
                const Displacement &b);
+    static Constraint turning(const std::string &name, bool unilateral, double push,
+                              const LinkEnd &a, const LinkEnd &b, double length);
     ConstraintData data;
   };
 
@@ -70,6 +91,13 @@ namespace taut
     /// Called by all ranks together; throws on all of them if the place is not on the body.
     Displacement displacement(std::size_t body, const Coordinates &place,
                               const Coordinates &direction) const;
+
+    /// A place of a body as an end of a rope, prop or rod. Without @p position it is where the body
+    /// says that the place is at U = 0, see Substructure::position(); masses, whose places are
+    /// numbers, need one [m]. An end that stands is LinkEnd{{x, y, z}}. Called by all ranks
+    /// together; throws on all of them if the place is not on the body.
+    LinkEnd link_end(std::size_t body, const Coordinates &place) const;
+    LinkEnd link_end(std::size_t body, const Coordinates &place, const Coordinates &position) const;
 
     /// Adds a constraint and returns its number among them. A Stepper knows those that were there
     /// when it was made.

@@ -6,10 +6,18 @@
 #include <taut/substructure/structure.h>
 
 #include <array>
+#include <string>
 #include <vector>
 
 namespace taut
 {
+  /// An end of a constraint that turns: a place of a body; without motion one of the ground.
+  struct LinkEnd
+  {
+    Coordinates position;                         ///< at U = 0, the same on all ranks [m]
+    std::array<std::vector<Term>, 3> motion = {}; ///< along x, y, z, on bodies of this rank [m]
+  };
+
   /**
    * The direction of a constraint from one of its ends to the other, wherever these are:
    *
@@ -20,6 +28,11 @@ namespace taut
    */
   struct TurningDirection
   {
+    /// From end to end; the length is their distance at U = 0. @p push: as @ref sign.
+    TurningDirection(const LinkEnd &first, const LinkEnd &second, double push);
+
+    LinkEnd first;
+
     /// Of the second end minus that of the first along x, y and z, on the bodies of this rank [m].
     std::array<std::vector<Term>, 3> motion;
     Coordinates start;  ///< Delta at U = 0, the same on all ranks [m]
@@ -43,6 +56,9 @@ namespace taut
     /// Motion along a direction, one term for each body.
     std::vector<Term> along(const Coordinates &direction) const;
   };
+
+  /// "(x, y, z) m", for messages.
+  std::string text_of(const Coordinates &place);
 } // namespace taut
 
 #endif

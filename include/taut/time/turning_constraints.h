@@ -6,6 +6,8 @@
 #include <taut/time/integrator.h>
 #include <taut/time/state.h>
 
+#include <array>
+#include <string>
 #include <vector>
 
 namespace taut
@@ -44,7 +46,8 @@ namespace taut
      * Takes the increments of an iteration as the next guess, whose multipliers are @p N, and the
      * parts of D besides Delta and N @p history. Returns by how much that guess misses: relative
      * changes of directions, and errors of gaps over |Delta|, of constraints that carry a force or
-     * should, see weights in the source. Throws UserError if a direction vanishes under a force.
+     * should, see weights in the source. Throws UserError, with time and both places, where ends
+     * meet under a force.
      */
     double set_guess(const BodyVectors &dU, const State &before, const std::vector<double> &N,
                      const std::vector<double> &history);
@@ -65,6 +68,8 @@ namespace taut
     double surplus(const std::vector<double> &N, const std::vector<double> &motion) const;
 
   private:
+    void check_turn(std::size_t k, const State &before) const;
+
     Constraints &constraints;
     const Reference &reference;
     bool is_mean = false;
@@ -72,7 +77,13 @@ namespace taut
     std::vector<Coordinates> used;  ///< directions of B_i
     std::vector<Coordinates> next;  ///< those of the guess
     std::vector<double> offsets, next_offsets, increments;
+    std::vector<Coordinates> end; ///< Delta_1 of the last guess
   };
+
+  /// What to say of a constraint that turns and has a force where its ends meet, at time @p t [s];
+  /// @p ends are their places.
+  std::string message_of_meeting(const std::string &name, double t,
+                                 const std::array<Coordinates, 2> &ends);
 } // namespace taut
 
 #endif

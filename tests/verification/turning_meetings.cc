@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: where the ends of a link that turns and has a force come to one place, at the start or in
+// motion, the run ends with an error that says when, which link, where and what to do; a slack rope
+// lets them pass. Expected values: harmonic motion, straight flight.
+#include "turning_scene.h"
+
+#include <taut/base/exceptions.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+using namespace turning;
+
+namespace
+{
+  /// A mass of 1 kg in weightlessness, thrown from a place 1 m beside the origin.
+  Scene thrown(const std::string &link, const Coordinates &place, const Coordinates &velocity)
+  {
+    Scene scene;
+    scene.gravity = {0., 0., 0.};
+    scene.masses = {{1., place, velocity}};
+    scene.links = {link + "\nset From = ground @ 0, 0\nset To = m0\nset Length = 1"};
+    scene.start = "given";
+    scene.end = .3;
+    return scene;
+  }
+
+  struct End
+  {
+    std::string error;
+    double time = 0.; ///< of the last step
+  };
+
+  End end_of(const Scene &scene, const Overrides &overrides = {})
+  {
+    End result;
+    try
+    {
+      scene.run([&](const Motion &m) { result.time = m.time; }, overrides);
+    }
+    catch (const taut::UserError &e)
+    {
+      result.error = e.what();
+    }
+    return result;
+  }
+
+  void expect_meeting(const End &end, const std::vector<std::string> &parts)
+  {
+    for (const std::string &part : parts)
+      EXPECT_NE(end.error.find(part), std::string::npos) << part << " in " << end.error;
+    EXPECT_NE(end.error.find("it has no direction there. Give it a stiffness"), std::string::npos)
+        << end.error;
+  }
+
+  const std::string prop = "set Type = stop\nset Stiffness = 100",
+                    rod = "set Type = joint\nset Stiffness = 100";
+} // namespace
+
+TEST(TurningMeetings, mass_thrown_at_its_anchor)
+{
+  // x = 1 - 2 sin(10 t).
+  const double meeting = std::asin(.5) / 10.;
+  const Coordinates direction = {2. / 7., 3. / 7., 6. / 7.};
+  for (const std::string &link : {prop, rod})
+    for (const Coordinates &d : {Coordinates{1., 0., 0.}, direction})
+      for (const double step : {1e-3, 7e-3})
+        for (const char *const scheme : {"automatic", "backward Euler"})
+        {
+          Scene scene = thrown(link, d, add_scaled({}, -20., d));
+          scene.step = step;
+          const End end = end_of(scene, {"Time/Scheme=" + std::string(scheme)});
+          expect_meeting(end, {"t = 0.05", "link 'l0' meet", "from (0, 0, 0) m and ("});
+          EXPECT_NEAR(end.time, meeting, scheme == std::string("automatic") ? 1.1 * step : .02);
+        }
+}
+
+TEST(TurningMeetings, masses_that_meet)
+{
+  Scene scene;
+  scene.gravity = {0., 0., 0.};
+  scene.masses = {{1., {0., 1., 0.}, {0., 10., 0.}}, {1., {0., 2., 0.}, {0., -10., 0.}}};
+  scene.links = {"set Type = stop\nset Stiffness = 50\nset From = m0\nset To = m1"};
+  scene.start = "given";
+  scene.end = .2;
+  expect_meeting(end_of(scene), {"t = 0.05", "link 'l0' meet, from (0, 1."});
+}
+
+TEST(TurningMeetings, at_the_start)
+{
+  for (const std::string &link : {prop, rod})
+  {
+    const Scene scene = thrown(link, {1., .5, 0.}, {});
+    const End end = end_of(scene, {"Network/Mass m0/Initial displacement=-1, -.5, 0"});
+    expect_meeting(
+        end, {"Network/Link l0", "t = 0 s", "link 'l0' meet", "from (0, 0, 0) m and (0, 0, 0) m"});
+  }
+  const End same = end_of(thrown(prop, {0., 0., 0.}, {}));
+  EXPECT_NE(same.error.find("start at one place, (0, 0, 0) m"), std::string::npos) << same.error;
+}
+
+TEST(TurningMeetings, mass_that_flies_past)
+{
+  const Scene scene = thrown(prop, {1., .05, 0.}, {-20., 0., 0.});
+  EXPECT_EQ(end_of(scene).error, "");
+  double least = 1., first = 0.;
+  scene.run(
+      [&](const Motion &m)
+      {
+        least = std::min(least, norm(m.place[0]));
+        first = first > 0. ? first : m.energy;
+        // The step in which the prop opens takes some.
+        EXPECT_NEAR(m.energy, first, 2e-5 * first);
+        EXPECT_LT(m.energy, (1. + 1e-9) * first);
+      });
+  EXPECT_LT(least, .3);
+}
+
+TEST(TurningMeetings, slack_rope_lets_its_ends_pass)
+{
+  // Through the anchor after 0.05 s, once at the end of a step; caught on the other side.
+  for (const double step : {1e-3, 7e-4})
+  {
+    Scene scene = thrown("set Type = dropper", {.5, 0., 0.}, {-10., 0., 0.});
+    scene.step = step;
+    double caught = 0.;
+    scene.run(
+        [&](const Motion &m)
+        {
+          if (caught == 0. && m.multiplier[0] > 0.)
+          {
+            caught = m.time;
+            EXPECT_NEAR(m.place[0].x, -1., 1e-10);
+          }
+        });
+    EXPECT_NEAR(caught, .15, 1.1 * step);
+  }
+}
