@@ -19,8 +19,8 @@ namespace taut
   }                                    // namespace
 
   /// Over the unstressed arc length. Of a cable that is linear T0 + EA t . u', t the tangent of
-  /// the positions of its K: linear in U as its forces are, by differences so that it is taken at the points
-  /// of the integral, too. @p q is kept by reference.
+  /// the positions of its K: linear in U as its forces are, by differences so that it is taken at
+  /// the points of the integral, too. @p q is kept by reference.
   std::function<double(double)> Cable::tension_at(const std::vector<double> &q) const
   {
     double largest = 0.;

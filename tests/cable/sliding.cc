@@ -99,7 +99,7 @@ TEST(CableSliding, as_along_a_wire)
              errors.back());
     }
     EXPECT_NEAR(errors[1], errors[0], 1e-8); // without weight they are the same
-    EXPECT_LT(errors[2], errors[0] + .1);   // the tension changes as the cable moves
+    EXPECT_LT(errors[2], errors[0] + .1);    // the tension changes as the cable moves
     if (!coarser.empty())
     {
       EXPECT_LT(errors[0], .02);
@@ -153,4 +153,46 @@ TEST(CableSliding, leaves_the_cable)
               std::string::npos);
     EXPECT_NE(std::string(e.what()).find("has no place"), std::string::npos);
   }
+}
+
+TEST(CableSliding, under_a_line_of_cables_as_under_straight_wires)
+{
+  struct Force
+  {
+    double mean = 0., deviation = 0.;
+    int n = 0;
+  };
+  // Between the masts at 60 and 120 m.
+  const auto force = [](const std::string &name, const std::vector<std::string> &settings)
+  {
+    Force result;
+    double squares = 0.;
+    run_scene(scene_file(name), settings,
+              [&](const taut::StepView &view)
+              {
+                const double x = 40. + 250. / 3.6 * view.state.time,
+                             N = view.state.multiplier[view.constraints.first_moving()];
+                if (x < 60. || x > 120.)
+                  return;
+                result.mean += N;
+                squares += N * N;
+                ++result.n;
+              });
+    result.mean /= result.n;
+    result.deviation = std::sqrt(squares / result.n - result.mean * result.mean);
+    return result;
+  };
+  const Force cables = force("line_of_cables", {"Time/End=1.16"}),
+              wires = force("en50318_2002_250",
+                            {"Time/End=1.16", "Time/Step=2e-3", "Catenary/Number of spans=3",
+                             "Catenary/Pantograph pantograph/Start=40",
+                             "Catenary/Contact wire/Element size=1",
+                             "Catenary/Messenger wire/Element size=1",
+                             "Catenary/Uplift positions=60, 120", "Statistics/Window=60, 120"});
+  figure("mean contact force under cables less that under straight wires", cables.mean - wires.mean,
+         "N");
+  figure("its standard deviation under cables over that under straight wires",
+         cables.deviation / wires.deviation);
+  EXPECT_NEAR(cables.mean, wires.mean, .5);
+  EXPECT_NEAR(cables.deviation, wires.deviation, .03 * wires.deviation);
 }
