@@ -102,10 +102,16 @@ TEST(TurningStability, weight_on_a_prop_without_anything_beside_it)
 TEST(TurningStability, critical_stiffness_of_a_prop)
 {
   const double critical = weight / length;
-  for (const char *const type : {"stop", "joint"})
+  for (const auto &[type, form] : {std::pair("stop", "assembled dense"),
+                                   {"joint", "assembled sparse"},
+                                   {"stop", "matrix-free"}})
   {
-    const auto error = [&](const double along_x, const double along_z)
-    { return error_of(tower(1, type), springs(1, along_x, along_z), weight); };
+    const auto error = [type = type, form = form](const double along_x, const double along_z)
+    {
+      Overrides overrides = springs(1, along_x, along_z);
+      overrides.push_back("Solver/Interface operator=" + std::string(form));
+      return error_of(tower(1, type), overrides, weight);
+    };
     EXPECT_EQ(error(critical / below, critical / below), "");
     expect_refused(error(critical * below, critical / below), "l0");
     expect_refused(error(critical / below, critical * below), "l0");
