@@ -2,6 +2,7 @@
 // Claim: a contact slides along a cable as along a wire, and follows its shape at rest. Sources:
 // the same scene with a straight wire; a taut string under a force, F x (l - x)/(l T) below its
 // parabola.
+#include "cable/slack_cable.h"
 #include "verification/run.h"
 
 #include <taut/base/exceptions.h>
@@ -195,4 +196,24 @@ TEST(CableSliding, under_a_line_of_cables_as_under_straight_wires)
          cables.deviation / wires.deviation);
   EXPECT_NEAR(cables.mean, wires.mean, .5);
   EXPECT_NEAR(cables.deviation, wires.deviation, .03 * wires.deviation);
+}
+
+TEST(CableSliding, slope_is_the_derivative_of_the_displacement)
+{
+  for (const taut::CableElement element : {taut::CableElement::ancf, taut::CableElement::bar})
+  {
+    const taut::Cable cable(slack_cable(element));
+    const taut::Coordinates direction = {.3, -1., .5};
+    std::vector<double> U(cable.n_dofs());
+    for (std::size_t i = 0; i < U.size(); ++i)
+      U[i] = std::sin(1. + 1.7 * i);
+    const double h = 1e-4;
+    for (const double s : {.7, 31.3, 77.2})
+    {
+      const double difference = (cable.displacement({s + h, 0.}, direction).dot(U) -
+                                 cable.displacement({s - h, 0.}, direction).dot(U)) /
+                                (2. * h);
+      EXPECT_NEAR(cable.slope(s, direction).dot(U), difference, 1e-6 * std::fabs(difference)) << s;
+    }
+  }
 }
