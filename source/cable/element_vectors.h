@@ -19,7 +19,23 @@ namespace taut
   struct ElementBatch
   {
     static constexpr unsigned int size = 8;
-    std::array<std::array<double, size>, 12> dof{};
+    std::array<std::array<double, size>, 12> dof; ///< not set: zeros for each batch take time
+
+    /// The second half of the first node's DoFs: r' of ANCF.
+    Coordinates derivative(const unsigned int l) const { return {dof[3][l], dof[4][l], dof[5][l]}; }
+  };
+
+  /// Of the first nodes of these elements what belongs to their derivatives r'.
+  struct NodeBatch
+  {
+    std::array<std::array<double, ElementBatch::size>, 3> dof;
+
+    void set(const unsigned int l, const Coordinates &g)
+    {
+      dof[0][l] = g.x;
+      dof[1][l] = g.y;
+      dof[2][l] = g.z;
+    }
   };
 
   /// sum of shape[a] times the vector a of an element.
@@ -33,14 +49,13 @@ namespace taut
     return r;
   }
 
-  /// The same of element l of a batch. By components: loops over arrays in it are none over l.
+  /// The same of element l of a batch, whose first node is the origin. By components: loops over
+  /// arrays in it are none over l.
   inline Coordinates combine(const std::array<double, 4> &shape, const ElementBatch &x,
                              const unsigned int l)
   {
-    const auto component = [&](const unsigned int c)
-    {
-      return shape[0] * x.dof[c][l] + shape[1] * x.dof[3 + c][l] + shape[2] * x.dof[6 + c][l] +
-             shape[3] * x.dof[9 + c][l];
+    const auto component = [&](const unsigned int c) {
+      return shape[1] * x.dof[3 + c][l] + shape[2] * x.dof[6 + c][l] + shape[3] * x.dof[9 + c][l];
     };
     return {component(0), component(1), component(2)};
   }
@@ -69,15 +84,24 @@ namespace taut
         f[3 * a + c] += shape[a] * g[c];
   }
 
-  /// The same of element l of a batch.
+  /// The same of element l of a batch, but for its first node: no force moves the element as a
+  /// whole. @p adds: false: = instead of +=.
+  template <bool adds = true>
   inline void distribute(const std::array<double, 4> &shape, const Coordinates &g, ElementBatch &f,
                          const unsigned int l)
   {
-    for (unsigned int a = 0; a < 4; ++a)
+    const auto put = [l](std::array<double, ElementBatch::size> &row, const double value)
     {
-      f.dof[3 * a][l] += shape[a] * g.x;
-      f.dof[3 * a + 1][l] += shape[a] * g.y;
-      f.dof[3 * a + 2][l] += shape[a] * g.z;
+      if constexpr (adds)
+        row[l] += value;
+      else
+        row[l] = value;
+    };
+    for (unsigned int a = 1; a < 4; ++a)
+    {
+      put(f.dof[3 * a], shape[a] * g.x);
+      put(f.dof[3 * a + 1], shape[a] * g.y);
+      put(f.dof[3 * a + 2], shape[a] * g.z);
     }
   }
 } // namespace taut

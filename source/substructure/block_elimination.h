@@ -149,13 +149,13 @@ namespace taut
     return sum;
   }
 
-  /// What the elimination from one end leaves at a node.
+  /// What the elimination from one end leaves at a node; whole cache lines.
   template <int b>
-  struct Elimination
+  struct alignas(64) Elimination
   {
     Block<b> multiplier; ///< from the node before: G or H below
     Block<b> transposed; ///< multiplier
-    Block<b> pivot, inverse;
+    Block<b> inverse;    ///< of the pivot
   };
 
   /**

@@ -37,6 +37,8 @@ namespace taut
 
     private:
       BothEliminations<b> eliminations() const;
+      Block<b> pivot_from_left(std::size_t i, const Block<b> &G) const;
+      Block<b> pivot_from_right(std::size_t i, const Block<b> &H) const;
       void eliminate_from_left(std::size_t begin, std::size_t end) const;
       void eliminate_from_right(std::size_t begin, std::size_t end) const;
       bool complete() const;
@@ -110,11 +112,27 @@ namespace taut
               eliminate_from_left(0, middle + 1);
               eliminate_from_right(n, middle);
             });
-      Block<b> pivot = from_left[middle].pivot;
+      Block<b> pivot = pivot_from_left(middle, from_left[middle].multiplier);
       if (middle + 1 < n)
         pivot = symmetric_difference<b>(pivot,
                                         multiply<b>(from_right[middle].multiplier, L[middle + 1]));
       middle_inverse = invert<b>(pivot, D[middle], middle);
+    }
+
+    /// Dl_i, with G_i.
+    template <int b>
+    Block<b> BlockTridiagonalSolver<b>::pivot_from_left(const std::size_t i,
+                                                        const Block<b> &G) const
+    {
+      return i == 0 ? D[i] : symmetric_difference<b>(D[i], multiply<b>(G, transpose<b>(L[i])));
+    }
+
+    /// Dr_i, with H_i.
+    template <int b>
+    Block<b> BlockTridiagonalSolver<b>::pivot_from_right(const std::size_t i,
+                                                         const Block<b> &H) const
+    {
+      return i + 1 == n ? D[i] : symmetric_difference<b>(D[i], multiply<b>(H, L[i + 1]));
     }
 
     /// Nodes begin to end - 1, after those before them.
@@ -124,14 +142,11 @@ namespace taut
     {
       for (std::size_t i = begin; i < end; ++i)
       {
-        Elimination<b> e{{}, {}, D[i], {}};
+        Elimination<b> e{};
         if (i > 0)
-        {
           e.multiplier = multiply<b>(L[i], from_left[i - 1].inverse);
-          e.pivot = symmetric_difference<b>(D[i], multiply<b>(e.multiplier, transpose<b>(L[i])));
-        }
         e.transposed = transpose<b>(e.multiplier);
-        e.inverse = invert<b>(e.pivot, D[i], i);
+        e.inverse = invert<b>(pivot_from_left(i, e.multiplier), D[i], i);
         from_left.set(i, e);
       }
     }
@@ -143,14 +158,11 @@ namespace taut
     {
       for (std::size_t i = begin; i-- > end;)
       {
-        Elimination<b> e{{}, {}, D[i], {}};
+        Elimination<b> e{};
         if (i + 1 < n)
-        {
           e.multiplier = multiply<b>(transpose<b>(L[i + 1]), from_right[i + 1].inverse);
-          e.pivot = symmetric_difference<b>(D[i], multiply<b>(e.multiplier, L[i + 1]));
-        }
         e.transposed = transpose<b>(e.multiplier);
-        e.inverse = invert<b>(e.pivot, D[i], i);
+        e.inverse = invert<b>(pivot_from_right(i, e.multiplier), D[i], i);
         from_right.set(i, e);
       }
     }
@@ -250,7 +262,7 @@ namespace taut
       // [L   Dr ] [x1] = [r1]
       const Block<b> &coupling = L[node + 1];
       const Block<b> pivot = symmetric_difference<b>(
-          from_right[node + 1].pivot,
+          pivot_from_right(node + 1, from_right[node + 1].multiplier),
           multiply<b>(from_left[node + 1].multiplier, transpose<b>(coupling)));
       const Block<b> inverse = invert<b>(pivot, D[node + 1], node + 1);
       double r0[b], r1[b];

@@ -20,6 +20,7 @@ namespace taut
   };
 
   struct ElementBatch;
+  struct NodeBatch;
 
   /// A cross section; lengths are unstressed.
   struct CableSection
@@ -169,6 +170,9 @@ namespace taut
     Shapes shapes(double xi) const;
     Local local(const std::vector<double> &q, unsigned int e) const;
     ElementBatch batch(const std::vector<double> &q, unsigned int first) const;
+    std::array<double, 8> end_weights(unsigned int first) const;
+    template <typename Set>
+    void set_axial(const Set &set) const;
     template <typename Integrand>
     void integrate_force(std::vector<double> &f, const Integrand &integrand) const;
     void add(const LocalMatrix &K, unsigned int e, SymmetricMatrix &A) const;
@@ -189,6 +193,8 @@ namespace taut
     double h; ///< [m]
     CableSection material;
     std::vector<Point> axial_points, bending_points;
+    std::vector<Point> inner_axial_points; ///< not at the ends of elements
+    double end_weight = 0.;                ///< of an axial point at an end, if there is one [m]
   };
 } // namespace taut
 
