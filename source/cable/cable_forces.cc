@@ -112,14 +112,30 @@ namespace taut
     return energy;
   }
 
-  /// Calls set(point, std::false_type()) for the first axial point inside elements, which sets
-  /// their forces, and with std::true_type() for the others, which add to them.
-  template <typename Set>
-  inline void CableElements::set_axial(const Set &set) const
+  /// Sets the axial forces of a batch, axial(weight, r' of @p x, r' of @p y) at each point; later
+  /// ones are to be added.
+  template <typename Force>
+  inline void CableElements::set_axial_forces(const unsigned int first, const ElementBatch &x,
+                                              const ElementBatch &y, const Force &axial,
+                                              ElementBatch &sum, NodeBatch &of_nodes) const
   {
-    set(inner_axial_points.front(), std::false_type());
+    if (end_weight != 0.)
+    {
+      const std::array<double, ElementBatch::size> weight = end_weights(first);
+#pragma omp simd
+      for (unsigned int l = 0; l < ElementBatch::size; ++l)
+        of_nodes.set(l, axial(weight[l], x.derivative(l), y.derivative(l)));
+    }
+    const auto put = [&](const Point &p, const auto adds)
+    {
+#pragma omp simd
+      for (unsigned int l = 0; l < ElementBatch::size; ++l)
+        distribute<adds>(p.slope, axial(p.weight, combine(p.slope, x, l), combine(p.slope, y, l)),
+                         sum, l);
+    };
+    put(inner_axial_points.front(), std::false_type());
     for (std::size_t k = 1; k < inner_axial_points.size(); ++k)
-      set(inner_axial_points[k], std::true_type());
+      put(inner_axial_points[k], std::true_type());
   }
 
   /// f = the sum of what @p integrand (first element of a batch, its forces, those of nodes) sets.
@@ -179,22 +195,7 @@ namespace taut
       if (damped)
         of_velocity = batch(velocity, first);
       const ElementBatch &rate = damped ? of_velocity : x;
-      if (end_weight != 0.)
-      {
-        const std::array<double, ElementBatch::size> weight = end_weights(first);
-#pragma omp simd
-        for (unsigned int l = 0; l < ElementBatch::size; ++l)
-          of_nodes.set(l, axial(weight[l], x.derivative(l), rate.derivative(l)));
-      }
-      set_axial(
-          [&](const Point &p, const auto adds)
-          {
-#pragma omp simd
-            for (unsigned int l = 0; l < ElementBatch::size; ++l)
-              distribute<adds>(p.slope,
-                               axial(p.weight, combine(p.slope, x, l), combine(p.slope, rate, l)),
-                               sum, l);
-          });
+      set_axial_forces(first, x, rate, axial, sum, of_nodes);
       for (const Point &p : bending_points)
 #pragma omp simd
         for (unsigned int l = 0; l < ElementBatch::size; ++l)
@@ -226,22 +227,7 @@ namespace taut
     const auto integrand = [&](const unsigned int first, ElementBatch &sum, NodeBatch &of_nodes)
     {
       const ElementBatch x0 = batch(q0, first), x1 = batch(q1, first);
-      if (end_weight != 0.)
-      {
-        const std::array<double, ElementBatch::size> weight = end_weights(first);
-#pragma omp simd
-        for (unsigned int l = 0; l < ElementBatch::size; ++l)
-          of_nodes.set(l, axial(weight[l], x0.derivative(l), x1.derivative(l)));
-      }
-      set_axial(
-          [&](const Point &p, const auto adds)
-          {
-#pragma omp simd
-            for (unsigned int l = 0; l < ElementBatch::size; ++l)
-              distribute<adds>(p.slope,
-                               axial(p.weight, combine(p.slope, x0, l), combine(p.slope, x1, l)),
-                               sum, l);
-          });
+      set_axial_forces(first, x0, x1, axial, sum, of_nodes);
       for (const Point &p : bending_points)
 #pragma omp simd
         for (unsigned int l = 0; l < ElementBatch::size; ++l)

@@ -171,8 +171,9 @@ namespace taut
     Local local(const std::vector<double> &q, unsigned int e) const;
     ElementBatch batch(const std::vector<double> &q, unsigned int first) const;
     std::array<double, 8> end_weights(unsigned int first) const;
-    template <typename Set>
-    void set_axial(const Set &set) const;
+    template <typename Force>
+    void set_axial_forces(unsigned int first, const ElementBatch &x, const ElementBatch &y,
+                          const Force &axial, ElementBatch &sum, NodeBatch &of_nodes) const;
     template <typename Integrand>
     void integrate_force(std::vector<double> &f, const Integrand &integrand) const;
     void add(const LocalMatrix &K, unsigned int e, SymmetricMatrix &A) const;
