@@ -190,6 +190,12 @@ namespace taut
         if (entries[e].body == k)
           count[i] += std::binary_search(dofs.begin(), dofs.end(), entries[e].dof);
       }
+      // Of what moves along a body, DoFs change; lumped masses at the other end stay.
+      for (std::size_t i = first_with_place; i < constraints.size() && structure[k].is_lumped();
+           ++i)
+        for (std::size_t e = begin[i]; e < begin[i + 1]; ++e)
+          if (entries[e].body == k)
+            count[i] += std::binary_search(dofs.begin(), dofs.end(), entries[e].dof);
       for (std::size_t i = fixed; i < first_with_place; ++i)
         for (const std::vector<Term> &motion : constraints[i].direction->motion)
           for (const Term &term : motion)

@@ -287,7 +287,8 @@ namespace taut
   /// at.
   void TimeStepper::project_velocities()
   {
-    check.solve([&] { projection->project(constraint_motions, current); });
+    check.solve(
+        [&] { projection->project(constraint_motions, current, system->interface().matrix()); });
     if (!(projection->residual() <= last.complementarity))
     {
       last.complementarity = projection->residual();

@@ -10,9 +10,6 @@ namespace taut
 {
   namespace
   {
-    /// Fades the projection of elastic constraints out where S exceeds this part of F_ii.
-    constexpr double fading = .3;
-
     /// Rates over their terms that are rounding: steps of thousands of operations, each with one of
     /// 1e-16.
     constexpr double rounding_of_rates = 1e-12;
@@ -20,9 +17,6 @@ namespace taut
     /// Part of the largest terms of a rate so far, and of the rate that the kinetic energy could
     /// make, below which smaller ones count as rest.
     constexpr double rest = 1e-3;
-
-    /// Part of the diagonal that makes a system with dependent constraints definite.
-    constexpr double shift_of_dependent_rows = 1e-9;
 
     /// Systems with M are well-conditioned: nothing has to be taken from the bodies' other solvers.
     InterfaceParameters for_mass(InterfaceParameters parameters)
@@ -70,69 +64,6 @@ namespace taut
         structure.communicator().max(static_cast<double>(with_constraints.size())) > 0.;
   }
 
-  void VelocityProjection::prepare(const StepCoefficients &coefficients, const double tau,
-                                   const std::vector<double> &S, ComplementarityOperator &F)
-  {
-    c = coefficients;
-    step = tau;
-    const double theta = 1. - c.alpha_f;
-    std::vector<std::size_t> elastic;
-    for (std::size_t i = 0; i < constraints.size(); ++i)
-      if (constraints[i].unilateral && S[i] > 0.)
-        elastic.push_back(i);
-    has_softening = !elastic.empty();
-    const std::vector<double> diagonal = flexibilities(elastic, F);
-    for (const std::size_t i : elastic)
-    {
-      flexibility[i] = (diagonal[i] - S[i]) / theta;
-      has_laws = has_laws || constraints[i].law;
-    }
-    set_relative_softening(S);
-    if (is_set_up)
-      setup();
-  }
-
-  void VelocityProjection::set_relative_softening(const std::vector<double> &S)
-  {
-    for (std::size_t i = 0; i < constraints.size(); ++i)
-    {
-      relative_softening[i] = 0.;
-      if (!constraints[i].unilateral || S[i] == 0.)
-        continue;
-      const double ratio = S[i] / (fading * flexibility[i]);
-      relative_softening[i] = ratio * ratio;
-    }
-  }
-
-  /**
-   * The diagonal of a matrix of the constraints as the bodies have it with their rigid bilateral
-   * constraints closed, F_ii - F_ib F_bb^-1 F_bi, of the constraints listed: bodies that are cut in
-   * pieces answer as if they were whole.
-   */
-  std::vector<double> VelocityProjection::flexibilities(const std::vector<std::size_t> &wanted,
-                                                        ComplementarityOperator &F) const
-  {
-    std::vector<std::size_t> bilateral;
-    for (std::size_t i = 0; i < constraints.size(); ++i)
-      if (!constraints[i].unilateral && std::isinf(constraints[i].stiffness) && F.diagonal(i) > 0.)
-        bilateral.push_back(i);
-    std::vector<double> result(constraints.size(), 0.), unit(constraints.size(), 0.), column, x;
-    for (const std::size_t i : wanted)
-    {
-      result[i] = F.diagonal(i);
-      if (bilateral.empty())
-        continue;
-      unit[i] = 1.;
-      F.apply(unit, column);
-      unit[i] = 0.;
-      if (!F.solve(bilateral, column, 0., x))
-        F.solve(bilateral, column, shift_of_dependent_rows, x);
-      for (const std::size_t b : bilateral)
-        result[i] -= column[b] * x[b];
-    }
-    return result;
-  }
-
   /// f and its diagonal; the mass matrices are factored at the first call.
   void VelocityProjection::setup()
   {
@@ -147,7 +78,7 @@ namespace taut
     for (std::size_t i = 0; i < constraints.size(); ++i)
       if (relative_softening[i] > 0.)
         softened.push_back(i);
-    of_mass = flexibilities(softened, schur->matrix());
+    find_mass_flexibilities(softened);
     set_softening();
   }
 
@@ -170,18 +101,6 @@ namespace taut
             for (const std::size_t k : with_constraints)
               solvers.factor_again(k);
         });
-  }
-
-  void VelocityProjection::set_softening()
-  {
-    for (std::size_t i = 0; i < constraints.size(); ++i)
-    {
-      const double f = of_mass[i];
-      // Infinite: a constraint without flexibility of its own takes no part.
-      softening[i] =
-          f > 0. && std::isfinite(relative_softening[i]) ? f * relative_softening[i] : 0.;
-    }
-    schur->set_compliance(softening);
   }
 
   /// Sets the constraints that take part and their impulses. False if all their rates are as they
@@ -250,11 +169,14 @@ namespace taut
     }
   }
 
-  void VelocityProjection::project(ConstraintMotions &motions, State &state)
+  void VelocityProjection::project(ConstraintMotions &motions, State &state,
+                                   ComplementarityOperator &F)
   {
     found = 0.;
     std::fill(work_of_rows.begin(), work_of_rows.end(), 0.);
-    if (has_laws)
+    if (!moving_elastic.empty())
+      find_flexibilities(moving_elastic, motions.compliance(), F);
+    if (has_laws || !moving_elastic.empty())
     {
       set_relative_softening(motions.compliance());
       if (is_set_up)
@@ -276,7 +198,7 @@ namespace taut
     else if (!is_set_up)
       setup();
     else
-      schur->update_moving();
+      update_moving();
     problem.gap_scale = motions.velocity_sizes();
     set_problem(state);
     solve(motions, state);

@@ -129,6 +129,14 @@ namespace extremes
     given = initial_U = initial_V = Vector(n_dofs, Number(0));
   }
 
+  bool ExtendedModel::is_zero_row(const Matrix &matrix, const std::size_t i)
+  {
+    for (std::size_t j = 0; j < matrix.size(); ++j)
+      if (matrix(i, j) != 0)
+        return false;
+    return true;
+  }
+
   std::size_t ExtendedWires::Component::dof(const std::size_t element, const unsigned int i) const
   {
     return first + (degree == 3 ? 2 : degree) * element + i;
@@ -333,22 +341,34 @@ namespace extremes
     return form;
   }
 
+  /// The place of a moving link, or the slope there, along its direction.
+  Form ExtendedWires::sliding(const taut::Link &link, const Number &t, const bool slope) const
+  {
+    const taut::Coordinates axis = scene.wires[link.to.index].normal();
+    const Number factor =
+        Number(link.direction.x) * Number(axis.x) + Number(link.direction.y) * Number(axis.y);
+    Form form = shape(link.to.index, transverse[link.to.index],
+                      Number(link.to.position) + Number(link.speed) * t, slope);
+    for (auto &entry : form)
+      entry.second *= factor;
+    return form;
+  }
+
+  Form ExtendedWires::convection(const taut::Link &link, const Number &t) const
+  {
+    Form form;
+    if (link.moving())
+      form = sliding(link, t, true);
+    for (auto &entry : form)
+      entry.second *= Number(link.speed);
+    return form;
+  }
+
   Form ExtendedWires::constraint(const taut::Link &link, const Number &t) const
   {
     const Number sign = link.kind == taut::LinkKind::dropper ? -1 : 1;
-    Form form;
-    if (link.moving())
-    {
-      const Component &c = transverse[link.to.index];
-      const taut::Coordinates axis = scene.wires[link.to.index].normal();
-      const Number factor =
-          Number(link.direction.x) * Number(axis.x) + Number(link.direction.y) * Number(axis.y);
-      for (const auto &[i, v] :
-           shape(link.to.index, c, Number(link.to.position) + Number(link.speed) * t, false))
-        form.emplace_back(i, factor * v);
-    }
-    else
-      form = motion(link.to, link.rotational, link.direction);
+    Form form =
+        link.moving() ? sliding(link, t, false) : motion(link.to, link.rotational, link.direction);
     for (auto &entry : form)
       entry.second *= sign;
     for (const auto &[i, v] : motion(link.from, link.rotational, link.direction))

@@ -61,8 +61,13 @@ namespace extremes
                         const taut::Coordinates &direction) const = 0;
     /// B of a link at time t, without the gap.
     virtual Form constraint(const taut::Link &link, const Number &t) const = 0;
+    /// What the motion of the place of a moving link adds to D' = B^T V: a form on U.
+    virtual Form convection(const taut::Link &link, const Number &t) const = 0;
     /// External forces at time t.
     virtual Vector load(const Number &t) const = 0;
+    /// True if the row of M is zero; and that of C, too.
+    bool is_massless(std::size_t i) const { return is_zero_row(M, i); }
+    bool is_quasi_static(std::size_t i) const { return is_zero_row(M, i) && is_zero_row(C, i); }
     /// True if the DoF is held; its value is in given.
     std::vector<char> held;
     Vector given;
@@ -73,6 +78,9 @@ namespace extremes
   protected:
     /// All zero, nothing held.
     void resize(std::size_t n_dofs);
+
+  private:
+    static bool is_zero_row(const Matrix &matrix, std::size_t i);
   };
 
   /**
@@ -87,6 +95,7 @@ namespace extremes
     Form motion(const taut::Attachment &point, bool rotational,
                 const taut::Coordinates &direction) const override;
     Form constraint(const taut::Link &link, const Number &t) const override;
+    Form convection(const taut::Link &link, const Number &t) const override;
     Vector load(const Number &t) const override;
 
   private:
@@ -101,6 +110,7 @@ namespace extremes
     };
 
     Form shape(std::size_t wire, const Component &component, const Number &s, bool slope) const;
+    Form sliding(const taut::Link &link, const Number &t, bool slope) const;
     void add_component(std::size_t wire, Component &component);
     void add_masses();
 

@@ -41,6 +41,7 @@ namespace extremes
       {
         return forms[link.to.index];
       }
+      Form convection(const taut::Link &, const Number &) const override { return {}; }
       Vector load(const Number &t) const override
       {
         Vector P = steady;

@@ -43,6 +43,7 @@ namespace extremes
   {
     std::vector<Observation> steps;
     std::string error;       ///< empty if there is an answer
+    std::string scheme;      ///< of the last step, if `automatic` chose it
     double certificate = 0.; ///< largest of the run
 
     /// Of the extended run: largest |K||U|, and largest motion of a constraint under its own force,

@@ -208,6 +208,14 @@ namespace extremes
       return o;
     }
 
+    /// What `automatic` takes, as the copy names it.
+    std::string scheme_of(const taut::StepCoefficients &c)
+    {
+      return !c.mean_force           ? "generalised-alpha"
+             : c.velocity_projection ? "Moreau-Jean"
+                                     : "Moreau-Jean of gaps";
+    }
+
     /// A number and its powers of length, mass and time.
     using Visitor = std::function<void(double &, int, int, int)>;
 
@@ -291,6 +299,7 @@ namespace extremes
         rows.rows = taut::contact_geometry(view.scene, 0).constraints;
       }
       answer.steps.push_back(observe(view, c.dim, n_nodes));
+      answer.scheme = scheme_of(view.scheme);
       answer.certificate = std::max(answer.certificate, view.certificate.max());
       answer.iterations = std::max(answer.iterations, view.certificate.iterations);
       answer.n_fallbacks += view.certificate.fallback;

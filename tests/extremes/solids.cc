@@ -30,6 +30,7 @@ namespace
   };
   Summary summary;
   std::map<std::string, std::vector<std::string>> errors; ///< scenes by reason
+  std::map<std::string, unsigned int> chosen;             ///< schemes, by `automatic`
 
   const std::vector<Dimension> dimensions = {
       {"dim", {2, 3}},
@@ -44,7 +45,7 @@ namespace
       {"compliance", {0., 1e-9, 1.}},
       {"start", {0, 1, 2}},
       {"step", {1e-6, 1e-2, 1., 1e3, 1e6}}, // over the time of a wave through a cell
-      {"scheme", {0, 1, 2}},
+      {"scheme", {0, 1, 2, 3, 4}},
       {"held", {1, 0}},
       {"mass", {0, 1, 2}},
       {"length", {1e-6, 1., 1e6}},
@@ -108,8 +109,12 @@ namespace
     const char *const starts[] = {"equilibrium", "undeformed", "given"};
     c.start = starts[static_cast<int>(level["start"])];
     c.velocity = strain * cell / wave;
-    const char *const schemes[] = {"backward Euler", "BDF2", "generalised-alpha"};
+    const char *const schemes[] = {"backward Euler", "BDF2", "generalised-alpha", "Moreau-Jean",
+                                   "automatic"};
     c.scheme = schemes[static_cast<int>(level["scheme"])];
+    // Projections of velocities need a mass matrix that can be inverted.
+    if (c.scheme == "Moreau-Jean" && c.mass == "reduced")
+      c.scheme = "automatic";
     const int solver = static_cast<int>(level["solver"]);
     if (solver == 1)
       c.interface_operator = "matrix-free";
@@ -170,8 +175,9 @@ namespace
     return compare(a.steps, b.steps, scales({}, exact), neighbours, relative, absolute);
   }
 
-  void check(const SolidCase &c, const Units &other)
+  void check(const SolidCase &given, const Units &other)
   {
+    SolidCase c = given;
     SCOPED_TRACE(c.name);
     ++summary.n_scenes;
     ContactRows rows, rows_of_twin;
@@ -184,6 +190,11 @@ namespace
     }
     check_rows(c, rows);
     ++summary.n_answers;
+    if (c.scheme == "automatic")
+    {
+      c.scheme = ours.scheme;
+      ++chosen[c.scheme];
+    }
     summary.certificate = std::max(summary.certificate, ours.certificate);
     summary.iterations = std::max(summary.iterations, ours.iterations);
     summary.n_fallbacks += ours.n_fallbacks;
@@ -196,7 +207,7 @@ namespace
     }
     const Deviation d = compare_with(ours, exact, c, rows, exact);
     EXPECT_LE(d.excess, 1.) << d.where << "; certificate " << ours.certificate;
-    Answer twin = program_answer(in_units(c, other), rows_of_twin);
+    Answer twin = program_answer(in_units(given, other), rows_of_twin);
     to_units_of_origin(twin.steps, other);
     if (!twin.error.empty())
     {
@@ -286,6 +297,8 @@ TEST(Solids, are_right_or_end_in_an_error)
               "certificate %.1e | iterations %u | fallbacks %u\n",
               summary.n_scenes, summary.n_answers, summary.n_wrong, summary.deviation, summary.twin,
               summary.certificate, summary.iterations, summary.n_fallbacks);
+  for (const auto &[scheme, n] : chosen)
+    std::printf("automatic | %u | %s\n", n, scheme.c_str());
   for (const auto &[text, scenes] : errors)
   {
     std::printf("error | %zu | %s\n", scenes.size(), text.c_str());

@@ -184,6 +184,22 @@ TEST(ContactAccuracy, elastic_moving_contact)
           {{2e-3, .0097}, {1e-3, .0024}, {5e-4, .0006}}, 1e-3);
 }
 
+// Without mass its head is in equilibrium, and the contact as elastic as the spring under it.
+TEST(ContactAccuracy, moving_contact_from_a_head_without_mass)
+{
+  for (const std::string damping : {"0", "10"})
+  {
+    Problem problem = moving_contact("contact from a massless head, damping " + damping);
+    for (const auto &[entry, value] :
+         {std::pair<std::string, std::string>("  set Mass = 7.2\n", "  set Mass = 0\n"),
+          {"  set Damping = 10\n", "  set Damping = " + damping + "\n"}})
+      problem.scene.replace(problem.scene.find(entry), entry.size(), value);
+    const std::vector<double> e = compare(
+        problem, 6.25e-5, {{2e-3, .0083}, {1e-3, .0021}, {5e-4, .0005}, {2.5e-4, .00012}}, 1e-3);
+    EXPECT_LT(e[3], e[0] / 16.) << "second order";
+  }
+}
+
 // Two masses on a spring fall 0.8 m: errors in millimetres. BDF2 would let them rebound; the other
 // scheme has conditions on velocities.
 TEST(ContactAccuracy, two_masses_on_a_floor)

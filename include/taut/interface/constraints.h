@@ -128,7 +128,7 @@ namespace taut
     /// a step [s]; the same on all ranks [m/s].
     double profile_rate(std::size_t i, double t, double step) const;
 
-    /// Of each constraint: not 0 where it is fixed and acts on a DoF without mass.
+    /// Of each constraint: not 0 where it acts, wherever it moves, on a DoF without mass.
     std::vector<char> without_mass() const { return acts_on(&Substructure::dofs_without_mass); }
 
     /// The same of DoFs without mass and without damping.

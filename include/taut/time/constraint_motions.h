@@ -175,7 +175,7 @@ namespace taut
     ConstraintLaws laws;
     std::vector<double> S;
     std::vector<char> mean;         ///< see mean_force()
-    std::vector<char> quasi_static; ///< fixed constraints on DoFs without mass and damping
+    std::vector<char> quasi_static; ///< constraints on DoFs without mass and damping
     MixedComplementaritySolution solved;
     std::vector<double> balanced, impulses;
     const std::vector<double> none; ///< empty

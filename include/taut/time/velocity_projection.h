@@ -21,8 +21,8 @@ namespace taut
    *                                 D' = 0 on all rigid bilateral constraints.
    *
    * U stays. An elastic constraint with p > 0 is softened, so that its compliance S fades from
-   * rigid to none: 0 <= P _|_ D' + f_ii (S / (alpha F_ii))^2 (P - p) >= 0 with f = B^T M^-1 B. That
-   * of a law is the one at the end of the step. With
+   * rigid to none: 0 <= P _|_ D' + f_ii (theta S / (alpha F_ii))^2 (P - p) >= 0 with F = B^T A^-1 B
+   * and f = B^T M^-1 B. S of a law is that at the end of the step. With
    * Newton's restitution e the condition is D' + e min(0, D'_0), and P goes only so far from the
    * solution without it that the contacts do not give energy. DoFs without mass and damping have no
    * velocity of their own: theirs is the mean over the step.
@@ -41,10 +41,11 @@ namespace taut
 
     /**
      * Changes V, D' and multipliers of a state after the first part of a step, and takes the change
-     * of velocities' share of C V off its balance. Throws what ComplementaritySolver does. Called
-     * by all ranks together.
+     * of velocities' share of C V off its balance. @p F as in prepare(), with the moving
+     * constraints in their places. Throws what ComplementaritySolver does. Called by all ranks
+     * together.
      */
-    void project(ConstraintMotions &motions, State &state);
+    void project(ConstraintMotions &motions, State &state, ComplementarityOperator &F);
 
     /// Of the last step: largest residual of a rate, recomputed from the velocities, and its
     /// constraint.
@@ -66,8 +67,12 @@ namespace taut
     bool has_to_act(const ConstraintMotions &motions, const State &state);
     std::vector<double> flexibilities(const std::vector<std::size_t> &wanted,
                                       ComplementarityOperator &F) const;
+    void find_flexibilities(const std::vector<std::size_t> &elastic, const std::vector<double> &S,
+                            ComplementarityOperator &F);
+    void find_mass_flexibilities(const std::vector<std::size_t> &elastic);
     void set_relative_softening(const std::vector<double> &S);
     void set_softening();
+    void update_moving();
     void factor_masses(const State &state);
     void setup();
     void set_problem(const State &state);
@@ -94,6 +99,7 @@ namespace taut
     std::vector<std::vector<unsigned int>>
         quasi_static; ///< DoFs of each body without mass and damping
     bool some_quasi_static = false;
+    std::vector<std::size_t> moving_elastic;   ///< unilateral constraints
     std::vector<double> flexibility, of_mass;  ///< F_ii and f_ii of the elastic constraints
     std::vector<double> relative_softening;    ///< (S / (alpha F_ii))^2 of each constraint
     std::vector<double> softening;             ///< f_ii times that

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "extended_system.h"
+
+#include "extended_complementarity.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace extremes
+{
+  namespace
+  {
+    const Number held_by("1e-45"), shared_by("1e-30"), no_share("1e-15");
+
+    Number size(const Vector &x)
+    {
+      Number m = 0;
+      for (const Number &v : x)
+        m = std::max(m, Number(abs(v)));
+      return m;
+    }
+  } // namespace
+
+  ExtendedSystem::ExtendedSystem(const taut::Scene &scene, const ExtendedModel &model,
+                                 const bool as_double)
+      : scene(scene), model(model), as_double(as_double), motions_of_forces(scene.links.size())
+  {
+    for (std::size_t i = 0; i < model.n_dofs(); ++i)
+      if (!model.held[i])
+        free_dofs.push_back(i);
+  }
+
+  void ExtendedSystem::factor(const Matrix &full, const bool is_static)
+  {
+    A_full = full;
+    const std::size_t n = free_dofs.size();
+    Matrix A(n);
+    spring.assign(n, Number(0));
+    Number largest[2] = {0, 0};
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      for (std::size_t j = 0; j < n; ++j)
+        A(i, j) = full(free_dofs[i], free_dofs[j]);
+      Number &m = largest[int(model.is_rotation[free_dofs[i]])];
+      m = std::max(m, A(i, i));
+    }
+    Matrix heavy = A;
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      const Number typical = A(i, i) > 0 ? A(i, i)
+                             : largest[int(model.is_rotation[free_dofs[i]])] > 0
+                                 ? largest[int(model.is_rotation[free_dofs[i]])]
+                                 : Number(1);
+      heavy(i, i) += typical;
+      if (is_static || A(i, i) == 0)
+        spring[i] = held_by * typical;
+      A(i, i) += spring[i];
+    }
+    Cholesky of_heavy;
+    if (!factor_of_A.factor(A) || !of_heavy.factor(heavy))
+      throw std::runtime_error("not held: the matrix is singular");
+    flexibilities.assign(scene.links.size(), Number(0));
+    for (std::size_t k = 0; k < scene.links.size(); ++k)
+    {
+      Vector full_row(model.n_dofs(), Number(0)), constraint;
+      for (const auto &[i, v] : model.constraint(scene.links[k], Number(0)))
+        full_row[i] += v;
+      for (const std::size_t i : free_dofs)
+        constraint.push_back(full_row[i]);
+      const Vector x = of_heavy.solve(constraint);
+      for (std::size_t i = 0; i < n; ++i)
+        flexibilities[k] += constraint[i] * x[i];
+      if (flexibilities[k] == 0)
+        flexibilities[k] = n > 0 ? 1 / heavy(0, 0) : Number(1);
+    }
+  }
+
+  void ExtendedSystem::solve(const Vector &full_rhs, const Number &t, const std::vector<Form> &B,
+                             const Vector &past, Vector &N, Vector &D, Vector &result)
+  {
+    const std::size_t n = free_dofs.size(), m = B.size();
+    Vector held_U(model.n_dofs(), Number(0));
+    for (std::size_t i = 0; i < held_U.size(); ++i)
+      if (model.held[i])
+        held_U[i] = model.given[i];
+    const Vector lift = A_full.times(held_U);
+    Vector rhs(n);
+    for (std::size_t i = 0; i < n; ++i)
+      rhs[i] = full_rhs[free_dofs[i]] - lift[free_dofs[i]];
+
+    std::vector<Vector> constraints(m, Vector(n)), columns;
+    for (std::size_t k = 0; k < m; ++k)
+    {
+      Vector full(model.n_dofs(), Number(0));
+      for (const auto &[i, v] : B[k])
+        full[i] += v;
+      for (std::size_t i = 0; i < n; ++i)
+        constraints[k][i] = full[free_dofs[i]];
+      columns.push_back(factor_of_A.solve(constraints[k]));
+    }
+    const Vector U_free = factor_of_A.solve(rhs);
+    Matrix F(m);
+    Vector d(m);
+    for (std::size_t k = 0; k < m; ++k)
+    {
+      const taut::Link &link = scene.links[k];
+      for (std::size_t l = 0; l < m; ++l)
+        for (std::size_t i = 0; i < n; ++i)
+          F(k, l) += constraints[k][i] * columns[l][i];
+      motions_of_forces[k] = F(k, k);
+      F(k, k) += shared_by * flexibilities[k];
+      if (!link.rigid())
+        F(k, k) += 1 / Number(link.stiffness);
+      d[k] = Number(link.gap) + dot(B[k], held_U) + past[k];
+      if (link.moving())
+        d[k] += Number(link.profile(
+            static_cast<double>(Number(link.to.position) + Number(link.speed) * t), 0.));
+      for (std::size_t i = 0; i < n; ++i)
+        d[k] += constraints[k][i] * U_free[i];
+    }
+    if (as_double)
+      for (std::size_t k = 0; k < m; ++k)
+        F(k, k) *= 1 + last_place(k);
+    std::vector<char> unilateral, closed;
+    for (std::size_t k = 0; k < m; ++k)
+    {
+      unilateral.push_back(scene.links[k].unilateral());
+      closed.push_back(!unilateral[k] || N[k] > 0);
+    }
+    N = principal_pivoting(F, d, unilateral, closed);
+    if (as_double)
+      for (std::size_t k = 0; k < m; ++k)
+        N[k] *= 1 + last_place(k + 1);
+
+    result = held_U;
+    Vector U = U_free;
+    for (std::size_t k = 0; k < m; ++k)
+      for (std::size_t i = 0; i < n; ++i)
+        U[i] += columns[k][i] * N[k];
+    for (std::size_t i = 0; i < n; ++i)
+      result[free_dofs[i]] = U[i];
+    check_answer(rhs, B, N, result);
+    for (std::size_t k = 0; k < m; ++k)
+      D[k] = dot(B[k], result) + Number(scene.links[k].gap) +
+             (scene.links[k].moving() ? Number(scene.links[k].profile(
+                                            static_cast<double>(Number(scene.links[k].to.position) +
+                                                                Number(scene.links[k].speed) * t),
+                                            0.))
+                                      : Number(0));
+  }
+
+  void ExtendedSystem::check_answer(const Vector &rhs, const std::vector<Form> &B, const Vector &N,
+                                    const Vector &U) const
+  {
+    const Number load = size(rhs);
+    Number force = load, in_springs = 0;
+    for (std::size_t k = 0; k < N.size(); ++k)
+      for (const auto &[i, v] : B[k])
+        force = std::max(force, Number(abs(v * N[k])));
+    for (std::size_t i = 0; i < spring.size(); ++i)
+      in_springs = std::max(in_springs, Number(abs(spring[i] * U[free_dofs[i]])));
+    if (in_springs > no_share * force)
+      throw std::runtime_error("not held: nothing balances the loads");
+    for (std::size_t k = 0; k < N.size(); ++k)
+    {
+      Number terms = std::max(Number(abs(Number(scene.links[k].gap))), flexibilities[k] * load);
+      for (const auto &[i, v] : B[k])
+        terms = std::max(terms, Number(abs(v * U[i])));
+      if (abs(shared_by * flexibilities[k] * N[k]) > no_share * terms)
+        throw std::runtime_error("contradictory: link " + scene.links[k].name);
+    }
+  }
+} // namespace extremes
