@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <sstream>
 
 namespace taut
@@ -155,11 +156,6 @@ namespace taut
     about_entry(origin(),
                 [&] { found = hang(element, {}, data.to - data.from, force_per_length(data)); });
     check_strain(std::vector<double>(element.n_dofs(), 0.));
-    if (data.geometry == CableGeometry::linearised &&
-        element.smallest_strain(found.positions) <= 0.)
-      throw EntryError(entry(data, "Geometry"),
-                       "at rest the cable is slack somewhere, and has no small motions there; take "
-                       "nonlinear, or a shorter cable");
     if (data.starts_straight)
       check_start(data, element, found);
   }
@@ -175,49 +171,20 @@ namespace taut
     K = zero();
     element.add_mass(1., *M);
     element.add_mass(data.mass_damping, *C);
-    tangent_at = data.geometry == CableGeometry::linear ? straight_line() : found.positions;
+    if (data.geometry == CableGeometry::linear)
+      tangent_at = straight_line();
+    else if (linear_at.empty())
+      tangent_at = found.positions;
     element.add_tangent(tangent_at, false, *K);
+    if (is_linear())
+      element.add_damping(tangent_at, 1., *C);
     constant_force.assign(element.n_dofs(), 0.);
     element.add_load(force_per_length(data), constant_force);
-    if (is_linear())
-      linearise();
+    if (data.geometry == CableGeometry::linear)
+      straighten();
     for (auto *matrix : {&M, &C, &K})
       *matrix = frames->turn(std::move(*matrix));
     frames->turn(constant_force);
-  }
-
-  void Cable::linearise()
-  {
-    element.add_damping(tangent_at, 1., *C);
-    std::vector<double> f, load(element.n_dofs(), 0.);
-    element.internal_force(found.positions, {}, f);
-    for (const bool last : {false, true})
-      for (const unsigned int i : element.end_dofs(last))
-        load[i] = constant_force[i] - f[i];
-    constant_force = load;
-  }
-
-  /// Along the chord, stretched so far that the tangent has the string's stiffness across it: per
-  /// unstressed length N / |r'| = T (length / chord), with N = EA (|r'| - 1).
-  std::vector<double> Cable::straight_line() const
-  {
-    const Coordinates chord = data.to - data.from;
-    const double distance = norm(chord), EA = data.section.axial_stiffness;
-    std::vector<double> f;
-    element.internal_force(found.positions, {}, f);
-    double tension = 0.;
-    if (distance > 0.)
-      for (const double s : {0., data.length})
-        tension += .5 * (s > 0. ? 1. : -1.) / distance * element.position(s, chord).dot(f);
-    const double across = tension * data.length / std::max(distance, tension * data.length / EA);
-    if (!(tension > 0.) || !(across < EA))
-      throw EntryError(entry(data, "Geometry"),
-                       "at rest the cable has a tension of " + text_of(tension) +
-                           " N along the line between its ends, and as a straight wire no "
-                           "stiffness across it; take nonlinear, or a shorter cable");
-    const Coordinates stretched = add_scaled({}, 1. / ((1. - across / EA) * distance), chord);
-    return element.interpolate([&](const double s) { return add_scaled({}, s, stretched); },
-                               [&](double) { return stretched; });
   }
 
   void Cable::hold()
@@ -282,12 +249,24 @@ namespace taut
 
   double Cable::strain_energy(const std::vector<double> &U) const
   {
-    return is_linear() ? Substructure::strain_energy(U) : element.strain_energy(positions(U));
+    if (!is_linear())
+      return element.strain_energy(positions(U));
+    if (!is_linearised())
+      return Substructure::strain_energy(U);
+    set_way(U);
+    return energy_there + std::inner_product(work.begin(), work.end(), force_there.begin(), 0.) +
+           Substructure::strain_energy(work);
   }
 
   void Cable::internal_force(const std::vector<double> &U, const std::vector<double> &V,
                              std::vector<double> &f) const
   {
+    if (is_linearised())
+    {
+      set_way(U);
+      f = force_there;
+      return K->vmult_add(1., work.data(), f.data());
+    }
     if (is_linear())
       return Substructure::internal_force(U, V, f);
     std::vector<double> velocity = V;
@@ -313,6 +292,13 @@ namespace taut
   void Cable::mean_internal_force(const std::vector<double> &U0, const std::vector<double> &U1,
                                   const double step, std::vector<double> &f) const
   {
+    if (is_linearised())
+    {
+      work_0 = U0;
+      for (std::size_t i = 0; i < work_0.size(); ++i)
+        work_0[i] = .5 * (U0[i] + U1[i]);
+      return internal_force(work_0, {}, f);
+    }
     if (is_linear())
       return Substructure::mean_internal_force(U0, U1, step, f);
     set_positions(U0, work_0);

@@ -19,26 +19,27 @@ namespace taut
   }                                    // namespace
 
   /// Over the unstressed arc length. Of a cable that is linear T0 + EA t . u', t the tangent of
-  /// the positions of its K: linear in U as its forces are, by differences so that it is taken at
-  /// the points of the integral, too. @p q is kept by reference.
+  /// the positions of its K and u from where the tension is T0: linear in U as its forces are, by
+  /// differences so that it is taken at the points of the integral, too. @p q is kept by reference.
   std::function<double(double)> Cable::tension_at(const std::vector<double> &q) const
   {
+    const std::vector<double> &from = linear_from();
     double largest = 0.;
     for (std::size_t i = 0; i < q.size(); ++i)
-      largest = std::max(largest, std::fabs(q[i] - found.positions[i]));
+      largest = std::max(largest, std::fabs(q[i] - from[i]));
     if (!is_linear() || largest == 0.)
       return [&](const double s) { return element.tension(q, s); };
     const double part = small_strain * std::min(1., element.element_length()) / largest;
     std::vector<double> before = tangent_at, after = tangent_at;
     for (std::size_t i = 0; i < q.size(); ++i)
     {
-      before[i] -= part * (q[i] - found.positions[i]);
-      after[i] += part * (q[i] - found.positions[i]);
+      before[i] -= part * (q[i] - from[i]);
+      after[i] += part * (q[i] - from[i]);
     }
-    return [this, part, before, after](const double s)
+    return [this, part, before, after, &from](const double s)
     {
       const double change = element.tension(after, s) - element.tension(before, s);
-      return element.tension(found.positions, s) + change / (2. * part);
+      return element.tension(from, s) + change / (2. * part);
     };
   }
 

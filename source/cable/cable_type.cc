@@ -86,8 +86,8 @@ namespace taut
       prm.add_parameter("Largest strain", largest_strain,
                         "A cable at rest with more is an error [1]", Double(0.));
       prm.add_parameter("Geometry", geometry,
-                        "nonlinear: motions of any size; linearised: small ones about the shape at "
-                        "rest; linear: small ones of a straight wire of the same tension",
+                        "nonlinear: motions of any size; linearised: small ones about where the "
+                        "run starts; linear: small ones of a straight wire of the same tension",
                         Selection("nonlinear|linearised|linear"));
       prm.add_parameter("Start direction", start_direction,
                         "With Start = given, unstressed in a straight line from From along x, y, "

@@ -20,6 +20,13 @@ namespace taut
   Constraints::Constraints(const Structure &structure, std::vector<ConstraintData> all)
       : structure(structure), constraints(std::move(all))
   {
+    arrange();
+  }
+
+  void Constraints::arrange()
+  {
+    entries.clear();
+    sizes.clear();
     for (ConstraintData &constraint : constraints)
       constraint.moving = constraint.place != nullptr;
     const auto stay =
@@ -157,6 +164,33 @@ namespace taut
     for (std::size_t i = 0; i < d.size(); ++i)
       d[i] = constraints[fixed + i].direction->at(d[i]);
     turn(d);
+  }
+
+  void Constraints::keep_directions(const BodyVectors &reference, const std::vector<double> &N)
+  {
+    const std::vector<Coordinates> motions = differences(reference);
+    std::vector<ConstraintData> springs;
+    for (std::size_t k = 0; k < motions.size(); ++k)
+    {
+      ConstraintData &link = constraints[fixed + k];
+      const std::shared_ptr<const TurningDirection> turning = std::move(link.direction);
+      link.direction = nullptr;
+      const Coordinates ends = add_scaled(turning->start, 1., motions[k]), d = turning->at(ends);
+      link.terms = turning->along(add_scaled({}, turning->sign, d));
+      link.gap = turning->gap(ends) - turning->sign * dot(d, motions[k]);
+      if (!(turning->sign * N[fixed + k] < 0.))
+        continue;
+      for (const Coordinates &direction : across(d))
+      {
+        ConstraintData spring{link.name + " across", link.origin};
+        spring.stiffness = std::fabs(N[fixed + k]) / norm(ends);
+        spring.terms = turning->along(direction);
+        spring.gap = -dot(direction, motions[k]);
+        springs.push_back(std::move(spring));
+      }
+    }
+    constraints.insert(constraints.begin() + first_with_place, springs.begin(), springs.end());
+    arrange();
   }
 
   double Constraints::share_of_convection(const std::size_t i, const double t,

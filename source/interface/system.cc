@@ -172,6 +172,11 @@ namespace taut
 
   Constraints System::constraints() const
   {
-    return Constraints(bodies, list);
+    return constraints(bodies);
+  }
+
+  Constraints System::constraints(const Structure &structure) const
+  {
+    return Constraints(structure, list);
   }
 } // namespace taut

@@ -2,6 +2,7 @@
 #include <taut/interface/turning_direction.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <utility>
 
@@ -45,6 +46,16 @@ namespace taut
           term->form.add(form.index[j], direction[c] * form.value[j]);
       }
     return terms;
+  }
+
+  std::array<Coordinates, 2> across(const Coordinates &d)
+  {
+    const Coordinates axis =
+        std::fabs(d.x) < .6 ? Coordinates{1., 0., 0.} : Coordinates{0., 1., 0.};
+    Coordinates first = cross(d, axis);
+    const double size = norm(first);
+    first = {first.x / size, first.y / size, first.z / size};
+    return {first, cross(d, first)};
   }
 
   std::string text_of(const Coordinates &place)

@@ -91,6 +91,9 @@ namespace taut
   {
     const State &state = step.state;
     const StepCoefficients &c = step.scheme;
+    if (reference_energy.empty())
+      for (std::size_t k = 0; k < step.structure.size(); ++k)
+        reference_energy.push_back(step.structure[k].strain_energy(step.reference.displacement[k]));
     std::vector<double> product, a;
     for (std::size_t k = 0; k < step.structure.size(); ++k)
     {
@@ -103,8 +106,11 @@ namespace taut
       for (std::size_t i = 0; i < n; ++i)
         U[i] += state.U[k][i];
       if (body.is_linear())
+      {
+        share.strain += reference_energy[k];
         for (std::size_t i = 0; i < n; ++i)
-          share.strain += .5 * U[i] * (step.reference.force[k][i] + state.KU[k][i]);
+          share.strain += state.U[k][i] * (step.reference.force[k][i] + .5 * state.KU[k][i]);
+      }
       else
         share.strain += body.strain_energy(U);
       if (P0.empty())

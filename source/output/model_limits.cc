@@ -108,27 +108,27 @@ namespace taut
       if (scene.bodies[i].type_name != "cable")
         continue;
       const std::size_t k = structure.indices_of_body(i)[0];
-      double known[] = {0., 0.}; // length and number of elements, on all ranks
+      // Length, number of elements and whether it is linearised at the start, on all ranks.
+      double known[] = {0., 0., 0.};
       if (k != Structure::elsewhere && structure[k].is_linear())
       {
-        const CableElements &elements = dynamic_cast<const Cable &>(structure[k]).elements();
-        known[0] = elements.length();
-        known[1] = elements.n_elements();
+        const auto &cable = dynamic_cast<const Cable &>(structure[k]);
+        known[0] = cable.elements().length();
+        known[1] = cable.elements().n_elements();
+        known[2] = cable.is_linearised() ? 1. : 0.;
       }
-      structure.communicator().sum(known, 2);
+      structure.communicator().sum(known, 3);
       if (known[1] == 0.)
         continue;
       std::vector<double> nodes;
       for (unsigned int e = 0; e <= known[1]; ++e)
         nodes.push_back(known[0] * e / known[1]);
-      Line line{"linearised cable '" + scene.bodies[i].name + "'",
-                "",
-                forms.ends.size(),
-                0,
-                thinned(nodes, most_slopes),
-                {},
-                3,
-                {}};
+      Line line;
+      line.name = "linearised cable '" + scene.bodies[i].name + "'";
+      line.first = forms.ends.size();
+      line.positions = thinned(nodes, most_slopes);
+      line.n_directions = 3;
+      line.turns_from_reference = known[2] > 0.;
       line.n = line.positions.size();
       std::vector<Coordinates> places;
       const auto at = [&](const double s)
@@ -256,6 +256,24 @@ namespace taut
                         n, least_samples, "1", 0.});
   }
 
+  /// Of cables that are linearised there: what they turn counts from then on.
+  void ModelLimits::take_chords_at_reference(const Communicator &processes)
+  {
+    std::vector<double> all = at_reference;
+    processes.sum(all);
+    for (Line &line : lines)
+    {
+      if (!line.turns_from_reference)
+        continue;
+      const double *const u = all.data() + line.first;
+      const auto change = [&](const std::size_t d, const std::size_t j)
+      { return u[d * line.n + j + 1] - u[d * line.n + j]; };
+      for (std::size_t j = 0; j < line.chords.size(); ++j)
+        line.chords[j] = add_scaled(line.chords[j], 1., {change(0, j), change(1, j), change(2, j)});
+      std::fill_n(at_reference.begin() + line.first, line.n_directions * line.n, 0.);
+    }
+  }
+
   void ModelLimits::record(const StepView &step)
   {
     if (n_calls++ % interval != 0 || lines.empty())
@@ -264,6 +282,7 @@ namespace taut
     {
       at_reference.assign(forms.ends.size(), 0.);
       forms.evaluate(step.reference.displacement, at_reference.data());
+      take_chords_at_reference(step.structure.communicator());
     }
     values = at_reference;
     forms.evaluate(step.state.U, values.data());

@@ -168,19 +168,36 @@ namespace taut
     }
   } // namespace
 
-  ScenePlaces places_in_space(const Scene &scene, const SceneBodies &bodies)
+  ScenePlaces places_in_space(const Scene &scene, const SceneBodies &bodies,
+                              const BodyVectors *const U)
   {
     constexpr unsigned int n_pieces = 32; ///< of the line of a cable
     ScenePlaces places;
+    const auto position = [&](const Attachment &point)
+    {
+      const Coordinates start = bodies.position(scene, point);
+      if (!U || !is_on_cable(scene, point))
+        return start;
+      std::vector<double> moved;
+      for (const Coordinates &axis :
+           {Coordinates{1.}, Coordinates{0., 1.}, Coordinates{0., 0., 1.}})
+      {
+        std::vector<Term> terms;
+        bodies.motion(point, false, axis, 1., terms);
+        moved.push_back(evaluate(terms, *U));
+      }
+      bodies.communicator().sum(moved);
+      return add_scaled(start, 1., {moved[0], moved[1], moved[2]});
+    };
     for (const Link &link : scene.links)
     {
-      places.from.push_back(bodies.position(scene, link.from));
-      places.to.push_back(bodies.position(scene, link.to));
+      places.from.push_back(position(link.from));
+      places.to.push_back(position(link.to));
     }
     for (const Load &load : scene.loads)
-      places.loads.push_back(bodies.position(scene, load.target));
+      places.loads.push_back(position(load.target));
     for (const Probe &probe : scene.probes)
-      places.probes.push_back(bodies.position(scene, probe.point));
+      places.probes.push_back(position(probe.point));
     for (std::size_t i = 0; i < scene.bodies.size(); ++i)
     {
       places.cables.emplace_back();
@@ -192,7 +209,12 @@ namespace taut
         for (unsigned int j = 0; j <= n_pieces; ++j)
         {
           const auto &cable = dynamic_cast<const Cable &>(bodies[k]);
-          const Coordinates at = cable.position({cable.elements().length() * j / n_pieces});
+          const Coordinates place = {cable.elements().length() * j / n_pieces};
+          Coordinates at = cable.position(place);
+          if (U)
+            at = {at.x + cable.displacement(place, {1.}).dot((*U)[k]),
+                  at.y + cable.displacement(place, {0., 1.}).dot((*U)[k]),
+                  at.z + cable.displacement(place, {0., 0., 1.}).dot((*U)[k])};
           for (unsigned int c = 0; c < 3; ++c)
             numbers[3 * j + c] = at[c];
         }

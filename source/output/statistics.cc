@@ -138,7 +138,7 @@ namespace taut
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
       if (rows[i].moving)
-        contacts.push_back({rows[i].name, i, {}, {}, {}});
+        contacts.push_back({rows[i].name, rows[i].link, {}, {}, {}});
       else if (rows[i].is_link())
       {
         link_names.push_back(rows[i].name);
@@ -171,20 +171,23 @@ namespace taut
     rows = &step.constraints;
     for (Contact &contact : contacts)
     {
-      contact.position.push_back(step.constraints.position(contact.row, state.time));
-      contact.force.push_back(state.multiplier[contact.row]);
-      contact.mean_force.push_back(step.measures.mean_force(contact.row));
+      const std::size_t row = rows->index_of_link(contact.link);
+      contact.position.push_back(rows->position(row, state.time));
+      contact.force.push_back(state.multiplier[row]);
+      contact.mean_force.push_back(step.measures.mean_force(row));
     }
-    for (std::size_t i = 0; i < link_quantities.size(); ++i)
+    for (std::size_t i = 0, n = 0; i < rows->first_moving(); ++i)
     {
-      LinkQuantities &link = link_quantities[i];
+      if (!(*rows)[i].is_link())
+        continue;
+      LinkQuantities &link = link_quantities[n];
       const double force = state.multiplier[i];
       if (force == 0.)
         link.open_time += dt;
       else
         link.closed_time += dt;
       link.impulse += force * dt;
-      const double mean = link_unilateral[i] ? step.measures.mean_force(i) : force;
+      const double mean = link_unilateral[n++] ? step.measures.mean_force(i) : force;
       if (std::fabs(mean) > std::fabs(link.largest_force))
         link.largest_force = mean;
       link.largest_impulse = step.measures.largest_impulse(i);

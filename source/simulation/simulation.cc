@@ -84,7 +84,11 @@ namespace taut
       log << "Interface operator: " << time_stepper->interface_description() << '\n';
 
     stop_before_start();
-    const ScenePlaces places = places_in_space(model, bodies);
+    BodyVectors at_start = reference.displacement;
+    for (std::size_t k = 0; k < at_start.size(); ++k)
+      for (std::size_t i = 0; i < at_start[k].size(); ++i)
+        at_start[k][i] += start.U[k][i];
+    const ScenePlaces places = places_in_space(model, bodies, &at_start);
     // Nothing on the disk was touched until here, where the scene is known to make sense.
     on_root(
         [&]

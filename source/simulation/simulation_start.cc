@@ -115,6 +115,8 @@ namespace taut
     reference = std::move(found.reference);
     start = std::move(found.state);
     start_certificate = found.certificate;
+    keeps_directions = found.n_kept > 0;
+    report_linearised(found);
     if (model.start != Start::equilibrium)
       return;
     log << "Static equilibrium: residual " << start_certificate.complementarity << " (links), "
@@ -133,6 +135,26 @@ namespace taut
               slender->check_strain(U);
             }
         });
+  }
+
+  /// Says which bodies have small motions about the start from here on, and which links with them.
+  void Simulation::report_linearised(const InitialState &found) const
+  {
+    std::string names;
+    std::size_t n = 0;
+    constexpr std::size_t most_named = 6;
+    for (std::size_t i = 0; i < found.linearised.size(); ++i)
+      if (found.linearised[i] && ++n <= most_named)
+        names += (n > 1 ? ", '" : "'") + bodies.all_bodies()[i].name + "'";
+    if (n == 0)
+      return;
+    log << "Linearised at the "
+        << (model.start == Start::equilibrium ? "equilibrium of the scene: " : "shape at rest: ")
+        << names << (n > most_named ? " and " + std::to_string(n - most_named) + " more" : "");
+    if (found.n_kept > 0)
+      log << "; " << counted(found.n_kept, "link") << " that would turn "
+          << (found.n_kept == 1 ? "keeps its direction" : "keep their directions");
+    log << '\n';
   }
 
   /// Says which bodies are at rest only because nothing pushes them.
@@ -171,7 +193,9 @@ namespace taut
     if (links.first_moving() < links.size())
     {
       const Scene without = without_sliding_contacts(model);
-      const Constraints fixed_constraints = scene_constraints(without, bodies);
+      Constraints fixed_constraints = scene_constraints(without, bodies);
+      if (keeps_directions)
+        fixed_constraints.keep_directions(reference.displacement, start.multiplier);
       try
       {
         rest = static_equilibrium(bodies, fixed_constraints, parameters.solver, 0.).displacement;

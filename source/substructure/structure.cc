@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/substructure/slender_body.h>
 #include <taut/substructure/structure.h>
 
 #include <cmath>
@@ -23,6 +24,27 @@ namespace taut
       numbers.push_back(bodies.size());
     bodies.push_back({name, static_cast<std::size_t>(n_dofs)});
     return index;
+  }
+
+  std::vector<char> Structure::linearise(const BodyVectors &U)
+  {
+    std::vector<double> replaced(bodies.size(), 0.);
+    processes.agree(
+        [&]
+        {
+          for (std::size_t k = 0; k < substructures.size(); ++k)
+          {
+            const auto *const slender = dynamic_cast<const SlenderBody *>(substructures[k].get());
+            std::shared_ptr<Substructure> linear =
+                slender ? slender->linearised(substructures[k], U[k]) : nullptr;
+            if (!linear)
+              continue;
+            substructures[k] = std::move(linear);
+            replaced[numbers[k]] = 1.;
+          }
+        });
+    processes.sum(replaced);
+    return std::vector<char>(replaced.begin(), replaced.end());
   }
 
   std::size_t Structure::n_dofs() const

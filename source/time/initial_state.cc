@@ -11,6 +11,29 @@ namespace taut
 {
   namespace
   {
+    /// Those that turn, where all of them may keep their direction. With the springs across them
+    /// there are more of them.
+    void linearise_links(const Structure &structure, Constraints &constraints, InitialState &result)
+    {
+      const std::size_t n = constraints.first_moving();
+      std::vector<double> &N = result.state.multiplier;
+      double others = 0.;
+      for (std::size_t i = constraints.n_fixed(); i < n; ++i)
+      {
+        const TurningDirection &turning = *constraints[i].direction;
+        others += turning.sign * N[i] > 0.;
+        for (const std::vector<Term> &motion : turning.motion)
+          for (const Term &term : motion)
+            others += !result.linearised[structure.number(term.substructure)];
+      }
+      if (!constraints.has_turning() || structure.communicator().max(others) > 0.)
+        return;
+      result.n_kept = n - constraints.n_fixed();
+      constraints.keep_directions(result.reference.displacement, N);
+      N.insert(N.begin() + n, constraints.size() - N.size(), 0.);
+      result.state.link_springs.resize(constraints.size());
+    }
+
     /// Gaps, and the springs of the links with their forces.
     void set_rows(Constraints &constraints, const Start start, InitialState &result)
     {
@@ -72,7 +95,7 @@ namespace taut
     }
   } // namespace
 
-  InitialState find_initial_state(const Structure &structure, Constraints &constraints,
+  InitialState find_initial_state(Structure &structure, Constraints &constraints,
                                   const SolverParameters &parameters, const Start start)
   {
     InitialState result;
@@ -87,25 +110,28 @@ namespace taut
     {
       StaticState rest = static_equilibrium(structure, constraints, parameters, 0.);
       result.reference.displacement = std::move(rest.displacement);
-      for (std::size_t k = 0; k < structure.size(); ++k)
-        structure[k].internal_force(result.reference.displacement[k], {},
-                                    result.reference.force[k]);
       state.multiplier = std::move(rest.multiplier);
       result.certificate = rest.certificate;
     }
-    else
-      // A body may be under prestress as it is made.
-      for (std::size_t k = 0; k < structure.size(); ++k)
-        if (!structure[k].is_linear())
-          structure[k].internal_force(result.reference.displacement[k], {},
-                                      result.reference.force[k]);
+    if (start == Start::given)
+      structure.communicator().agree(
+          [&]
+          {
+            for (std::size_t k = 0; k < structure.size(); ++k)
+              structure[k].initial_state(state.U[k], state.V[k]);
+          });
+    result.linearised = structure.linearise(result.reference.displacement);
+    if (start == Start::equilibrium)
+      linearise_links(structure, constraints, result);
+    // A body may be under prestress as it is made.
+    for (std::size_t k = 0; k < structure.size(); ++k)
+      structure[k].internal_force(result.reference.displacement[k], {}, result.reference.force[k]);
     if (start == Start::given)
       structure.communicator().agree(
           [&]
           {
             for (std::size_t k = 0; k < structure.size(); ++k)
             {
-              structure[k].initial_state(state.U[k], state.V[k]);
               for (const ConstrainedDof &constraint : structure[k].constraints())
                 state.U[k][constraint.dof] = constraint.at(0.);
               structure[k].internal_force(state.U[k], {}, state.KU[k]);

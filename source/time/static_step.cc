@@ -275,6 +275,11 @@ namespace taut
           {
             structure[k].external_force(time, forces.P[k]);
             forces.external_size.push_back(largest(structure[k], forces.P[k]));
+            if (!structure[k].is_linear())
+              continue;
+            structure[k].internal_force(undeformed.displacement[k], {}, undeformed.force[k]);
+            for (std::size_t i = 0; i < forces.P[k].size(); ++i)
+              forces.P[k][i] -= undeformed.force[k][i];
           }
           const NonlinearBodies undeformed_bodies(structure, undeformed);
           BalanceCertificate balance(structure, constraints, undeformed, undeformed_bodies);

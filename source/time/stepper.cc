@@ -6,19 +6,19 @@
 namespace taut
 {
   Stepper::Stepper(const System &system, const StepperOptions &options)
-      : system(system), step(options.step), constraints(system.constraints()),
-        start(find_initial_state(system.structure(), constraints, options.solver, options.start)),
-        contact_measures(system.structure(), constraints, start.reference, start.state)
+      : system(system), structure(system.structure()), step(options.step),
+        constraints(system.constraints(structure)),
+        start(find_initial_state(structure, constraints, options.solver, options.start)),
+        contact_measures(structure, constraints, start.reference, start.state)
   {
     start_certificate = start.certificate;
-    stepper = std::make_unique<TimeStepper>(system.structure(), constraints, options.solver,
-                                            choose(options), options.step, start.reference,
-                                            start.state, options.start == Start::equilibrium);
+    stepper = std::make_unique<TimeStepper>(structure, constraints, options.solver, choose(options),
+                                            options.step, start.reference, start.state,
+                                            options.start == Start::equilibrium);
   }
 
   const TimeIntegrator &Stepper::choose(const StepperOptions &options)
   {
-    const Structure &structure = system.structure();
     if (options.scheme == "automatic")
     {
       const SchemeChoice choice =

@@ -15,17 +15,6 @@ namespace taut
 
     /// Of each link: one along it, then two across it.
     constexpr std::size_t n_springs = 3;
-
-    /// Two unit vectors across a unit vector and each other.
-    std::array<Coordinates, 2> across(const Coordinates &d)
-    {
-      const Coordinates axis =
-          std::fabs(d.x) < .6 ? Coordinates{1., 0., 0.} : Coordinates{0., 1., 0.};
-      Coordinates first = cross(d, axis);
-      const double size = norm(first);
-      first = {first.x / size, first.y / size, first.z / size};
-      return {first, cross(d, first)};
-    }
   } // namespace
 
   TurningAtRest::TurningAtRest(const Structure &structure, const Constraints &constraints,

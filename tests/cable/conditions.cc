@@ -13,6 +13,7 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -110,7 +111,10 @@ TEST(CableConditions, tension_of_a_linearised_cable_is_linear)
     CableData data = cable_data();
     data.geometry = taut::CableGeometry::linearised;
     data.element = element;
-    const Cable cable(data);
+    const auto nonlinear = std::make_shared<Cable>(data);
+    const auto linear =
+        nonlinear->linearised(nonlinear, std::vector<double>(nonlinear->n_dofs(), 0.));
+    const auto &cable = dynamic_cast<const Cable &>(*linear);
     const auto moved = [&](const Coordinates &slope)
     {
       return cable.elements().interpolate([&](const double s) { return add_scaled({}, s, slope); },

@@ -99,8 +99,8 @@ TEST(CableSliding, as_along_a_wire)
                  std::to_string(elements) + " elements",
              errors.back());
     }
-    EXPECT_NEAR(errors[1], errors[0], 1e-8); // without weight they are the same
-    EXPECT_LT(errors[2], errors[0] + .1);    // the tension changes as the cable moves
+    EXPECT_LT(errors[1], errors[0] + .05); // it has the tension of the start, under the contact
+    EXPECT_LT(errors[2], errors[0] + .1);  // the tension changes as the cable moves
     if (!coarser.empty())
     {
       EXPECT_LT(errors[0], .02);

@@ -77,4 +77,7 @@ TEST(Ranks, cables_are_the_same)
   expect_same("cable_on_floor", {"Time/End=0.3"});
   expect_same("cable_in_wind");
   expect_same("line_with_droppers", {"Time/End=0.25"}); // later catches amplify rounding
+  expect_same("line_with_droppers",
+              {"Time/End=0.25", "Body messenger/Geometry=linearised",
+               "Body contact wire/Geometry=linearised", "Network/Load lift/Magnitude=200*(t<=0)"});
 }

@@ -53,6 +53,8 @@ SCENES = [
     ["bar_on_two_cables.prm", *entries(Output__Checkpoint_interval=0.2)],
     ["cable_on_floor.prm", *entries(Output__Checkpoint_interval=0.2, Output__Observers="energy")],
     ["line_with_droppers.prm", *entries(Time__End=0.6, Output__Checkpoint_interval=0.1)],
+    ["line_with_droppers.prm", *entries(Time__End=0.6, Output__Checkpoint_interval=0.1, Body_messenger__Geometry="linearised",
+                                        Body_contact_wire__Geometry="linearised")],
 ]
 errors = []
 

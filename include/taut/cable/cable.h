@@ -20,7 +20,7 @@ namespace taut
   enum class CableGeometry
   {
     nonlinear,  ///< all of it: motions of any size
-    linearised, ///< nothing: small motions about the found shape
+    linearised, ///< all of it until the start is found, then nothing: small motions about that
     linear      ///< nothing: small motions of a straight wire from end to end, of the same tension
   };
 
@@ -64,15 +64,17 @@ namespace taut
    *
    * The internal force is that of CableElements at the positions found + U, and the external force
    * is all of the load: at U = 0 they balance on all DoFs but those of the ends, where their
-   * difference is the force that holds the cable. A linearised cable has the tangent of the found
-   * shape as K, with the axial damping in C, and as load only what the found shape does not
-   * balance: zero but at the ends, where it is the load without the internal force of the found
-   * shape. So the forces that hold an end are whole ones in both cases, and an end that nothing
-   * holds starts to move in both. A linear cable has all that of a linearised one but for its K and
-   * axial damping, which are those of the straight line between `from` and `to`, as long as the
-   * cable is when unstressed, EA along it and across it the tension of the found shape along this
-   * line: what the sag adds to the stiffness is left out. The DoFs of r' at a clamped end are
-   * components along the cable and across it, not along x, y, z; use displacement() and
+   * difference is the force that holds the cable. A cable that is to be linearised is nonlinear
+   * like that until linearised() makes a linear one from it, which has the tangent at a
+   * displacement U* as K, with the axial damping there in C, and the internal force f(U*) + K (U -
+   * U*): U counts from the same found shape, and the load is the same. A linear cable has K and
+   * axial damping of the straight line between `from` and `to`, as long as the cable is when
+   * unstressed, EA along it and across it the tension of the found shape along this line. Its
+   * internal force is K U, and its load only what the found shape does not balance: zero but at the
+   * ends, where it is the load without the internal force of the found shape. So the forces that
+   * hold an end are whole ones in all cases, and an end that nothing holds starts to move in all.
+   * What the sag adds to the stiffness is left out of a linear one. The DoFs of r' at a clamped end
+   * are components along the cable and across it, not along x, y, z; use displacement() and
    * positions().
    */
   class Cable : public Substructure, public SlenderBody
@@ -98,7 +100,17 @@ namespace taut
 
     LinearForm slope(double place, const Coordinates &direction) const override;
 
-    bool is_linear() const override { return data.geometry != CableGeometry::nonlinear; }
+    bool is_linear() const override
+    {
+      return data.geometry == CableGeometry::linear || !linear_at.empty();
+    }
+
+    /// Of a cable that is to be linearised.
+    std::shared_ptr<Substructure> linearised(const std::shared_ptr<const Substructure> &self,
+                                             const std::vector<double> &U) const override;
+
+    /// Whether its K is the tangent at the state that a run starts from.
+    bool is_linearised() const { return !linear_at.empty(); }
 
     /// Translations, if no end is held: they change no stretch, whatever the shape.
     NullSpace null_space() const override;
@@ -111,7 +123,7 @@ namespace taut
     double axial_stiffness() const override { return data.section.axial_stiffness; }
     std::unique_ptr<Substructure> with_axial_stiffness(double EA) const override;
 
-    /// Of a cable that is not linearised, from the unstressed cable.
+    /// From the unstressed cable, but of a linear one.
     double strain_energy(const std::vector<double> &U) const override;
     void internal_force(const std::vector<double> &U, const std::vector<double> &V,
                         std::vector<double> &f) const override;
@@ -136,21 +148,29 @@ namespace taut
 
   private:
     Cable(const CableData &data, const CableShape &found);
+    Cable(const Cable &nonlinear, const std::shared_ptr<const Substructure> &self,
+          const std::vector<double> &U);
     void check() const;
     void find();
     void hold();
     void assemble();
-    void linearise();
+    void straighten();
     std::vector<double> straight_line() const;
+    const std::vector<double> &linear_from() const;
     std::function<double(double)> tension_at(const std::vector<double> &q) const;
     void set_positions(const std::vector<double> &U, std::vector<double> &q) const;
+    void set_way(const std::vector<double> &U) const;
 
     CableData data;
     CableElements element;
     CableShape found;
-    std::vector<double> tangent_at; ///< positions, of a cable that is linear
+    std::vector<double> tangent_at; ///< positions whose tangent is K
+
+    /// Of a cable that was linearised: where, its internal force [N, N m] and strain energy [J].
+    std::vector<double> linear_at, force_there;
+    double energy_there = 0.;
     std::unique_ptr<EndFrames> frames;
-    mutable std::vector<double> work_0, work; ///< positions
+    mutable std::vector<double> work_0, work; ///< positions, and displacements
   };
 } // namespace taut
 

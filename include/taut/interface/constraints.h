@@ -104,6 +104,15 @@ namespace taut
     /// together.
     void turn_to(const BodyVectors &reference, const BodyVectors &U);
 
+    /**
+     * Makes fixed constraints of those that turn, with the directions and gaps that they have at U
+     * = @p reference, so that no constraint turns any more. With a force N at the reference, one
+     * entry a constraint, a link that pulls holds its ends across itself: two springs |N| / |Delta|
+     * are added for it, without force there, before the moving constraints. Constraints that push
+     * have no such springs. Called by all ranks together, at t = 0 [m, rad; N, N m].
+     */
+    void keep_directions(const BodyVectors &reference, const std::vector<double> &N);
+
     /// Position on its wire of a moving constraint at time t [m].
     double position(std::size_t i, double t) const { return constraints[i].place->position(t); }
 
@@ -159,6 +168,7 @@ namespace taut
       unsigned int body, dof;
     };
 
+    void arrange();
     std::vector<char> acts_on(std::vector<unsigned int> (Substructure::*dofs)() const) const;
     void append(std::size_t i);
     void append_varying();

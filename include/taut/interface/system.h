@@ -114,8 +114,9 @@ namespace taut
     const Structure &structure() const { return bodies; }
 
     /// The constraints for a Stepper, the moving ones last: number i of add() is index_of_link(i)
-    /// there. They keep a reference to the system.
+    /// there. They keep a reference to the system, or to another structure of the same bodies.
     Constraints constraints() const;
+    Constraints constraints(const Structure &structure) const;
 
   private:
     Structure bodies;

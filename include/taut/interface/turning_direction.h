@@ -57,6 +57,9 @@ namespace taut
     std::vector<Term> along(const Coordinates &direction) const;
   };
 
+  /// Two unit vectors across the unit vector @p d and each other.
+  std::array<Coordinates, 2> across(const Coordinates &d);
+
   /// "(x, y, z) m", for messages.
   std::string text_of(const Coordinates &place);
 } // namespace taut

@@ -71,6 +71,7 @@ namespace taut
     double interval = 0., next = 0., start_energy = 0.;
     Balance total;
 
+    std::vector<double> reference_energy; ///< strain of the bodies of this rank [J]
     BodyVectors P, CV, balance, impulses; ///< of the last call
     BodyVectors P0, CV0, balance0, A0;    ///< of the one before it
     std::vector<double> N0, gap0;

@@ -28,7 +28,7 @@ namespace taut
    * - A slope of 0.1 rad stretches a wire by slope^2 / 2 = 0.5 %, which the equations neglect: a
    *   copper wire of 100 mm^2 would gain 60 kN of tension. It is that of all motions across the
    *   wire, also of lateral ones; of a linearised cable it is the change of direction since the
-   *   shape at rest that it is linearised about.
+   *   start that it is linearised about, of a linear one since its shape at rest.
    * - Two wires above each other at the start, with nothing between them that pushes, are as far
    *   apart as their displacements may bring them together.
    * - Waves of a wire run at sqrt(T / m); nothing runs ahead of a faster contact.
@@ -82,7 +82,8 @@ namespace taut
       /// Forms of a sample, one after the other for all samples of one direction: directions across
       /// a wire, or x, y, z.
       unsigned int n_directions = 1;
-      std::vector<Coordinates> chords; ///< of a cable, from sample to sample, undeformed [m]
+      std::vector<Coordinates> chords;   ///< of a cable, from sample to sample [m]
+      bool turns_from_reference = false; ///< its chords are those there, not those at U = 0
     };
 
     /// The worst of a kind so far.
@@ -97,6 +98,7 @@ namespace taut
     void store(Archive &archive);
     void add_slopes(const Scene &scene, const SceneBodies &structure);
     void add_cables(const Scene &scene, const SceneBodies &structure);
+    void take_chords_at_reference(const Communicator &processes);
     double slope_after(const Line &line, const double *u, std::size_t sample) const;
     void add_distances(const Scene &scene, const SceneBodies &structure);
     void compare_speeds(const Scene &scene);

@@ -10,7 +10,7 @@
 
 namespace taut
 {
-  /// Where points of a scene are in space at U = 0 [m].
+  /// Where points of a scene are in space [m].
   struct ScenePlaces
   {
     std::vector<Coordinates> from, to; ///< of each link; of a ground without a place, zero
@@ -18,8 +18,10 @@ namespace taut
     std::vector<std::vector<Coordinates>> cables; ///< a line for each body; of other types, none
   };
 
-  /// Called by all ranks together, with the same result.
-  ScenePlaces places_in_space(const Scene &scene, const SceneBodies &bodies);
+  /// At U = 0, on cables at the displacements @p U if these are given. Called by all ranks
+  /// together, with the same result.
+  ScenePlaces places_in_space(const Scene &scene, const SceneBodies &bodies,
+                              const BodyVectors *U = nullptr);
 
   /// The scene as understood: tables of wires, supports, masses, springs, links, loads and probes,
   /// with units. Places on cables are arc lengths, with the place in space behind them.

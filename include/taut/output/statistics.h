@@ -118,7 +118,7 @@ namespace taut
     struct Contact
     {
       std::string name;
-      std::size_t row;
+      std::size_t link; ///< of the scene
       std::vector<double> position, force;
       std::vector<double> mean_force = {}; ///< over the time that the element resolves
     };

@@ -20,6 +20,7 @@ namespace taut
   class ObserverList;
   class StepControl;
   struct Checkpoint;
+  struct InitialState;
   struct ScenePlaces;
   struct SharedParts;
 
@@ -79,6 +80,7 @@ namespace taut
     void describe() const;
     RunDescription description(bool is_partial) const;
     void find_start();
+    void report_linearised(const InitialState &found) const;
     void report_free_bodies() const;
     void find_rest_of_probes();
     const TimeIntegrator &choose_integrator();
@@ -111,6 +113,7 @@ namespace taut
     Reference reference;
     State start;
     Certificate start_certificate;
+    bool keeps_directions = false; ///< links that would turn do not
     std::vector<std::vector<Term>> probe_terms;
     std::vector<double> probe_rest, probe_values;
     Reactions reactions;

@@ -27,6 +27,18 @@ namespace taut
     /// equilibrium that begin far from it begin with softer bodies.
     virtual std::unique_ptr<Substructure> with_axial_stiffness(double EA) const = 0;
 
+    /**
+     * The body that takes the place of this one, which @p self owns, once the displacement U [m,
+     * rad] is known that a run starts from: a linear one with the same DoFs, supports and loads,
+     * with the internal force that this one has at U and its tangent there as K. nullptr: none
+     * does. Throws EntryError if the body has no small motions about U.
+     */
+    virtual std::shared_ptr<Substructure> linearised(const std::shared_ptr<const Substructure> &,
+                                                     const std::vector<double> &) const
+    {
+      return nullptr;
+    }
+
     /// A place that is under compression though the body resists tension only, and what then keeps
     /// the body in shape beside its inertia.
     struct Slack

@@ -51,6 +51,11 @@ namespace taut
     const Substructure &operator[](std::size_t k) const { return *substructures[k]; }
     std::size_t n_dofs() const;
 
+    /// Puts what SlenderBody::linearised() makes for the displacements U in the place of the
+    /// bodies of this rank. Returns for each of all_bodies() whether it was replaced. Called by all
+    /// ranks together; throws on all of them what one throws.
+    std::vector<char> linearise(const BodyVectors &U);
+
     /// Substructure::load() of one of this rank.
     void load(std::size_t k, InputArchive &archive) { substructures[k]->load(archive); }
 

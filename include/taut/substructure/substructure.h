@@ -39,9 +39,10 @@ namespace taut
 
   /**
    * One body between interfaces, discretised: M U" + C U' + f(U, U') = P + B N. Of a linear body f
-   * is K U; of others, which move by large amounts, K is the tangent of f in the undeformed body,
-   * and they say what f is. Its DoFs are displacements [m] and slopes or rotations [rad], each of
-   * one kind: kind(i) numbers the kinds, because forces and moments are never compared.
+   * is K U, or f(0) + K U if it says so; of others, which move by large amounts, K is the tangent
+   * of f in the undeformed body, and they say what f is. Its DoFs are displacements [m] and slopes
+   * or rotations [rad], each of one kind: kind(i) numbers the kinds, because forces and moments are
+   * never compared.
    */
   class Substructure
   {
@@ -144,7 +145,8 @@ namespace taut
     };
     virtual NullSpace null_space() const { return {}; }
 
-    /// True if the internal force is K U. If not, the functions that follow are the body's own.
+    /// True if the internal force is f(0) + K U. If it is not, or if f(0) is not zero, the
+    /// functions that follow are the body's own.
     virtual bool is_linear() const { return true; }
 
     /// Energy of the internal force, zero at U = 0 or at another state of the body's choice [J].

@@ -17,15 +17,23 @@ namespace taut
     Reference reference;
     State state;
     Certificate certificate;
+    std::vector<char> linearised; ///< for each body of all ranks whether it was, there
+    std::size_t n_kept = 0;       ///< constraints that turn no more but keep the direction there
   };
 
   /**
    * The start of a run at t = 0. An equilibrium is the reference itself, so that U = 0; otherwise
    * the reference is the undeformed system. Given displacements and velocities are those of
-   * Substructure::initial_state(). Throws what static_equilibrium() throws, and an EntryError if a
-   * rigid unilateral constraint starts with a penetration. Called by all ranks together.
+   * Substructure::initial_state().
+   *
+   * Bodies that are to be linearised move by large amounts until the reference is found. Then
+   * linear ones take their place in @p structure, see SlenderBody::linearised(). At an equilibrium
+   * constraints that turn are linearised with them, if all of them have their ends on such bodies
+   * or stand and none pushes: see Constraints::keep_directions(). Throws what static_equilibrium()
+   * throws, and an EntryError if a rigid unilateral constraint starts with a penetration. Called by
+   * all ranks together.
    */
-  InitialState find_initial_state(const Structure &structure, Constraints &constraints,
+  InitialState find_initial_state(Structure &structure, Constraints &constraints,
                                   const SolverParameters &parameters, Start start);
 } // namespace taut
 

@@ -42,7 +42,8 @@ namespace taut
   class Stepper
   {
   public:
-    /// @p system is kept by reference. Finds the start and chooses the scheme. Throws UserError if
+    /// @p system is kept by reference. Finds the start, linearises there the bodies that ask for it
+    /// (see SlenderBody::linearised()) and chooses the scheme. Throws UserError if
     /// there is no equilibrium, or if a scheme is known to fail on a constraint.
     explicit Stepper(const System &system, const StepperOptions &options = StepperOptions());
 
@@ -82,6 +83,7 @@ namespace taut
     const TimeIntegrator &choose(const StepperOptions &options);
 
     const System &system;
+    Structure structure; ///< its bodies, those linear that linearised() takes the place of
     const double step;
     Constraints constraints;
     std::unique_ptr<TimeIntegrator> integrator;

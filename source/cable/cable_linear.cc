@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "end_frames.h"
+#include "text_of.h"
+
+#include <taut/base/exceptions.h>
+#include <taut/cable/cable.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace taut
+{
+  namespace
+  {
+    [[noreturn]] void refuse(const std::string &origin, const std::string &reason)
+    {
+      throw EntryError(origin.empty() ? "Geometry" : origin + "/Geometry", reason);
+    }
+
+    /// All of the external force of a body.
+    class LoadsOf : public TimeLoad
+    {
+    public:
+      explicit LoadsOf(std::shared_ptr<const Substructure> of) : body(std::move(of)) {}
+      void add(const double t, std::vector<double> &P) const override
+      {
+        body->external_force(t, force);
+        for (std::size_t i = 0; i < P.size(); ++i)
+          P[i] += force[i];
+      }
+
+    private:
+      std::shared_ptr<const Substructure> body;
+      mutable std::vector<double> force;
+    };
+  } // namespace
+
+  /// With the tangent at a displacement.
+  Cable::Cable(const Cable &nonlinear, const std::shared_ptr<const Substructure> &self,
+               const std::vector<double> &U)
+      : Substructure(nonlinear.name(), nonlinear.origin()), data(nonlinear.data),
+        element(nonlinear.element), found(nonlinear.found), linear_at(U),
+        frames(std::make_unique<EndFrames>())
+  {
+    hold();
+    set_positions(U, tangent_at);
+    if (element.smallest_strain(tangent_at) <= 0.)
+      refuse(origin(), "at rest the cable is slack somewhere, and has no small motions there; take "
+                       "nonlinear, or a shorter cable");
+    nonlinear.internal_force(U, {}, force_there);
+    energy_there = nonlinear.strain_energy(U);
+    assemble();
+    if (self->external_force_varies())
+    {
+      constant_force.assign(n_dofs(), 0.);
+      time_loads.push_back(std::make_unique<LoadsOf>(self));
+    }
+    else
+      self->external_force(0., constant_force);
+    finish();
+  }
+
+  std::shared_ptr<Substructure> Cable::linearised(const std::shared_ptr<const Substructure> &self,
+                                                  const std::vector<double> &U) const
+  {
+    if (data.geometry != CableGeometry::linearised || is_linear())
+      return nullptr;
+    return std::shared_ptr<Substructure>(new Cable(*this, self, U));
+  }
+
+  /// From where it is linearised.
+  void Cable::set_way(const std::vector<double> &U) const
+  {
+    work = U;
+    for (std::size_t i = 0; i < work.size(); ++i)
+      work[i] -= linear_at[i];
+  }
+
+  /// Positions with the tension T0.
+  const std::vector<double> &Cable::linear_from() const
+  {
+    return is_linearised() ? tangent_at : found.positions;
+  }
+
+  /// Leaves of the load what the found shape does not balance.
+  void Cable::straighten()
+  {
+    std::vector<double> f, load(element.n_dofs(), 0.);
+    element.internal_force(found.positions, {}, f);
+    for (const bool last : {false, true})
+      for (const unsigned int i : element.end_dofs(last))
+        load[i] = constant_force[i] - f[i];
+    constant_force = load;
+  }
+
+  /// Along the chord, stretched so far that the tangent has the string's stiffness across it: per
+  /// unstressed length N / |r'| = T (length / chord), with N = EA (|r'| - 1).
+  std::vector<double> Cable::straight_line() const
+  {
+    const Coordinates chord = data.to - data.from;
+    const double distance = norm(chord), EA = data.section.axial_stiffness;
+    std::vector<double> f;
+    element.internal_force(found.positions, {}, f);
+    double tension = 0.;
+    if (distance > 0.)
+      for (const double s : {0., data.length})
+        tension += .5 * (s > 0. ? 1. : -1.) / distance * element.position(s, chord).dot(f);
+    const double across = tension * data.length / std::max(distance, tension * data.length / EA);
+    if (!(tension > 0.) || !(across < EA))
+      refuse(origin(), "at rest the cable has a tension of " + text_of(tension) +
+                           " N along the line between its ends, and as a straight wire no "
+                           "stiffness across it; take nonlinear, or a shorter cable");
+    const Coordinates stretched = add_scaled({}, 1. / ((1. - across / EA) * distance), chord);
+    return element.interpolate([&](const double s) { return add_scaled({}, s, stretched); },
+                               [&](double) { return stretched; });
+  }
+} // namespace taut

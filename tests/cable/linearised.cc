@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: linearised cables have small motions about the equilibrium of their scene, links that turn
+// with them, and are refused where they are slack there. Expected values: the scene of nonlinear
+// cables, from which they differ by the square of the load.
+#include "verification/run.h"
+
+#include <taut/base/exceptions.h>
+#include <taut/cable/cable.h>
+#include <taut/output/scene_report.h>
+#include <taut/time/static_equilibrium.h>
+#include <taut/time/stepper.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace
+{
+  using namespace taut;
+  using verification::Overrides;
+  using verification::scene_file;
+  using verification::Session;
+
+  /// The line of prm/line_with_droppers.prm, all droppers taut, with cables of one geometry.
+  Overrides line(const std::string &geometry, const Overrides &entries)
+  {
+    Overrides all;
+    for (const std::string cable : {"messenger", "contact wire"})
+    {
+      all.push_back("Body " + cable + "/Geometry=" + geometry);
+      all.push_back("Body " + cable + "/Elements=24");
+    }
+    all.insert(all.end(), entries.begin(), entries.end());
+    return all;
+  }
+
+  /// Probes and forces of links of all steps, under a load that begins at zero.
+  std::vector<double> motion(const std::string &geometry, const std::string &load)
+  {
+    std::vector<double> result;
+    Session session(scene_file("line_with_droppers"),
+                    line(geometry, {"Network/Load lift/Magnitude=" + load + "*(1-cos(20*t))",
+                                    "Network/Load lift/Direction=0.5, 1, 0.5", "Time/End=0.3",
+                                    "Time/Step=4e-3", "Time/Scheme=backward Euler"}));
+    session.run(
+        [&](const StepView &step)
+        {
+          result.insert(result.end(), step.probes.begin(), step.probes.end());
+          for (std::size_t i = 0; i < step.scene.links.size(); ++i)
+            result.push_back(1e-3 *
+                             step.state.multiplier[step.constraints.index_of_link(i)]); // [kN]
+        });
+    return result;
+  }
+
+  double largest_difference(const std::vector<double> &a, const std::vector<double> &b)
+  {
+    EXPECT_EQ(a.size(), b.size());
+    double largest = 0.;
+    for (std::size_t i = 0; i < a.size(); ++i)
+      largest = std::max(largest, std::fabs(a[i] - b[i]));
+    return largest;
+  }
+
+  /// A span that is pulled along x at the start.
+  std::string span(const std::string &entries, const std::string &place, const std::string &force)
+  {
+    return R"(set Generator = network
+set Gravity = 0, -9.81
+set Bodies = span
+subsection Body span
+  set Type = cable
+  set From = 0, 0, 0
+  set To = 30, 0, 0
+  set Axial stiffness = 1e6
+  set Mass per length = 1
+  set Geometry = linearised
+)" + entries +
+           R"(
+end
+subsection Network
+  set Loads = pull
+  subsection Load pull
+    set Direction = 1, 0
+    set On = span @ )" +
+           place + R"(, 0
+    set Magnitude = )" +
+           force + R"(
+  end
+end
+subsection Time
+  set End = 0
+end
+)";
+  }
+
+  std::string error_of(const std::string &scene)
+  {
+    try
+    {
+      verification::run_scene(scene, {}, [](const StepView &) {});
+    }
+    catch (const EntryError &e)
+    {
+      return e.what();
+    }
+    return "";
+  }
+} // namespace
+
+TEST(CableLinearised, a_line_moves_as_a_nonlinear_one_under_small_loads)
+{
+  double before = 0.;
+  for (const std::string load : {"16", "8", "4"})
+  {
+    const std::vector<double> nonlinear = motion("nonlinear", load);
+    const double difference = largest_difference(nonlinear, motion("linearised", load)),
+                 moved = largest_difference(nonlinear, motion("nonlinear", "0"));
+    verification::figure("line of linearised cables beside nonlinear ones, " + load + " N",
+                         difference / moved);
+    if (before > 0.)
+    {
+      EXPECT_GT(before / difference, 3.5) << load;
+    }
+    before = difference;
+  }
+}
+
+TEST(CableLinearised, a_line_is_linear_and_starts_as_the_nonlinear_one)
+{
+  std::vector<double> forces[2], places[2];
+  for (const bool is_linearised : {false, true})
+  {
+    Session session(scene_file("line_with_droppers"),
+                    line(is_linearised ? "linearised" : "nonlinear",
+                         {"Time/End=1e-3", "Network/Load lift/Magnitude=700"}));
+    session.run(
+        [&](const StepView &step)
+        {
+          if (step.state.time > 0.)
+            return;
+          for (std::size_t i = 0; i < step.scene.links.size(); ++i)
+            forces[is_linearised].push_back(
+                step.state.multiplier[step.constraints.index_of_link(i)]);
+          for (std::size_t k = 0; k < step.structure.size(); ++k)
+          {
+            EXPECT_EQ(step.structure[k].is_linear(), is_linearised);
+            const std::vector<double> &U = step.reference.displacement[k];
+            places[is_linearised].insert(places[is_linearised].end(), U.begin(), U.end());
+            // The same force, to the last bit, at the same place.
+            std::vector<double> f;
+            step.structure[k].internal_force(U, {}, f);
+            EXPECT_EQ(f, step.reference.force[k]);
+          }
+          EXPECT_EQ(step.constraints.has_turning(), !is_linearised);
+          // Two springs across each of the four droppers that are taut.
+          EXPECT_EQ(step.constraints.size(), is_linearised ? 14u : 6u);
+        });
+    EXPECT_EQ(session.log().find("Newton's method") == std::string::npos, is_linearised);
+    EXPECT_EQ(session.log().find("Linearised at the equilibrium of the scene: 'messenger', "
+                                 "'contact wire'; 6 links that would turn keep their directions") !=
+                  std::string::npos,
+              is_linearised);
+  }
+  EXPECT_EQ(forces[0], forces[1]);
+  EXPECT_EQ(places[0], places[1]);
+}
+
+// A mass on a rope swings far, whatever carries it.
+TEST(CableLinearised, links_to_other_bodies_turn)
+{
+  Session session(scene_file("line_with_droppers"),
+                  line("linearised", {"Time/End=1e-3", "Body messenger/Geometry=nonlinear"}));
+  session.run([](const StepView &step) { EXPECT_TRUE(step.constraints.has_turning()); });
+}
+
+TEST(CableLinearised, only_under_tension_at_the_equilibrium_of_the_scene)
+{
+  // Held at both ends and pulled to one of them it is under compression behind.
+  const std::string taut_alone = "set Unstressed length = 29.9\nset Largest strain = 0.05\n"
+                                 "set Bending stiffness = 1e6\n";
+  EXPECT_EQ(error_of(span(taut_alone, "15", "2e3")), "");
+  const std::string error = error_of(span(taut_alone, "15", "2e4"));
+  EXPECT_NE(error.find("Body span/Geometry"), std::string::npos) << error;
+  EXPECT_NE(error.find("slack somewhere"), std::string::npos) << error;
+
+  // So stiff in bending that the cable alone is under compression.
+  const std::string slack_alone = "set Unstressed length = 30.03\nset Bending stiffness = 1e6\n";
+  EXPECT_NE(error_of(span(slack_alone, "15", "0")).find("slack somewhere"), std::string::npos);
+  EXPECT_EQ(
+      error_of(span(slack_alone + "set Held ends = from\nset Clamped = true\n", "30.03", "1e4")),
+      "");
+}
+
+TEST(CableLinearised, start_shows_places_of_the_equilibrium)
+{
+  Session session(scene_file("line_with_droppers"), line("linearised", {"Time/End=1e-3"}));
+  std::vector<double> heights;
+  session.run(
+      [&](const StepView &step)
+      {
+        if (step.state.time > 0.)
+          return;
+        for (const Link &link : step.scene.links)
+        {
+          std::vector<Term> terms;
+          step.structure.motion(link.to, false, {0., 1.}, 1., terms);
+          heights.push_back(step.structure.position(step.scene, link.to).y +
+                            verification::displacement(step, terms));
+        }
+      });
+  std::ifstream file(session.folder() + "/start.csv");
+  std::string row;
+  std::getline(file, row);
+  for (const double height : heights)
+  {
+    ASSERT_TRUE(std::getline(file, row));
+    std::istringstream cells(row);
+    std::string name, x, y;
+    std::getline(cells, name, ',');
+    std::getline(cells, x, ',');
+    std::getline(cells, y, ',');
+    EXPECT_NEAR(std::stod(y), height, 1e-6) << row;
+  }
+  EXPECT_GT(heights.size(), 5u);
+  EXPECT_GT(*std::max_element(heights.begin(), heights.end()), .1); // it is lifted
+}
+
+// Statics of a body with a force at U = 0, and a system whose steppers do not see each other.
+TEST(CableLinearised, a_system_stays_as_it_is)
+{
+  CableData data;
+  data.name = "cable";
+  data.to = {60., 0., 0.};
+  data.length = 60.1;
+  data.section = {1.3e7, 0., 1.07, 0.};
+  data.gravity = {0., -9.81, 0.};
+  data.n_elements = 32;
+  data.geometry = CableGeometry::linearised;
+  System system;
+  system.add("cable",
+             [&]
+             {
+               auto made = std::make_unique<Cable>(data);
+               made->add_force(made->displacement({30.05, 0., 0.}, {0., -1., 0.}), 500.);
+               return made;
+             });
+  const Displacement down = system.displacement(0, {30.05, 0., 0.}, {0., -1., 0.});
+  const Stepper first(system), second(system);
+  EXPECT_FALSE(system.body(0)->is_linear());
+  EXPECT_EQ(first.displacement(down), second.displacement(down));
+
+  Structure linear = system.structure();
+  const StaticState rest = static_equilibrium(linear, system.constraints(), {}, 0.);
+  EXPECT_EQ(linear.linearise(rest.displacement), std::vector<char>{1});
+  EXPECT_EQ(linear.linearise(rest.displacement), std::vector<char>{0});
+  const StaticState again = static_equilibrium(linear, system.constraints(linear), {}, 0.);
+  EXPECT_NEAR(evaluate(down, again.displacement), evaluate(down, rest.displacement), 1e-8);
+  const std::vector<double> &U = rest.displacement[0], zero(U.size(), 0.);
+  std::vector<double> mean, half(U), f;
+  for (double &u : half)
+    u *= .5;
+  linear[0].mean_internal_force(zero, U, 1., mean);
+  linear[0].internal_force(half, {}, f);
+  const double step = 1e-6;
+  double work = 0.;
+  for (std::size_t i = 0; i < U.size(); ++i)
+  {
+    EXPECT_NEAR(mean[i], f[i], 1e-6);
+    work += mean[i] * U[i];
+  }
+  EXPECT_NEAR(work, linear[0].strain_energy(U) - linear[0].strain_energy(zero),
+              step * std::fabs(work));
+  EXPECT_NEAR(linear[0].strain_energy(U), system.body(0)->strain_energy(U), 1e-9);
+}
