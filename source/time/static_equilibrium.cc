@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <random>
 #include <sstream>
 #include <vector>
 
@@ -29,6 +30,11 @@ namespace taut
 
     /// Its iterations: with full steps first, then with a line search.
     constexpr int most_full_steps = 20, most_iterations = 300;
+
+    /// An equilibrium that is not stable, as of a straight cable under compression, is left by so
+    /// much of the displacements, and so often.
+    constexpr double shake = 1e-3;
+    constexpr int most_shakes = 3;
 
     /// Part of the expected decrease of the energy that a step has to make (L. Armijo, 1966).
     constexpr double sufficient = 1e-4;
@@ -163,6 +169,7 @@ namespace taut
       {
         BodyVectors U = start;
         double before = std::numeric_limits<double>::infinity();
+        int n_shakes = 0;
         turning.begin(U);
         for (int iteration = 0; iteration < (is_damped ? most_iterations : most_full_steps);
              ++iteration)
@@ -178,8 +185,14 @@ namespace taut
             return true;
           if (change <= converged || (change <= stagnated && change >= .5 * before))
           {
-            if (structure.communicator().max(step.has_own_tangents() ? 0. : 1.) > 0.)
-              return false;
+            if (!stays(step, state))
+            {
+              if (!is_damped || ++n_shakes > most_shakes)
+                return false;
+              U = shaken(state.displacement);
+              before = std::numeric_limits<double>::infinity();
+              continue;
+            }
             step.certify(state);
             turning.finish(state);
             return is_stable(state);
@@ -191,6 +204,34 @@ namespace taut
           turning.go_on(state);
         }
         return false;
+      }
+
+      /// Off a saddle of the energy, by the same numbers on all machines.
+      BodyVectors shaken(const BodyVectors &U) const
+      {
+        BodyVectors result = U;
+        for (const std::size_t k : soft.nonlinear_bodies())
+        {
+          std::mt19937 random(static_cast<unsigned int>(structure.number(k)));
+          const PerKind size = largest(structure[k], U[k]);
+          for (std::size_t i = 0; i < U[k].size(); ++i)
+            result[k][i] +=
+                shake * size[structure[k].kind(i)] * (2. * random() / std::mt19937::max() - 1.);
+        }
+        return result;
+      }
+
+      /// True if the tangents are definite or, of cables that lie on something, indifferent: there
+      /// what is slack stays where it is.
+      bool stays(const StaticStep &step, const StaticState &state) const
+      {
+        const Communicator &processes = structure.communicator();
+        if (!(processes.max(step.has_own_tangents() ? 0. : 1.) > 0.))
+          return true;
+        bool touches = false;
+        for (std::size_t i = 0; i < constraints.size(); ++i)
+          touches = touches || (constraints[i].unilateral && state.multiplier[i] > 0.);
+        return touches && !(processes.max(soft.are_indifferent(state.displacement) ? 0. : 1.) > 0.);
       }
 
       /// False if links that push give way to the side.
