@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <random>
+#include <optional>
 #include <sstream>
 #include <vector>
 
@@ -29,11 +29,9 @@ namespace taut
     constexpr double near = 1e-3;
 
     /// Its iterations: with full steps first, then with a line search.
-    constexpr int most_full_steps = 20, most_iterations = 300;
+    constexpr int most_full_steps = 20, most_iterations = 1000;
 
-    /// An equilibrium that is not stable, as of a straight cable under compression, is left by so
-    /// much of the displacements, and so often.
-    constexpr double shake = 1e-3;
+    /// How often the search leaves an equilibrium that is not stable.
     constexpr int most_shakes = 3;
 
     /// Part of the expected decrease of the energy that a step has to make (L. Armijo, 1966).
@@ -174,7 +172,18 @@ namespace taut
         for (int iteration = 0; iteration < (is_damped ? most_iterations : most_full_steps);
              ++iteration)
         {
-          StaticStep step(structure, turning.constraints(), parameters, time, soft, U);
+          std::optional<StaticStep> next;
+          try
+          {
+            next.emplace(structure, turning.constraints(), parameters, time, soft, U);
+          }
+          catch (const BodyNotHeld &)
+          {
+            if (iteration == 0)
+              throw;
+            return false; // far from anything, where no tangent is definite
+          }
+          StaticStep &step = *next;
           state = step.solve();
           change = relative_change(step.bodies(), U, state.displacement);
           if (!turning.empty())
@@ -189,7 +198,7 @@ namespace taut
             {
               if (!is_damped || ++n_shakes > most_shakes)
                 return false;
-              U = shaken(state.displacement);
+              U = soft.shaken(state.displacement);
               before = std::numeric_limits<double>::infinity();
               continue;
             }
@@ -204,21 +213,6 @@ namespace taut
           turning.go_on(state);
         }
         return false;
-      }
-
-      /// Off a saddle of the energy, by the same numbers on all machines.
-      BodyVectors shaken(const BodyVectors &U) const
-      {
-        BodyVectors result = U;
-        for (const std::size_t k : soft.nonlinear_bodies())
-        {
-          std::mt19937 random(static_cast<unsigned int>(structure.number(k)));
-          const PerKind size = largest(structure[k], U[k]);
-          for (std::size_t i = 0; i < U[k].size(); ++i)
-            result[k][i] +=
-                shake * size[structure[k].kind(i)] * (2. * random() / std::mt19937::max() - 1.);
-        }
-        return result;
       }
 
       /// True if the tangents are definite or, of cables that lie on something, indifferent: there

@@ -123,6 +123,19 @@ TEST(CableFloors, close_below_the_supports)
           }
 }
 
+// Just as long as its straight free parts and the way between them, or a little less: the energy is
+// nearly level.
+TEST(CableFloors, where_tension_is_about_to_vanish)
+{
+  for (const double depth : {.75, 1.})
+  {
+    const AtRest found = on_floor(span + 2. * depth - (depth < 1. ? 0. : .5), depth, 32, 1.3e7,
+                                  CableElement::ancf);
+    EXPECT_LE(found.balance, 1e-8) << depth;
+    EXPECT_LT(found.way, 1e-6) << depth;
+  }
+}
+
 TEST(CableFloors, tension_is_that_of_the_free_parts)
 {
   for (const double length : {31., 32., 33.})
