@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 namespace taut
 {
@@ -20,9 +19,6 @@ namespace taut
     /// The same part below which it is rounding of a tangent that is definite or has no stiffness:
     /// of a cable with a compression of about as small a part of its axial stiffness.
     constexpr double indifferent = 1e-8;
-
-    /// Part of the largest displacements by which a saddle is left.
-    constexpr double shake = 1e-3;
 
     double largest_on_diagonal(const SymmetricMatrix &matrix)
     {
@@ -103,20 +99,6 @@ namespace taut
       }
     }
     return true;
-  }
-
-  BodyVectors SofterBodies::shaken(const BodyVectors &U) const
-  {
-    BodyVectors result = U;
-    for (const std::size_t k : nonlinear.indices())
-    {
-      std::mt19937 random(static_cast<unsigned int>(structure.number(k)));
-      const PerKind size = largest(structure[k], U[k]);
-      for (std::size_t i = 0; i < U[k].size(); ++i)
-        result[k][i] +=
-            shake * size[structure[k].kind(i)] * (2. * random() / std::mt19937::max() - 1.);
-    }
-    return result;
   }
 
   std::unique_ptr<SymmetricMatrix>

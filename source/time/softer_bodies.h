@@ -41,10 +41,6 @@ namespace taut
     /// rounding: what a motion costs no energy of is no tension, as of a cable that lies slack.
     bool are_indifferent(const BodyVectors &U) const;
 
-    /// Off a saddle of the energy, as of a straight cable under compression: @p U with a small part
-    /// of its largest entries added to each, by the same numbers on all machines.
-    BodyVectors shaken(const BodyVectors &U) const;
-
   private:
     const Substructure &body(std::size_t k) const { return softer[k] ? *softer[k] : structure[k]; }
 

@@ -31,9 +31,6 @@ namespace taut
     /// Its iterations: with full steps first, then with a line search.
     constexpr int most_full_steps = 20, most_iterations = 1000;
 
-    /// How often the search leaves an equilibrium that is not stable.
-    constexpr int most_shakes = 3;
-
     /// Part of the expected decrease of the energy that a step has to make (L. Armijo, 1966).
     constexpr double sufficient = 1e-4;
     constexpr double shortest_step = 1e-6;
@@ -167,7 +164,6 @@ namespace taut
       {
         BodyVectors U = start;
         double before = std::numeric_limits<double>::infinity();
-        int n_shakes = 0;
         turning.begin(U);
         for (int iteration = 0; iteration < (is_damped ? most_iterations : most_full_steps);
              ++iteration)
@@ -195,13 +191,7 @@ namespace taut
           if (change <= converged || (change <= stagnated && change >= .5 * before))
           {
             if (!stays(step, state))
-            {
-              if (!is_damped || ++n_shakes > most_shakes)
-                return false;
-              U = soft.shaken(state.displacement);
-              before = std::numeric_limits<double>::infinity();
-              continue;
-            }
+              return false;
             step.certify(state);
             turning.finish(state);
             return is_stable(state);

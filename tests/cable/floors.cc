@@ -129,8 +129,8 @@ TEST(CableFloors, where_tension_is_about_to_vanish)
 {
   for (const double depth : {.75, 1.})
   {
-    const AtRest found = on_floor(span + 2. * depth - (depth < 1. ? 0. : .5), depth, 32, 1.3e7,
-                                  CableElement::ancf);
+    const AtRest found =
+        on_floor(span + 2. * depth - (depth < 1. ? 0. : .5), depth, 32, 1.3e7, CableElement::ancf);
     EXPECT_LE(found.balance, 1e-8) << depth;
     EXPECT_LT(found.way, 1e-6) << depth;
   }
