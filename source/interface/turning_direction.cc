@@ -31,20 +31,29 @@ namespace taut
   std::vector<Term> TurningDirection::along(const Coordinates &direction) const
   {
     std::vector<Term> terms;
-    for (unsigned int c = 0; c < 3; ++c)
-      for (const auto &[k, form] : motion[c])
+    for (const bool of_first : {false, true})
+    {
+      // A form on one body stays that of one place: columns are those of single elements.
+      const auto begin = static_cast<std::ptrdiff_t>(terms.size());
+      for (unsigned int c = 0; c < 3; ++c)
       {
-        const std::size_t body = k;
-        auto term = std::find_if(terms.begin(), terms.end(),
-                                 [&](const Term &t) { return t.substructure == body; });
-        if (term == terms.end())
+        const auto middle = motion[c].end() - static_cast<std::ptrdiff_t>(first.motion[c].size());
+        for (auto own = of_first ? middle : motion[c].begin();
+             own != (of_first ? motion[c].end() : middle); ++own)
         {
-          terms.push_back({k, {}});
-          term = terms.end() - 1;
+          auto term =
+              std::find_if(terms.begin() + begin, terms.end(),
+                           [&](const Term &t) { return t.substructure == own->substructure; });
+          if (term == terms.end())
+          {
+            terms.push_back({own->substructure, {}});
+            term = terms.end() - 1;
+          }
+          for (std::size_t j = 0; j < own->form.index.size(); ++j)
+            term->form.add(own->form.index[j], direction[c] * own->form.value[j]);
         }
-        for (std::size_t j = 0; j < form.index.size(); ++j)
-          term->form.add(form.index[j], direction[c] * form.value[j]);
       }
+    }
     return terms;
   }
 

@@ -3,6 +3,7 @@
 #include <taut/cable/cable.h>
 #include <taut/mechanism/rigid_body.h>
 #include <taut/model/check_joints.h>
+#include <taut/scene/contact_surface.h>
 #include <taut/scene/entries.h>
 
 #include <algorithm>
@@ -121,7 +122,40 @@ namespace taut
     /// much as places that are written with three digits are.
     constexpr double same_place = 1e-3;
 
-    /// Over the length of which a force at a place turns a body [m]; infinite for points.
+    /// The same of two points over their distance from the origin: their places are numbers that
+    /// are written alike.
+    constexpr double written_alike = 1e-6;
+
+    bool is_point(const Attachment &end)
+    {
+      return end.kind == Attachment::Kind::mass || end.kind == Attachment::Kind::ground;
+    }
+
+    /// The diagonal of the box around the surface of a body [m]; 0 if its type shows none.
+    double size_of_surface(const Scene &scene, const CustomBody &body)
+    {
+      ContactSurface surface;
+      try
+      {
+        surface = body.type->surface({body.name, body.origin, scene.gravity}, {});
+      }
+      catch (const EntryError &)
+      {
+        return 0.;
+      }
+      double squares = 0.;
+      for (unsigned int c = 0; c < 3 && !surface.points.empty(); ++c)
+      {
+        const auto [first, last] = std::minmax_element(
+            surface.points.begin(), surface.points.end(),
+            [c](const Coordinates &a, const Coordinates &b) { return a[c] < b[c]; });
+        squares += std::pow((*last)[c] - (*first)[c], 2);
+      }
+      return std::sqrt(squares);
+    }
+
+    /// Over the length of which a force at a place turns a body [m]; infinite for points and for
+    /// bodies whose size is not known.
     double length_of(const Scene &scene, const SceneBodies &bodies, const Attachment &end)
     {
       constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -139,6 +173,8 @@ namespace taut
             length = rigid->radius_of_gyration();
         }
         bodies.communicator().sum(&length, 1);
+        if (length == 0.)
+          length = size_of_surface(scene, scene.bodies[end.index]);
       }
       return length > 0. ? length : infinity;
     }
@@ -175,18 +211,22 @@ namespace taut
       if (!is_first || !are_one_ball_joint(link, scene.links[i + 1]) || !has_place(link.from) ||
           !has_place(link.to))
         continue;
-      const double length =
-          std::min(length_of(scene, bodies, link.from), length_of(scene, bodies, link.to));
+      const bool are_points = is_point(link.from) && is_point(link.to);
       const Coordinates from = bodies.position(scene, link.from),
                         to = bodies.position(scene, link.to);
-      const double distance = norm(to - from);
-      if (std::isinf(length) || distance <= same_place * length)
+      const double distance = norm(to - from),
+                   least = are_points ? written_alike * std::max(norm(from), norm(to))
+                                      : same_place * std::min(length_of(scene, bodies, link.from),
+                                                              length_of(scene, bodies, link.to));
+      if (std::isinf(least) || distance <= least)
         continue;
       std::ostringstream message;
       message << "link '" << link.name << "' is of a ball joint, whose places are " << distance
               << " m apart before anything moves: From is at " << text_of(from) << ", To at "
-              << text_of(to) << ". Bring them together, to " << same_place * length
-              << " m (a thousandth of the shorter body), or take a joint along each direction";
+              << text_of(to) << ". Bring them together, to " << least << " m ("
+              << (are_points ? "a millionth of their distance from the origin"
+                             : "a thousandth of the shorter body")
+              << "), or take a joint along each direction";
       throw EntryError(path(link.origin, "To"), message.str());
     }
   }

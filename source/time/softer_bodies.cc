@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "softer_bodies.h"
 
+#include <taut/base/exceptions.h>
+#include <taut/substructure/local_solver.h>
 #include <taut/substructure/slender_body.h>
 
 #include <algorithm>
@@ -13,6 +15,10 @@ namespace taut
     /// Part of the largest stiffness over mass that is added as mass where a tangent is not
     /// definite, and by how much it grows from attempt to attempt.
     constexpr double first_shift = 1e-10, growth_of_shift = 30.;
+
+    /// The same part below which it is rounding of a tangent that is definite or has no stiffness:
+    /// of a cable with a compression of about as small a part of its axial stiffness.
+    constexpr double indifferent = 1e-8;
 
     double largest_on_diagonal(const SymmetricMatrix &matrix)
     {
@@ -70,6 +76,29 @@ namespace taut
                            std::vector<double> &f) const
   {
     body(k).internal_force(U, {}, f);
+  }
+
+  bool SofterBodies::are_indifferent(const BodyVectors &U) const
+  {
+    for (const std::size_t k : nonlinear.indices())
+    {
+      const Substructure &own = structure[k];
+      const double mass = largest_on_diagonal(own.mass());
+      if (dynamic_cast<const SlenderBody *>(&own) == nullptr || !(mass > 0.))
+        return false;
+      const std::unique_ptr<SymmetricMatrix> K = own.tangent(U[k], 0., false);
+      try
+      {
+        make_local_solver("block tridiagonal", *K)
+            ->factor({{1., K.get()}, {indifferent * largest_on_diagonal(*K) / mass, &own.mass()}},
+                     own.constrained_dofs());
+      }
+      catch (const BodyNotHeld &)
+      {
+        return false;
+      }
+    }
+    return true;
   }
 
   std::unique_ptr<SymmetricMatrix>

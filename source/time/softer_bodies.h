@@ -37,6 +37,10 @@ namespace taut
     std::unique_ptr<SymmetricMatrix> tangent(std::size_t k, const std::vector<double> &U,
                                              int attempt) const;
 
+    /// True if all of them are slender, and their own tangents at @p U are definite but for
+    /// rounding: what a motion costs no energy of is no tension, as of a cable that lies slack.
+    bool are_indifferent(const BodyVectors &U) const;
+
   private:
     const Substructure &body(std::size_t k) const { return softer[k] ? *softer[k] : structure[k]; }
 

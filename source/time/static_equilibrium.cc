@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <sstream>
 #include <vector>
 
@@ -28,7 +29,7 @@ namespace taut
     constexpr double near = 1e-3;
 
     /// Its iterations: with full steps first, then with a line search.
-    constexpr int most_full_steps = 20, most_iterations = 300;
+    constexpr int most_full_steps = 20, most_iterations = 1000;
 
     /// Part of the expected decrease of the energy that a step has to make (L. Armijo, 1966).
     constexpr double sufficient = 1e-4;
@@ -167,7 +168,18 @@ namespace taut
         for (int iteration = 0; iteration < (is_damped ? most_iterations : most_full_steps);
              ++iteration)
         {
-          StaticStep step(structure, turning.constraints(), parameters, time, soft, U);
+          std::optional<StaticStep> next;
+          try
+          {
+            next.emplace(structure, turning.constraints(), parameters, time, soft, U);
+          }
+          catch (const BodyNotHeld &)
+          {
+            if (iteration == 0)
+              throw;
+            return false; // far from anything, where no tangent is definite
+          }
+          StaticStep &step = *next;
           state = step.solve();
           change = relative_change(step.bodies(), U, state.displacement);
           if (!turning.empty())
@@ -178,7 +190,7 @@ namespace taut
             return true;
           if (change <= converged || (change <= stagnated && change >= .5 * before))
           {
-            if (structure.communicator().max(step.has_own_tangents() ? 0. : 1.) > 0.)
+            if (!stays(step, state))
               return false;
             step.certify(state);
             turning.finish(state);
@@ -191,6 +203,19 @@ namespace taut
           turning.go_on(state);
         }
         return false;
+      }
+
+      /// True if the tangents are definite or, of cables that lie on something, indifferent: there
+      /// what is slack stays where it is.
+      bool stays(const StaticStep &step, const StaticState &state) const
+      {
+        const Communicator &processes = structure.communicator();
+        if (!(processes.max(step.has_own_tangents() ? 0. : 1.) > 0.))
+          return true;
+        bool touches = false;
+        for (std::size_t i = 0; i < constraints.size(); ++i)
+          touches = touches || (constraints[i].unilateral && state.multiplier[i] > 0.);
+        return touches && !(processes.max(soft.are_indifferent(state.displacement) ? 0. : 1.) > 0.);
       }
 
       /// False if links that push give way to the side.

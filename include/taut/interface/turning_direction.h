@@ -33,7 +33,7 @@ namespace taut
 
     LinkEnd first;
 
-    /// Of the second end minus that of the first along x, y and z, on the bodies of this rank [m].
+    /// Along x, y, z of the second end, then minus that of the first, on bodies of this rank [m].
     std::array<std::vector<Term>, 3> motion;
     Coordinates start;  ///< Delta at U = 0, the same on all ranks [m]
     double length = 1.; ///< |Delta| at D = 0, positive [m]
@@ -53,7 +53,7 @@ namespace taut
     /// Delta / |Delta|; where it vanishes, the direction at U = 0.
     Coordinates at(const Coordinates &difference) const;
 
-    /// Motion along a direction, one term for each body.
+    /// Motion along a direction, one term for each body of each end.
     std::vector<Term> along(const Coordinates &direction) const;
   };
 

@@ -20,8 +20,10 @@ namespace taut
   /**
    * Throws EntryError for a ball joint of a parameter file between two places that are apart at
    * U = 0 by more than a thousandth of the length of the shorter body (the radius of gyration of a
-   * rigid one): the message says where they are. Masses, the ground and bodies of other types are
-   * points here. Called by all ranks together.
+   * rigid one, the diagonal of the box around the surface of others), or, between masses and places
+   * of the ground, by more than a millionth of their distance from the origin: the message says
+   * where they are. Bodies of types that show no surface may be anywhere. Called by all ranks
+   * together.
    */
   void check_ball_joints(const Scene &scene, const SceneBodies &bodies);
 } // namespace taut

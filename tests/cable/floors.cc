@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: cables between level supports are found at rest on a floor close below, also where they
+// lie slack, and stay there. Expected values: the balance of forces; a catenary that ends level on
+// the floor (Irvine 1981), without stretch.
+#include "verification/run.h"
+
+#include <taut/cable/cable.h>
+#include <taut/time/stepper.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace
+{
+  using namespace taut;
+
+  constexpr double span = 30., weight = 1.07 * 9.81;
+
+  struct AtRest
+  {
+    double horizontal = 0., least_tension = 0., floor = 0., ends = 0.; ///< [N]
+    double balance = 0.;                                               ///< of the certificate
+    double way = 0.; ///< of the fastest node in what follows [m]
+  };
+
+  /// Every node may touch the floor; then some steps.
+  AtRest on_floor(const double length, const double depth, const unsigned int n, const double EA,
+                  const CableElement element)
+  {
+    CableData data;
+    data.name = "cable";
+    data.to = {span, 0., 0.};
+    data.length = length;
+    data.section = {EA, 0., 1.07, 0.};
+    data.gravity = {0., -9.81, 0.};
+    data.n_elements = n;
+    data.element = element;
+    const Cable *cable = nullptr;
+    System system;
+    system.add("cable",
+               [&]
+               {
+                 auto made = std::make_unique<Cable>(data);
+                 cable = made.get();
+                 return made;
+               });
+    for (unsigned int k = 1; k < n; ++k)
+    {
+      const double s = length * k / n;
+      system.add(Constraint::unilateral("floor " + std::to_string(k),
+                                        system.displacement(0, {s, 0., 0.}, {0., 1., 0.}))
+                     .gap(depth + cable->elements().position(cable->shape().positions, s).y));
+    }
+    StepperOptions options;
+    options.step = 2e-3;
+    Stepper stepper(system, options);
+    AtRest result;
+    result.balance = stepper.certificate().balance;
+    std::vector<double> f, P;
+    const std::vector<double> U = stepper.displacement(0);
+    cable->internal_force(U, {}, f);
+    cable->external_force(0., P);
+    for (std::size_t i = 0; i < P.size(); ++i)
+      P[i] -= f[i];
+    const auto first = cable->elements().end_dofs(false), last = cable->elements().end_dofs(true);
+    result.horizontal = P[first[0]];
+    result.ends = -P[first[1]] - P[last[1]];
+    for (unsigned int k = 0; k + 1 < n; ++k)
+      result.floor += stepper.multiplier(k);
+    result.least_tension = EA * cable->elements().smallest_strain(cable->positions(U));
+    for (int k = 0; k < 5; ++k)
+      stepper.advance();
+    const std::vector<double> later = stepper.displacement(0);
+    for (std::size_t i = 0; i < U.size(); ++i)
+      result.way = std::max(result.way, std::fabs(later[i] - U[i]));
+    return result;
+  }
+
+  /// H of a free part that ends level on the floor, by bisection; 0 if all that is too long lies
+  /// there without tension.
+  double horizontal_on_floor(const double length, const double depth)
+  {
+    double low = 1e-9, high = 1e3;
+    for (int k = 0; k < 200; ++k)
+    {
+      const double h = .5 * (low + high), a = std::sqrt(depth * depth + 2. * h * depth);
+      (2. * h * std::asinh(a / h) + length - 2. * a < span ? low : high) = h;
+    }
+    return low > 1e-8 ? low * weight : 0.;
+  }
+} // namespace
+
+TEST(CableFloors, close_below_the_supports)
+{
+  for (const CableElement element : {CableElement::ancf, CableElement::bar})
+    for (const unsigned int n : {8u, 16u})
+      for (const double length : {30.2, 31., 32., 34.})
+        for (const double depth : {.3, 1., 3.})
+          for (const double EA : {1e6, 1.3e7})
+          {
+            std::ostringstream title;
+            title << length << " m, " << depth << " m below, " << n << " elements, EA " << EA;
+            SCOPED_TRACE(title.str());
+            try
+            {
+              const AtRest found = on_floor(length, depth, n, EA, element);
+              const double all = weight * length;
+              EXPECT_LE(found.balance, 1e-8);
+              EXPECT_NEAR(found.floor + found.ends, all, 1e-6 * all);
+              EXPECT_GT(found.least_tension, -1e-4 * all);
+              EXPECT_LT(found.way, 1e-6);
+            }
+            catch (const std::exception &e)
+            {
+              ADD_FAILURE() << e.what();
+            }
+          }
+}
+
+// Just as long as its straight free parts and the way between them, or a little less: the energy is
+// nearly level.
+TEST(CableFloors, where_tension_is_about_to_vanish)
+{
+  for (const double depth : {.75, 1.})
+  {
+    const AtRest found =
+        on_floor(span + 2. * depth - (depth < 1. ? 0. : .5), depth, 32, 1.3e7, CableElement::ancf);
+    EXPECT_LE(found.balance, 1e-8) << depth;
+    EXPECT_LT(found.way, 1e-6) << depth;
+  }
+}
+
+TEST(CableFloors, tension_is_that_of_the_free_parts)
+{
+  for (const double length : {31., 32., 33.})
+  {
+    const AtRest found = on_floor(length, 1.5, 64, 1e6, CableElement::ancf);
+    const double exact = horizontal_on_floor(length, 1.5);
+    verification::figure(
+        "horizontal force of a cable on a floor 1.5 m below, less that of its free "
+        "parts",
+        found.horizontal - exact, "N");
+    EXPECT_NEAR(found.horizontal, exact, .1 * weight * length / 64.);
+  }
+}
