@@ -133,7 +133,11 @@ namespace taut
             for (std::size_t k = 0; k < structure.size(); ++k)
             {
               for (const ConstrainedDof &constraint : structure[k].constraints())
+              {
                 state.U[k][constraint.dof] = constraint.at(0.);
+                if (!constraint.motion)
+                  state.V[k][constraint.dof] = 0.;
+              }
               structure[k].internal_force(state.U[k], {}, state.KU[k]);
               for (std::size_t i = 0; i < state.KU[k].size(); ++i)
                 state.KU[k][i] -= result.reference.force[k][i];

@@ -162,3 +162,29 @@ TEST(Damper, of_the_wave_impedance_swallows_a_wave)
   figure("string on a damper of its impedance, energy left over", energy_after / energy_before);
   EXPECT_LT(energy_after, 1e-5 * energy_before);
 }
+
+// A string that is struck all along moves by v t until the waves from its ends arrive. A velocity
+// of what is held would stay, with changing sign, and shake what is beside it.
+TEST(StruckString, is_at_rest_where_it_is_held)
+{
+  double at_ends = 0., start = 0., middle = 0.;
+  run_scene("set Generator = network\nset Gravity = 0, 0\nset Start = given\n"
+            "subsection Network\n set Wires = string\n set Supports = ends\n"
+            " subsection Wire string\n  set To = 10, 0\n  set Components = string\n"
+            "  set Mass per length = 1\n  set Tension = 400\n  set Element size = 0.1\n"
+            "  set Initial transverse velocity = 1\n end\n"
+            " subsection Support ends\n  set Wire = string\n  set Positions = 0, 10\n end\nend\n"
+            "subsection Time\n set Scheme = Moreau-Jean\n set Step = 1e-3\n set End = 0.2\nend\n",
+            {},
+            [&](const taut::StepView &view)
+            {
+              const std::vector<double> &V = view.state.V[0];
+              at_ends = std::max({at_ends, std::fabs(V.front()), std::fabs(V.back())});
+              if (view.state.time == 0.)
+                start = V[V.size() / 2];
+              middle = displacement(view, 0, 5.) - view.state.time;
+            });
+  EXPECT_EQ(start, 1.);
+  EXPECT_EQ(at_ends, 0.);
+  EXPECT_LT(std::fabs(middle), 1e-3) << "waves arrive after 0.25 s";
+}
