@@ -23,7 +23,7 @@ namespace taut
   template <typename Work>
   void visit_tiles(const Substructure &body, const Work &work)
   {
-    constexpr std::size_t reach = 8; // two nodes of the largest blocks
+    constexpr std::size_t reach = 12; // two nodes of the largest blocks, those of cables
     const std::size_t n = body.n_dofs(), size = tile_size(body);
     for (std::size_t begin = 0; begin < n; begin += size)
     {

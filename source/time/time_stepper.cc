@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <type_traits>
 
 namespace taut
 {
@@ -216,8 +215,8 @@ namespace taut
     forces.external_size[k] = largest(body, P);
   }
 
-  /// P^_k = P - K U - C v* - M a*, with v* and a* the parts of velocity and acceleration that are
-  /// known.
+  /// P^_k = P - K U + kappa r - C v* - M a*, with the balance r of the step before, v* the part of
+  /// the velocity that is known and a* that of the mean acceleration, see StepCoefficients.
   void TimeStepper::set_history(const std::size_t k)
   {
     const Substructure &body = structure[k];
@@ -226,51 +225,48 @@ namespace taut
       set_external_force(k);
     system->bodies().remove_rounding(k, current.KU[k], current.balance[k]);
 
-    const double kappa = c.old_balance();
-    const double old = c.old_inertia(), now = c.new_inertia();
+    const KnownMotion known(c, current.V[k], current.A[k], current.dU[k], current.V_old[k]);
+    const bool old_forces_count = c.alpha_m != 0. || c.alpha_f != 0.,
+               velocity_is_known = c.v_V != 0. || c.v_A != 0. || c.v_dU != 0.;
+    const double kappa = c.old_balance(), old = c.old_inertia(), now = c.new_inertia();
     const double *A = current.A[k].data(), *p = forces.P[k].data(), *KU = current.KU[k].data(),
                  *r = current.balance[k].data();
-    double *v = work_v.data(), *m = work_a.data(), *R = right_hand_side[k].data(),
-           *Cv = damping_of_tile.data(), *Mm = inertia_of_tile.data();
-    const KnownMotion known(c, current.V[k], current.A[k], current.dU[k], current.V_old[k]);
-    const bool velocity_is_known = c.v_V != 0. || c.v_A != 0. || c.v_dU != 0.;
-    const auto set = [&](const auto with_old_forces, const auto with_velocity)
-    {
-      const auto visitor = [=](const std::size_t i, const double known_v, const double known_a)
-      {
-        if (with_velocity)
-          v[i] = known_v;
-        m[i] = with_old_forces ? now * known_a + old * A[i] : known_a;
-      };
-      std::size_t done = 0;
-      visit_tiles(body,
-                  [&](const std::size_t begin, const std::size_t end, const std::size_t reached)
-                  {
-                    vectorised([=] { known.visit(done, reached, visitor); });
-                    done = reached;
-                    if (with_velocity)
-                      body.damping().vmult_rows(begin, end, v, Cv);
-                    body.mass().vmult_rows(begin, end, m, Mm);
-                    vectorised(
-                        [=]
-                        {
+    double *v = work_v.data(), *a = work_a.data(), *Cv = damping_of_tile.data(),
+           *Ma = inertia_of_tile.data(), *R = right_hand_side[k].data();
+    std::size_t done = 0;
+    visit_tiles(body,
+                [&](const std::size_t begin, const std::size_t end, const std::size_t reached)
+                {
+                  vectorised(
+                      [=]
+                      {
+                        known.visit(
+                            done, reached,
+                            [=](const std::size_t i, const double known_v, const double known_a)
+                            {
+                              v[i] = known_v;
+                              a[i] = old_forces_count ? now * known_a + old * A[i] : known_a;
+                            });
+                      });
+                  done = reached;
+                  if (velocity_is_known)
+                    body.damping().vmult_rows(begin, end, v, Cv);
+                  body.mass().vmult_rows(begin, end, a, Ma);
+                  vectorised(
+                      [=]
+                      {
 #pragma omp simd
-                          for (std::size_t i = begin; i < end; ++i)
-                          {
-                            double sum = p[i] - KU[i] + (with_old_forces ? kappa * r[i] : 0.);
-                            if (with_velocity)
-                              sum -= Cv[i - begin];
-                            R[i] = sum - Mm[i - begin];
-                          }
-                        });
-                  });
-    };
-    if (c.alpha_m != 0. || c.alpha_f != 0.)
-      set(std::true_type(), std::true_type());
-    else if (velocity_is_known)
-      set(std::false_type(), std::true_type());
-    else
-      set(std::false_type(), std::false_type());
+                        for (std::size_t i = begin; i < end; ++i)
+                        {
+                          double sum = p[i] - KU[i];
+                          if (old_forces_count)
+                            sum += kappa * r[i];
+                          if (velocity_is_known)
+                            sum -= Cv[i - begin];
+                          R[i] = sum - Ma[i - begin];
+                        }
+                      });
+                });
 
     if (body.has_moving_constraints())
     {
