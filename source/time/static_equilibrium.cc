@@ -28,8 +28,9 @@ namespace taut
     /// The same with bodies that are softer than their own, as a start for the next search.
     constexpr double near = 1e-3;
 
-    /// Its iterations: with full steps first, then with a line search.
-    constexpr int most_full_steps = 20, most_iterations = 1000;
+    /// Its iterations: with full steps first, then with a line search, and how many of these do not
+    /// halve the least change.
+    constexpr int most_full_steps = 20, most_iterations = 1000, most_in_vain = 250;
 
     /// Part of the expected decrease of the energy that a step has to make (L. Armijo, 1966).
     constexpr double sufficient = 1e-4;
@@ -163,7 +164,8 @@ namespace taut
                   StaticState &state)
       {
         BodyVectors U = start;
-        double before = std::numeric_limits<double>::infinity();
+        double before = std::numeric_limits<double>::infinity(), least = before;
+        int in_vain = 0;
         turning.begin(U);
         for (int iteration = 0; iteration < (is_damped ? most_iterations : most_full_steps);
              ++iteration)
@@ -197,6 +199,10 @@ namespace taut
             return is_stable(state);
           }
           before = change;
+          in_vain = change <= .5 * least ? 0 : in_vain + 1;
+          least = in_vain == 0 ? change : least;
+          if (in_vain == most_in_vain)
+            return false;
           if (is_damped)
             shorten(U, state);
           U = state.displacement;

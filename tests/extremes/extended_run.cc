@@ -121,7 +121,10 @@ namespace extremes
           motion.V = model.initial_V;
           for (std::size_t i = 0; i < n; ++i)
             if (model.held[i])
+            {
               motion.U[i] = model.given[i];
+              motion.V[i] = 0;
+            }
         }
         for (std::size_t k = 0; k < B.size(); ++k)
         {

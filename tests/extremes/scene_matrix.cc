@@ -16,7 +16,9 @@ namespace extremes
     using Kind = taut::Attachment::Kind;
 
     const Dimension steps = {"step", {1e-9, 1e-6, 1e-3, 1., 1e3, 1e6}},
-                    schemes = {"scheme", {0, 1, 2, 3}}, starts = {"start", {0, 1, 2}},
+                    schemes = {"scheme", {0, 1, 2, 3}},
+                    // The fourth accelerates such bodies by the rounding of their elastic forces.
+        schemes_of_floating_bodies = {"scheme", {0, 1, 2}}, starts = {"start", {0, 1, 2}},
                     states = {"state", {0, 1, 2, 3}}, // open, closed, grazing, by turns
         solvers = {"solver", {0, 1, 2, 3, 4}};
     const char *const scheme_names[] = {"backward Euler", "BDF2", "generalised-alpha",
@@ -333,7 +335,7 @@ namespace extremes
                                                {"copies", {1, 2}},
                                                {"droppers", {0, 1}},
                                                {"parts", {1, 3}},
-                                               schemes,
+                                               schemes_of_floating_bodies,
                                                solvers};
     return cover("resting", dimensions, seed,
                  [](Case &c, const Levels &level)
