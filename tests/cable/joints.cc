@@ -2,6 +2,7 @@
 // Claim: links that turn hold two places of one cable together, and ball joints of solids and
 // masses hold one place. Expected values: the same cable as two bodies that are joined in the
 // middle, and the messages.
+#include "cable/errors_of_runs.h"
 #include "verification/run.h"
 
 #include <taut/base/exceptions.h>
@@ -59,29 +60,6 @@ namespace
                  "first, second",
                  network + "subsection Link middle\nset Type = ball joint\nset From = first @ 12, "
                            "0\nset To = second @ 0, 0\nend\n");
-  }
-
-  std::string error_of(const std::string &text, const Overrides &overrides = {})
-  {
-    try
-    {
-      verification::run_scene(text, overrides, [](const StepView &) {});
-    }
-    catch (const EntryError &e)
-    {
-      return e.entry() + ": " + e.message();
-    }
-    catch (const std::exception &e)
-    {
-      return e.what();
-    }
-    return "";
-  }
-
-  void expect(const std::string &text, const std::vector<std::string> &parts)
-  {
-    for (const std::string &part : parts)
-      EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' in\n" << text;
   }
 } // namespace
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: what acts at a place on a cable acts there or is refused, and results say where the place
 // is in space. Expected values: the same scene written otherwise, closed forms, and the messages.
+#include "cable/errors_of_runs.h"
 #include "verification/run.h"
 
 #include <taut/base/exceptions.h>
@@ -75,30 +76,6 @@ end
                                   U[k][i] += step.state.U[k][i];
                             });
     return U;
-  }
-
-  /// "entry: message" of the error that a run ends with.
-  std::string error_of(const std::string &scene, const Overrides &overrides = {})
-  {
-    try
-    {
-      verification::run_scene(scene, overrides, [](const StepView &) {});
-    }
-    catch (const EntryError &e)
-    {
-      return e.entry() + ": " + e.message();
-    }
-    catch (const std::exception &e)
-    {
-      return e.what();
-    }
-    return "";
-  }
-
-  void expect(const std::string &text, const std::vector<std::string> &parts)
-  {
-    for (const std::string &part : parts)
-      EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' in\n" << text;
   }
 
   std::string text_in(const std::string &path)

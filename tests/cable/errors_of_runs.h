@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_errors_of_runs_h
+#define taut_errors_of_runs_h
+
+#include "verification/run.h"
+
+#include <taut/base/exceptions.h>
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+/// "entry: message" of the error that a run ends with; empty: none.
+inline std::string error_of(const std::string &scene, const verification::Overrides &overrides = {})
+{
+  try
+  {
+    verification::run_scene(scene, overrides, [](const taut::StepView &) {});
+  }
+  catch (const taut::EntryError &e)
+  {
+    return e.entry() + ": " + e.message();
+  }
+  catch (const std::exception &e)
+  {
+    return e.what();
+  }
+  return "";
+}
+
+inline void expect(const std::string &text, const std::vector<std::string> &parts)
+{
+  for (const std::string &part : parts)
+    EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' in\n" << text;
+}
+
+#endif
