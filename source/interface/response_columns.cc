@@ -32,9 +32,9 @@ namespace taut
       for (std::size_t p = 0; p < columns[i].substructure.size(); ++p)
         in_columns += columns[i].part[p].value.size();
     }
-    // Work of a solve: 4 products of b x b blocks a node, b of order 2; of a column: one product an
-    // entry.
-    by_columns = constraints.size() > 0 && in_columns < 8 * solvers.structure().n_dofs();
+    // Work of a solve: 4 products of b x b blocks a node, b of order 2; of a column: two sums of
+    // products an entry, see ScalarProduct.
+    by_columns = constraints.size() > 0 && 2 * in_columns < 8 * solvers.structure().n_dofs();
   }
 
   void ResponseColumns::compute(const std::size_t i)

@@ -2,6 +2,7 @@
 #include <taut/output/csv_file.h>
 
 #include <charconv>
+#include <cstring>
 
 namespace taut
 {
@@ -47,14 +48,24 @@ namespace taut
     end_line();
   }
 
+  CsvFile::Number::Number(const double value) : value(value)
+  {
+    text[0] = ',';
+    length = std::to_chars(text + 1, text + sizeof text, value).ptr - text;
+  }
+
   CsvFile &CsvFile::operator<<(const double value)
   {
-    if (!line_begins)
-      buffer += ',';
+    const auto is_same = [value](const Number &number)
+    { return std::memcmp(&number.value, &value, sizeof value) == 0; };
+    if (!is_same(last[0]) && !is_same(last[1]))
+    {
+      last[1] = last[0];
+      last[0] = Number(value);
+    }
+    const Number &number = is_same(last[0]) ? last[0] : last[1];
+    buffer.append(number.text + line_begins, number.length - line_begins);
     line_begins = false;
-    char digits[32];
-    const auto result = std::to_chars(digits, digits + sizeof digits, value);
-    buffer.append(digits, result.ptr);
     return *this;
   }
 

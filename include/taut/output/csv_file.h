@@ -4,6 +4,7 @@
 
 #include <taut/base/growing_file.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -46,12 +47,25 @@ namespace taut
     void resume(std::size_t length);
 
   private:
+    /// A comma and a number.
+    struct Number
+    {
+      explicit Number(double value);
+
+      double value;
+      char text[32];
+      std::size_t length;
+    };
+
     void write();
 
     std::string path;
     GrowingFile file;
     std::string buffer;
     bool line_begins = true;
+
+    /// The last two numbers: a value, its least and its largest are often two.
+    std::array<Number, 2> last = {Number(0.), Number(0.)};
   };
 } // namespace taut
 
