@@ -92,7 +92,7 @@ namespace taut
   {
     result = {};
     const double factor[4] = {rotational ? 0. : direction.x, rotational ? 0. : direction.y,
-                              rotational ? 1. : 0., rotational ? 0. : direction.z};
+                              rotational ? direction.z : 0., rotational ? 0. : direction.z};
     for (unsigned int i = 0; i < dofs.size(); ++i)
       if (dofs[i].mass == mass && factor[dofs[i].motion] != 0.)
         result.add(i, factor[dofs[i].motion]);

@@ -95,7 +95,13 @@ namespace taut
     for (std::size_t i = 0; i < scene.wires.size(); ++i)
     {
       const Wire &wire = scene.wires[i];
-      axes.push_back({wire.tangent(), wire.normal(), wire.binormal()});
+      axes.push_back({});
+      rotation_axes.push_back({});
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        axes.back()[c] = wire.axis(wire_components[c]);
+        rotation_axes.back()[c] = wire.rotation_axis(wire_components[c]);
+      }
       lengths.push_back(wire.length());
       const std::vector<double> nodes = grid(scene, i);
       for (const Partition::Piece &piece : partition.wires[i])
@@ -214,10 +220,7 @@ namespace taut
       for (unsigned int c = 0; c < 3; ++c)
       {
         const std::size_t k = parts.index(c, p);
-        // Moments and angular gaps are about z.
-        const double part = !rotational ? dot(direction, axes[point.index][c])
-                            : wire_components[c] == WireMotion::transverse ? 1.
-                                                                           : 0.;
+        const double part = dot(direction, (rotational ? rotation_axes : axes)[point.index][c]);
         if (k == elsewhere || part == 0.)
           continue;
         if (rotational || derivative)

@@ -185,11 +185,12 @@ namespace taut
       }
     }
 
-    /// Whether a point has a motion along a direction, or a slope or rotation.
+    /// Whether a point has a motion along a direction, or a rotation about it.
     bool can_move(const Scene &scene, const Attachment &end, const bool rotational,
                   const Coordinates &direction)
     {
       constexpr double tiny = 1e-12;
+      constexpr std::array<WireMotion, 2> slopes = {WireMotion::slope, WireMotion::lateral_slope};
       const auto along = [&](const Coordinates &p) { return std::fabs(dot(direction, p)) > tiny; };
       if (end.kind == Attachment::Kind::ground)
         return false;
@@ -199,13 +200,15 @@ namespace taut
       {
         const Mass &mass = scene.masses[end.index];
         return rotational
-                   ? mass.moves[2]
+                   ? mass.moves[2] && along({0., 0., 1.})
                    : (mass.moves[0] && along({1., 0.})) || (mass.moves[1] && along({0., 1.})) ||
                          (mass.moves[3] && along({0., 0., 1.}));
       }
       const Wire &wire = scene.wires[end.index];
       if (rotational)
-        return wire.has(WireMotion::slope);
+        return std::any_of(slopes.begin(), slopes.end(),
+                           [&](const WireMotion slope)
+                           { return wire.has(slope) && along(wire.rotation_axis(slope)); });
       return std::any_of(std::begin(wire_components), std::end(wire_components),
                          [&](const WireMotion motion)
                          { return wire.has(motion) && along(wire.axis(motion)); });
@@ -282,8 +285,9 @@ namespace taut
         if (!link.moving() && same_point(link.from, link.to))
           fail(link, "To", what, "both ends are the same point; a link acts between two");
         if (!can_move(scene, link, link.from) && !can_move(scene, link, link.to))
-          fail(link, "Direction", what,
-               "neither end can move along it; add motions or components, or change it");
+          fail(link, link.rotational ? "Axis" : "Direction", what, "neither end can ",
+               link.rotational ? "turn about" : "move along",
+               " it; add motions or components, or change it");
         if (link.damping > 0. && link.rigid())
           fail(link, "Damping", what, "a rigid link has none; give it a finite Stiffness");
         if (link.find_length &&
@@ -321,8 +325,9 @@ namespace taut
         fail(load, "On", what, "a distributed or moving load acts on a wire");
       check_attachment(scene, load.target, load.rotational, load, "On", what);
       if (!can_move(scene, load.target, load.rotational, load.direction))
-        fail(load, "Direction", what,
-             "its target cannot move along it; add a motion or a component, or change it");
+        fail(load, load.rotational ? "Axis" : "Direction", what, "its target cannot ",
+             load.rotational ? "turn about" : "move along",
+             " it; add a motion or a component, or change it");
     }
     for (const Probe &probe : scene.probes)
     {
@@ -331,8 +336,9 @@ namespace taut
         fail(probe, "Point", what, "the ground does not move");
       check_attachment(scene, probe.point, probe.rotational, probe, "Point", what);
       if (!can_move(scene, probe.point, probe.rotational, probe.direction))
-        fail(probe, "Direction", what,
-             "the point cannot move along it; add a motion or a component, or change it");
+        fail(probe, probe.rotational ? "Axis" : "Direction", what, "the point cannot ",
+             probe.rotational ? "turn about" : "move along",
+             " it; add a motion or a component, or change it");
     }
   }
 } // namespace taut

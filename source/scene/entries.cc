@@ -135,6 +135,17 @@ namespace taut
     return unit(parse_coordinates(components, entry), entry);
   }
 
+  Coordinates parse_direction_or_axis(const bool rotational, const std::vector<double> &direction,
+                                      const std::vector<double> &axis, const std::string &section)
+  {
+    if (!rotational && !axis.empty())
+      throw EntryError(section + "/Axis", "it is that of a rotation; set 'Rotational = true', or "
+                                          "give a Direction");
+    if (!rotational)
+      return parse_direction(direction, section + "/Direction");
+    return axis.empty() ? Coordinates{0., 0., 1.} : parse_direction(axis, section + "/Axis");
+  }
+
   std::vector<Attachment> parse_attachments(const std::string &text, const Scene &scene,
                                             const std::string &entry)
   {

@@ -43,6 +43,15 @@ namespace taut
                                                  : binormal();
   }
 
+  Coordinates Wire::rotation_axis(const WireMotion motion) const
+  {
+    const WireMotion component = component_of(motion);
+    const Coordinates n = normal();
+    return component == WireMotion::transverse ? binormal()
+           : component == WireMotion::lateral  ? Coordinates{-n.x, -n.y, -n.z}
+                                               : Coordinates{};
+  }
+
   bool Wire::has(const WireMotion motion) const
   {
     if (motion == WireMotion::axial)

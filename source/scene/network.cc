@@ -234,7 +234,7 @@ namespace taut
       if (spring.from == spring.to)
         throw EntryError(title, "both ends are '" + item.from + "'");
       spring.rotational = item.rotational;
-      spring.direction = parse_direction(item.direction, title + "/Direction");
+      spring.direction = parse_direction_or_axis(item.rotational, item.direction, {}, title);
       spring.stiffness = item.stiffness;
       spring.damping = item.damping;
       scene.springs.push_back(spring);
@@ -280,6 +280,8 @@ namespace taut
                          "a ball joint holds one place to another along x, y and z, and has none; "
                          "leave it out, or take a joint");
       link.rotational = item.rotational;
+      if (link.rotational && !item.direction.empty())
+        throw EntryError(title + "/Direction", "a rotational link has an Axis; give that instead");
       link.stiffness = parse_stiffness(item.stiffness, title + "/Stiffness");
       link.law = parse_law(item.law, item.law_points, item.law_formula, item.law_range, title);
       if (link.law && (link.unilateral() ? !link.rigid() || item.axial_stiffness > 0. : true))
@@ -323,8 +325,9 @@ namespace taut
           add_ball_joint(link, scene);
           continue;
         }
-        if (!item.direction.empty())
-          link.direction = parse_direction(item.direction, title + "/Direction");
+        if (item.rotational || !item.axis.empty() || !item.direction.empty())
+          link.direction =
+              parse_direction_or_axis(item.rotational, item.direction, item.axis, title);
         else if (link.turns)
         {
           for (const auto &[end, entry] : {std::pair(&link.from, "/From"), {&link.to, "/To"}})
@@ -332,7 +335,7 @@ namespace taut
               throw EntryError(title + entry, "a link that turns needs the place of its end at the "
                                               "ground; write 'ground @ x, y, z'");
         }
-        else if (!link.rotational)
+        else
         {
           if ((link.from.kind == Attachment::Kind::ground && !link.from.has_place) ||
               (link.to.kind == Attachment::Kind::ground && !link.to.has_place))
@@ -358,7 +361,7 @@ namespace taut
                   : item.type == "moving"    ? Load::Kind::moving
                                              : Load::Kind::point;
       load.rotational = item.rotational;
-      load.direction = parse_direction(item.direction, title + "/Direction");
+      load.direction = parse_direction_or_axis(item.rotational, item.direction, item.axis, title);
       load.speed = item.speed;
       if (load.speed != 0. && load.kind != Load::Kind::moving)
         throw EntryError(title + "/Speed",

@@ -67,7 +67,7 @@ namespace taut
       std::string type = "joint", from = "ground", to, stiffness = "rigid", profile = "0";
       std::string law = "linear", law_points, law_formula;
       double law_range = 0.;
-      std::vector<double> direction;
+      std::vector<double> direction, axis;
       bool rotational = false, find_length = false, turns = false;
       double damping = 0., gap = 0., length = 0., speed = 0.;
       double prescribed_displacement = 0., axial_stiffness = 0., mass_per_length = 0.;
@@ -76,7 +76,7 @@ namespace taut
     struct LoadItem
     {
       std::string type = "point", on, magnitude = "0";
-      std::vector<double> direction = {0., 1.};
+      std::vector<double> direction = {0., 1.}, axis;
       bool rotational = false;
       double speed = 0.;
       void declare(dealii::ParameterHandler &prm);

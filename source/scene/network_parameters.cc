@@ -179,7 +179,10 @@ namespace taut
                       "becomes taut or a prop touches, instead of Gap; 0: as Gap says [m]",
                       not_negative());
     prm.add_parameter("Rotational", rotational,
-                      "Acts between slopes or rotations about z: moments and angular gaps");
+                      "Acts between slopes or rotations about Axis: moments and angular gaps");
+    prm.add_parameter("Axis", axis,
+                      "Of a rotational link, 'x, y, z'; the length does not matter. Empty: z",
+                      List(Double(), 0, 3));
     prm.add_parameter("Stiffness", stiffness, "A number or 'rigid' [N/m, N m/rad]");
     prm.add_parameter("Law", law,
                       "Force of a stop, dropper or sliding contact over its compression or "
@@ -230,7 +233,10 @@ namespace taut
                       "position is not used");
     prm.add_parameter("Direction", direction, "'x, y' or 'x, y, z'; the length does not matter",
                       coordinates());
-    prm.add_parameter("Rotational", rotational, "A moment about z instead of a force");
+    prm.add_parameter("Rotational", rotational, "A moment about Axis instead of a force");
+    prm.add_parameter("Axis", axis,
+                      "Of a rotational load, 'x, y, z'; the length does not matter. Empty: z",
+                      List(Double(), 0, 3));
     prm.add_parameter(
         "Magnitude", magnitude,
         "A formula in t and, on a wire or a cable, in the position s there [N, N/m, N m]");

@@ -21,6 +21,9 @@ namespace taut
     prm.add_parameter("Direction", direction, "'x, y' or 'x, y, z'; the length does not matter",
                       List(Double(), 2, 3));
     prm.add_parameter("Rotational", rotational, "Slope or rotation instead of displacement");
+    prm.add_parameter("Axis", axis,
+                      "Of a rotation, 'x, y, z'; the length does not matter. Empty: z",
+                      List(Double(), 0, 3));
   }
 
   void OutputParameters::declare_names(dealii::ParameterHandler &prm)

@@ -372,7 +372,8 @@ namespace taut
         probe.origin = title;
         probe.point = points[k];
         probe.rotational = item.rotational;
-        probe.direction = parse_direction(item.direction, title + "/Direction");
+        probe.direction =
+            parse_direction_or_axis(item.rotational, item.direction, item.axis, title);
         scene.probes.push_back(probe);
       }
     }

@@ -89,7 +89,10 @@ namespace taut
     axis = wire.axis(motion);
     beam = motion != WireMotion::axial && wire.transverse == TransverseKind::beam;
     if (beam)
+    {
       kinds = {0, 1};
+      rotation_axis = wire.rotation_axis(motion);
+    }
     bends_freely = beam && wire.tension == 0.;
     degree = beam ? 3 : wire.degree;
     dofs_per_node = beam ? 2 : degree;
@@ -160,7 +163,7 @@ namespace taut
     {
       if (link.contact_mass == ContactMass::stays || !link.rigid())
         continue;
-      if (link.rotational ? !turns() : component(link.direction) == 0.)
+      if (component(link.direction, link.rotational) == 0.)
         continue;
       for (const Attachment &end : {link.from, link.to})
       {

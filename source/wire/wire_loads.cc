@@ -62,9 +62,9 @@ namespace taut
         }
   }
 
-  double WireComponent::component(const Coordinates &direction) const
+  double WireComponent::component(const Coordinates &direction, const bool rotational) const
   {
-    return dot(direction, axis);
+    return dot(direction, rotational ? rotation_axis : axis);
   }
 
   /// A force per length f(s, t), integrated with the rule of the element at each call.
@@ -143,11 +143,9 @@ namespace taut
     {
       if (load.target.kind != Attachment::Kind::wire || load.target.index != wire)
         continue;
-      if (load.rotational && !turns())
-        continue;
       if (load.kind == Load::Kind::point && !owns(load.target.position))
         continue;
-      const double factor = load.rotational ? 1. : component(load.direction);
+      const double factor = component(load.direction, load.rotational);
       if (factor == 0.)
         continue;
       if (load.kind == Load::Kind::moving)

@@ -77,7 +77,7 @@ namespace taut
     LinearForm form;
     value_at(place[0], form);
     for (double &value : form.value)
-      value *= component(direction);
+      value *= component(direction, false);
     return form;
   }
 

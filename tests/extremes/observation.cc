@@ -38,7 +38,7 @@ namespace extremes
         if (wire.transverse != taut::TransverseKind::none)
           points.push_back({at, false, wire.normal()});
         if (wire.transverse == taut::TransverseKind::beam)
-          points.push_back({at, true, {}});
+          points.push_back({at, true, wire.binormal()});
       }
     }
     for (std::size_t m = 0; m < scene.masses.size(); ++m)
@@ -46,7 +46,9 @@ namespace extremes
         if (scene.masses[m].moves[motion])
           points.push_back({{Kind::mass, m, 0.},
                             motion == 2,
-                            motion == 0 ? taut::Coordinates{1., 0.} : taut::Coordinates{0., 1.}});
+                            motion == 0   ? taut::Coordinates{1., 0.}
+                            : motion == 1 ? taut::Coordinates{0., 1.}
+                                          : taut::Coordinates{0., 0., 1.}});
     return points;
   }
 

@@ -357,6 +357,7 @@ namespace extremes
                      c.scene.loads = {load(on_mass(0), -level["load"])};
                      taut::Load turn = load(on_mass(0), -level["load"] * (at - .5 * length));
                      turn.rotational = true;
+                     turn.direction = {0., 0., 1.};
                      c.scene.loads.push_back(turn);
                    }
                    else
@@ -393,6 +394,7 @@ namespace extremes
                        if (body == 5 && i > 0)
                        {
                          l.rotational = true;
+                         l.direction = {0., 0., 1.};
                          l.kind = i % 2 == 1 ? taut::LinkKind::stop : taut::LinkKind::dropper;
                          l.gap = i == 1 ? 0. : level["gap"] * 1e-3 * i;
                        }

@@ -130,7 +130,9 @@ namespace taut
     std::size_t piece(const WireParts &parts, double s) const;
 
     std::vector<WireParts> wires;
-    std::vector<std::array<Coordinates, 3>> axes; ///< of the components of each wire
+
+    /// Of the components of each wire: of displacements, and what slopes turn it about.
+    std::vector<std::array<Coordinates, 3>> axes, rotation_axes;
     std::vector<double> lengths;
     std::vector<std::size_t> mechanism_of_mass;
     std::vector<BodyParts> custom_bodies;

@@ -34,6 +34,12 @@ namespace taut
   /// A direction "x, y" or "x, y, z" of any length as a unit vector.
   Coordinates parse_direction(const std::vector<double> &components, const std::string &entry);
 
+  /// The direction of a displacement or a force or, if @p rotational, the axis of a rotation or a
+  /// moment, from the entries Direction and Axis of a section; no axis is z. Throws EntryError for
+  /// an axis of nothing that turns.
+  Coordinates parse_direction_or_axis(bool rotational, const std::vector<double> &direction,
+                                      const std::vector<double> &axis, const std::string &section);
+
   /// The named element of a list of wires or masses; its index, or `ground` if there is none.
   template <typename Item>
   std::size_t find_name(const std::vector<Item> &items, const std::string &name)

@@ -111,6 +111,9 @@ namespace taut
 
     /// Unit vector of the component of a motion.
     Coordinates axis(WireMotion motion) const;
+
+    /// What a slope of a component turns the wire about: tangent x its axis; 0 of the axial one.
+    Coordinates rotation_axis(WireMotion motion) const;
     bool has(WireMotion motion) const;
     unsigned int n_dofs_per_node() const; ///< of all components
     Coordinates at(double s) const;
@@ -165,10 +168,10 @@ namespace taut
     std::string name;
     std::string origin; ///< path of its section in the parameter file, for messages; may be empty
     std::size_t from = ground, to = ground; ///< masses
-    bool rotational = false;                ///< about z
-    Coordinates direction = {0., 1.};       ///< unit vector, if not rotational
-    double stiffness = 0.;                  ///< [N/m, N m/rad]
-    double damping = 0.;                    ///< [N s/m, N m s/rad]
+    bool rotational = false;
+    Coordinates direction = {0., 1.}; ///< unit vector; z, if rotational
+    double stiffness = 0.;            ///< [N/m, N m/rad]
+    double damping = 0.;              ///< [N s/m, N m s/rad]
   };
 
   /// Where a link or a load acts.
@@ -212,7 +215,7 @@ namespace taut
    * along +n D = -n . (u_to - u_from) + gap          dropper: N > 0 is tension, n from `from` to
    * `to`
    *
-   * plus N over its stiffness; a rotational link has slopes and rotations instead of n . u. With
+   * plus N over its stiffness; a rotational link has rotations about n instead of n . u. With
    * `turns` n is the direction from end to end at each time, and D is
    *
    *     D = |Delta| - length    or of a dropper    D = length - |Delta|
@@ -271,7 +274,7 @@ namespace taut
     bool rigid() const { return stiffness == std::numeric_limits<double>::infinity(); }
   };
 
-  /// A force, or with `rotational` a moment.
+  /// A force, or with `rotational` a moment about its direction.
   struct Load
   {
     enum class Kind
@@ -293,8 +296,8 @@ namespace taut
     bool acts_while_built = true;
   };
 
-  /// A point whose displacement along a direction is recorded, and whose largest uplift is
-  /// reported.
+  /// A point whose displacement along a direction is recorded, or with `rotational` its rotation
+  /// about it, and whose largest uplift is reported.
   struct Probe
   {
     std::string name;

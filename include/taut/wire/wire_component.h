@@ -79,15 +79,14 @@ namespace taut
     void add_loads(const Scene &scene, std::size_t wire, double gravity);
     void interpolate(const Expression &f, std::vector<double> &U) const;
     void evaluate(double s, bool slope, LinearForm &result) const;
-    double component(const Coordinates &direction) const;
 
-    /// True if moments and angular gaps, which are about z, turn it: the transverse slope.
-    bool turns() const { return beam && motion == WireMotion::transverse; }
+    /// Part of a force along a direction that acts on it, or of a moment about it.
+    double component(const Coordinates &direction, bool rotational) const;
 
     std::vector<double> nodes; ///< of this piece, s on the whole wire
     double wire_length;
-    bool is_last;     ///< the piece with the wire's end
-    Coordinates axis; ///< unit vector of the motion
+    bool is_last;                    ///< the piece with the wire's end
+    Coordinates axis, rotation_axis; ///< unit vectors of the motion and, of a beam, its slope
     WireMotion motion;
     bool beam = false;
     bool bends_freely = false; ///< no tension: a rigid rotation costs nothing

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: moments, angular gaps and recorded rotations of wires are about any axis in space.
+#include "run.h"
+
+#include <taut/base/exceptions.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
+
+using namespace verification;
+using taut::add_scaled;
+using taut::Coordinates;
+
+namespace
+{
+  constexpr double length = 3., bending_stiffness = 500., moment = 7.;
+
+  std::string text(const Coordinates &x)
+  {
+    return number(x.x) + ", " + number(x.y) + ", " + number(x.z);
+  }
+
+  Coordinates unit(const Coordinates &a)
+  {
+    return add_scaled({}, 1. / norm(a), a);
+  }
+
+  /// A beam from the origin, clamped there, with a moment at its end.
+  std::string cantilever(const Coordinates &along, const Coordinates &about)
+  {
+    std::ostringstream scene;
+    scene << "set Generator = network\nset Gravity = 0, 0\nset Start = equilibrium\n"
+             "subsection Network\n"
+             "set Wires = beam\nset Supports = up, slope, side, side slope\nset Loads = moment\n"
+             "subsection Wire beam\n  set From = 0, 0, 0\n  set To = "
+          << text(add_scaled({}, length, along))
+          << "\n  set Components = beam, lateral\n  set Mass per length = 1\n"
+             "  set Bending stiffness = "
+          << bending_stiffness << "\n  set Element size = 1\nend\n";
+    for (const auto &[name, motion] : {std::pair("up", "transverse"),
+                                       {"slope", "slope"},
+                                       {"side", "lateral"},
+                                       {"side slope", "lateral slope"}})
+      scene << "subsection Support " << name
+            << "\n  set Wire = beam\n  set Positions = 0\n  set Motion = " << motion << "\nend\n";
+    scene << "subsection Load moment\n  set On = beam @ " << length
+          << "\n  set Rotational = true\n  set Axis = " << text(about)
+          << "\n  set Magnitude = " << moment << "\nend\nend\n"
+          << "subsection Time\n  set End = 0\nend\n";
+    return scene.str();
+  }
+
+  struct Motion
+  {
+    std::vector<double> moment, slope, middle;
+    double difference(const Motion &other) const
+    {
+      double worst = 0., size = 0.;
+      for (const auto &[a, b] :
+           {std::pair(&moment, &other.moment), {&slope, &other.slope}, {&middle, &other.middle}})
+      {
+        EXPECT_EQ(a->size(), b->size());
+        size = 0.;
+        double error = 0.;
+        for (std::size_t i = 0; i < std::min(a->size(), b->size()); ++i)
+        {
+          size = std::max(size, std::fabs((*a)[i]));
+          error = std::max(error, std::fabs((*a)[i] - (*b)[i]));
+        }
+        worst = std::max(worst, error / size);
+      }
+      return worst;
+    }
+  };
+
+  /// Of the beam with an angular stop of prm/: the moment, the rotation at its left end, the
+  /// middle.
+  Motion angular_stop(const Overrides &overrides, const Coordinates &up, const Coordinates &about)
+  {
+    Motion result;
+    Session session(scene_file("beam_angular_stop"), overrides);
+    session.run(
+        [&](const taut::StepView &view)
+        {
+          result.moment.push_back(view.state.multiplier[0]);
+          result.slope.push_back(displacement(view, 0, 0., about, true));
+          result.middle.push_back(displacement(view, 0, 2., up));
+        });
+    return result;
+  }
+
+  std::string error_of(const Overrides &overrides)
+  {
+    try
+    {
+      Session session(scene_file("beam_angular_stop"), overrides);
+    }
+    catch (const taut::UserError &e)
+    {
+      return e.what();
+    }
+    return "";
+  }
+} // namespace
+
+// Euler and Bernoulli: the part of the moment across the beam turns its end by M L / EI about
+// itself and moves it by M L^2 / 2 EI; nothing turns it about its own axis.
+TEST(RotationsInSpace, moments_bend_a_beam_about_their_axis)
+{
+  double worst = 0.;
+  for (const Coordinates &along :
+       {Coordinates{1., 0., 0.}, {0., 1., 0.}, {0., 0., 1.}, {.6, 0., .8}, {1., -2., 2.}})
+    for (const Coordinates &about :
+         {Coordinates{0., 0., 1.}, {0., 1., 0.}, {1., 0., 0.}, {-.3, .5, .9}})
+    {
+      const Coordinates t = unit(along), a = unit(about), across = add_scaled(a, -dot(a, t), t);
+      if (norm(across) < .1)
+        continue;
+      const double turn = moment * length / bending_stiffness, shift = .5 * turn * length;
+      const Coordinates rotation = add_scaled({}, turn, across),
+                        motion = add_scaled({}, shift, cross(across, t));
+      run_scene(
+          cantilever(t, about), {},
+          [&](const taut::StepView &view)
+          {
+            for (const Coordinates &e : {Coordinates{1., 0., 0.}, {0., 1., 0.}, {0., 0., 1.}})
+            {
+              worst = std::max(
+                  worst,
+                  std::fabs(displacement(view, 0, length, e, true) - dot(rotation, e)) / turn);
+              worst = std::max(worst, std::fabs(displacement(view, 0, length, e) - dot(motion, e)) /
+                                          shift);
+            }
+          });
+    }
+  EXPECT_LT(worst, 1e-11);
+  figure("rotation and displacement under moments in space, relative", worst);
+}
+
+// The scene turned by 90 degrees about the beam: y becomes z, and the stop is about -y.
+TEST(RotationsInSpace, an_angular_stop_turned_about_x_acts_as_in_the_plane)
+{
+  const std::string wire = "Network/Wire beam/", support = "Network/Support ends/";
+  const Motion plane = angular_stop({}, {0., 1., 0.}, {0., 0., 1.}),
+               space = angular_stop(
+                   {wire + "Components = beam, lateral", support + "Motion = lateral",
+                    "Network/Supports = ends, upright", "Network/Support upright/Wire = beam",
+                    "Network/Support upright/Positions = 0, 4",
+                    "Network/Load force/Direction = 0, 0, -1",
+                    "Network/Link angular stop/Axis = 0, -2, 0"},
+                   {0., 0., 1.}, {0., -1., 0.});
+  EXPECT_GT(plane.moment.front(), 20.);
+  const double worst = plane.difference(space);
+  EXPECT_LT(worst, 1e-10);
+  figure("angular stop turned about x against the plane, relative", worst);
+}
+
+TEST(RotationsInSpace, an_axis_that_nothing_turns_about_is_an_error)
+{
+  const std::string link = "Network/Link angular stop/";
+  for (const auto &[overrides, part] : std::vector<std::pair<Overrides, std::string>>{
+           {{link + "Axis = 1, 0, 0"}, "neither end can turn about it"},
+           {{link + "Axis = 0, 1, 0"}, "neither end can turn about it"}, // no lateral component
+           {{link + "Axis = 0, 0, 0"}, "Axis"},
+           {{link + "Direction = 0, 1"}, "a rotational link has an Axis"},
+           {{"Network/Load force/Axis = 0, 0, 1"}, "set 'Rotational = true'"},
+           {{"Output/Probe middle/Axis = 0, 0, 1"}, "set 'Rotational = true'"},
+           {{"Output/Probe left slope/Axis = 0, 1, 0"}, "cannot turn about it"}})
+  {
+    const std::string error = error_of(overrides);
+    EXPECT_NE(error.find(part), std::string::npos) << overrides[0] << ": " << error;
+  }
+}
