@@ -92,7 +92,6 @@ namespace taut
     for (auto &[column, load] : loads)
     {
       solvers[k].solve(load);
-      ++local_solves;
       for (const BodyConstraints::Entry &entry : body_constraints[k])
         if (active[entry.constraint])
           responses[k].add(entry.constraint, column, entry.form.dot(load));

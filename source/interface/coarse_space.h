@@ -42,9 +42,6 @@ namespace taut
     /// z -= Z E^-1 (F Z)^T z: P^T z.
     void project(std::vector<double> &z) const;
 
-    /// Systems of one A_k solved for F Z so far on this rank.
-    long n_local_solves() const { return local_solves; }
-
   private:
     void set_columns(const std::vector<char> &active);
     void add_responses(std::size_t k, const std::vector<char> &active);
@@ -61,7 +58,6 @@ namespace taut
     std::vector<MatrixEntries> responses; ///< B_k^T A_k^-1 B_k Z of each body of this rank
     MatrixEntries FZ;
     SparseCholesky E;
-    long local_solves = 0;
     mutable std::vector<double> amplitude;
   };
 } // namespace taut

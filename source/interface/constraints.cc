@@ -238,7 +238,10 @@ namespace taut
                 count[i] += std::binary_search(dofs.begin(), dofs.end(), dof);
     }
     structure.communicator().sum(count);
-    return {count.begin(), count.end()};
+    std::vector<char> result;
+    for (const double n_dofs : count)
+      result.push_back(n_dofs > 0.);
+    return result;
   }
 
   std::vector<double> Constraints::motions(const BodyVectors &U) const

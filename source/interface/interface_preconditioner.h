@@ -64,9 +64,6 @@ namespace taut
     /// elastic constraints and without T, 1 / F_ii. Zero on constraints that are not active.
     void scale(std::vector<double> &r) const;
 
-    /// Bodies factored for a Schur complement so far.
-    long n_factorisations() const { return factorisations; }
-
   private:
     /// T_k, by position in the list of DoFs b.
     struct Block
@@ -94,7 +91,6 @@ namespace taut
     const BodyConstraints &body_constraints;
     bool is_diagonal, is_dirichlet;
     std::vector<Block> blocks;
-    long factorisations = 0;
 
     // The same on all ranks.
     std::size_t n_dofs = 0;      ///< of all lists b

@@ -70,7 +70,6 @@ namespace taut
         if (blocks[k].interior && blocks[k].dofs == block.dofs)
           return;
         block.interior = solvers.solver_with_held(k, block.dofs);
-        ++factorisations;
         set_entries(k, block);
         block.entries.compress();
         blocks[k] = std::move(block);
@@ -84,10 +83,7 @@ namespace taut
       if (block.entries.row[e] == block.entries.column[e])
         diagonal[block.entries.row[e]] += block.entries.value[e];
     if (is_dirichlet && !block.dofs.empty())
-    {
       condense(k, block);
-      ++factorisations;
-    }
     block.entries.compress();
     for (std::size_t e = 0; e < block.entries.size(); ++e)
     {

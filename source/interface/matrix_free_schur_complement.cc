@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace taut
 {
@@ -91,23 +92,21 @@ namespace taut
     if (constraints.n_fixed() == constraints.size())
       return;
     is_stale = true;
+    std::set<std::size_t> touched; // before or after
     const auto mark = [&]
     {
-      std::vector<std::size_t> marked;
       for (std::size_t k = 0; k < body_constraints.size(); ++k)
         if (!body_constraints[k].empty() && body_constraints[k].back().varies)
-        {
-          is_changed[k] = 1;
-          marked.push_back(k);
-        }
-      return marked;
+          touched.insert(k);
     };
-    std::vector<std::size_t> touched = mark();
+    mark();
     body_constraints.update();
-    for (const std::size_t k : mark())
-      touched.push_back(k);
+    mark();
     for (const std::size_t k : touched)
+    {
+      is_changed[k] = 1;
       flexibilities.compute(k);
+    }
     compute_diagonal();
   }
 
@@ -172,8 +171,6 @@ namespace taut
     InterfaceStatistics result = counts;
     result.n_applications = F.n_applications();
     result.n_local_solves = F.n_local_solves();
-    result.n_coarse_solves = coarse_space ? coarse_space->n_local_solves() : 0;
-    result.n_factorisations = preconditioner.n_factorisations();
     return result;
   }
 
@@ -200,20 +197,22 @@ namespace taut
     std::vector<char> wanted(constraints.size(), 0);
     for (const std::size_t i : set)
       wanted[i] = 1;
+    if (is_stale || active != wanted)
+    {
+      for (std::size_t k = 0; k < body_constraints.size(); ++k)
+        for (const BodyConstraints::Entry &entry : body_constraints[k])
+          if (!active.empty() && active[entry.constraint] != wanted[entry.constraint])
+            is_changed[k] = 1;
+      is_stale = true; // until both are ready
+      preconditioner.setup(wanted, is_changed, compliance, diagonal_entries);
+      if (coarse_space)
+        coarse_space->setup(wanted, is_changed, compliance);
+      active = wanted;
+      is_stale = false;
+      std::fill(is_changed.begin(), is_changed.end(), 0);
+    }
     F.restrict_to(wanted);
     F.set_shift(shift, diagonal_entries);
-    if (!is_stale && active == wanted)
-      return;
-    for (std::size_t k = 0; k < body_constraints.size(); ++k)
-      for (const BodyConstraints::Entry &entry : body_constraints[k])
-        if (!active.empty() && active[entry.constraint] != wanted[entry.constraint])
-          is_changed[k] = 1;
-    active = wanted;
-    is_stale = false;
-    preconditioner.setup(active, is_changed, compliance, diagonal_entries);
-    if (coarse_space)
-      coarse_space->setup(active, is_changed, compliance);
-    std::fill(is_changed.begin(), is_changed.end(), 0);
   }
 
   void MatrixFreeSchurComplement::divide_by_scale(std::vector<double> &x) const

@@ -14,6 +14,8 @@ namespace taut
     for (std::size_t i = 0; i < constraints.n_fixed(); ++i)
       for (const auto &[k, form] : constraints[i].terms)
       {
+        if (form.index.empty())
+          continue;
         const auto [first, last] = std::minmax_element(form.index.begin(), form.index.end());
         reach[k].push_back({*first, *last, i});
         widest[k] = std::max(widest[k], *last - *first);

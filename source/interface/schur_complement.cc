@@ -68,6 +68,8 @@ namespace taut
       }
       void setup(const std::vector<double> &S) override
       {
+        if (chosen)
+          earlier += chosen->statistics();
         parameters.form = choice();
         chosen = make_schur_complement(parameters, solvers, constraints);
         chosen->setup(S);
@@ -81,7 +83,11 @@ namespace taut
       }
       ComplementarityOperator &matrix() override { return chosen->matrix(); }
       std::string description() const override { return chosen->description(); }
-      InterfaceStatistics statistics() const override { return chosen->statistics(); }
+      InterfaceStatistics statistics() const override
+      {
+        InterfaceStatistics result = earlier;
+        return result += chosen->statistics();
+      }
 
     private:
       std::string choice() const
@@ -101,6 +107,7 @@ namespace taut
       const FactoredStructure &solvers;
       const Constraints &constraints;
       std::unique_ptr<SchurComplement> chosen;
+      InterfaceStatistics earlier; ///< of those chosen before
     };
   } // namespace
 
@@ -110,8 +117,6 @@ namespace taut
     n_iterations += other.n_iterations;
     n_applications += other.n_applications;
     n_local_solves += other.n_local_solves;
-    n_coarse_solves += other.n_coarse_solves;
-    n_factorisations += other.n_factorisations;
     return *this;
   }
 

@@ -22,9 +22,10 @@ namespace taut
         laws(constraints)
   {
     const std::size_t n = constraints.size();
-    for (auto *v : {&S, &solved.multiplier, &balanced, &impulses, &link_history, &gap_terms,
-                    &gap_correction, &motion, &position, &terms_size, &velocity, &velocity_size,
-                    &rate_of_place, &motion_size, &convection, &rates_before, &largest_scale})
+    for (auto *v :
+         {&S, &solved.multiplier, &balanced, &impulses, &link_history, &gap_terms, &gap_correction,
+          &motion, &position, &terms_size, &velocity, &velocity_size, &rate_of_place, &motion_size,
+          &convection, &rates_before, &scale_of_step, &largest_scale})
       v->assign(n, 0.);
     conditions.unilateral.resize(n);
     conditions.free_gap.resize(n);
@@ -96,7 +97,7 @@ namespace taut
       scale += motion_size[i];
       conditions.free_gap[i] = gap + motion[i] + link_history[i];
       scale += std::fabs(motion[i]) + std::fabs(link_history[i]);
-      largest_scale[i] = std::max(largest_scale[i], scale);
+      scale_of_step[i] = scale;
       conditions.gap_scale[i] = std::max(scale, rest * largest_scale[i]);
       convection[i] = constraint.moving ? gap - before.geometric_gap[i] : 0.;
       if (velocity_level(i))
@@ -215,6 +216,7 @@ namespace taut
     }
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
+      largest_scale[i] = std::max(largest_scale[i], scale_of_step[i]);
       double &gap = state.geometric_gap[i];
       if (constraints[i].moving)
         gap = moving_gap(i);

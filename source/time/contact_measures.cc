@@ -229,12 +229,15 @@ namespace taut
     force.event_impulse = value > 0. ? force.event_impulse + value * dt : 0.;
     force.largest_impulse = std::max(force.largest_impulse, force.event_impulse);
     force.mean = value;
-    if (force.window > dt)
+    if (force.window > 0.)
     {
       force.impulse += value * dt;
       force.impulses.push_back({t, force.impulse});
       while (force.impulses.size() > 2 && force.impulses[1].first <= t - force.window)
         force.impulses.pop_front();
+    }
+    if (force.window > dt)
+    {
       const auto &first = force.impulses[0], &second = force.impulses[1];
       const double begin = std::max(first.first, t - force.window),
                    before = first.second + (second.second - first.second) * (begin - first.first) /

@@ -123,14 +123,15 @@ namespace taut
     result.linearised = structure.linearise(result.reference.displacement);
     if (start == Start::equilibrium)
       linearise_links(structure, constraints, result);
-    // A body may be under prestress as it is made.
-    for (std::size_t k = 0; k < structure.size(); ++k)
-      structure[k].internal_force(result.reference.displacement[k], {}, result.reference.force[k]);
-    if (start == Start::given)
-      structure.communicator().agree(
-          [&]
+    structure.communicator().agree(
+        [&]
+        {
+          for (std::size_t k = 0; k < structure.size(); ++k)
           {
-            for (std::size_t k = 0; k < structure.size(); ++k)
+            // A body may be under prestress as it is made.
+            structure[k].internal_force(result.reference.displacement[k], {},
+                                        result.reference.force[k]);
+            if (start == Start::given)
             {
               for (const ConstrainedDof &constraint : structure[k].constraints())
               {
@@ -142,7 +143,8 @@ namespace taut
               for (std::size_t i = 0; i < state.KU[k].size(); ++i)
                 state.KU[k][i] -= result.reference.force[k][i];
             }
-          });
+          }
+        });
     set_rows(constraints, start, result);
     return result;
   }

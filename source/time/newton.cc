@@ -79,7 +79,12 @@ namespace taut
   {
     constraint_motions.set_problem(current, *system, right_hand_side, lift);
     if (constraints.size() > 0 || system->has_modes())
+    {
+      const Certificate before = last;
       constraint_motions.find_multipliers(*system, check, last, current);
+      last.iterations += before.iterations;
+      last.fallback = last.fallback || before.fallback;
+    }
     system->find_increments(constraint_motions.applied().multiplier,
                             constraint_motions.applied().mode_amplitude, right_hand_side);
   }
@@ -92,12 +97,17 @@ namespace taut
       if (structure[k].has_moving_constraints())
         for (const ConstrainedDof &constraint : structure[k].constraints())
           right_hand_side[k][constraint.dof] = lift[k][constraint.dof];
-    for (const std::size_t k : nonlinear.indices())
-    {
-      const double own = nonlinear.set_guess(k, right_hand_side[k], system->bodies().stiffness(k));
-      if (!(own <= change) && !std::isnan(change))
-        change = own;
-    }
+    structure.communicator().agree(
+        [&]
+        {
+          for (const std::size_t k : nonlinear.indices())
+          {
+            const double own =
+                nonlinear.set_guess(k, right_hand_side[k], system->bodies().stiffness(k));
+            if (!(own <= change) && !std::isnan(change))
+              change = own;
+          }
+        });
     return structure.communicator().max(std::isnan(change) ? std::numeric_limits<double>::infinity()
                                                            : change);
   }
@@ -108,26 +118,18 @@ namespace taut
    */
   void TimeStepper::iterate()
   {
-    bool is_solved = false;
-    try
-    {
-      is_solved = solve_by_newton();
-      if (!is_solved && tangents_are_kept)
-      {
-        tangents_are_kept = false;
-        is_solved = solve_by_newton();
-      }
-    }
-    catch (const UserError &e)
-    {
-      throw StepNotSolved(e.what());
-    }
-    if (is_solved)
+    if (solve_by_newton())
       return;
+    if (tangents_are_kept)
+    {
+      tangents_are_kept = false;
+      if (solve_by_newton())
+        return;
+    }
     std::ostringstream out;
     out << "at t = " << current.time << " s: Newton's method does not converge in a step of "
         << step << " s. Take a smaller step";
-    throw StepNotSolved(out.str());
+    throw UserError(out.str());
   }
 
   bool TimeStepper::solve_by_newton()
@@ -180,19 +182,6 @@ namespace taut
     return false;
   }
 
-  /// A shorter step may have what this one misses.
-  void TimeStepper::certify_iterations()
-  {
-    try
-    {
-      certify();
-    }
-    catch (const UserError &e)
-    {
-      throw StepNotSolved(e.what());
-    }
-  }
-
   /**
    * Backward Euler with forces at the ends of steps: kinetic energy falls by the work of inertia
    * and by that of the change of velocity with itself, and the energies of bodies rise by more than
@@ -201,7 +190,8 @@ namespace taut
    */
   void TimeStepper::measure_energy_at_ends()
   {
-    double gain = nonlinear.energy_surplus(1., current);
+    double gain = 0.;
+    structure.communicator().agree([&] { gain = nonlinear.energy_surplus(1., current); });
     std::vector<double> change, product;
     for (std::size_t k = 0; k < structure.size(); ++k)
     {

@@ -83,7 +83,7 @@ namespace taut
       NonlinearEquilibrium(const Structure &structure, const Constraints &constraints,
                            const SolverParameters &parameters, const double t, SofterBodies &bodies)
           : structure(structure), constraints(constraints), parameters(parameters), time(t),
-            soft(bodies), turning(structure, constraints, sum_of_loads()),
+            soft(bodies), load(sum_of_loads()), turning(structure, constraints, load),
             motion_of_body(structure.all_bodies().size(), 0.)
       {
       }
@@ -107,8 +107,7 @@ namespace taut
       /// The displacements with softer bodies; false if there are none, or no such displacements.
       bool find_start(BodyVectors &start)
       {
-        const double EA = structure.communicator().max(soft.largest_axial_stiffness()),
-                     load = sum_of_loads();
+        const double EA = structure.communicator().max(soft.largest_axial_stiffness());
         double limit = EA;
         for (int decades = 0; decades < 15 && limit > 20. * load; ++decades)
           limit *= .1;
@@ -132,14 +131,18 @@ namespace taut
       double sum_of_loads() const
       {
         double sum = 0.;
-        std::vector<double> P;
-        for (std::size_t k = 0; k < structure.size(); ++k)
-        {
-          structure[k].external_force(time, P);
-          for (std::size_t i = 0; i < P.size(); ++i)
-            if (structure[k].kind(i) == 0)
-              sum += std::fabs(P[i]);
-        }
+        structure.communicator().agree(
+            [&]
+            {
+              std::vector<double> P;
+              for (std::size_t k = 0; k < structure.size(); ++k)
+              {
+                structure[k].external_force(time, P);
+                for (std::size_t i = 0; i < P.size(); ++i)
+                  if (structure[k].kind(i) == 0)
+                    sum += std::fabs(P[i]);
+              }
+            });
         structure.communicator().sum(&sum, 1);
         return sum;
       }
@@ -275,6 +278,8 @@ namespace taut
           double sums[] = {moved[kind], size[kind], lack[kind], force[kind]};
           for (double &value : sums)
             value = structure.communicator().max(value);
+          if (!std::isfinite(sums[0]) || !std::isfinite(sums[3]))
+            return std::numeric_limits<double>::infinity();
           if (kind == 0)
             sums[1] = std::max(sums[1], least_part_of_links * turning.largest_length());
           if (sums[0] > 0.)
@@ -319,12 +324,17 @@ namespace taut
       double energy(const BodyVectors &U, const std::vector<double> &N) const
       {
         double sum = 0.;
-        std::vector<double> P;
-        for (std::size_t k = 0; k < structure.size(); ++k)
-        {
-          structure[k].external_force(time, P);
-          sum += soft.energy(k, U[k]) - std::inner_product(P.begin(), P.end(), U[k].begin(), 0.);
-        }
+        structure.communicator().agree(
+            [&]
+            {
+              std::vector<double> P;
+              for (std::size_t k = 0; k < structure.size(); ++k)
+              {
+                structure[k].external_force(time, P);
+                sum +=
+                    soft.energy(k, U[k]) - std::inner_product(P.begin(), P.end(), U[k].begin(), 0.);
+              }
+            });
         structure.communicator().sum(&sum, 1);
         const std::vector<double> gaps = turning.gaps(U);
         for (std::size_t i = 0; i < constraints.size(); ++i)
@@ -362,6 +372,7 @@ namespace taut
       const SolverParameters &parameters;
       const double time;
       SofterBodies &soft;
+      const double load; ///< sum of the sizes of all [N]
       TurningAtRest turning;
       double change = 0.;
       std::string gives_way, origin_of_unstable; ///< of the last equilibrium that is not stable

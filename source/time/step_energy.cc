@@ -15,7 +15,8 @@ namespace taut
    */
   void TimeStepper::measure_energy()
   {
-    double sums[] = {0., nonlinear.energy_surplus(.5, current) - balance.work()};
+    double sums[] = {0., -balance.work()};
+    structure.communicator().agree([&] { sums[1] += nonlinear.energy_surplus(.5, current); });
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       std::vector<double> &V = current.V[k], &product = work_a;

@@ -19,6 +19,7 @@ namespace taut
   {
     current = before;
     turning.follow(current);
+    motion_size = motion_size_before;
     --n_steps;
     segment_start = current.time;
     n_in_segment = 0;

@@ -38,7 +38,6 @@ namespace taut
     earlier_systems = interface_statistics();
     system = std::make_unique<StepSystem>(structure, constraints, parameters);
     set_nonlinear();
-    nonlinear.begin(current, coefficients, step);
     projection.reset();
     prepare(coefficients);
     if (projection && !largest_rates.empty())

@@ -11,7 +11,6 @@ namespace taut
         start(find_initial_state(structure, constraints, options.solver, options.start)),
         contact_measures(structure, constraints, start.reference, start.state)
   {
-    start_certificate = start.certificate;
     stepper = std::make_unique<TimeStepper>(structure, constraints, options.solver, choose(options),
                                             options.step, start.reference, start.state,
                                             options.start == Start::equilibrium);
@@ -45,7 +44,7 @@ namespace taut
 
   const Certificate &Stepper::certificate() const
   {
-    return stepper->n_steps_done() == 0 ? start_certificate : stepper->certificate();
+    return stepper->n_steps_done() == 0 ? start.certificate : stepper->certificate();
   }
 
   double Stepper::multiplier(const std::size_t constraint) const

@@ -103,7 +103,6 @@ namespace taut
     current.kinetic_energy = sums[1];
     bodies_are_linear = sums[2] == 0.;
     set_nonlinear();
-    nonlinear.begin(current, c, step);
     prepare(first_step_is_backward_euler ? backward_euler(step) : c);
     if (c.starts_itself())
     {
@@ -146,6 +145,7 @@ namespace taut
     turning.prepare(c);
     coefficients = c;
     tangents_are_kept = false;
+    nonlinear.begin(current, c, step);
     constraint_motions.prepare(c, step);
     system->prepare(c, constraint_motions.compliance());
     if (!c.velocity_projection)
@@ -159,6 +159,8 @@ namespace taut
   void TimeStepper::advance()
   {
     ++n_steps;
+    last = {};
+    motion_size_before = motion_size;
     const bool is_first = current.last_step == 0.;
     const StepCoefficients c = is_first && first_step_is_backward_euler ? backward_euler(step)
                                : is_first || current.last_step == step
@@ -175,6 +177,23 @@ namespace taut
     if (turning.empty())
       system->interface().update_moving();
 
+    try
+    {
+      solve();
+    }
+    catch (const UserError &e)
+    {
+      // A shorter step may have what this one misses.
+      if (!is_linear())
+        throw StepNotSolved(e.what());
+      throw;
+    }
+  }
+
+  /// The new state and its certificate.
+  void TimeStepper::solve()
+  {
+    const StepCoefficients &c = coefficients;
     if (is_linear())
     {
       set_loads();
@@ -184,11 +203,8 @@ namespace taut
       iterate();
     accept_increments();
     constraint_motions.update(current);
-    if (is_linear())
-      certify();
-    else
-      certify_iterations();
-    nonlinear.set_own_force(current);
+    certify();
+    structure.communicator().agree([&] { nonlinear.set_own_force(current); });
     if (!turning.empty())
     {
       turning.follow(current);

@@ -29,12 +29,10 @@ namespace taut
   /// What the iterative solution of systems with F has cost so far; all 0 where F is assembled.
   struct InterfaceStatistics
   {
-    long n_systems = 0;        ///< solved
-    long n_iterations = 0;     ///< of conjugate gradients
-    long n_applications = 0;   ///< products with F
-    long n_local_solves = 0;   ///< systems of one A_k for these products, on this rank
-    long n_coarse_solves = 0;  ///< systems of one A_k for the coarse space, on this rank
-    long n_factorisations = 0; ///< of one A_k for the preconditioner, on this rank
+    long n_systems = 0;      ///< solved
+    long n_iterations = 0;   ///< of conjugate gradients
+    long n_applications = 0; ///< products with F
+    long n_local_solves = 0; ///< systems of one A_k for these products, on this rank
 
     InterfaceStatistics &operator+=(const InterfaceStatistics &other);
   };

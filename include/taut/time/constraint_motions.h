@@ -182,8 +182,8 @@ namespace taut
     std::vector<double>
         link_history; ///< part of a link spring's compression that does not depend on N
     std::vector<double> reference_gap; ///< gap of the fixed constraints at the reference
-    std::vector<double>
-        largest_scale; ///< of each constraint's gap so far: what came to rest rounds with it
+    std::vector<double> scale_of_step; ///< of each constraint's gap, as the last guess has it
+    std::vector<double> largest_scale; ///< so far: what came to rest rounds with it
     std::vector<double> gap_terms; ///< largest terms of the gaps of the fixed constraints so far
     /// Of the moving constraints: gap of the start minus the one of its displacements, rounding
     /// that would be a force over a small compliance.

@@ -88,7 +88,6 @@ namespace taut
     Constraints constraints;
     std::unique_ptr<TimeIntegrator> integrator;
     std::string scheme_description;
-    Certificate start_certificate;
     InitialState start;
     ContactMeasures contact_measures;
     std::unique_ptr<TimeStepper> stepper;

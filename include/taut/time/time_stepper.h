@@ -102,6 +102,7 @@ namespace taut
     void set_history(std::size_t k);
     void set_loads();
     void find_increments();
+    void solve();
     void iterate();
     bool solve_by_newton();
     void set_nonlinear();
@@ -118,7 +119,6 @@ namespace taut
     void start_balance();
     void hold_quasi_static_dofs();
     void certify();
-    void certify_iterations();
     bool refine();
     void certify_rows();
 
@@ -137,7 +137,7 @@ namespace taut
     long n_iterations = 0; ///< of Newton's method, of all steps
     double segment_start;  ///< time since which steps have this length
     long n_in_segment = 0;
-    PerKind motion_size = {0., 0.}; ///< largest displacements so far
+    PerKind motion_size = {0., 0.}, motion_size_before = {0., 0.}; ///< largest displacements so far
 
     std::unique_ptr<StepSystem> system;
     InterfaceStatistics earlier_systems; ///< of those before
