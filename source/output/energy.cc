@@ -102,9 +102,7 @@ namespace taut
       product.assign(n, 0.);
       body.mass().vmult_add(1., state.V[k].data(), product.data());
       share.kinetic += .5 * dot(product, state.V[k]);
-      std::vector<double> U = step.reference.displacement[k];
-      for (std::size_t i = 0; i < n; ++i)
-        U[i] += state.U[k][i];
+      const std::vector<double> U = displacement(step.reference, state, k);
       if (body.is_linear())
       {
         share.strain += reference_energy[k];

@@ -94,12 +94,8 @@ namespace taut
         const std::string frame =
             numbered(is_whole ? body.stem : body.stem + "_part" + std::to_string(part), number);
         if (const std::size_t k = body.parts[part]; k != Structure::elsewhere)
-        {
-          std::vector<double> U = step.reference.displacement[k];
-          for (std::size_t i = 0; i < U.size(); ++i)
-            U[i] += step.state.U[k][i];
-          step.structure[k].write_vtu(folder + "/" + frame, U);
-        }
+          step.structure[k].write_vtu(folder + "/" + frame,
+                                      displacement(step.reference, step.state, k));
         if (step.structure.communicator().is_root())
           body.collection.add(step.state.time, frame, part);
       }

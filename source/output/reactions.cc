@@ -143,11 +143,9 @@ namespace taut
       std::vector<double> &r = state.balance[k];
       body.external_force(state.time, r);
       body.damping().vmult_add(-1., state.V[k].data(), r.data());
-      std::vector<double> U = reference.displacement[k], f;
-      for (std::size_t i = 0; i < U.size(); ++i)
-        U[i] += state.U[k][i];
-      body.internal_force(U, {}, f);
-      for (std::size_t i = 0; i < U.size(); ++i)
+      std::vector<double> f;
+      body.internal_force(displacement(reference, state, k), {}, f);
+      for (std::size_t i = 0; i < f.size(); ++i)
         r[i] -= f[i];
     }
     constraints.add_forces(state.multiplier, state.balance);

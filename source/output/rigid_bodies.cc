@@ -61,9 +61,7 @@ namespace taut
       {
         if (structure.number(k) != bodies[b])
           continue;
-        std::vector<double> U = step.reference.displacement[k];
-        for (std::size_t i = 0; i < U.size(); ++i)
-          U[i] += step.state.U[k][i];
+        const std::vector<double> U = displacement(step.reference, step.state, k);
         const auto &body = dynamic_cast<const RigidBody &>(structure[k]);
         const Coordinates centre = body.centre(U), rotation = body.rotation(U);
         for (unsigned int c = 0; c < 3; ++c)

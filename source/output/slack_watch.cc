@@ -25,11 +25,9 @@ namespace taut
     }
     const auto is_slack = [&](const std::size_t k)
     {
-      std::vector<double> U = step.reference.displacement[k];
-      for (std::size_t i = 0; i < U.size(); ++i)
-        U[i] += step.state.U[k][i];
       SlenderBody::Slack slack;
-      if (!dynamic_cast<const SlenderBody &>(structure[k]).is_slack(U, slack))
+      if (!dynamic_cast<const SlenderBody &>(structure[k])
+               .is_slack(displacement(step.reference, step.state, k), slack))
         return false;
       double *const found = own.data() + n_entries * structure.number(k);
       found[is_found] = 1.;

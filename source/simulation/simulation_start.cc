@@ -128,12 +128,7 @@ namespace taut
         {
           for (std::size_t k = 0; k < bodies.size(); ++k)
             if (const auto *slender = dynamic_cast<const SlenderBody *>(&bodies[k]))
-            {
-              std::vector<double> U = reference.displacement[k];
-              for (std::size_t i = 0; i < U.size(); ++i)
-                U[i] += start.U[k][i];
-              slender->check_strain(U);
-            }
+              slender->check_strain(displacement(reference, start, k));
         });
   }
 

@@ -277,10 +277,9 @@ namespace taut
 
   bool FactoredStructure::has_rigid_body_modes() const
   {
-    double n = 0.;
-    for (const RigidBodyModes &own : motions)
-      n += own.vectors.size();
-    return bodies.communicator().max(n) > 0.;
+    return bodies.communicator().any(std::any_of(motions.begin(), motions.end(),
+                                                 [](const RigidBodyModes &own)
+                                                 { return !own.vectors.empty(); }));
   }
 
   void FactoredStructure::remove_rounding(const std::size_t k, std::vector<double> &KU,

@@ -88,10 +88,10 @@ namespace taut
       forces[i].mean = start.multiplier[i];
       forces[i].impulses.push_back({start.time, 0.});
     }
-    double n_far = 0.;
+    bool some_far = false;
     for (std::size_t k = 0; k < structure.size(); ++k)
-      n_far += !structure[k].is_linear();
-    moves_far = constraints.has_turning() || structure.communicator().max(n_far) > 0.;
+      some_far = some_far || !structure[k].is_linear();
+    moves_far = structure.communicator().any(some_far) || constraints.has_turning();
     measure_rest(start);
     measure_scale(start, Certificate());
   }
@@ -107,10 +107,8 @@ namespace taut
       sums[0] += .5 * std::fabs(dot(reference.displacement[k], reference.force[k]));
       if (body.is_linear())
         continue;
-      std::vector<double> U = reference.displacement[k];
-      for (std::size_t i = 0; i < U.size(); ++i)
-        U[i] += start.U[k][i];
-      sums[1] += rounding_of_step * body.strain_energy(U) + noise_turn * body.rounding_of_force(1);
+      sums[1] += rounding_of_step * body.strain_energy(displacement(reference, start, k)) +
+                 noise_turn * body.rounding_of_force(1);
     }
     structure.communicator().sum(sums, 2);
     rest = sums[0];

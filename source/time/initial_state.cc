@@ -17,16 +17,16 @@ namespace taut
     {
       const std::size_t n = constraints.first_moving();
       std::vector<double> &N = result.state.multiplier;
-      double others = 0.;
+      bool others = false;
       for (std::size_t i = constraints.n_fixed(); i < n; ++i)
       {
         const TurningDirection &turning = *constraints[i].direction;
-        others += turning.sign * N[i] > 0.;
+        others = others || turning.sign * N[i] > 0.;
         for (const std::vector<Term> &motion : turning.motion)
           for (const Term &term : motion)
-            others += !result.linearised[structure.number(term.substructure)];
+            others = others || !result.linearised[structure.number(term.substructure)];
       }
-      if (!constraints.has_turning() || structure.communicator().max(others) > 0.)
+      if (!constraints.has_turning() || structure.communicator().any(others))
         return;
       result.n_kept = n - constraints.n_fixed();
       constraints.keep_directions(result.reference.displacement, N);

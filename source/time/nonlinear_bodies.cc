@@ -67,22 +67,8 @@ namespace taut
     std::unique_ptr<SymmetricMatrix> K = c.mean_force
                                              ? body.mean_tangent(own.U0, U, c.velocity, attempt > 0)
                                              : body.tangent(U, c.velocity, attempt > 0);
-    shift(k, attempt, *K);
+    add_some_mass(attempt, body.mass(), *K);
     return K;
-  }
-
-  std::unique_ptr<SymmetricMatrix> NonlinearBodies::tangent_at(const std::size_t k,
-                                                               const std::vector<double> &U,
-                                                               const int attempt) const
-  {
-    std::unique_ptr<SymmetricMatrix> K = (*structure)[k].tangent(U, 0., attempt > 0);
-    shift(k, attempt, *K);
-    return K;
-  }
-
-  void NonlinearBodies::shift(const std::size_t k, const int attempt, SymmetricMatrix &K) const
-  {
-    add_some_mass(attempt, (*structure)[k].mass(), K);
   }
 
   void NonlinearBodies::set_tangent(const std::size_t k, const SymmetricMatrix &K)
@@ -171,21 +157,15 @@ namespace taut
         end_force(k, coefficients, own, state.dU[k], state.KU[k]);
       return;
     }
-    std::vector<double> U = reference->displacement[k];
-    for (std::size_t i = 0; i < U.size(); ++i)
-      U[i] += state.U[k][i];
-    (*structure)[k].internal_force(U, {}, state.KU[k]);
-    for (std::size_t i = 0; i < U.size(); ++i)
-      state.KU[k][i] -= reference->force[k][i];
+    std::vector<double> &KU = state.KU[k];
+    (*structure)[k].internal_force(displacement(*reference, state, k), {}, KU);
+    for (std::size_t i = 0; i < KU.size(); ++i)
+      KU[i] -= reference->force[k][i];
   }
 
   const std::vector<double> &NonlinearBodies::end_of_step(const std::size_t k, const State &state)
   {
-    std::vector<double> &U = steps[k].U1;
-    U = reference->displacement[k];
-    for (std::size_t i = 0; i < U.size(); ++i)
-      U[i] += state.U[k][i];
-    return U;
+    return steps[k].U1 = displacement(*reference, state, k);
   }
 
   double NonlinearBodies::energy_surplus(const double part_of_end, const State &state)

@@ -42,15 +42,18 @@ namespace taut
           M);
   }
 
-  SofterBodies::SofterBodies(const Structure &structure, const NonlinearBodies &nonlinear)
-      : structure(structure), nonlinear(nonlinear), softer(structure.size())
+  SofterBodies::SofterBodies(const Structure &structure)
+      : structure(structure), softer(structure.size())
   {
+    for (std::size_t k = 0; k < structure.size(); ++k)
+      if (!structure[k].is_linear())
+        nonlinear.push_back(k);
   }
 
   double SofterBodies::largest_axial_stiffness() const
   {
     double largest = 0.;
-    for (const std::size_t k : nonlinear.indices())
+    for (const std::size_t k : nonlinear)
       if (const auto *const slender = dynamic_cast<const SlenderBody *>(&structure[k]))
         largest = std::max(largest, slender->axial_stiffness());
     return largest;
@@ -58,7 +61,7 @@ namespace taut
 
   void SofterBodies::limit_axial_stiffness(const double EA)
   {
-    for (const std::size_t k : nonlinear.indices())
+    for (const std::size_t k : nonlinear)
     {
       softer[k] = nullptr;
       if (const auto *const slender = dynamic_cast<const SlenderBody *>(&structure[k]))
@@ -80,7 +83,7 @@ namespace taut
 
   bool SofterBodies::are_indifferent(const BodyVectors &U) const
   {
-    for (const std::size_t k : nonlinear.indices())
+    for (const std::size_t k : nonlinear)
     {
       const Substructure &own = structure[k];
       const double mass = largest_on_diagonal(own.mass());
@@ -104,10 +107,8 @@ namespace taut
   std::unique_ptr<SymmetricMatrix>
   SofterBodies::tangent(const std::size_t k, const std::vector<double> &U, const int attempt) const
   {
-    if (!softer[k])
-      return nonlinear.tangent_at(k, U, attempt);
-    std::unique_ptr<SymmetricMatrix> K = softer[k]->tangent(U, 0., attempt > 0);
-    add_some_mass(attempt, softer[k]->mass(), *K);
+    std::unique_ptr<SymmetricMatrix> K = body(k).tangent(U, 0., attempt > 0);
+    add_some_mass(attempt, body(k).mass(), *K);
     return K;
   }
 } // namespace taut

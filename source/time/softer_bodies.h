@@ -2,7 +2,7 @@
 #ifndef taut_softer_bodies_h
 #define taut_softer_bodies_h
 
-#include <taut/time/nonlinear_bodies.h>
+#include <taut/substructure/structure.h>
 
 #include <memory>
 #include <vector>
@@ -18,8 +18,8 @@ namespace taut
   class SofterBodies
   {
   public:
-    /// The references are kept. Bodies have their own stiffness.
-    SofterBodies(const Structure &structure, const NonlinearBodies &nonlinear);
+    /// @p structure is kept by reference. Bodies have their own stiffness.
+    explicit SofterBodies(const Structure &structure);
 
     /// Of the bodies that are not linear; 0: of none [N].
     double largest_axial_stiffness() const;
@@ -28,7 +28,7 @@ namespace taut
     void limit_axial_stiffness(double EA);
 
     /// The bodies of this rank that are not linear.
-    const std::vector<std::size_t> &nonlinear_bodies() const { return nonlinear.indices(); }
+    const std::vector<std::size_t> &nonlinear_bodies() const { return nonlinear; }
 
     /// Energy [J], internal force [N, N m] and tangent of body k at a displacement U from the
     /// undeformed body; @p attempt as in NonlinearBodies::tangent().
@@ -45,7 +45,7 @@ namespace taut
     const Substructure &body(std::size_t k) const { return softer[k] ? *softer[k] : structure[k]; }
 
     const Structure &structure;
-    const NonlinearBodies &nonlinear;
+    std::vector<std::size_t> nonlinear;
     std::vector<std::unique_ptr<Substructure>> softer; ///< of each body, or null
   };
 } // namespace taut

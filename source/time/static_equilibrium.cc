@@ -219,12 +219,12 @@ namespace taut
       bool stays(const StaticStep &step, const StaticState &state) const
       {
         const Communicator &processes = structure.communicator();
-        if (!(processes.max(step.has_own_tangents() ? 0. : 1.) > 0.))
+        if (!processes.any(!step.has_own_tangents()))
           return true;
         bool touches = false;
         for (std::size_t i = 0; i < constraints.size(); ++i)
           touches = touches || (constraints[i].unilateral && state.multiplier[i] > 0.);
-        return touches && !(processes.max(soft.are_indifferent(state.displacement) ? 0. : 1.) > 0.);
+        return touches && !processes.any(!soft.are_indifferent(state.displacement));
       }
 
       /// False if links that push give way to the side.
@@ -383,14 +383,12 @@ namespace taut
   StaticState static_equilibrium(const Structure &structure, const Constraints &constraints,
                                  const SolverParameters &parameters, const double t)
   {
-    Reference undeformed;
-    undeformed.displacement = undeformed.force = structure.zero();
-    const NonlinearBodies nonlinear(structure, undeformed);
-    SofterBodies bodies(structure, nonlinear);
+    SofterBodies bodies(structure);
     if (!constraints.has_turning() &&
-        !(structure.communicator().max(nonlinear.indices().empty() ? 0. : 1.) > 0.))
+        !structure.communicator().any(!bodies.nonlinear_bodies().empty()))
     {
-      StaticStep step(structure, constraints, parameters, t, bodies, undeformed.displacement);
+      const BodyVectors undeformed = structure.zero();
+      StaticStep step(structure, constraints, parameters, t, bodies, undeformed);
       StaticState state = step.solve();
       step.certify(state);
       return state;

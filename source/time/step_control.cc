@@ -4,35 +4,15 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <algorithm>
+#include <limits>
+
 namespace taut
 {
   namespace
   {
     /// How often a step is halved that Newton's method does not converge in.
     constexpr unsigned int most_halvings = 8;
-
-    long advance_in_parts(TimeStepper &stepper, const double step,
-                          const std::function<void()> &accept, const unsigned int n_halved)
-    {
-      const State before = stepper.state();
-      stepper.set_step(step);
-      try
-      {
-        stepper.advance();
-        accept();
-        return 0;
-      }
-      catch (const StepNotSolved &)
-      {
-        if (n_halved == most_halvings)
-          throw;
-      }
-      stepper.restore(before);
-      long repeated = 1;
-      for (int half = 0; half < 2; ++half)
-        repeated += advance_in_parts(stepper, .5 * step, accept, n_halved + 1);
-      return repeated;
-    }
   } // namespace
 
   void StepParameters::declare_parameters(dealii::ParameterHandler &prm)
@@ -58,19 +38,10 @@ namespace taut
       : parameters(parameters), n_levels(parameters.adaptive() ? parameters.n_halvings
                                          : may_halve           ? most_halvings
                                                                : 0),
-        shortest(std::ldexp(step, -static_cast<int>(n_levels))), end(n_steps << n_levels),
+        shortest(std::ldexp(step, -static_cast<int>(n_levels))),
+        end(std::min(n_steps, std::numeric_limits<long>::max() >> n_levels) << n_levels),
         level(n_levels)
   {
-  }
-
-  long advance_in_parts(TimeStepper &stepper, const double step,
-                        const std::function<void()> &accept)
-  {
-    if (!stepper.is_linear())
-      return advance_in_parts(stepper, step, accept, 0);
-    stepper.advance();
-    accept();
-    return 0;
   }
 
   /// The step of the present length, or a shorter one if it has no answer.

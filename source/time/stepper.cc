@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/time/choose_scheme.h>
-#include <taut/time/step_control.h>
 #include <taut/time/stepper.h>
+
+#include <limits>
 
 namespace taut
 {
   Stepper::Stepper(const System &system, const StepperOptions &options)
-      : system(system), structure(system.structure()), step(options.step),
+      : system(system), structure(system.structure()),
         constraints(system.constraints(structure)),
         start(find_initial_state(structure, constraints, options.solver, options.start)),
         contact_measures(structure, constraints, start.reference, start.state)
@@ -14,6 +15,9 @@ namespace taut
     stepper = std::make_unique<TimeStepper>(structure, constraints, options.solver, choose(options),
                                             options.step, start.reference, start.state,
                                             options.start == Start::equilibrium);
+    control = std::make_unique<StepControl>(StepParameters(), options.step,
+                                            std::numeric_limits<long>::max(),
+                                            !stepper->is_linear());
   }
 
   const TimeIntegrator &Stepper::choose(const StepperOptions &options)
@@ -36,10 +40,11 @@ namespace taut
 
   void Stepper::advance()
   {
-    advance_in_parts(
-        *stepper, step,
-        [this]
-        { contact_measures.record(stepper->state(), stepper->scheme(), stepper->certificate()); });
+    do
+    {
+      control->advance(*stepper);
+      contact_measures.record(stepper->state(), stepper->scheme(), stepper->certificate());
+    } while (!control->is_at_step());
   }
 
   const Certificate &Stepper::certificate() const
@@ -73,10 +78,6 @@ namespace taut
 
   std::vector<double> Stepper::displacement(const std::size_t body) const
   {
-    const std::size_t k = system.index_here(body);
-    std::vector<double> result = state().U[k];
-    for (std::size_t i = 0; i < result.size(); ++i)
-      result[i] += reference().displacement[k][i];
-    return result;
+    return taut::displacement(reference(), state(), system.index_here(body));
   }
 } // namespace taut

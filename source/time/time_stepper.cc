@@ -382,7 +382,7 @@ namespace taut
   /// On all ranks.
   bool TimeStepper::is_cancellation() const
   {
-    return !(structure.communicator().max(balance.is_cancellation() ? 0. : 1.) > 0.);
+    return !structure.communicator().any(!balance.is_cancellation());
   }
 
   void TimeStepper::certify_rows()

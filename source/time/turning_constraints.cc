@@ -45,6 +45,11 @@ namespace taut
     if (empty())
       return;
     start = constraints.differences(reference.displacement, state.U);
+    face_start();
+  }
+
+  void TurningConstraints::face_start()
+  {
     next.clear();
     for (std::size_t k = 0; k < start.size(); ++k)
       next.push_back(constraints[constraints.n_fixed() + k].direction->at(start[k]));
@@ -54,11 +59,8 @@ namespace taut
   void TurningConstraints::begin(const StepCoefficients &c)
   {
     is_mean = c.mean_force;
-    next.clear();
-    for (std::size_t k = 0; k < start.size(); ++k)
-      next.push_back(constraints[constraints.n_fixed() + k].direction->at(start[k]));
+    face_start();
     used = next;
-    turn();
     offsets.assign(start.size(), 0.);
     next_offsets = increments = offsets;
   }

@@ -46,7 +46,7 @@ namespace taut
     problem.gap_scale.resize(n);
     problem.unilateral.resize(n);
     problem.held_open.resize(n);
-    double n_quasi_static = 0.;
+    std::size_t n_quasi_static = 0;
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       const Substructure &body = structure[k];
@@ -59,9 +59,8 @@ namespace taut
       if (dynamic_cast<const ConstrainedBody *>(&body))
         with_constraints.push_back(k);
     }
-    some_quasi_static = structure.communicator().max(n_quasi_static) > 0.;
-    some_with_constraints =
-        structure.communicator().max(static_cast<double>(with_constraints.size())) > 0.;
+    some_quasi_static = structure.communicator().any(n_quasi_static > 0);
+    some_with_constraints = structure.communicator().any(!with_constraints.empty());
   }
 
   /// f and its diagonal; the mass matrices are factored at the first call.
@@ -86,12 +85,8 @@ namespace taut
   void VelocityProjection::factor_masses(const State &state)
   {
     for (const std::size_t k : with_constraints)
-    {
-      std::vector<double> U = reference.displacement[k];
-      for (std::size_t i = 0; i < U.size(); ++i)
-        U[i] += state.U[k][i];
-      solvers.set_tangent(k, dynamic_cast<const ConstrainedBody &>(structure[k]).mass_at(U));
-    }
+      solvers.set_tangent(k, dynamic_cast<const ConstrainedBody &>(structure[k])
+                                 .mass_at(taut::displacement(reference, state, k)));
     structure.communicator().agree(
         [&]
         {

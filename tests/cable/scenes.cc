@@ -139,3 +139,22 @@ TEST(CableScenes, floor)
             });
   EXPECT_GT(lifted, 12. - 10.1); // from its own shape to the floor is 10.1 m
 }
+
+// BDF2 begins with a step of backward Euler, whose gain of energy is measured, and measures none of
+// its own; with a floor each solve of Newton's method takes an iteration of contact at least.
+TEST(CableScenes, certificates_are_of_their_own_steps)
+{
+  std::vector<double> gains;
+  run_scene(scene_file("pendulum_cable"), {"Time/Scheme = BDF2", "Time/End = .05"},
+            [&](const taut::StepView &step) { gains.push_back(step.certificate.energy_gain); });
+  ASSERT_EQ(gains.size(), 6u);
+  EXPECT_NE(gains[1], 0.);
+  for (std::size_t i = 2; i < gains.size(); ++i)
+    EXPECT_EQ(gains[i], 0.) << i;
+
+  unsigned int most = 0;
+  run_scene(scene_file("cable_on_floor"), {"Time/End = .1"},
+            [&](const taut::StepView &step)
+            { most = std::max(most, step.state.time > 0. ? step.certificate.iterations : 0u); });
+  EXPECT_GE(most, 4u);
+}

@@ -44,6 +44,9 @@ namespace taut
     /// The largest of the values of all ranks; not-a-number if one is.
     double max(double value) const;
 
+    /// True if it is on any rank.
+    bool any(const bool is_true) const { return max(is_true ? 1. : 0.) > 0.; }
+
     /// The value of each rank, in order.
     std::vector<std::size_t> gather(std::size_t value) const;
 

@@ -48,10 +48,6 @@ namespace taut
      */
     std::unique_ptr<SymmetricMatrix> tangent(std::size_t k, int attempt) const;
 
-    /// The same at a displacement U from the undeformed body, at rest.
-    std::unique_ptr<SymmetricMatrix> tangent_at(std::size_t k, const std::vector<double> &U,
-                                                int attempt) const;
-
     /// What Newton's method adds to P^, with the tangent K: K dU - (f - f0) for the last guess.
     const std::vector<double> &remainder(std::size_t k) const { return steps[k].remainder; }
 
@@ -93,7 +89,6 @@ namespace taut
       bool energy_is_known = false; ///< U0 is U1
     };
     const std::vector<double> &end_of_step(std::size_t k, const State &state);
-    void shift(std::size_t k, int attempt, SymmetricMatrix &K) const;
     void end_force(std::size_t k, const StepCoefficients &c, const Step &own,
                    const std::vector<double> &dU, std::vector<double> &f) const;
 

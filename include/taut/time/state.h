@@ -82,6 +82,16 @@ namespace taut
     /// The vectors of the bodies of this rank.
     std::array<BodyVectors *, 7> of_bodies() { return {&U, &V, &A, &dU, &V_old, &KU, &balance}; }
   };
+
+  /// U_ref + U of body k: its displacement from the undeformed body [m, rad].
+  inline std::vector<double> displacement(const Reference &reference, const State &state,
+                                          const std::size_t k)
+  {
+    std::vector<double> U = reference.displacement[k];
+    for (std::size_t i = 0; i < U.size(); ++i)
+      U[i] += state.U[k][i];
+    return U;
+  }
 } // namespace taut
 
 #endif

@@ -5,7 +5,6 @@
 #include <taut/time/time_stepper.h>
 
 #include <cmath>
-#include <functional>
 #include <string>
 
 namespace dealii
@@ -34,13 +33,6 @@ namespace taut
   };
 
   /**
-   * A step [s] of the stepper, in halves where it is too long for bodies that are not linear; calls
-   * @p accept after each part. Returns how often a step was repeated. Throws StepNotSolved if the
-   * shortest is too long, too.
-   */
-  long advance_in_parts(TimeStepper &stepper, double step, const std::function<void()> &accept);
-
-  /**
    * Steps of a length times a power of two, so that matrices are factored anew only at a change and
    * times are multiples of the shortest step. A step is repeated at half its length if its local
    * error is above the tolerance, down to the shortest one, which counts as it is; the error is not
@@ -57,6 +49,9 @@ namespace taut
                 bool may_halve = false);
 
     bool is_finished() const { return position == end; }
+
+    /// True at multiples of the step that was given.
+    bool is_at_step() const { return position % (1L << n_levels) == 0; }
 
     /// One step that counts.
     void advance(TimeStepper &stepper);

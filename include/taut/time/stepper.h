@@ -6,7 +6,7 @@
 #include <taut/interface/system.h>
 #include <taut/time/contact_measures.h>
 #include <taut/time/initial_state.h>
-#include <taut/time/time_stepper.h>
+#include <taut/time/step_control.h>
 
 #include <map>
 #include <memory>
@@ -84,13 +84,13 @@ namespace taut
 
     const System &system;
     Structure structure; ///< its bodies, those linear that linearised() takes the place of
-    const double step;
     Constraints constraints;
     std::unique_ptr<TimeIntegrator> integrator;
     std::string scheme_description;
     InitialState start;
     ContactMeasures contact_measures;
     std::unique_ptr<TimeStepper> stepper;
+    std::unique_ptr<StepControl> control;
   };
 } // namespace taut
 

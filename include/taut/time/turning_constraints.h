@@ -68,6 +68,7 @@ namespace taut
     double surplus(const std::vector<double> &N, const std::vector<double> &motion) const;
 
   private:
+    void face_start();
     void check_turn(std::size_t k, const State &before) const;
 
     Constraints &constraints;
