@@ -4,6 +4,7 @@
 
 #include <taut/base/exceptions.h>
 #include <taut/time/matrix_norms.h>
+#include <taut/time/nonlinear_bodies.h>
 
 #include <algorithm>
 #include <cmath>

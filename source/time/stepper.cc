@@ -7,17 +7,15 @@
 namespace taut
 {
   Stepper::Stepper(const System &system, const StepperOptions &options)
-      : system(system), structure(system.structure()),
-        constraints(system.constraints(structure)),
+      : system(system), structure(system.structure()), constraints(system.constraints(structure)),
         start(find_initial_state(structure, constraints, options.solver, options.start)),
         contact_measures(structure, constraints, start.reference, start.state)
   {
     stepper = std::make_unique<TimeStepper>(structure, constraints, options.solver, choose(options),
                                             options.step, start.reference, start.state,
                                             options.start == Start::equilibrium);
-    control = std::make_unique<StepControl>(StepParameters(), options.step,
-                                            std::numeric_limits<long>::max(),
-                                            !stepper->is_linear());
+    control = std::make_unique<StepControl>(
+        StepParameters(), options.step, std::numeric_limits<long>::max(), !stepper->is_linear());
   }
 
   const TimeIntegrator &Stepper::choose(const StepperOptions &options)

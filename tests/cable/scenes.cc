@@ -124,9 +124,11 @@ TEST(CableScenes, floor)
 {
   bool is_start = true;
   double lifted = 0.;
+  unsigned int most_iterations = 0; // of all solves of a step
   run_scene(scene_file("cable_on_floor"), {},
             [&](const taut::StepView &step)
             {
+              most_iterations = std::max(most_iterations, step.certificate.iterations);
               const std::vector<double> &N = step.state.multiplier;
               if (is_start)
               {
@@ -137,11 +139,12 @@ TEST(CableScenes, floor)
               for (const double gap : step.state.gap)
                 EXPECT_GE(gap, -1e-12);
             });
+  EXPECT_GE(most_iterations, 5u);
   EXPECT_GT(lifted, 12. - 10.1); // from its own shape to the floor is 10.1 m
 }
 
 // BDF2 begins with a step of backward Euler, whose gain of energy is measured, and measures none of
-// its own; with a floor each solve of Newton's method takes an iteration of contact at least.
+// its own.
 TEST(CableScenes, certificates_are_of_their_own_steps)
 {
   std::vector<double> gains;
@@ -151,10 +154,4 @@ TEST(CableScenes, certificates_are_of_their_own_steps)
   EXPECT_NE(gains[1], 0.);
   for (std::size_t i = 2; i < gains.size(); ++i)
     EXPECT_EQ(gains[i], 0.) << i;
-
-  unsigned int most = 0;
-  run_scene(scene_file("cable_on_floor"), {"Time/End = .1"},
-            [&](const taut::StepView &step)
-            { most = std::max(most, step.state.time > 0. ? step.certificate.iterations : 0u); });
-  EXPECT_GE(most, 4u);
 }
