@@ -18,21 +18,24 @@ namespace taut
       throw EntryError(origin.empty() ? "Geometry" : origin + "/Geometry", reason);
     }
 
-    /// All of the external force of a body.
+    /// The loads of a body that change with time.
     class LoadsOf : public TimeLoad
     {
     public:
-      explicit LoadsOf(std::shared_ptr<const Substructure> of) : body(std::move(of)) {}
+      LoadsOf(std::shared_ptr<const Substructure> of,
+              const std::vector<std::unique_ptr<TimeLoad>> &loads)
+          : owner(std::move(of)), loads(loads)
+      {
+      }
       void add(const double t, std::vector<double> &P) const override
       {
-        body->external_force(t, force);
-        for (std::size_t i = 0; i < P.size(); ++i)
-          P[i] += force[i];
+        for (const auto &load : loads)
+          load->add(t, P);
       }
 
     private:
-      std::shared_ptr<const Substructure> body;
-      mutable std::vector<double> force;
+      std::shared_ptr<const Substructure> owner;
+      const std::vector<std::unique_ptr<TimeLoad>> &loads;
     };
   } // namespace
 
@@ -51,13 +54,9 @@ namespace taut
     nonlinear.internal_force(U, {}, force_there);
     energy_there = nonlinear.strain_energy(U);
     assemble();
-    if (self->external_force_varies())
-    {
-      constant_force.assign(n_dofs(), 0.);
-      time_loads.push_back(std::make_unique<LoadsOf>(self));
-    }
-    else
-      self->external_force(0., constant_force);
+    constant_force = nonlinear.constant_force;
+    if (nonlinear.external_force_varies())
+      time_loads.push_back(std::make_unique<LoadsOf>(self, nonlinear.time_loads));
     finish();
   }
 
