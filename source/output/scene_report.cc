@@ -109,7 +109,7 @@ namespace taut
 
     std::string direction(const bool rotational, const Coordinates &n)
     {
-      return rotational ? "rotation" : text(n);
+      return (rotational ? "about " : "") + text(n);
     }
 
     void print_bodies(const Scene &scene, std::ostream &out)

@@ -172,7 +172,7 @@ namespace taut
           if (end != ground)
           {
             const Mass &mass = scene.masses[end];
-            const bool moves = spring.rotational ? mass.moves[2]
+            const bool moves = spring.rotational ? mass.moves[2] && spring.direction.z != 0.
                                                  : ((mass.moves[0] && spring.direction.x != 0.) ||
                                                     (mass.moves[1] && spring.direction.y != 0.) ||
                                                     (mass.moves[3] && spring.direction.z != 0.));

@@ -141,8 +141,13 @@ namespace taut
     if (!rotational && !axis.empty())
       throw EntryError(section + "/Axis", "it is that of a rotation; set 'Rotational = true', or "
                                           "give a Direction");
+    if (rotational && !direction.empty())
+      throw EntryError(section + "/Direction",
+                       "what is rotational turns about an Axis, z if it has "
+                       "none; leave the Direction empty");
     if (!rotational)
-      return parse_direction(direction, section + "/Direction");
+      return direction.empty() ? Coordinates{0., 1.}
+                               : parse_direction(direction, section + "/Direction");
     return axis.empty() ? Coordinates{0., 0., 1.} : parse_direction(axis, section + "/Axis");
   }
 

@@ -47,9 +47,10 @@ namespace taut
   {
     const WireMotion component = component_of(motion);
     const Coordinates n = normal();
-    return component == WireMotion::transverse ? binormal()
-           : component == WireMotion::lateral  ? Coordinates{-n.x, -n.y, -n.z}
-                                               : Coordinates{};
+    return component == WireMotion::transverse
+               ? (tangent().z == 0. ? Coordinates{0., 0., 1.} : binormal())
+           : component == WireMotion::lateral ? Coordinates{-n.x, -n.y, -n.z}
+                                              : Coordinates{};
   }
 
   bool Wire::has(const WireMotion motion) const

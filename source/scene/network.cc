@@ -273,15 +273,15 @@ namespace taut
                   : item.type == "sliding contact" ? LinkKind::sliding_contact
                                                    : LinkKind::joint;
       const bool is_ball_joint = item.type == "ball joint";
-      if (is_ball_joint && (!item.direction.empty() || item.rotational || item.gap != 0.))
+      if (is_ball_joint &&
+          (!item.direction.empty() || !item.axis.empty() || item.rotational || item.gap != 0.))
         throw EntryError(title + (!item.direction.empty() ? "/Direction"
+                                  : !item.axis.empty()    ? "/Axis"
                                   : item.rotational       ? "/Rotational"
                                                           : "/Gap"),
                          "a ball joint holds one place to another along x, y and z, and has none; "
                          "leave it out, or take a joint");
       link.rotational = item.rotational;
-      if (link.rotational && !item.direction.empty())
-        throw EntryError(title + "/Direction", "a rotational link has an Axis; give that instead");
       link.stiffness = parse_stiffness(item.stiffness, title + "/Stiffness");
       link.law = parse_law(item.law, item.law_points, item.law_formula, item.law_range, title);
       if (link.law && (link.unilateral() ? !link.rigid() || item.axial_stiffness > 0. : true))

@@ -57,7 +57,7 @@ namespace taut
     struct SpringItem
     {
       std::string from = "ground", to = "ground";
-      std::vector<double> direction = {0., 1.};
+      std::vector<double> direction;
       bool rotational = false;
       double stiffness = 0., damping = 0.;
       void declare(dealii::ParameterHandler &prm);
@@ -76,7 +76,7 @@ namespace taut
     struct LoadItem
     {
       std::string type = "point", on, magnitude = "0";
-      std::vector<double> direction = {0., 1.}, axis;
+      std::vector<double> direction, axis;
       bool rotational = false;
       double speed = 0.;
       void declare(dealii::ParameterHandler &prm);

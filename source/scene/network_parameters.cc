@@ -143,8 +143,9 @@ namespace taut
   {
     prm.add_parameter("From", from, "A mass or 'ground'");
     prm.add_parameter("To", to, "A mass or 'ground'");
-    prm.add_parameter("Direction", direction, "'x, y' or 'x, y, z'; the length does not matter",
-                      coordinates());
+    prm.add_parameter("Direction", direction,
+                      "'x, y' or 'x, y, z'; the length does not matter. Empty: 0, 1",
+                      List(Double(), 0, 3));
     prm.add_parameter("Rotational", rotational, "Acts between rotations about z instead");
     prm.add_parameter("Stiffness", stiffness, "[N/m, N m/rad]", not_negative());
     prm.add_parameter("Damping", damping, "[N s/m, N m s/rad]", not_negative());
@@ -231,8 +232,9 @@ namespace taut
     prm.add_parameter("On", on,
                       "A mass, 'wire @ position' or 'body @ x, y, z'; of a distributed load the "
                       "position is not used");
-    prm.add_parameter("Direction", direction, "'x, y' or 'x, y, z'; the length does not matter",
-                      coordinates());
+    prm.add_parameter("Direction", direction,
+                      "'x, y' or 'x, y, z'; the length does not matter. Empty: 0, 1",
+                      List(Double(), 0, 3));
     prm.add_parameter("Rotational", rotational, "A moment about Axis instead of a force");
     prm.add_parameter("Axis", axis,
                       "Of a rotational load, 'x, y, z'; the length does not matter. Empty: z",

@@ -101,15 +101,19 @@ namespace taut
   void ContactMeasures::measure_rest(const State &start)
   {
     double sums[] = {0., 0.};
-    for (std::size_t k = 0; k < structure.size(); ++k)
-    {
-      const Substructure &body = structure[k];
-      sums[0] += .5 * std::fabs(dot(reference.displacement[k], reference.force[k]));
-      if (body.is_linear())
-        continue;
-      sums[1] += rounding_of_step * body.strain_energy(displacement(reference, start, k)) +
-                 noise_turn * body.rounding_of_force(1);
-    }
+    structure.communicator().agree(
+        [&]
+        {
+          for (std::size_t k = 0; k < structure.size(); ++k)
+          {
+            const Substructure &body = structure[k];
+            sums[0] += .5 * std::fabs(dot(reference.displacement[k], reference.force[k]));
+            if (body.is_linear())
+              continue;
+            sums[1] += rounding_of_step * body.strain_energy(displacement(reference, start, k)) +
+                       noise_turn * body.rounding_of_force(1);
+          }
+        });
     structure.communicator().sum(sums, 2);
     rest = sums[0];
     rest_of_step = sums[1];

@@ -270,9 +270,16 @@ namespace taut
           add_largest(largest(structure[k], to[k]), size);
           bodies.multiply(k, difference, product);
           add_largest(beyond_rounding(structure[k], largest(structure[k], product)), lack);
-          soft.force(k, to[k], product);
-          add_largest(largest(structure[k], product), force);
         }
+        structure.communicator().agree(
+            [&]
+            {
+              for (std::size_t k = 0; k < structure.size(); ++k)
+              {
+                soft.force(k, to[k], product);
+                add_largest(largest(structure[k], product), force);
+              }
+            });
         double result = 0.;
         for (int kind = 0; kind < 2; ++kind)
         {

@@ -19,7 +19,10 @@ namespace taut
   {
     current = before;
     turning.follow(current);
-    motion_size = motion_size_before;
+    motion_size = before_step.motion;
+    constraint_motions.set_sizes(before_step.of_constraints);
+    if (projection && !before_step.rates.empty())
+      projection->set_largest_rates(before_step.rates);
     --n_steps;
     segment_start = current.time;
     n_in_segment = 0;

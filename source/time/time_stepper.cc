@@ -143,31 +143,48 @@ namespace taut
   void TimeStepper::prepare(const StepCoefficients &c)
   {
     turning.prepare(c);
-    coefficients = c;
     tangents_are_kept = false;
     nonlinear.begin(current, c, step);
     constraint_motions.prepare(c, step);
     system->prepare(c, constraint_motions.compliance());
-    if (!c.velocity_projection)
-      return;
-    if (!projection)
-      projection =
-          std::make_unique<VelocityProjection>(structure, constraints, parameters, reference_state);
-    projection->prepare(c, step, constraint_motions.compliance(), system->interface().matrix());
+    if (c.velocity_projection)
+    {
+      if (!projection)
+        projection = std::make_unique<VelocityProjection>(structure, constraints, parameters,
+                                                          reference_state);
+      projection->prepare(c, step, constraint_motions.compliance(), system->interface().matrix());
+    }
+    coefficients = c;
+  }
+
+  /// A shorter step may have what this one misses.
+  void TimeStepper::attempt(const std::function<void()> &work)
+  {
+    try
+    {
+      work();
+    }
+    catch (const UserError &why)
+    {
+      if (!is_linear())
+        throw StepNotSolved(why);
+      throw;
+    }
   }
 
   void TimeStepper::advance()
   {
     ++n_steps;
     last = {};
-    motion_size_before = motion_size;
+    before_step = {motion_size, constraint_motions.sizes(),
+                   projection ? projection->largest_rates() : std::vector<double>()};
     const bool is_first = current.last_step == 0.;
     const StepCoefficients c = is_first && first_step_is_backward_euler ? backward_euler(step)
                                : is_first || current.last_step == step
                                    ? integrator.coefficients(step)
                                    : integrator.after_change(step, current.last_step);
     if (c != coefficients)
-      prepare(c);
+      attempt([&] { prepare(c); });
     current.time = segment_start + ++n_in_segment * step;
     check.set_time(current.time);
     constraint_motions.begin_step(is_first);
@@ -177,17 +194,7 @@ namespace taut
     if (turning.empty())
       system->interface().update_moving();
 
-    try
-    {
-      solve();
-    }
-    catch (const UserError &e)
-    {
-      // A shorter step may have what this one misses.
-      if (!is_linear())
-        throw StepNotSolved(e.what());
-      throw;
-    }
+    attempt([this] { solve(); });
   }
 
   /// The new state and its certificate.

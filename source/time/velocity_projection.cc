@@ -84,12 +84,12 @@ namespace taut
   /// Of bodies with constraints inside, at the displacements of the state.
   void VelocityProjection::factor_masses(const State &state)
   {
-    for (const std::size_t k : with_constraints)
-      solvers.set_tangent(k, dynamic_cast<const ConstrainedBody &>(structure[k])
-                                 .mass_at(taut::displacement(reference, state, k)));
     structure.communicator().agree(
         [&]
         {
+          for (const std::size_t k : with_constraints)
+            solvers.set_tangent(k, dynamic_cast<const ConstrainedBody &>(structure[k])
+                                       .mass_at(taut::displacement(reference, state, k)));
           if (!is_set_up)
             solvers.factor_mass();
           else

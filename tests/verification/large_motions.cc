@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: bodies that are not linear move with the right period and keep their energy, with and
 // without contacts. Expected values: the pendulum of elliptic integrals; conservation of energy.
+#include <taut/base/exceptions.h>
 #include <taut/time/stepper.h>
 
 #include <boost/math/special_functions/ellint_1.hpp>
@@ -276,6 +277,56 @@ TEST(LargeMotions, rigid_wall_takes_the_energy_and_gives_none)
     energy = now;
   }
   EXPECT_NEAR(start - energy, .5 * scale, .01 * scale); // m g L (1 - cos 60)
+}
+
+// A body may refuse a step that is too long for it: the step is made in parts and ends where it
+// would have ended, with the energy of the start.
+TEST(LargeMotions, step_that_a_body_refuses_is_made_in_parts)
+{
+  constexpr double farthest = .02;
+  class CarefulPendulum : public ElasticPendulum
+  {
+  public:
+    explicit CarefulPendulum(int &refused) : ElasticPendulum(pi / 3., 1e5), n_refused(refused) {}
+    void mean_internal_force(const std::vector<double> &U0, const std::vector<double> &U1,
+                             const double step, std::vector<double> &f) const override
+    {
+      for (unsigned int i = 0; i < 3; ++i)
+        if (std::fabs(U1[i] - U0[i]) > farthest)
+        {
+          ++n_refused;
+          throw taut::UserError("too far");
+        }
+      ElasticPendulum::mean_internal_force(U0, U1, step, f);
+    }
+
+  private:
+    int &n_refused;
+  };
+
+  int n_refused = 0;
+  const CarefulPendulum *pendulum = nullptr;
+  taut::System system;
+  system.add("pendulum",
+             [&]
+             {
+               auto body = std::make_unique<CarefulPendulum>(n_refused);
+               pendulum = body.get();
+               return body;
+             });
+  taut::StepperOptions options;
+  options.step = .01;
+  options.start = taut::Start::undeformed;
+  taut::Stepper stepper(system, options);
+  for (int n = 1; n <= 100; ++n)
+  {
+    stepper.advance();
+    EXPECT_NEAR(stepper.time(), n * options.step, 1e-12);
+  }
+  EXPECT_GT(n_refused, 0);
+  const std::vector<double> start(3, 0.);
+  EXPECT_NEAR(pendulum->energy(stepper.displacement(0), stepper.state().V[0]),
+              pendulum->energy(start, start), 1e-7 * bob * gravity * length);
 }
 
 // The static equilibrium hangs down, whatever way the undeformed one points.

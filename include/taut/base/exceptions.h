@@ -65,11 +65,22 @@ namespace taut
     std::vector<std::size_t> row_indices;
   };
 
-  /// A step of bodies that are not linear without an answer: a shorter one may have one.
-  class StepNotSolved : public UserError
+  /// A step of bodies that are not linear without an answer: a shorter one may have one. Says why,
+  /// with the entry that the reason is about.
+  class StepNotSolved : public EntryError
   {
   public:
-    using UserError::UserError;
+    explicit StepNotSolved(const UserError &why) : StepNotSolved(why, as_entry_error(why)) {}
+
+  private:
+    StepNotSolved(const UserError &why, const EntryError *of_entry)
+        : EntryError(of_entry ? of_entry->entry() : "", of_entry ? of_entry->message() : why.what())
+    {
+    }
+    static const EntryError *as_entry_error(const UserError &why)
+    {
+      return dynamic_cast<const EntryError *>(&why);
+    }
   };
 
   /// A body that the equations do not hold: a singular matrix, or loads that no admissible contact

@@ -35,8 +35,8 @@ namespace taut
   Coordinates parse_direction(const std::vector<double> &components, const std::string &entry);
 
   /// The direction of a displacement or a force or, if @p rotational, the axis of a rotation or a
-  /// moment, from the entries Direction and Axis of a section; no axis is z. Throws EntryError for
-  /// an axis of nothing that turns.
+  /// moment, from the entries Direction and Axis of a section; no direction is y, no axis z. Throws
+  /// EntryError if both are given, or the wrong one.
   Coordinates parse_direction_or_axis(bool rotational, const std::vector<double> &direction,
                                       const std::vector<double> &axis, const std::string &section);
 

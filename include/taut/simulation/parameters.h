@@ -40,7 +40,7 @@ namespace taut
     struct ProbeItem
     {
       std::string point;
-      std::vector<double> direction = {0., 1.}, axis;
+      std::vector<double> direction, axis;
       bool rotational = false;
       void declare(dealii::ParameterHandler &prm);
     };

@@ -132,7 +132,19 @@ namespace taut
     /// index.
     double residual(const State &state, const ComplementarityOperator &F, std::size_t &worst);
 
-    /// What is kept from step to step beside the state: the sizes of gaps so far.
+    /// What is kept from step to step beside the state: the sizes of gaps and of their terms so
+    /// far.
+    struct Sizes
+    {
+      std::vector<double> scale, terms;
+    };
+    Sizes sizes() const { return {largest_scale, gap_terms}; }
+    void set_sizes(const Sizes &sizes)
+    {
+      largest_scale = sizes.scale;
+      gap_terms = sizes.terms;
+    }
+
     template <typename Archive>
     void serialize(Archive &archive, unsigned int)
     {

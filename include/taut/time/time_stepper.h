@@ -102,6 +102,7 @@ namespace taut
     void set_history(std::size_t k);
     void set_loads();
     void find_increments();
+    void attempt(const std::function<void()> &work);
     void solve();
     void iterate();
     bool solve_by_newton();
@@ -137,7 +138,16 @@ namespace taut
     long n_iterations = 0; ///< of Newton's method, of all steps
     double segment_start;  ///< time since which steps have this length
     long n_in_segment = 0;
-    PerKind motion_size = {0., 0.}, motion_size_before = {0., 0.}; ///< largest displacements so far
+    PerKind motion_size = {0., 0.}; ///< largest displacements so far
+
+    /// What restore() goes back to beside the state.
+    struct Sizes
+    {
+      PerKind motion;
+      ConstraintMotions::Sizes of_constraints;
+      std::vector<double> rates;
+    };
+    Sizes before_step;
 
     std::unique_ptr<StepSystem> system;
     InterfaceStatistics earlier_systems; ///< of those before
