@@ -62,8 +62,8 @@ TEST(String, lies_flat_on_a_floor_between_its_free_lengths)
             {},
             [&](const taut::StepView &view)
             {
-              left = -T * displacement(view, 0, 0., {0., 1.}, true) / (m * g);
-              right = T * displacement(view, 0, L * (1. - 1e-12), {0., 1.}, true) / (m * g);
+              left = -T * displacement(view, 0, 0., {0., 0., 1.}, true) / (m * g);
+              right = T * displacement(view, 0, L * (1. - 1e-12), {0., 0., 1.}, true) / (m * g);
               first = L;
               resting = 0.;
               for (std::size_t i = 0; i < view.constraints.size(); ++i)
@@ -263,7 +263,7 @@ TEST(AngularStop, moment_and_deflection_follow_from_beam_theory)
                 return;
               moment = view.state.multiplier[0];
               down = displacement(view, 0, 2.);
-              slope = displacement(view, 0, 0., {0., 1.}, true);
+              slope = displacement(view, 0, 0., {0., 0., 1.}, true);
             });
   figure("angular stop, moment", moment, "N m");
   figure("angular stop, deflection in the middle", -1e3 * down, "mm");
