@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
 #include <taut/substructure/constrained_body.h>
 #include <taut/time/time_stepper.h>
 
@@ -13,6 +14,21 @@ namespace taut
     step = length;
     segment_start = current.time;
     n_in_segment = 0;
+  }
+
+  /// A shorter step may have what this one misses.
+  void TimeStepper::attempt(const std::function<void()> &work)
+  {
+    try
+    {
+      work();
+    }
+    catch (const UserError &why)
+    {
+      if (!is_linear())
+        throw StepNotSolved(why);
+      throw;
+    }
   }
 
   void TimeStepper::restore(const State &before)

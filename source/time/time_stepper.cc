@@ -157,21 +157,6 @@ namespace taut
     coefficients = c;
   }
 
-  /// A shorter step may have what this one misses.
-  void TimeStepper::attempt(const std::function<void()> &work)
-  {
-    try
-    {
-      work();
-    }
-    catch (const UserError &why)
-    {
-      if (!is_linear())
-        throw StepNotSolved(why);
-      throw;
-    }
-  }
-
   void TimeStepper::advance()
   {
     ++n_steps;
