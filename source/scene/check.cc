@@ -11,6 +11,34 @@
 
 namespace taut
 {
+  bool can_move(const Scene &scene, const Attachment &end, const bool rotational,
+                const Coordinates &direction)
+  {
+    constexpr double tiny = 1e-12;
+    constexpr std::array<WireMotion, 2> slopes = {WireMotion::slope, WireMotion::lateral_slope};
+    const auto along = [&](const Coordinates &p) { return std::fabs(dot(direction, p)) > tiny; };
+    if (end.kind == Attachment::Kind::ground)
+      return false;
+    if (end.kind == Attachment::Kind::body)
+      return !rotational; // which of its points move is known to the body alone
+    if (end.kind == Attachment::Kind::mass)
+    {
+      const Mass &mass = scene.masses[end.index];
+      return rotational
+                 ? mass.moves[2] && along({0., 0., 1.})
+                 : (mass.moves[0] && along({1., 0.})) || (mass.moves[1] && along({0., 1.})) ||
+                       (mass.moves[3] && along({0., 0., 1.}));
+    }
+    const Wire &wire = scene.wires[end.index];
+    if (rotational)
+      return std::any_of(slopes.begin(), slopes.end(),
+                         [&](const WireMotion slope)
+                         { return wire.has(slope) && along(wire.rotation_axis(slope)); });
+    return std::any_of(std::begin(wire_components), std::end(wire_components),
+                       [&](const WireMotion motion)
+                       { return wire.has(motion) && along(wire.axis(motion)); });
+  }
+
   namespace
   {
     void check_wire(const Wire &wire)
@@ -183,35 +211,6 @@ namespace taut
         if (spring.stiffness == 0. && spring.damping == 0.)
           fail(spring, "Stiffness", what, "it has neither Stiffness nor Damping");
       }
-    }
-
-    /// Whether a point has a motion along a direction, or a rotation about it.
-    bool can_move(const Scene &scene, const Attachment &end, const bool rotational,
-                  const Coordinates &direction)
-    {
-      constexpr double tiny = 1e-12;
-      constexpr std::array<WireMotion, 2> slopes = {WireMotion::slope, WireMotion::lateral_slope};
-      const auto along = [&](const Coordinates &p) { return std::fabs(dot(direction, p)) > tiny; };
-      if (end.kind == Attachment::Kind::ground)
-        return false;
-      if (end.kind == Attachment::Kind::body)
-        return !rotational; // which of its points move is known to the body alone
-      if (end.kind == Attachment::Kind::mass)
-      {
-        const Mass &mass = scene.masses[end.index];
-        return rotational
-                   ? mass.moves[2] && along({0., 0., 1.})
-                   : (mass.moves[0] && along({1., 0.})) || (mass.moves[1] && along({0., 1.})) ||
-                         (mass.moves[3] && along({0., 0., 1.}));
-      }
-      const Wire &wire = scene.wires[end.index];
-      if (rotational)
-        return std::any_of(slopes.begin(), slopes.end(),
-                           [&](const WireMotion slope)
-                           { return wire.has(slope) && along(wire.rotation_axis(slope)); });
-      return std::any_of(std::begin(wire_components), std::end(wire_components),
-                         [&](const WireMotion motion)
-                         { return wire.has(motion) && along(wire.axis(motion)); });
     }
 
     /// Whether an end of a link can, along its direction or, if it turns, at all.

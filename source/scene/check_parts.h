@@ -22,6 +22,10 @@ namespace taut
                      out.str());
   }
 
+  /// Whether a point has a motion along a direction, or a rotation about it.
+  bool can_move(const Scene &scene, const Attachment &end, bool rotational,
+                const Coordinates &direction);
+
   /// Throws an EntryError for items of one kind with one name, or with names that tables cannot
   /// tell apart.
   void check_names(const Scene &scene);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "network.h"
+#include "check_parts.h"
+#include "kinks.h"
 
 #include <taut/base/exceptions.h>
 #include <taut/base/nearest_name.h>
@@ -42,32 +44,13 @@ namespace taut
 
   namespace
   {
-    /// Whether an end of a link can move along a direction.
-    bool moves(const Scene &scene, const Attachment &end, const Coordinates &direction)
-    {
-      if (end.kind == Attachment::Kind::mass)
-      {
-        const bool *const free = scene.masses[end.index].moves;
-        return (free[0] && direction.x != 0.) || (free[1] && direction.y != 0.) ||
-               (free[3] && direction.z != 0.);
-      }
-      if (end.kind == Attachment::Kind::wire)
-      {
-        const Wire &wire = scene.wires[end.index];
-        return std::any_of(std::begin(wire_components), std::end(wire_components),
-                           [&](const WireMotion motion)
-                           { return wire.has(motion) && dot(wire.axis(motion), direction) != 0.; });
-      }
-      return end.kind == Attachment::Kind::body;
-    }
-
     /// A joint along each of x, y, z that one of its ends moves along.
     void add_ball_joint(const Link &all, Scene &scene)
     {
       const std::pair<const char *, Coordinates> axes[] = {
           {" x", {1., 0., 0.}}, {" y", {0., 1., 0.}}, {" z", {0., 0., 1.}}};
       for (const auto &[name, axis] : axes)
-        if (moves(scene, all.from, axis) || moves(scene, all.to, axis))
+        if (can_move(scene, all.from, false, axis) || can_move(scene, all.to, false, axis))
         {
           scene.links.push_back(all);
           scene.links.back().name += name;
@@ -115,6 +98,7 @@ namespace taut
     add_masses(scene);
     add_links(scene);
     add_loads(scene);
+    add_pulls_of_kinks(scene);
   }
 
   void Network::add_wires(Scene &scene) const

@@ -4,9 +4,13 @@
 // polygon; statics of a mass on two ropes; the uncut wire.
 #include "run.h"
 
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/vector.h>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <regex>
@@ -580,7 +584,7 @@ end
 TEST(WiresInSpace, a_polygon_of_wires_is_joined_along_all_axes)
 {
   // Two wires with a kink of 0.016 under a skew load: as one straight string but for the square of
-  // the angle. The pull at the kink, tension times change of direction, is a load of its own.
+  // the angle. The kink pulls with tension times change of direction, 320 N along z.
   std::string text = "set Generator = network\nset Gravity = 0, 0\nsubsection Network\n"
                      "  set Wires = first, second\n  set Supports = ";
   std::string sections;
@@ -613,16 +617,11 @@ TEST(WiresInSpace, a_polygon_of_wires_is_joined_along_all_axes)
              : name == "up"  ? "0, 1, 0"
                              : "0, 0, 1") +
             "\n  end\n";
-  text += R"(  set Loads = wind, kink
+  text += R"(  set Loads = wind
   subsection Load wind
     set On        = first @ 50.001599974400820
     set Direction = 0, -3, 4
     set Magnitude = 200
-  end
-  subsection Load kink
-    set On        = second @ 0
-    set Direction = 0, 0, 1
-    set Magnitude = 320
   end
 end
 subsection Time
@@ -648,6 +647,127 @@ end
                 }
               }
             });
+}
+
+namespace
+{
+  /// A wire without mass and weight, held where it begins.
+  std::string stay(const std::string &name, const std::string &from, const std::string &to,
+                   const double tension)
+  {
+    std::string text =
+        "  subsection Wire " + name + "\n    set From = " + from + "\n    set To = " + to +
+        "\n    set Components = bar, string, lateral\n    set Tension = " +
+        std::to_string(tension) +
+        "\n    set Mass per length = 1\n    set Axial stiffness = 1e6\n    set Weight = "
+        "false\n    set Element size = 5\n  end\n";
+    for (const std::string motion : {"axial", "transverse", "lateral"})
+      text += "  subsection Support " + name + " " + motion + "\n    set Wire = " + name +
+              "\n    set Positions = 0\n    set Motion = " + motion + "\n  end\n";
+    return text;
+  }
+
+  std::string supports_of(const std::string &names)
+  {
+    return std::regex_replace(names, std::regex("(\\w+)"), "$1 axial, $1 transverse, $1 lateral");
+  }
+
+  std::string joint(const std::string &name, const std::string &from, const std::string &to,
+                    const std::string &direction)
+  {
+    return "  subsection Link " + name + "\n    set From = " + from + "\n    set To = " + to +
+           (direction.empty() ? "\n    set Type = ball joint"
+                              : "\n    set Direction = " + direction) +
+           "\n  end\n";
+  }
+
+  /// Displacement in a static state of the end of wire 0 along x, y and z.
+  std::array<double, 3> rest(const std::string &names, const std::string &sections,
+                             const std::string &joints, std::vector<taut::Load> *loads = nullptr)
+  {
+    std::array<double, 3> u;
+    run_scene(
+        "set Generator = network\nset Gravity = 0, 0\nsubsection Network\n  set Wires = " + names +
+            "\n  set Supports = " + supports_of(names) + "\n" + sections +
+            "  set Links = " + joints + "end\nsubsection Time\n  set End = 0\nend\n",
+        {},
+        [&](const taut::StepView &step)
+        {
+          const double end = step.scene.wires[0].length();
+          u = {displacement(step, 0, end, {1., 0., 0.}), displacement(step, 0, end, {0., 1., 0.}),
+               displacement(step, 0, end, {0., 0., 1.})};
+          if (loads != nullptr)
+            *loads = step.scene.loads;
+        });
+    return u;
+  }
+} // namespace
+
+TEST(WiresInSpace, pulls_where_wires_meet_are_in_equilibrium_with_their_stiffness)
+{
+  // Three wires of 20 m meet at the origin, with tensions that are not in equilibrium there. Each
+  // gives way by EA along itself and by T across: a 3 x 3 system.
+  const double EA = 1e6, length = 20.;
+  const std::array<std::array<double, 3>, 3> tangent = {
+      {{1., 0., 0.}, {-.6, 0., .8}, {0., -.6, -.8}}}; // towards the origin
+  const std::array<double, 3> T = {2000., 3000., 2500.};
+  std::string sections;
+  for (unsigned int k = 0; k < 3; ++k)
+  {
+    std::string from;
+    for (const double t : tangent[k])
+      from += (from.empty() ? "" : ", ") + std::to_string(-length * t);
+    sections += stay(std::string(1, 'a' + k), from, "0, 0, 0", T[k]);
+  }
+  dealii::FullMatrix<double> A(3, 3);
+  dealii::Vector<double> pull(3), exact(3);
+  for (unsigned int k = 0; k < 3; ++k)
+    for (unsigned int i = 0; i < 3; ++i)
+    {
+      pull[i] -= T[k] * tangent[k][i];
+      for (unsigned int j = 0; j < 3; ++j)
+        A(i, j) += ((EA - T[k]) * tangent[k][i] * tangent[k][j] + (i == j ? T[k] : 0.)) / length;
+    }
+  A.gauss_jordan();
+  A.vmult(exact, pull);
+  const auto expect = [&](const std::array<double, 3> &found)
+  {
+    for (unsigned int i = 0; i < 3; ++i)
+      EXPECT_NEAR(found[i], exact[i], 1e-9 * exact.l2_norm()) << i;
+  };
+  expect(
+      rest("a, b, c", sections,
+           "ab, ac\n" + joint("ab", "a @ 20", "b @ 20", "") + joint("ac", "a @ 20", "c @ 20", "")));
+  // The same with directions that are not orthogonal.
+  std::string names, joints;
+  for (const std::string other : {"b", "c"})
+    for (const auto &[number, direction] :
+         {std::pair("1", "1, 0, 0"), {"2", "1, 1, 0"}, {"3", "0, 1, -2"}})
+    {
+      names += (names.empty() ? "" : ", ") + other + number;
+      joints += joint(other + number, "a @ 20", other + " @ 20", direction);
+    }
+  expect(rest("a, b, c", sections, names + "\n" + joints));
+}
+
+TEST(WiresInSpace, a_wire_that_goes_on_straight_pulls_nothing)
+{
+  const auto sections = [](const double second) {
+    return stay("a", "0, 0, 0", "16, 12, 0", 2000.) + stay("b", "32, 24, 0", "16, 12, 0", second);
+  };
+  const std::string joints = "j\n" + joint("j", "a @ 20", "b @ 20", "");
+  std::vector<taut::Load> loads;
+  const std::array<double, 3> straight = rest("a, b", sections(2000.), joints, &loads);
+  EXPECT_TRUE(loads.empty());
+  EXPECT_EQ(straight[0], 0.);
+  // Another tension in the second one draws the joint towards it, held by both bars.
+  const std::array<double, 3> drawn = rest("a, b", sections(3000.), joints, &loads);
+  ASSERT_FALSE(loads.empty());
+  EXPECT_NEAR(std::hypot(drawn[0], drawn[1]), 1000. * 20. / 2e6, 1e-9);
+  EXPECT_NEAR(drawn[1] / drawn[0], .75, 1e-9);
+  // A joint across alone passes on none of it.
+  rest("a, b", sections(3000.), "j\n" + joint("j", "a @ 20", "b @ 20", "-3, 4, 0"), &loads);
+  EXPECT_TRUE(loads.empty());
 }
 
 TEST(WiresInSpace, a_wire_in_four_parts_moves_as_the_whole)

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "kinks.h"
+#include "check_parts.h"
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+namespace taut
+{
+  namespace
+  {
+    /// Part of a unit vector and of a tension that is rounding.
+    constexpr double rounding = 1e-9;
+
+    /// Part of the length of a wire by which a place may miss its end: it is written with few
+    /// digits.
+    constexpr double near_end = 1e-3;
+
+    using End = std::pair<std::size_t, bool>; ///< of a wire: its number, and whether it is the last
+
+    /// Whether a place is an end of a wire under tension.
+    bool find_end(const Scene &scene, const Attachment &at, End &end)
+    {
+      if (at.kind != Attachment::Kind::wire || !(scene.wires[at.index].tension > 0.))
+        return false;
+      const double length = scene.wires[at.index].length();
+      end = {at.index, at.position > .5 * length};
+      return std::fabs(at.position - (end.second ? length : 0.)) <= near_end * length;
+    }
+
+    Coordinates pull(const Scene &scene, const End &end)
+    {
+      const Wire &wire = scene.wires[end.first];
+      return add_scaled({}, end.second ? -wire.tension : wire.tension, wire.tangent());
+    }
+
+    /// The part of a unit vector that is across all others, as one; false if there is none.
+    bool across(const std::vector<Coordinates> &others, Coordinates &direction)
+    {
+      for (const Coordinates &other : others)
+        direction = add_scaled(direction, -dot(direction, other), other);
+      const double size = norm(direction);
+      if (size <= rounding)
+        return false;
+      direction = add_scaled({}, 1. / size, direction);
+      return true;
+    }
+
+    Load make_load(const Link &link, const Attachment &target, const Coordinates &direction,
+                   const double magnitude)
+    {
+      std::ostringstream text;
+      text.precision(17);
+      text << magnitude;
+      Load load;
+      load.name = "pull at " + link.name;
+      load.origin = link.origin;
+      load.target = target;
+      load.direction = direction;
+      load.magnitude = Expression(text.str(), link.origin, Expression::Variables::time);
+      return load;
+    }
+  } // namespace
+
+  void add_pulls_of_kinks(Scene &scene)
+  {
+    std::map<End, std::vector<Coordinates>> held; // orthogonal directions in which an end pulls
+    for (const Link &link : scene.links)
+    {
+      std::array<End, 2> ends;
+      if (link.kind != LinkKind::joint || link.rotational || link.turns || !link.rigid() ||
+          !find_end(scene, link.from, ends[0]) || !find_end(scene, link.to, ends[1]))
+        continue;
+      Coordinates sum = {};
+      double size = 0.;
+      for (const End &end : ends)
+      {
+        Coordinates direction = link.direction;
+        if (!across(held[end], direction))
+          continue;
+        held[end].push_back(direction);
+        const Coordinates force = pull(scene, end);
+        sum = add_scaled(sum, dot(force, direction), direction);
+        size += norm(force);
+      }
+      const double magnitude = norm(sum);
+      if (magnitude <= rounding * size)
+        continue;
+      const Coordinates direction = add_scaled({}, 1. / magnitude, sum);
+      for (const Attachment &at : {link.to, link.from})
+        if (can_move(scene, at, false, direction))
+        {
+          scene.loads.push_back(make_load(link, at, direction, magnitude));
+          break;
+        }
+    }
+  }
+} // namespace taut
