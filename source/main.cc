@@ -11,6 +11,8 @@
 #include <taut/study/study.h>
 #include <taut/study/sweep.h>
 
+#include <deal.II/base/multithread_info.h>
+
 #include <boost/program_options.hpp>
 
 #include <unistd.h>
@@ -183,6 +185,8 @@ namespace
 
   void work(const int argc, char **argv, const taut::Communicator &processes)
   {
+    // Processes share the work. An error in a thread of deal.II would end the program there.
+    dealii::MultithreadInfo::set_thread_limit(1);
     const Options options;
     po::variables_map arguments;
     po::store(po::command_line_parser(argc, argv)
