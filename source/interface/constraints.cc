@@ -106,6 +106,33 @@ namespace taut
     append_varying();
   }
 
+  void Constraints::follow(const BodyVectors &reference, const BodyVectors &U, const BodyVectors &V,
+                           const double start, const double end)
+  {
+    const auto motion = [&](const std::vector<Term> &form, const double t)
+    {
+      double sum = evaluate(form, reference) + evaluate(form, U) + (t - start) * evaluate(form, V);
+      structure.communicator().sum(&sum, 1);
+      return sum;
+    };
+    for (std::size_t i = first_with_place; i < constraints.size(); ++i)
+      constraints[i].place->follow(motion, start, end);
+  }
+
+  std::vector<std::vector<double>> Constraints::courses() const
+  {
+    std::vector<std::vector<double>> result;
+    for (std::size_t i = first_with_place; i < constraints.size(); ++i)
+      result.push_back(constraints[i].place->course());
+    return result;
+  }
+
+  void Constraints::set_courses(const std::vector<std::vector<double>> &courses)
+  {
+    for (std::size_t k = 0; k < courses.size(); ++k)
+      constraints[first_with_place + k].place->set_course(courses[k]);
+  }
+
   std::vector<Coordinates> Constraints::differences(const BodyVectors &U) const
   {
     std::vector<double> sums;

@@ -32,8 +32,7 @@ namespace taut
     return Constraint(name, false, a, b);
   }
 
-  Constraint Constraint::unilateral(const std::string &name,
-                                    std::shared_ptr<const MovingPlace> place)
+  Constraint Constraint::unilateral(const std::string &name, std::shared_ptr<MovingPlace> place)
   {
     Constraint result(name, true, {}, {});
     result.data.place = std::move(place);

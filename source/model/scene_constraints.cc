@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/cable/cable.h>
 #include <taut/model/scene_constraints.h>
 #include <taut/model/surface_constraints.h>
 
+#include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace taut
@@ -80,7 +83,7 @@ namespace taut
       std::vector<Term> rates(const double t) const override
       {
         std::vector<Term> slope;
-        bodies.slope(place(t), link.direction, link.speed, slope);
+        bodies.slope(place(t), link.direction, speed(), slope);
         return slope;
       }
 
@@ -89,6 +92,13 @@ namespace taut
       {
         return link.gap + link.profile(position(t), t) + (height(t) - start);
       }
+
+    protected:
+      virtual double speed() const { return link.speed; }
+
+      const Scene &scene;
+      const SceneBodies &bodies;
+      const Link link;
 
     private:
       Attachment place(const double t) const { return SceneBodies::moved(link.to, position(t)); }
@@ -131,10 +141,108 @@ namespace taut
         throw EntryError(link.origin, out.str());
       }
 
-      const Scene &scene;
-      const SceneBodies &bodies;
-      const Link link;
       const double start;
+    };
+
+    /// One with this speed in space, on a cable that slides by as it moves: where it is at the end
+    /// of a step follows from the motion at its start.
+    class StraightPlace : public SlidingPlace
+    {
+    public:
+      StraightPlace(const Scene &scene, const SceneBodies &bodies, const Link &link)
+          : SlidingPlace(scene, bodies, link)
+      {
+        const std::size_t k = bodies.index_at(link.to.index, link.to.place);
+        if (k != Structure::elsewhere)
+          length = dynamic_cast<const Cable &>(bodies[k]).elements().length();
+        bodies.communicator().sum(&length, 1);
+        const Coordinates chord = rest(length) - rest(0.);
+        along = add_scaled(chord, -dot(chord, link.direction), link.direction);
+        if (!(norm(along) > nearly_across * norm(chord)))
+          throw EntryError(link.origin + "/Straight",
+                           "the line between the ends of the cable is along the Direction of the "
+                           "contact, and none is left that it could travel; set it to false");
+        along = add_scaled({}, 1. / norm(along), along);
+      }
+
+      double position(const double t) const override
+      {
+        return is_known ? known.position + known.speed * (t - known.time)
+                        : SlidingPlace::position(t);
+      }
+
+      void follow(const Motion &motion, const double start, const double end) override
+      {
+        if (!is_known)
+          known.origin = reached(motion, position(start), start) - link.speed * start;
+        const double before = position(start), way = known.origin + link.speed * end;
+        double s = before, error = reached(motion, s, end) - way, slope = 1.;
+        for (int i = 0; std::fabs(error) > same_place * length; ++i)
+        {
+          const double next = std::clamp(s - error / slope, 0., length);
+          if (next == s || i == most_searches)
+            leave(end);
+          const double error_there = reached(motion, next, end) - way;
+          slope = (error_there - error) / (next - s);
+          s = next;
+          error = error_there;
+        }
+        known = {known.origin, end, s, (s - before) / (end - start)};
+        is_known = true;
+      }
+
+      std::vector<double> course() const override
+      {
+        return is_known ? std::vector<double>{known.origin, known.time, known.position, known.speed}
+                        : std::vector<double>();
+      }
+
+      void set_course(const std::vector<double> &course) override
+      {
+        is_known = !course.empty();
+        if (is_known)
+          known = {course[0], course[1], course[2], course[3]};
+      }
+
+    private:
+      static constexpr double nearly_across = 1e-6; ///< sine of an angle
+      static constexpr double same_place = 1e-13;   ///< over the length of the cable
+      static constexpr int most_searches = 50;      ///< a secant method takes five
+
+      double speed() const override { return is_known ? known.speed : link.speed; }
+
+      Coordinates rest(const double s) const
+      {
+        return bodies.position(scene, SceneBodies::moved(link.to, s));
+      }
+
+      /// How far along the way a place of the cable is at a time [m].
+      double reached(const Motion &motion, const double s, const double t) const
+      {
+        std::vector<Term> form;
+        bodies.motion(SceneBodies::moved(link.to, s), false, along, 1., form);
+        return dot(along, rest(s)) + motion(form, t);
+      }
+
+      [[noreturn]] void leave(const double t) const
+      {
+        std::ostringstream out;
+        out << "sliding contact '" << link.name << "' finds no place of the cable at t = " << t
+            << " s: it has come to an end of it, or the cable turns back there. End the run "
+               "earlier, or lengthen the cable";
+        throw EntryError(link.origin, out.str());
+      }
+
+      Coordinates along; ///< the way
+      double length = 0.;
+
+      struct Course
+      {
+        double origin;                ///< along the way at t = 0 [m]
+        double time, position, speed; ///< along the cable [s, m, m/s]
+      };
+      Course known = {};
+      bool is_known = false;
     };
   } // namespace
 
@@ -152,7 +260,8 @@ namespace taut
       constraint.damping = link.damping;
       constraint.gap = link.gap;
       if (link.moving())
-        constraint.place = std::make_shared<SlidingPlace>(scene, bodies, link);
+        constraint.place = link.straight ? std::make_shared<StraightPlace>(scene, bodies, link)
+                                         : std::make_shared<SlidingPlace>(scene, bodies, link);
       else if (link.turns)
         constraint.direction = turning_direction(scene, bodies, link);
       else

@@ -283,6 +283,7 @@ namespace taut
       link.unstressed_length = item.length;
       check_turns(item, link, is_ball_joint, title);
       link.speed = item.speed;
+      link.straight = item.straight;
       link.profile =
           Expression(item.profile, title + "/Height profile", Expression::Variables::position);
       link.find_length = item.find_length;
@@ -303,6 +304,9 @@ namespace taut
         link.to = to[to.size() > 1 ? k : 0];
         if (link.moving() && link.to.kind == Attachment::Kind::body)
           link.to.position = link.to.place.x;
+        if (link.straight && !(link.moving() && is_on_cable(scene, link.to)))
+          throw EntryError(title + "/Straight", "it is of a sliding contact on a cable, whose "
+                                                "length is not that of its way; set it to false");
         check_ends(link, scene, title, !item.direction.empty() || is_ball_joint || link.turns);
         if (is_ball_joint)
         {

@@ -68,7 +68,7 @@ namespace taut
       std::string law = "linear", law_points, law_formula;
       double law_range = 0.;
       std::vector<double> direction, axis;
-      bool rotational = false, find_length = false, turns = false;
+      bool rotational = false, find_length = false, turns = false, straight = false;
       double damping = 0., gap = 0., length = 0., speed = 0.;
       double prescribed_displacement = 0., axial_stiffness = 0., mass_per_length = 0.;
       void declare(dealii::ParameterHandler &prm);

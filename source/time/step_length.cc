@@ -37,6 +37,7 @@ namespace taut
     turning.follow(current);
     motion_size = before_step.motion;
     constraint_motions.set_sizes(before_step.of_constraints);
+    constraints.set_courses(before_step.courses);
     if (projection && !before_step.rates.empty())
       projection->set_largest_rates(before_step.rates);
     --n_steps;

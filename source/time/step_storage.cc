@@ -11,6 +11,9 @@ namespace taut
     archive &step &step_before &segment_start &n_in_segment &n_steps;
     for (double &size : motion_size)
       archive &size;
+    std::vector<std::vector<double>> courses = constraints.courses();
+    archive &courses;
+    constraints.set_courses(courses);
   }
 
   void TimeStepper::save(OutputArchive &archive)

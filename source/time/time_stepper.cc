@@ -161,7 +161,7 @@ namespace taut
   {
     ++n_steps;
     last = {};
-    before_step = {motion_size, constraint_motions.sizes(),
+    before_step = {motion_size, constraint_motions.sizes(), constraints.courses(),
                    projection ? projection->largest_rates() : std::vector<double>()};
     const bool is_first = current.last_step == 0.;
     const StepCoefficients c = is_first && first_step_is_backward_euler ? backward_euler(step)
@@ -170,11 +170,13 @@ namespace taut
                                    : integrator.after_change(step, current.last_step);
     if (c != coefficients)
       attempt([&] { prepare(c); });
+    const double start = current.time;
     current.time = segment_start + ++n_in_segment * step;
     check.set_time(current.time);
     constraint_motions.begin_step(is_first);
     step_before = current.last_step;
     current.last_step = step;
+    constraints.follow(reference_state.displacement, current.U, current.V, start, current.time);
     constraints.update(current.time);
     if (turning.empty())
       system->interface().update_moving();

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: a contact slides along a cable as along a wire, and follows its shape at rest. Sources:
 // the same scene with a straight wire; a taut string under a force, F x (l - x)/(l T) below its
-// parabola.
+// parabola. With a speed in space: the elastic catenary; the way that was given.
+#include "cable/elastic_catenary.h"
 #include "cable/slack_cable.h"
 #include "verification/run.h"
 
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -138,6 +140,107 @@ TEST(CableSliding, follows_the_shape_at_rest)
   figure("way of a mass that slides under a nonlinear cable beside that at rest", slid - there,
          "m");
   EXPECT_NEAR(slid, there, .05 * across);
+}
+
+namespace
+{
+  constexpr std::size_t cable_body = 1; ///< after the mass
+
+  /// A cable of 78 m over 60 m, far above a contact that travels at 4 m/s from s = 13 m on.
+  void slack(const std::vector<std::string> &settings,
+             const std::function<void(const taut::StepView &)> &record)
+  {
+    std::vector<std::string> all = {
+        "Body cable/Unstressed length=78", "Body cable/Bending stiffness=0",
+        "Network/Loads=push, swing",       "Network/Link contact/Gap=100",
+        "Network/Link contact/Speed=4",    "Network/Link contact/Straight=true"};
+    all.insert(all.end(), settings.begin(), settings.end());
+    run_scene(scene("cable @ 13, 0", cable("nonlinear", "-9.81")) +
+                  "subsection Network\n subsection Load swing\n  set On = cable @ 39, 0\n"
+                  "  set Direction = 1, 0\n end\nend\n",
+              all, record);
+  }
+
+  /// Where the contact is along the cable.
+  double place_of_contact(const taut::StepView &view)
+  {
+    return view.constraints.position(view.constraints.first_moving(), view.state.time);
+  }
+} // namespace
+
+TEST(CableSliding, straight_along_a_catenary)
+{
+  const ElasticCatenary exact({}, {60., 0.}, {0., -1.07 * 9.81}, 13e6, 78.);
+  ASSERT_LT(exact.error, 1e-9);
+  const double start = exact.position(13.).x;
+  std::vector<double> errors;
+  for (const int elements : {30, 60})
+  {
+    double error = 0., longest = 0.;
+    slack({"Body cable/Elements=" + std::to_string(elements), "Time/Step=0.1", "Time/End=11"},
+          [&](const taut::StepView &view)
+          {
+            const double s = place_of_contact(view);
+            error = std::max(error, std::fabs(exact.position(s).x - start - 4. * view.state.time));
+            longest = std::max(longest, s);
+          });
+    EXPECT_GT(longest, 63.);
+    figure("place of a contact with a speed in space on a slack cable, " +
+               std::to_string(elements) + " elements",
+           error, "m");
+    errors.push_back(error);
+  }
+  EXPECT_LT(errors[1], 1e-5);
+  EXPECT_LT(errors[1], errors[0] / 4.);
+}
+
+TEST(CableSliding, straight_along_a_cable_that_swings)
+{
+  std::vector<double> steps, errors;
+  double slid = 0.;
+  for (const double step : {.04, .02, .01})
+  {
+    double error = 0.;
+    slid = 0.;
+    slack(
+        {"Body cable/Elements=40", "Time/End=4", "Network/Load swing/Magnitude=300*sin(2*t)",
+         "Time/Step=" + std::to_string(step)},
+        [&, start = 0.](const taut::StepView &view) mutable
+        {
+          const double s = place_of_contact(view);
+          const taut::LinearForm form = view.structure[cable_body].displacement({s}, {1., 0., 0.});
+          const double moved = form.dot(view.reference.displacement[cable_body]) +
+                               form.dot(view.state.U[cable_body]),
+                       x = view.structure[cable_body].position({s}).x + moved;
+          if (view.state.time == 0.)
+            start = x;
+          error = std::max(error, std::fabs(x - start - 4. * view.state.time));
+          slid = std::max(slid, std::fabs(moved));
+        });
+    figure("contact with a speed in space off its way, steps of " + std::to_string(step) + " s",
+           error, "m");
+    steps.push_back(step);
+    errors.push_back(error);
+  }
+  figure("motion of the cable along that way", slid, "m");
+  EXPECT_GT(slid, 1.);
+  EXPECT_GT(fitted_order(steps, errors), 1.7);
+  EXPECT_LT(errors.back(), 1e-3 * slid);
+}
+
+TEST(CableSliding, straight_off_the_end)
+{
+  try
+  {
+    slack({"Time/Step=0.1", "Time/End=20"}, [](const taut::StepView &) {});
+    ADD_FAILURE() << "was taken";
+  }
+  catch (const taut::UserError &e)
+  {
+    EXPECT_NE(std::string(e.what()).find("sliding contact 'contact' finds no place of the cable"),
+              std::string::npos)
+        << e.what();
+  }
 }
 
 TEST(CableSliding, leaves_the_cable)

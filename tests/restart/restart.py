@@ -55,6 +55,7 @@ SCENES = [
     ["line_with_droppers.prm", *entries(Time__End=0.6, Output__Checkpoint_interval=0.1)],
     ["line_with_droppers.prm", *entries(Time__End=0.6, Output__Checkpoint_interval=0.1, Body_messenger__Geometry="linearised",
                                         Body_contact_wire__Geometry="linearised")],
+    ["line_of_cables_with_weights.prm", *entries(Time__End=0.1, Statistics__Window="", Output__Checkpoint_interval=0.02)],
 ]
 errors = []
 

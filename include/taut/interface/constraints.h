@@ -7,6 +7,7 @@
 #include <taut/substructure/structure.h>
 
 #include <array>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
@@ -36,6 +37,17 @@ namespace taut
 
     /// D at U = 0, N = 0 [m].
     virtual double gap(double t) const = 0;
+
+    /// B U of a linear form at a time near the start of a step, over all ranks [m].
+    using Motion = std::function<double(const std::vector<Term> &form, double t)>;
+
+    /// Before a step from @p start to @p end [s], of a place that depends on the motion of the
+    /// bodies: takes the place that it will have. Called by all ranks together.
+    virtual void follow(const Motion &, double /*start*/, double /*end*/) {}
+
+    /// What follow() has found, for checkpoints.
+    virtual std::vector<double> course() const { return {}; }
+    virtual void set_course(const std::vector<double> &) {}
   };
 
   /// One scalar condition with its multiplier, as a linear form B_i on the displacements.
@@ -51,12 +63,11 @@ namespace taut
     /// The law of N over the compression of the spring, of unilateral constraints; null: linear.
     /// The stiffness is then its largest one.
     std::shared_ptr<const ForceLaw> law = {};
-    double damping = 0.;          ///< [N s/m, N m s/rad]
-    double gap = 0.;              ///< D at U = 0, N = 0 [m, rad]
-    std::vector<Term> terms = {}; ///< B_i: D = terms . U + gap + N / stiffness
-    std::shared_ptr<const MovingPlace> place =
-        {};              ///< of a constraint that moves; sets terms and gap
-    bool moving = false; ///< has a place
+    double damping = 0.;                     ///< [N s/m, N m s/rad]
+    double gap = 0.;                         ///< D at U = 0, N = 0 [m, rad]
+    std::vector<Term> terms = {};            ///< B_i: D = terms . U + gap + N / stiffness
+    std::shared_ptr<MovingPlace> place = {}; ///< of a constraint that moves; sets terms and gap
+    bool moving = false;                     ///< has a place
 
     /// Of a constraint that turns with its ends; sets terms and gap.
     std::shared_ptr<const TurningDirection> direction = {};
@@ -86,6 +97,16 @@ namespace taut
     /// Puts the moving constraints where they are at time t [s]. Throws UserError when one leaves
     /// its wire.
     void update(double t);
+
+    /// Before a step to time @p end [s] from @p start, where the bodies have displacements
+    /// @p reference + @p U and velocities @p V: moving constraints take the places that they will
+    /// have. Called by all ranks together, before update().
+    void follow(const BodyVectors &reference, const BodyVectors &U, const BodyVectors &V,
+                double start, double end);
+
+    /// Of each moving constraint, see MovingPlace::course().
+    std::vector<std::vector<double>> courses() const;
+    void set_courses(const std::vector<std::vector<double>> &courses);
 
     /// Delta of each constraint that turns, from n_fixed() on, at U = @p reference + @p U, and the
     /// part that is linear in U alone. Called by all ranks together [m].

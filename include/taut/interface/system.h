@@ -29,7 +29,7 @@ namespace taut
                                 const Displacement &b = {});
 
     /// One whose displacement and gap @p place gives anew at each time.
-    static Constraint unilateral(const std::string &name, std::shared_ptr<const MovingPlace> place);
+    static Constraint unilateral(const std::string &name, std::shared_ptr<MovingPlace> place);
 
     /**
      * Constraints along the line from end @p a to end @p b at each time, however far these move.

@@ -145,6 +145,7 @@ namespace taut
     {
       PerKind motion;
       ConstraintMotions::Sizes of_constraints;
+      std::vector<std::vector<double>> courses;
       std::vector<double> rates;
     };
     Sizes before_step;
