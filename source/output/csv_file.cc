@@ -6,11 +6,6 @@
 
 namespace taut
 {
-  namespace
-  {
-    constexpr std::size_t buffer_size = 1 << 16;
-  } // namespace
-
   std::string csv_cell(const std::string &text)
   {
     if (text.find_first_of(",\"\n") == std::string::npos)
@@ -89,7 +84,7 @@ namespace taut
   {
     buffer += '\n';
     line_begins = true;
-    if (buffer.size() > buffer_size)
+    if (buffer.size() > table_buffer)
       write();
   }
 

@@ -3,25 +3,40 @@
 #include <taut/output/interval_table.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace taut
 {
+  namespace
+  {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+  } // namespace
+
+  void IntervalTable::add(const std::string &name, const std::string &unit, const Kind kind)
+  {
+    columns.push_back({name, unit, kind});
+    last.push_back(0.);
+    least.push_back(infinity);
+    largest.push_back(-infinity);
+    n_changes.push_back(0);
+  }
+
   void IntervalTable::add_value(const std::string &name, const std::string &unit)
   {
-    columns.push_back({name, unit, Kind::value});
+    add(name, unit, Kind::value);
   }
 
   void IntervalTable::add_quantity(const std::string &name, const std::string &unit)
   {
-    columns.push_back({name, unit, interval > 0. ? Kind::quantity : Kind::value});
+    add(name, unit, interval > 0. ? Kind::quantity : Kind::value);
   }
 
   void IntervalTable::add_state(const std::string &name)
   {
-    columns.push_back({name, "1", Kind::state});
+    add(name, "1", Kind::state);
   }
 
-  void IntervalTable::open(const std::string &path, const bool goes_on)
+  void IntervalTable::open(const TableFormat format, const std::string &stem, const bool goes_on)
   {
     std::vector<std::string> header = {"time [s]"};
     for (const Column &column : columns)
@@ -37,7 +52,7 @@ namespace taut
         header.push_back(column.name + " largest" + unit);
       }
     }
-    file = std::make_unique<CsvFile>(path, header, goes_on);
+    file = make_number_table(format, stem, header, goes_on);
   }
 
   void IntervalTable::record(const double now, const std::vector<double> &values)
@@ -45,12 +60,12 @@ namespace taut
     time = now;
     for (std::size_t i = 0; i < columns.size(); ++i)
     {
-      Column &column = columns[i];
-      column.n_changes += has_started && values[i] != column.last;
-      column.last = values[i];
-      column.least = std::min(column.least, values[i]);
-      column.largest = std::max(column.largest, values[i]);
+      if (columns[i].kind == Kind::state)
+        n_changes[i] += has_started && values[i] != last[i];
+      least[i] = std::min(least[i], values[i]);
+      largest[i] = std::max(largest[i], values[i]);
     }
+    last = values;
     has_started = is_pending = true;
     // A step counts as due if it is within rounding of its time.
     if (time >= next - 1e-9 * interval)
@@ -59,31 +74,39 @@ namespace taut
 
   void IntervalTable::write_line()
   {
-    file->begin_line(time);
-    for (Column &column : columns)
+    line.clear();
+    for (std::size_t i = 0; i < columns.size(); ++i)
     {
-      if (column.kind != Kind::state)
-        *file << column.last;
+      const Kind kind = columns[i].kind;
+      if (kind != Kind::state)
+        line.push_back(last[i]);
       else if (interval > 0.)
-        *file << column.n_changes;
-      if (column.kind == Kind::quantity)
-        *file << column.least << column.largest;
-      column.least = std::numeric_limits<double>::infinity();
-      column.largest = -column.least;
-      column.n_changes = 0;
+        line.push_back(n_changes[i]);
+      if (kind == Kind::quantity)
+      {
+        line.push_back(least[i]);
+        line.push_back(largest[i]);
+      }
     }
-    file->end_line();
+    std::fill(least.begin(), least.end(), infinity);
+    std::fill(largest.begin(), largest.end(), -infinity);
+    std::fill(n_changes.begin(), n_changes.end(), 0);
+    file->add_line(time, line);
     next = time + interval;
     is_pending = false;
+  }
+
+  template <typename Archive>
+  void IntervalTable::store(Archive &archive)
+  {
+    archive &time &next &has_started &is_pending &last &least &largest &n_changes;
   }
 
   void IntervalTable::save(OutputArchive &archive)
   {
     if (!file)
       return;
-    archive << time << next << has_started << is_pending;
-    for (const Column &column : columns)
-      archive << column.last << column.least << column.largest << column.n_changes;
+    store(archive);
     const std::size_t length = file->save();
     archive << length;
   }
@@ -92,9 +115,7 @@ namespace taut
   {
     if (!file)
       return;
-    archive >> time >> next >> has_started >> is_pending;
-    for (Column &column : columns)
-      archive >> column.last >> column.least >> column.largest >> column.n_changes;
+    store(archive);
     std::size_t length = 0;
     archive >> length;
     file->resume(length);

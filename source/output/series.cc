@@ -6,7 +6,8 @@
 namespace taut
 {
   Series::Series(const std::string &folder, const Scene &scene, const Constraints &constraints,
-                 const double interval, const double link_interval, const bool resumes)
+                 const TableFormat format, const double interval, const double link_interval,
+                 const bool resumes)
       : interval(interval), sliding(interval), links(link_interval), supports(link_interval),
         probes(interval)
   {
@@ -18,13 +19,11 @@ namespace taut
                             point.is_moment ? "N m" : "N");
     for (const Probe &probe : scene.probes)
       probes.add_quantity(probe.name, probe.rotational ? "rad" : "m");
-    const std::pair<IntervalTable *, const char *> tables[] = {{&sliding, "/sliding.csv"},
-                                                               {&links, "/links.csv"},
-                                                               {&supports, "/supports.csv"},
-                                                               {&probes, "/probes.csv"}};
+    const std::pair<IntervalTable *, const char *> tables[] = {
+        {&sliding, "/sliding"}, {&links, "/links"}, {&supports, "/supports"}, {&probes, "/probes"}};
     for (const auto &[table, name] : tables)
       if (!table->is_empty())
-        table->open(folder + name, resumes);
+        table->open(format, folder + name, resumes);
     const std::vector<std::string> columns = {"time [s]",
                                               "complementarity [1]",
                                               "balance [1]",
@@ -33,7 +32,7 @@ namespace taut
                                               "contact energy [J]",
                                               "contact gap [m or rad]",
                                               "peak over mean [1]"};
-    certificate = std::make_unique<CsvFile>(folder + "/certificate.csv", columns, resumes);
+    certificate = make_number_table(format, folder + "/certificate", columns, resumes);
   }
 
   void Series::add_link(const ConstraintData &constraint)
@@ -85,12 +84,11 @@ namespace taut
     if (!(time >= next - 1e-9 * interval))
       return;
     next = time + interval;
-    certificate->begin_line(time);
-    *certificate << step.certificate.complementarity << step.certificate.balance
-                 << step.certificate.drift << step.certificate.iterations;
+    const Certificate &found = step.certificate;
     const ContactMeasures::Summary contacts = step.measures.summary();
-    *certificate << contacts.contact_energy << contacts.gap << contacts.resolution;
-    certificate->end_line();
+    values = {found.complementarity,   found.balance, found.drift,        double(found.iterations),
+              contacts.contact_energy, contacts.gap,  contacts.resolution};
+    certificate->add_line(time, values);
   }
 
   void Series::save(OutputArchive &archive)
@@ -125,7 +123,7 @@ namespace taut
     IntervalTable table(0.);
     for (const Probe &probe : scene.probes)
       table.add_quantity(probe.name, probe.rotational ? "rad" : "m");
-    table.open(folder + "/probes.csv");
+    table.open(TableFormat::csv, folder + "/probes");
     table.record(0., probes);
     table.close();
   }

@@ -16,17 +16,23 @@ class UserError(Exception):
 
 
 class Table:
-    """A CSV file of taut: its columns by header, in order. A last line that a killed run left unfinished is dropped."""
+    """A table of taut, .csv or .bin: its columns by header, in order. A last line that a killed run left unfinished is
+    dropped."""
 
     def __init__(self, path):
         try:
-            with open(path, newline="", encoding="utf-8") as file:
-                text = file.read()
+            with open(path, "rb") as file:
+                names, _, data = file.read().partition(b"\n")
+            text = "" if path.endswith(".bin") else data[:data.rfind(b"\n") + 1].decode()
+            header = (list(csv.reader([names.decode()])) or [[]])[0]
         except (OSError, UnicodeDecodeError) as error:
             raise UserError(f"cannot read '{path}': {error}") from error
-        header, *lines = list(csv.reader(text[:text.rfind("\n") + 1].splitlines())) or [[]]
         try:
-            values = np.array([[float(cell) for cell in line] for line in lines]).reshape(-1, len(header))
+            if path.endswith(".bin"):
+                values = np.frombuffer(data[:len(data) - len(data) % (8 * len(header))])
+            else:
+                values = np.array([[float(cell) for cell in line] for line in csv.reader(text.splitlines())])
+            values = values.reshape(-1, len(header))
         except (ValueError, TypeError) as error:
             raise UserError(f"'{path}' is damaged: {error}") from error
         self.columns = dict(zip(header, values.T))
@@ -95,7 +101,7 @@ class Results:
         if not self.has("used.prm"):
             raise UserError(f"'{folder}' holds no results of taut: there is no used.prm in it")
         self.entries = read_entries(self.path("used.prm"))
-        self.is_static = self.has("start.csv") and not self.has("certificate.csv")
+        self.is_static = self.has("start.csv") and not self.has("certificate.csv") and not self.has("certificate.bin")
         self.statistics = {}
         if self.has("statistics.json"):
             try:
@@ -112,8 +118,9 @@ class Results:
         return os.path.exists(self.path(name))
 
     def table(self, name):
-        """The table, or None where there is no such file or no line in it yet."""
-        table = Table(self.path(name)) if self.has(name) else None
+        """The table, .csv or .bin, or None where there is no such file or no line in it yet."""
+        found = [file for file in (name, name.replace(".csv", ".bin")) if self.has(file)]
+        table = Table(self.path(found[0])) if found else None
         return table if table else None
 
     def end(self):

@@ -53,6 +53,12 @@ namespace taut
         "each unilateral link opened or closed [s]",
         not_negative());
     prm.add_parameter(
+        "Tables", tables,
+        "How these tables are written, 'csv': as text; 'binary': to sliding.bin and so "
+        "on, the header line of a CSV file and then line after line of numbers as 8-byte "
+        "doubles, for long runs in which text takes a fifth of the time",
+        Selection("csv|binary"));
+    prm.add_parameter(
         "Field interval", field_interval,
         "Least time between two files of the motion of all wires for ParaView; 0: none "
         "[s]",

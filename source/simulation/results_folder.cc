@@ -23,9 +23,11 @@ namespace taut
     /// have, too: they would be of another run.
     std::set<std::string> names_of_results()
     {
-      std::set<std::string> names = {
-          "used.prm",     "start.csv", "sliding.csv",     "links.csv",       "probes.csv",
-          "supports.csv", "wires.pvd", "certificate.csv", "statistics.json", "links.pvd"};
+      std::set<std::string> names = {"used.prm", "start.csv", "wires.pvd", "statistics.json",
+                                     "links.pvd"};
+      for (const char *const table : {"sliding", "links", "probes", "supports", "certificate"})
+        for (const char *const ending : {".csv", ".bin"})
+          names.insert(std::string(table) + ending);
       for (const char *const name : checkpoint_names)
         names.insert(name);
       for (const std::string &observer : Registry<Observer>::instance().list())

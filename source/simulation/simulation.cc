@@ -142,7 +142,9 @@ namespace taut
         {
           if (!parameters.output.writes)
             return;
-          series = std::make_unique<Series>(parameters.output.folder, model, links,
+          const TableFormat format =
+              parameters.output.tables == "binary" ? TableFormat::binary : TableFormat::csv;
+          series = std::make_unique<Series>(parameters.output.folder, model, links, format,
                                             parameters.output.interval,
                                             parameters.output.link_interval, checkpoint != nullptr);
         });

@@ -41,7 +41,7 @@ PATIENCE = 600.  # [s]
 SCENES = [
     [LINE, *entries(Time__End=1.5, Statistics__Window="", Output__Observers="energy", Output__Checkpoint_interval=0.2)],
     [LINE, *entries(Time__End=0.6, Time__Step=2e-4, Statistics__Window="", Output__Checkpoint_interval=0.1,
-                    Output__Interval=0.01, Time__Step_control="adaptive"), "--set", f"{CONTACT}=rigid"],
+                    Output__Interval=0.01, Output__Tables="binary", Time__Step_control="adaptive"), "--set", f"{CONTACT}=rigid"],
     [LINE, *entries(Time__End=0.4, Statistics__Window="", Output__Checkpoint_interval=0.05,
                     Solver__Interface_operator="matrix-free", Partition__Number_of_substructures=8)],
     ["bouncing_bar.prm", *entries(Time__End=5, Output__Checkpoint_interval=0.5, Output__Observers="energy")],

@@ -65,6 +65,19 @@ namespace
     return {std::istreambuf_iterator<char>(in), {}};
   }
 
+  Table read_binary(const std::string &path)
+  {
+    std::ifstream in(path, std::ios::binary);
+    std::string line;
+    std::getline(in, line);
+    const std::vector<std::string> head = cells_of(line);
+    Table table;
+    double value;
+    for (std::size_t i = 0; in.read(reinterpret_cast<char *>(&value), sizeof value); ++i)
+      table[head[i % head.size()]].push_back(value);
+    return table;
+  }
+
   struct Step
   {
     double time, force, gap, probe;
@@ -136,6 +149,36 @@ TEST(Series, a_line_each_step_has_no_more_columns)
   ASSERT_EQ(table.at("time [s]").size(), steps.size());
   for (std::size_t i = 0; i < steps.size(); ++i)
     EXPECT_EQ(table.at("buffer force [N]")[i], steps[i].force);
+}
+
+// Claim: binary tables have the numbers of those in text, which are written without loss, and times
+// to all digits.
+TEST(Series, binary_tables_have_the_same_numbers)
+{
+  for (const char *interval : {"0", "0.01"})
+  {
+    const std::vector<std::string> settings = {std::string("Output.Link interval=") + interval,
+                                               std::string("Output.Interval=") + interval};
+    Session text_session(scene, settings);
+    run(text_session);
+    std::vector<std::string> with_binary = settings;
+    with_binary.push_back("Output.Tables=binary");
+    Session binary_session(scene, with_binary);
+    run(binary_session);
+    for (const std::string name : {"/links", "/probes", "/certificate"})
+    {
+      Table expected = read(text_session.folder() + name + ".csv"),
+            found = read_binary(binary_session.folder() + name + ".bin");
+      ASSERT_GT(expected.size(), 1u);
+      const std::vector<double> time = expected.at("time [s]");
+      ASSERT_EQ(found["time [s]"].size(), time.size());
+      for (std::size_t i = 0; i < time.size(); ++i)
+        EXPECT_NEAR(found["time [s]"][i], time[i], 1e-14);
+      found["time [s]"] = time;
+      EXPECT_EQ(found, expected) << name;
+      EXPECT_EQ(text(binary_session.folder() + name + ".csv"), "") << "of one kind only";
+    }
+  }
 }
 
 // Claim: times are printed as they are meant. Expected: multiples of 0.001 with three decimals,

@@ -10,6 +10,9 @@
 
 namespace taut
 {
+  /// What tables keep in memory before they write [bytes].
+  constexpr std::size_t table_buffer = 1 << 16;
+
   /// A time [s] as short as it was meant: to 14 digits, 0.009 for 9 steps of 0.001.
   std::string time_text(double time);
 

@@ -3,9 +3,8 @@
 #define taut_interval_table_h
 
 #include <taut/base/archive_forward.h>
-#include <taut/output/csv_file.h>
+#include <taut/output/number_table.h>
 
-#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -34,8 +33,9 @@ namespace taut
 
     bool is_empty() const { return columns.empty(); }
 
-    /// Creates the file, or leaves one that @p goes_on for load(). Throws UserError if it cannot.
-    void open(const std::string &path, bool goes_on = false);
+    /// Creates the file @p stem.csv or @p stem.bin, or leaves one that @p goes_on for load().
+    /// Throws UserError if it cannot.
+    void open(TableFormat format, const std::string &stem, bool goes_on = false);
 
     /// One step at a time [s]: a value for each column in the order in which they were added, of a
     /// state a number that changes with it. Throws UserError when the disk is full.
@@ -60,16 +60,20 @@ namespace taut
     {
       std::string name, unit;
       Kind kind;
-      double last = 0., least = std::numeric_limits<double>::infinity(), largest = -least;
-      unsigned int n_changes = 0;
     };
 
+    void add(const std::string &name, const std::string &unit, Kind kind);
     void write_line();
+    template <typename Archive>
+    void store(Archive &archive);
 
     double interval, time = 0., next = 0.;
     bool has_started = false, is_pending = false;
     std::vector<Column> columns;
-    std::unique_ptr<CsvFile> file;
+    std::vector<double> last, least, largest; ///< of each column
+    std::vector<unsigned int> n_changes;      ///< of each state
+    std::vector<double> line;
+    std::unique_ptr<NumberTable> file;
   };
 } // namespace taut
 

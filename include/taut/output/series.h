@@ -2,7 +2,6 @@
 #ifndef taut_series_h
 #define taut_series_h
 
-#include <taut/output/csv_file.h>
 #include <taut/output/interval_table.h>
 #include <taut/output/observer.h>
 
@@ -13,10 +12,11 @@
 namespace taut
 {
   /**
-   * Time series as CSV: sliding.csv (each sliding contact: position, force, gap), links.csv (force
-   * and gap of every fixed link), supports.csv (force of every support on its wire), probes.csv,
-   * certificate.csv. A file without content is not made. With an interval, tables but the last have
-   * the extremes since the line before, and of unilateral links how often they opened or closed.
+   * Time series as tables: sliding.csv (each sliding contact: position, force, gap), links.csv
+   * (force and gap of every fixed link), supports.csv (force of every support on its wire),
+   * probes.csv, certificate.csv; as binary tables .bin. A file without content is not made. With an
+   * interval, tables but the last have the extremes since the line before, and of unilateral links
+   * how often they opened or closed.
    */
   class Series : public Observer
   {
@@ -24,7 +24,7 @@ namespace taut
     /// @p interval and @p link_interval: least time between two lines [s]; 0: every step.
     /// @p resumes: the files go on, see resume().
     Series(const std::string &folder, const Scene &scene, const Constraints &constraints,
-           double interval, double link_interval, bool resumes = false);
+           TableFormat format, double interval, double link_interval, bool resumes = false);
 
     void record(const StepView &step) override;
 
@@ -39,7 +39,7 @@ namespace taut
 
     double interval, next = 0.;
     IntervalTable sliding, links, supports, probes;
-    std::unique_ptr<CsvFile> certificate;
+    std::unique_ptr<NumberTable> certificate;
     std::vector<double> values; ///< of one table and step
   };
 

@@ -27,7 +27,7 @@ namespace taut
   /// Where results go, and how often.
   struct OutputParameters
   {
-    std::string folder = "results";
+    std::string folder = "results", tables = "csv";
     double interval = 0., link_interval = 0.01, field_interval = 0.1;
     double checkpoint_interval = 0.;
     unsigned int subdivisions = 1;
