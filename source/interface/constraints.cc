@@ -20,6 +20,9 @@ namespace taut
   Constraints::Constraints(const Structure &structure, std::vector<ConstraintData> all)
       : structure(structure), constraints(std::move(all))
   {
+    for (const ConstraintData &constraint : constraints)
+      if (constraint.place)
+        constraint.place->set_course({});
     arrange();
   }
 

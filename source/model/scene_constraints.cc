@@ -152,10 +152,17 @@ namespace taut
       StraightPlace(const Scene &scene, const SceneBodies &bodies, const Link &link)
           : SlidingPlace(scene, bodies, link)
       {
-        const std::size_t k = bodies.index_at(link.to.index, link.to.place);
-        if (k != Structure::elsewhere)
-          length = dynamic_cast<const Cable &>(bodies[k]).elements().length();
-        bodies.communicator().sum(&length, 1);
+        double sizes[] = {0., 0.};
+        if (const std::size_t k = bodies.index_at(link.to.index, link.to.place);
+            k != Structure::elsewhere)
+        {
+          const CableElements &elements = dynamic_cast<const Cable &>(bodies[k]).elements();
+          sizes[0] = elements.length();
+          sizes[1] = elements.element_length();
+        }
+        bodies.communicator().sum(sizes, 2);
+        length = sizes[0];
+        element_length = sizes[1];
         const Coordinates chord = rest(length) - rest(0.);
         along = add_scaled(chord, -dot(chord, link.direction), link.direction);
         if (!(norm(along) > nearly_across * norm(chord)))
@@ -175,17 +182,34 @@ namespace taut
       {
         if (!is_known)
           known.origin = reached(motion, position(start), start) - link.speed * start;
-        const double before = position(start), way = known.origin + link.speed * end;
-        double s = before, error = reached(motion, s, end) - way, slope = 1.;
-        for (int i = 0; std::fabs(error) > same_place * length; ++i)
+        const double before = position(start), way = known.origin + link.speed * end,
+                     enough = same_place * (length + std::fabs(way)),
+                     first_error = reached(motion, before, end) - way;
+        // On this leg of the cable.
+        const double a = std::max(0., before - difference * element_length),
+                     b = std::min(length, before + difference * element_length),
+                     leg = (reached(motion, b, end) - reached(motion, a, end)) / (b - a);
+        double s = before, error = first_error, slope = leg;
+        for (int i = 0; !(std::fabs(error) <= enough); ++i)
         {
           const double next = std::clamp(s - error / slope, 0., length);
-          if (next == s || i == most_searches)
-            leave(end);
+          if (!(std::fabs(next - s) > 0.) || i == most_searches)
+            leave(s, end);
           const double error_there = reached(motion, next, end) - way;
+          if (error_there == error)
+            leave(s, end);
           slope = (error_there - error) / (next - s);
           s = next;
           error = error_there;
+        }
+        const int n = static_cast<int>(std::ceil(std::fabs(s - before) / element_length));
+        double last = first_error + way;
+        for (int i = 1; i <= n; ++i)
+        {
+          const double next = reached(motion, before + (s - before) * i / n, end);
+          if (!((next - last) * (s - before) * leg >= 0.))
+            leave(s, end);
+          last = next;
         }
         known = {known.origin, end, s, (s - before) / (end - start)};
         is_known = true;
@@ -206,7 +230,8 @@ namespace taut
 
     private:
       static constexpr double nearly_across = 1e-6; ///< sine of an angle
-      static constexpr double same_place = 1e-13;   ///< over the length of the cable
+      static constexpr double same_place = 1e-13;   ///< over length of the cable and way
+      static constexpr double difference = 1e-3;    ///< over the length of an element
       static constexpr int most_searches = 50;      ///< a secant method takes five
 
       double speed() const override { return is_known ? known.speed : link.speed; }
@@ -224,17 +249,18 @@ namespace taut
         return dot(along, rest(s)) + motion(form, t);
       }
 
-      [[noreturn]] void leave(const double t) const
+      [[noreturn]] void leave(const double s, const double t) const
       {
         std::ostringstream out;
         out << "sliding contact '" << link.name << "' finds no place of the cable at t = " << t
-            << " s: it has come to an end of it, or the cable turns back there. End the run "
-               "earlier, or lengthen the cable";
-        throw EntryError(link.origin, out.str());
+            << " s, near " << s << " m of " << length
+            << " m: it has come to an end of it, or the cable turns back there. End the run "
+               "earlier, lengthen the cable, or take a smaller step";
+        throw EntryError(link.origin + "/Speed", out.str());
       }
 
       Coordinates along; ///< the way
-      double length = 0.;
+      double length = 0., element_length = 0.;
 
       struct Course
       {

@@ -104,6 +104,8 @@ namespace taut
     {
       if (!link.moving())
         continue;
+      if (link.straight)
+        return; // how far it comes along its cable is known at the end
       const double start = link.to.position, end = start + link.speed * end_time;
       if (std::max(start, end) >= window[0] - slack(window) &&
           std::min(start, end) <= window[1] + slack(window))

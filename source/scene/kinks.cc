@@ -2,6 +2,7 @@
 #include "kinks.h"
 #include "check_parts.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -16,20 +17,24 @@ namespace taut
     /// Part of a unit vector and of a tension that is rounding.
     constexpr double rounding = 1e-9;
 
-    /// Part of the length of a wire by which a place may miss its end: it is written with few
-    /// digits.
-    constexpr double near_end = 1e-3;
+    /// By how much of the length of a wire, and by how much at most [m], a place may miss its end:
+    /// it is written with few digits.
+    constexpr double near_end = 1e-3, nearest = 1e-3;
 
     using End = std::pair<std::size_t, bool>; ///< of a wire: its number, and whether it is the last
 
     /// Whether a place is an end of a wire under tension.
     bool find_end(const Scene &scene, const Attachment &at, End &end)
     {
-      if (at.kind != Attachment::Kind::wire || !(scene.wires[at.index].tension > 0.))
+      if (at.kind != Attachment::Kind::wire)
         return false;
-      const double length = scene.wires[at.index].length();
+      const Wire &wire = scene.wires[at.index];
+      if (!(wire.tension > 0.) || (wire.transverse == TransverseKind::none && !wire.has_lateral))
+        return false;
+      const double length = wire.length();
       end = {at.index, at.position > .5 * length};
-      return std::fabs(at.position - (end.second ? length : 0.)) <= near_end * length;
+      return std::fabs(at.position - (end.second ? length : 0.)) <=
+             std::min(near_end * length, nearest);
     }
 
     Coordinates pull(const Scene &scene, const End &end)
@@ -75,28 +80,44 @@ namespace taut
       if (link.kind != LinkKind::joint || link.rotational || link.turns || !link.rigid() ||
           !find_end(scene, link.from, ends[0]) || !find_end(scene, link.to, ends[1]))
         continue;
-      Coordinates sum = {};
-      double size = 0.;
-      for (const End &end : ends)
+      struct Pull
       {
+        Attachment own, other;
+        Coordinates direction, force;
+      };
+      std::vector<Pull> pulls;
+      double size = 0.;
+      for (const bool last : {false, true})
+      {
+        const End &end = ends[last];
         Coordinates direction = link.direction;
         if (!across(held[end], direction))
           continue;
         held[end].push_back(direction);
         const Coordinates force = pull(scene, end);
-        sum = add_scaled(sum, dot(force, direction), direction);
         size += norm(force);
+        pulls.push_back({last ? link.to : link.from, last ? link.from : link.to, direction,
+                         add_scaled({}, dot(force, direction), direction)});
       }
-      const double magnitude = norm(sum);
-      if (magnitude <= rounding * size)
-        continue;
-      const Coordinates direction = add_scaled({}, 1. / magnitude, sum);
-      for (const Attachment &at : {link.to, link.from})
-        if (can_move(scene, at, false, direction))
-        {
-          scene.loads.push_back(make_load(link, at, direction, magnitude));
-          break;
-        }
+      // Along one direction both ends move alike, and the sum counts.
+      if (pulls.size() == 2 && norm(pulls[0].direction - pulls[1].direction) <= rounding)
+      {
+        pulls[1].force = add_scaled(pulls[0].force, 1., pulls[1].force);
+        pulls.erase(pulls.begin());
+      }
+      for (const Pull &pulled : pulls)
+      {
+        const double magnitude = norm(pulled.force);
+        if (magnitude <= rounding * size)
+          continue;
+        const Coordinates direction = add_scaled({}, 1. / magnitude, pulled.force);
+        for (const Attachment &at : {pulled.own, pulled.other})
+          if (can_move(scene, at, false, direction))
+          {
+            scene.loads.push_back(make_load(link, at, direction, magnitude));
+            break;
+          }
+      }
     }
   }
 } // namespace taut

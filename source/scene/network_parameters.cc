@@ -209,7 +209,7 @@ namespace taut
                       any_number());
     prm.add_parameter("Straight", straight,
                       "Of a sliding contact on a cable: its Speed is that in space, along the line "
-                      "between the ends of the cable and across Direction, and it touches what of "
+                      "from From to To of the cable and across Direction, and it touches what of "
                       "the cable is there, however the cable sags and moves");
     prm.add_parameter("Height profile", profile,
                       "Of the wire under a sliding contact along Direction, a formula in s [m]");

@@ -78,9 +78,9 @@ namespace taut
       {
         all(l.name, l.origin, l.kind, l.from, l.to, l.rotational, l.direction, l.stiffness,
             l.law ? l.law->description() : std::string(), l.damping, l.gap, l.turns,
-            l.unstressed_length, l.speed, l.profile, l.find_length, l.prescribed_displacement,
-            l.axial_stiffness, l.mass_per_length, l.length, l.find_direction, l.sideways,
-            l.sideways_stiffness, l.sideways_gap, l.contact_mass);
+            l.unstressed_length, l.speed, l.straight, l.profile, l.find_length,
+            l.prescribed_displacement, l.axial_stiffness, l.mass_per_length, l.length,
+            l.find_direction, l.sideways, l.sideways_stiffness, l.sideways_gap, l.contact_mass);
       }
       void write(const Load &l)
       {

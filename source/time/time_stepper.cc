@@ -140,8 +140,10 @@ namespace taut
           current.balance[k][dof] = 0.;
   }
 
-  void TimeStepper::prepare(const StepCoefficients &c)
+  /// After an error no step is prepared for.
+  void TimeStepper::prepare(const StepCoefficients c)
   {
+    coefficients = {};
     turning.prepare(c);
     tangents_are_kept = false;
     nonlinear.begin(current, c, step);
@@ -176,7 +178,11 @@ namespace taut
     constraint_motions.begin_step(is_first);
     step_before = current.last_step;
     current.last_step = step;
-    constraints.follow(reference_state.displacement, current.U, current.V, start, current.time);
+    attempt(
+        [&] {
+          constraints.follow(reference_state.displacement, current.U, current.V, start,
+                             current.time);
+        });
     constraints.update(current.time);
     if (turning.empty())
       system->interface().update_moving();

@@ -228,19 +228,65 @@ TEST(CableSliding, straight_along_a_cable_that_swings)
   EXPECT_LT(errors.back(), 1e-3 * slid);
 }
 
-TEST(CableSliding, straight_off_the_end)
+namespace
 {
-  try
+  /// The error that ends a run with a contact of this speed in space.
+  std::string error_of(const std::vector<std::string> &settings)
   {
-    slack({"Time/Step=0.1", "Time/End=20"}, [](const taut::StepView &) {});
-    ADD_FAILURE() << "was taken";
+    try
+    {
+      slack(settings, [](const taut::StepView &) {});
+    }
+    catch (const taut::UserError &e)
+    {
+      return e.what();
+    }
+    return "none";
   }
-  catch (const taut::UserError &e)
+} // namespace
+
+TEST(CableSliding, straight_off_the_end_or_into_a_fold)
+{
+  const std::string expected = "sliding contact 'contact' finds no place of the cable at t = ";
+  EXPECT_NE(error_of({"Time/Step=0.1", "Time/End=20"}).find(expected), std::string::npos);
+  // Drawn back beyond its first end: both legs lead somewhere, but not into each other.
+  const std::vector<std::string> drawn = {"Body cable/Unstressed length=200",
+                                          "Network/Load swing/On=cable @ 50, 0",
+                                          "Network/Load swing/Magnitude=-3000", "Time/End=1"};
+  for (const std::string step : {"0.01", "0.05"})
   {
-    EXPECT_NE(std::string(e.what()).find("sliding contact 'contact' finds no place of the cable"),
-              std::string::npos)
-        << e.what();
+    const auto with = [&](const std::string &start, const std::string &speed)
+    {
+      std::vector<std::string> all = drawn;
+      all.insert(all.end(), {"Network/Link contact/To=cable @ " + start + ", 0",
+                             "Network/Link contact/Speed=" + speed, "Time/Step=" + step});
+      return error_of(all);
+    };
+    EXPECT_EQ(with("60", "4"), "none");
+    EXPECT_EQ(with("20", "4"), "none");
+    EXPECT_EQ(with("20", "-4"), "none");
+    for (const std::string start : {"60", "40"})
+    {
+      const std::string found = with(start, "-30");
+      EXPECT_NE(found.find(expected), std::string::npos) << found;
+    }
   }
+}
+
+TEST(CableSliding, straight_far_from_the_origin)
+{
+  // On a map, on a way between its axes: numbers of it round by more than a part of the cable.
+  const std::vector<std::string> far = {"Body cable/From=4600000, 0, 300000",
+                                        "Body cable/To=4600057.3, 0, 300017.7"};
+  std::vector<std::string> settings = far;
+  settings.insert(settings.end(), {"Time/Step=0.05", "Time/End=8"});
+  double last = 0.;
+  slack(settings, [&](const taut::StepView &view) { last = place_of_contact(view); });
+  double near = 0.;
+  slack({"Body cable/To=57.3, 0, 17.7", "Time/Step=0.05", "Time/End=8"},
+        [&](const taut::StepView &view) { near = place_of_contact(view); });
+  EXPECT_NEAR(last, near, 1e-6);
+  EXPECT_GT(near, 48.);
 }
 
 TEST(CableSliding, leaves_the_cable)

@@ -279,6 +279,59 @@ TEST(LargeMotions, rigid_wall_takes_the_energy_and_gives_none)
   EXPECT_NEAR(start - energy, .5 * scale, .01 * scale); // m g L (1 - cos 60)
 }
 
+// A body that takes no step of 20 ms once it has moved, as one does whose inertia is lost in the
+// rounding of its stiffness: each is made in two, and none of these in more.
+TEST(LargeMotions, step_that_cannot_be_prepared_leaves_the_shorter_one)
+{
+  class ImpatientPendulum : public ElasticPendulum
+  {
+  public:
+    ImpatientPendulum(int &refused, double &shortest)
+        : ElasticPendulum(pi / 3., 1e5), n_refused(refused), shortest(shortest)
+    {
+    }
+    void mean_internal_force(const std::vector<double> &U0, const std::vector<double> &U1,
+                             const double step, std::vector<double> &f) const override
+    {
+      shortest = std::min(shortest, step);
+      ElasticPendulum::mean_internal_force(U0, U1, step, f);
+    }
+    std::unique_ptr<taut::SymmetricMatrix> mean_tangent(const std::vector<double> &U0,
+                                                        const std::vector<double> &U1,
+                                                        const double rate,
+                                                        const bool definite) const override
+    {
+      if (U0[0] != 0. && rate < 2. / .015)
+      {
+        ++n_refused;
+        throw taut::EntryError("", "too long");
+      }
+      return ElasticPendulum::mean_tangent(U0, U1, rate, definite);
+    }
+
+  private:
+    int &n_refused;
+    double &shortest;
+  };
+
+  int n_refused = 0;
+  double shortest = 1.;
+  taut::System system;
+  system.add("pendulum", [&] { return std::make_unique<ImpatientPendulum>(n_refused, shortest); });
+  taut::StepperOptions options;
+  options.step = .02;
+  options.start = taut::Start::undeformed;
+  taut::Stepper stepper(system, options);
+  for (int n = 1; n <= 20; ++n)
+  {
+    stepper.advance();
+    EXPECT_NEAR(stepper.time(), n * options.step, 1e-12);
+    EXPECT_LT(stepper.certificate().balance, 1e-9);
+  }
+  EXPECT_GT(n_refused, 18);
+  EXPECT_EQ(shortest, .5 * options.step);
+}
+
 // A body may refuse a step that is too long for it: the step is made in parts and ends where it
 // would have ended, with the energy of the start.
 TEST(LargeMotions, step_that_a_body_refuses_is_made_in_parts)

@@ -750,6 +750,21 @@ TEST(WiresInSpace, pulls_where_wires_meet_are_in_equilibrium_with_their_stiffnes
   expect(rest("a, b, c", sections, names + "\n" + joints));
 }
 
+TEST(WiresInSpace, pulls_do_not_depend_on_the_order_of_joints)
+{
+  // One joint each, along directions that are neither alike nor across each other.
+  const std::string sections = stay("a", "-20, 0, 0", "0, 0, 0", 2000.) +
+                               stay("b", "12, 0, 16", "0, 0, 0", 3000.) +
+                               stay("c", "0, 12, -16", "0, 0, 0", 2500.),
+                    first = joint("ab", "a @ 20", "b @ 20", "1, 0, 0"),
+                    second = joint("ac", "a @ 20", "c @ 20", "1, 1, 0");
+  const std::array<double, 3> one = rest("a, b, c", sections, "ab, ac\n" + first + second),
+                              other = rest("a, b, c", sections, "ac, ab\n" + first + second);
+  EXPECT_GT(std::fabs(one[1]), .1);
+  for (unsigned int i = 0; i < 3; ++i)
+    EXPECT_NEAR(one[i], other[i], 1e-12);
+}
+
 TEST(WiresInSpace, a_wire_that_goes_on_straight_pulls_nothing)
 {
   const auto sections = [](const double second) {

@@ -19,7 +19,8 @@ namespace taut
   constexpr std::size_t no_link = std::numeric_limits<std::size_t>::max();
   constexpr std::size_t no_contact = no_link;
 
-  /// Where a constraint is that moves: its linear form at each time.
+  /// Where a constraint is that moves: its linear form at each time. A place that depends on the
+  /// motion is that of one Stepper.
   class MovingPlace
   {
   public:
@@ -45,7 +46,8 @@ namespace taut
     /// bodies: takes the place that it will have. Called by all ranks together.
     virtual void follow(const Motion &, double /*start*/, double /*end*/) {}
 
-    /// What follow() has found, for checkpoints.
+    /// What follow() has found, for checkpoints and for steps that are taken back; empty: nothing
+    /// yet.
     virtual std::vector<double> course() const { return {}; }
     virtual void set_course(const std::vector<double> &) {}
   };

@@ -245,7 +245,7 @@ namespace taut
     double speed = 0.; ///< of the `to` end along its wire [m/s]
 
     /// The speed of a contact on a cable is not that along its unstressed length, but in space:
-    /// along the line between the ends of the cable at rest, across `direction`.
+    /// along the line between the ends of the cable as given, across `direction`.
     bool straight = false;
     Expression
         profile; ///< height r(s) of the wire under a sliding contact [m]: adds to the gap along n

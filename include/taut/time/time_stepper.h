@@ -94,7 +94,7 @@ namespace taut
     InterfaceStatistics interface_statistics() const;
 
   private:
-    void prepare(const StepCoefficients &c);
+    void prepare(StepCoefficients c);
     template <typename Archive>
     void store(Archive &archive);
     void begin_anew(const std::vector<double> &largest_rates);
