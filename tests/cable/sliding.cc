@@ -152,12 +152,13 @@ namespace
   {
     std::vector<std::string> all = {
         "Body cable/Unstressed length=78", "Body cable/Bending stiffness=0",
-        "Network/Loads=push, swing",       "Network/Link contact/Gap=100",
+        "Network/Loads=push, swing, back", "Network/Link contact/Gap=100",
         "Network/Link contact/Speed=4",    "Network/Link contact/Straight=true"};
     all.insert(all.end(), settings.begin(), settings.end());
     run_scene(scene("cable @ 13, 0", cable("nonlinear", "-9.81")) +
                   "subsection Network\n subsection Load swing\n  set On = cable @ 39, 0\n"
-                  "  set Direction = 1, 0\n end\nend\n",
+                  "  set Direction = 1, 0\n end\n subsection Load back\n  set On = cable @ 39, 0\n"
+                  "  set Direction = -1, 0\n end\nend\n",
               all, record);
   }
 
@@ -270,6 +271,21 @@ TEST(CableSliding, straight_off_the_end_or_into_a_fold)
       const std::string found = with(start, "-30");
       EXPECT_NE(found.find(expected), std::string::npos) << found;
     }
+  }
+}
+
+TEST(CableSliding, straight_over_a_fold)
+{
+  // Drawn forth and back: where the first leg ends there is a third one at the same way.
+  for (const std::string step : {"0.02", "0.1", "0.3", "0.5"})
+  {
+    const std::string found =
+        error_of({"Body cable/Unstressed length=200", "Body cable/To=100, 0",
+                  "Network/Load swing/On=cable @ 70, 0", "Network/Load swing/Magnitude=3000",
+                  "Network/Load back/On=cable @ 130, 0", "Network/Load back/Magnitude=3000",
+                  "Network/Link contact/To=cable @ 50, 0", "Network/Link contact/Speed=30",
+                  "Time/Step=" + step, "Time/End=1.5"});
+    EXPECT_NE(found.find("finds no place of the cable"), std::string::npos) << found;
   }
 }
 
