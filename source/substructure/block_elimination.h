@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstring>
 #include <deque>
+#include <utility>
 #include <vector>
 
 /// The steps of a block-tridiagonal elimination, node by node.
@@ -124,11 +125,18 @@ namespace taut
       y.subtract(x[c], A.data() + b * c);
   }
 
-  /// x -= A y; returns x: one node of the elimination. @p transposed is A^T.
+  /// The DoFs of a node that blocks of a kind act on.
   template <int b>
-  inline Node<b> eliminate(const Block<b> &transposed, const Node<b> &y, double *x)
+  Node<b> node_of(const Block<b> &);
+  template <typename AnyBlock>
+  using NodeOf = decltype(node_of(std::declval<AnyBlock>()));
+
+  /// x -= A y; returns x: one node of the elimination. @p transposed is A^T.
+  template <typename AnyBlock>
+  inline NodeOf<AnyBlock> eliminate(const AnyBlock &transposed, const NodeOf<AnyBlock> &y,
+                                    double *x)
   {
-    Node<b> sum;
+    NodeOf<AnyBlock> sum;
     sum.read(x);
     subtract_transposed(transposed, y, sum);
     sum.write(x);
@@ -136,11 +144,12 @@ namespace taut
   }
 
   /// x = D x - A^T y with a symmetric D; returns x: one node of the substitution.
-  template <int b>
-  inline Node<b> substitute(const Block<b> &D, const Block<b> &A, const Node<b> &y, double *x)
+  template <typename AnyBlock>
+  inline NodeOf<AnyBlock> substitute(const AnyBlock &D, const AnyBlock &A,
+                                     const NodeOf<AnyBlock> &y, double *x)
   {
-    constexpr double zero[b] = {};
-    Node<b> before, sum;
+    constexpr double zero[AnyBlock::n_dofs] = {};
+    NodeOf<AnyBlock> before, sum;
     before.read(x);
     sum.read(zero);
     add_transposed(D, before, sum);
@@ -150,19 +159,19 @@ namespace taut
   }
 
   /// What the elimination from one end leaves at a node; whole cache lines.
-  template <int b>
+  template <typename AnyBlock>
   struct alignas(64) Elimination
   {
-    Block<b> multiplier; ///< from the node before: G or H below
-    Block<b> transposed; ///< multiplier
-    Block<b> inverse;    ///< of the pivot
+    AnyBlock multiplier; ///< from the node before: G or H below
+    AnyBlock transposed; ///< multiplier
+    AnyBlock inverse;    ///< of the pivot
   };
 
   /**
    * The eliminations of all nodes. Where elements are alike, their recurrence comes to rest:
    * equal neighbours are stored once, and a solve reads them from the nearest cache.
    */
-  template <int b>
+  template <typename AnyBlock>
   class Eliminations
   {
   public:
@@ -173,7 +182,7 @@ namespace taut
     }
 
     /// Neighbours one after the other, from either end.
-    void set(const std::size_t node, const Elimination<b> &e)
+    void set(const std::size_t node, const Elimination<AnyBlock> &e)
     {
       if (distinct.empty() || distinct.back().multiplier != e.multiplier ||
           distinct.back().inverse != e.inverse)
@@ -181,14 +190,14 @@ namespace taut
       of_node[node] = &distinct.back();
     }
 
-    const Elimination<b> &operator[](const std::size_t node) const { return *of_node[node]; }
+    const Elimination<AnyBlock> &operator[](const std::size_t node) const { return *of_node[node]; }
 
     /// Of all nodes.
-    const Elimination<b> *const *data() const { return of_node.data(); }
+    const Elimination<AnyBlock> *const *data() const { return of_node.data(); }
 
   private:
-    std::deque<Elimination<b>> distinct;
-    std::vector<const Elimination<b> *> of_node;
+    std::deque<Elimination<AnyBlock>> distinct;
+    std::vector<const Elimination<AnyBlock> *> of_node;
   };
 } // namespace taut
 

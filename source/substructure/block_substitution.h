@@ -11,19 +11,21 @@ namespace taut
 {
   /// Eliminations of @p n nodes from the left and from the right, each up to node @p middle or
   /// further.
-  template <int b>
+  template <typename AnyBlock>
   struct BothEliminations
   {
-    const Elimination<b> *const *from_left, *const *from_right;
+    const Elimination<AnyBlock> *const *from_left, *const *from_right;
     std::ptrdiff_t n, middle;
   };
 
   /// The first half of a solve: elimination from both ends to the middle.
-  template <int b>
+  template <typename AnyBlock>
   class Inwards
   {
+    static constexpr int b = AnyBlock::n_dofs;
+
   public:
-    Inwards(const BothEliminations<b> &s, double *x)
+    Inwards(const BothEliminations<AnyBlock> &s, double *x)
         : from_left(s.from_left), from_right(s.from_right + (s.n - 1)), l(x), r(x + b * (s.n - 1)),
           n_left(s.middle), n_right(s.n - 1 - s.middle)
     {
@@ -36,8 +38,8 @@ namespace taut
 
     void step(const std::ptrdiff_t k)
     {
-      left = eliminate<b>(from_left[k]->transposed, left, l + b * k);
-      right = eliminate<b>(from_right[-k]->transposed, right, r - b * k);
+      left = eliminate(from_left[k]->transposed, left, l + b * k);
+      right = eliminate(from_right[-k]->transposed, right, r - b * k);
     }
 
     /// The steps from @p k on, and those of one end only.
@@ -46,24 +48,26 @@ namespace taut
       for (; k <= n_steps(); ++k)
         step(k);
       for (std::ptrdiff_t i = k; i < n_left; ++i)
-        left = eliminate<b>(from_left[i]->transposed, left, l + b * i);
+        left = eliminate(from_left[i]->transposed, left, l + b * i);
       for (std::ptrdiff_t j = k; j < n_right; ++j)
-        right = eliminate<b>(from_right[-j]->transposed, right, r - b * j);
+        right = eliminate(from_right[-j]->transposed, right, r - b * j);
     }
 
   private:
-    const Elimination<b> *const *from_left, *const *from_right;
+    const Elimination<AnyBlock> *const *from_left, *const *from_right;
     double *l, *r;
     std::ptrdiff_t n_left, n_right;
-    Node<b> left, right; ///< the last nodes that each end came to
+    NodeOf<AnyBlock> left, right; ///< the last nodes that each end came to
   };
 
   /// The second half: substitution from the middle to both ends.
-  template <int b>
+  template <typename AnyBlock>
   class Outwards
   {
+    static constexpr int b = AnyBlock::n_dofs;
+
   public:
-    Outwards(const BothEliminations<b> &s, double *x)
+    Outwards(const BothEliminations<AnyBlock> &s, double *x)
         : from_left(s.from_left + s.middle), from_right(s.from_right + s.middle),
           m(x + b * s.middle), n_left(s.middle), n_right(s.n - 1 - s.middle)
     {
@@ -94,18 +98,17 @@ namespace taut
   private:
     void leftwards(const std::ptrdiff_t k)
     {
-      left = substitute<b>(from_left[-k]->inverse, from_left[1 - k]->multiplier, left, m - b * k);
+      left = substitute(from_left[-k]->inverse, from_left[1 - k]->multiplier, left, m - b * k);
     }
     void rightwards(const std::ptrdiff_t k)
     {
-      right =
-          substitute<b>(from_right[k]->inverse, from_right[k - 1]->multiplier, right, m + b * k);
+      right = substitute(from_right[k]->inverse, from_right[k - 1]->multiplier, right, m + b * k);
     }
 
-    const Elimination<b> *const *from_left, *const *from_right;
+    const Elimination<AnyBlock> *const *from_left, *const *from_right;
     double *m;
     std::ptrdiff_t n_left, n_right;
-    Node<b> left, right;
+    NodeOf<AnyBlock> left, right;
   };
 } // namespace taut
 

@@ -11,13 +11,11 @@ namespace taut
 {
 
   template <int b>
-  BlockTridiagonalMatrix<b>::BlockTridiagonalMatrix(const unsigned int n) : n(n)
+  BlockTridiagonalMatrix<b>::BlockTridiagonalMatrix(const unsigned int n) : n(n), entries(n)
   {
     if (n % b != 0)
       throw std::logic_error(
           "the size of a block-tridiagonal matrix is a multiple of its block size");
-    for (auto &entries : diagonals)
-      entries.assign(n + width, 0.);
   }
 
   template <int b>
@@ -27,7 +25,7 @@ namespace taut
     const unsigned int row = std::max(i, j), column = std::min(i, j);
     if (row / b > column / b + 1)
       throw std::logic_error("entry outside the band of a block-tridiagonal matrix");
-    diagonals[row - column][row] += value;
+    entries.add(row, column, value);
     repetitions.clear();
   }
 
@@ -35,7 +33,7 @@ namespace taut
   template <int b>
   double BlockTridiagonalMatrix<b>::entry(const std::size_t i, const int offset) const
   {
-    return offset > 0 ? diagonals[offset][i + offset] : diagonals[-offset][i];
+    return offset > 0 ? entries(i + offset, i) : entries(i, i + offset);
   }
 
   template <int b>
@@ -103,14 +101,10 @@ namespace taut
   void BlockTridiagonalMatrix<b>::product_at_end(const std::size_t i, const double *x, double *y,
                                                  const Result &result) const
   {
-    double sum = diagonals[0][i] * x[i];
-    for (std::size_t o = 1; o <= width; ++o)
-    {
-      if (o <= i)
-        sum += diagonals[o][i] * x[i - o];
-      if (i + o < n)
-        sum += diagonals[o][i + o] * x[i + o];
-    }
+    const std::size_t node = i / b * b;
+    double sum = 0.;
+    for (std::size_t j = node - std::min<std::size_t>(node, b); j < std::min(n, node + 2 * b); ++j)
+      sum += (j < i ? entries(i, j) : entries(j, i)) * x[j];
     y[i] = result(y[i], sum);
   }
 
@@ -120,20 +114,6 @@ namespace taut
   void BlockTridiagonalMatrix<b>::product(const std::size_t begin, const std::size_t end,
                                           const double *x, double *y, const Result &result) const
   {
-    const double *d[width + 1];
-    for (int o = 0; o <= width; ++o)
-      d[o] = diagonals[o].data();
-    const auto read = [&](const std::size_t from, const std::size_t to)
-    {
-#pragma omp simd
-      for (std::size_t i = from; i < to; ++i)
-      {
-        double sum = d[0][i] * x[i];
-        for (int o = 1; o <= width; ++o)
-          sum += d[o][i] * x[i - o] + d[o][i + o] * x[i + o];
-        y[i] = result(y[i], sum);
-      }
-    };
     const std::size_t first = std::min<std::size_t>(n, 2 * b),
                       last = std::max(first, n - std::min<std::size_t>(n, 2 * b));
     std::size_t done = begin;
@@ -144,7 +124,7 @@ namespace taut
       if (repetition.end <= done || repetition.begin >= end)
         continue;
       if (done < repetition.begin)
-        read(done, repetition.begin);
+        entries.product(done, repetition.begin, x, y, result);
       done = std::max(done, repetition.begin);
       const std::size_t stop = std::min(end, repetition.end);
       if (repetition.is_zero)
@@ -169,7 +149,7 @@ namespace taut
     }
     if (done < std::min(last, end))
     {
-      read(done, std::min(last, end));
+      entries.product(done, std::min(last, end), x, y, result);
       done = std::min(last, end);
     }
     for (; done < end; ++done)
@@ -179,7 +159,9 @@ namespace taut
   template <int b>
   void BlockTridiagonalMatrix<b>::visit(const Visitor &visitor) const
   {
-    visit_entries(visitor);
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = i < b ? 0 : (i / b - 1) * b; j <= i; ++j)
+        visitor(i, j, entries(i, j));
   }
 
   template <int b>

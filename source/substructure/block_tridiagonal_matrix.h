@@ -2,17 +2,20 @@
 #ifndef taut_block_tridiagonal_matrix_h
 #define taut_block_tridiagonal_matrix_h
 
+#include "cable_nodes.h"
+#include "diagonals.h"
+
 #include <taut/substructure/symmetric_matrix.h>
 
 #include <array>
+#include <type_traits>
 #include <vector>
 
 namespace taut
 {
   /**
-   * Blocks of b x b on the diagonal and beside it: the matrices of a wire, b DoFs a node. Stored
-   * by diagonals, so that products run over many rows at once. Where elements are alike, rows
-   * repeat themselves from node to node: a product there reads them once.
+   * Blocks of b x b on the diagonal and beside it: the matrices of a wire, b DoFs a node. Where
+   * elements are alike, rows repeat themselves from node to node: a product there reads them once.
    */
   template <int b>
   class BlockTridiagonalMatrix : public SymmetricMatrix
@@ -31,14 +34,15 @@ namespace taut
     void visit(const Visitor &visitor) const override;
     std::unique_ptr<SymmetricMatrix> clone() const override;
 
-    /// visit() without a call for each entry: a matrix that changes is read in each step.
-    template <typename AnyVisitor>
-    void visit_entries(const AnyVisitor &visitor) const
+    /// factor * (this) added to the blocks D_i of the nodes and L_i of node i with i - 1.
+    template <typename AnyBlock>
+    void add_to(const double factor, std::vector<AnyBlock> &D, std::vector<AnyBlock> &L) const
     {
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int j = i < b ? 0 : (i / b - 1) * b; j <= i; ++j)
-          visitor(i, j, diagonals[i - j][i]);
+      entries.add_to(factor, D, L);
     }
+
+    /// Of cables: nothing couples the plane of x and y with z.
+    bool decouples() const { return entries.decouples(); }
 
   private:
     static constexpr int width = 2 * b - 1;                      ///< diagonals below the main one
@@ -62,7 +66,7 @@ namespace taut
     void product_at_end(std::size_t i, const double *x, double *y, const Result &result) const;
 
     std::size_t n;
-    std::array<std::vector<double>, width + 1> diagonals; ///< [o][i] = A(i, i - o), then zeros
+    std::conditional_t<b == CableNodes::b, CableNodes, Diagonals<b>> entries;
     std::vector<Repetition> repetitions;
   };
 } // namespace taut

@@ -1,376 +1,57 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "block_substitution.h"
-#include "block_tridiagonal_matrix.h"
+#include "block_tridiagonal_solver.h"
+#include "decoupled_block.h"
 
-#include <taut/base/instruction_set.h>
-#include <taut/substructure/local_solver.h>
-
-#include <algorithm>
-#include <numeric>
 #include <stdexcept>
 
 namespace taut
 {
   namespace
   {
-    /// Relative size below which the tail of a column is left out, and for how many nodes in a row.
-    constexpr double negligible = 1e-18;
-    constexpr int negligible_nodes = 3;
-
-    /**
-     * With D_i and L_i the blocks of A (L_i couples node i to i - 1), the elimination from the left
-     * has pivots Dl_i = D_i - L_i Dl_{i-1}^-1 L_i^T and multipliers G_i = L_i Dl_{i-1}^-1; the one
-     * from the right Dr_i = D_i - L_{i+1}^T Dr_{i+1}^-1 L_{i+1} and H_i = L_{i+1}^T Dr_{i+1}^-1. A
-     * solve runs both to the middle node.
-     */
-    template <int b>
-    class BlockTridiagonalSolver : public LocalSolver
+    /// Of cables: a motion in the plane of x and y and one along z that do not act on each other
+    /// are solved apart, with blocks of 4 x 4 and 2 x 2.
+    class CableSolver : public LocalSolver
     {
     public:
       void factor(const std::vector<ScaledMatrix> &summands,
-                  const std::vector<unsigned int> &constrained_dofs) override;
-      void solve(std::vector<double> &x) const override;
+                  const std::vector<unsigned int> &constrained_dofs) override
+      {
+        constexpr int b = DecoupledBlock::n_dofs;
+        bool decoupled = true;
+        for (const auto &[factor, matrix] : summands)
+          if (const auto *const own = dynamic_cast<const BlockTridiagonalMatrix<b> *>(matrix))
+            decoupled = decoupled && own->decouples();
+          else
+            matrix->visit(
+                [&](const unsigned int i, const unsigned int j, const double value) {
+                  decoupled =
+                      decoupled && (value == 0. || DecoupledBlock::are_together(i % b, j % b));
+                });
+        if (decoupled)
+          solver = &apart;
+        else
+          solver = &together;
+        solver->factor(summands, constrained_dofs);
+      }
+
+      void solve(std::vector<double> &x) const override { solver->solve(x); }
       void solve_beside(std::vector<double> &x, const LocalSolver &other,
-                        std::vector<double> &y) const override;
-      void column(const LinearForm &rhs, WindowedVector &x) const override;
-      double flexibility(const LinearForm &rhs) const override;
+                        std::vector<double> &y) const override
+      {
+        const auto *const alike = dynamic_cast<const CableSolver *>(&other);
+        solver->solve_beside(x, alike == nullptr ? other : *alike->solver, y);
+      }
+      void column(const LinearForm &rhs, WindowedVector &x) const override
+      {
+        solver->column(rhs, x);
+      }
+      double flexibility(const LinearForm &rhs) const override { return solver->flexibility(rhs); }
 
     private:
-      BothEliminations<b> eliminations() const;
-      Block<b> pivot_from_left(std::size_t i, const Block<b> &G) const;
-      Block<b> pivot_from_right(std::size_t i, const Block<b> &H) const;
-      void eliminate_from_left(std::size_t begin, std::size_t end) const;
-      void eliminate_from_right(std::size_t begin, std::size_t end) const;
-      bool complete() const;
-      void solve_middle(double *x) const;
-
-      bool element_of(const LinearForm &rhs, unsigned int &node,
-                      std::array<double, 2 * b> &r) const;
-      void solve_element(unsigned int node, const std::array<double, 2 * b> &rhs, double *x) const;
-
-      std::size_t n = 0, middle = 0;
-      std::vector<Block<b>> D, L;
-      mutable Eliminations<b> from_left, from_right;
-
-      /// A cable's matrix changes in each step, and a step without contacts needs no columns.
-      static constexpr bool all_at_once = b < 6;
-      mutable bool is_whole = false, is_halves = false;
-      Block<b> middle_inverse;
-      std::vector<unsigned int> constrained;
-      mutable std::vector<double> work; ///< of column()
+      BlockTridiagonalSolver<DecoupledBlock> apart;
+      BlockTridiagonalSolver<Block<DecoupledBlock::n_dofs>> together;
+      LocalSolver *solver = &together; ///< the one that is factored
     };
-
-    template <int b>
-    void BlockTridiagonalSolver<b>::factor(const std::vector<ScaledMatrix> &summands,
-                                           const std::vector<unsigned int> &constrained_dofs)
-    {
-      constrained = constrained_dofs;
-      n = summands.front().second->size() / b;
-      middle = n / 2;
-      std::vector<char> is_constrained(b * n, 0);
-      for (const unsigned int dof : constrained)
-        is_constrained[dof] = 1;
-
-      D.assign(n, {});
-      L.assign(n, {});
-      for (const auto &[factor, matrix] : summands)
-      {
-        const auto add = [&, factor = factor](unsigned int i, unsigned int j, double value)
-        {
-          if (is_constrained[i] || is_constrained[j])
-            return;
-          if (i / b != j / b)
-            L[i / b][(i % b) * b + j % b] += factor * value;
-          else
-          {
-            D[i / b][(i % b) * b + j % b] += factor * value;
-            if (i != j)
-              D[i / b][(j % b) * b + i % b] += factor * value;
-          }
-        };
-        if (const auto *const own = dynamic_cast<const BlockTridiagonalMatrix<b> *>(matrix))
-          own->visit_entries(add);
-        else
-          matrix->visit(add);
-      }
-      for (const unsigned int dof : constrained)
-        D[dof / b][(dof % b) * (b + 1)] = 1.;
-
-      from_left.reinit(n);
-      from_right.reinit(n);
-      is_whole = all_at_once;
-      is_halves = false;
-      if (is_whole)
-      {
-        eliminate_from_left(0, n);
-        eliminate_from_right(n, 0);
-      }
-      else
-        vectorised(
-            [this]
-            {
-              eliminate_from_left(0, middle + 1);
-              eliminate_from_right(n, middle);
-            });
-      Block<b> pivot = pivot_from_left(middle, from_left[middle].multiplier);
-      if (middle + 1 < n)
-        pivot = symmetric_difference<b>(pivot,
-                                        multiply<b>(from_right[middle].multiplier, L[middle + 1]));
-      middle_inverse = invert<b>(pivot, D[middle], middle);
-    }
-
-    /// Dl_i, with G_i.
-    template <int b>
-    Block<b> BlockTridiagonalSolver<b>::pivot_from_left(const std::size_t i,
-                                                        const Block<b> &G) const
-    {
-      return i == 0 ? D[i] : symmetric_difference<b>(D[i], multiply<b>(G, transpose<b>(L[i])));
-    }
-
-    /// Dr_i, with H_i.
-    template <int b>
-    Block<b> BlockTridiagonalSolver<b>::pivot_from_right(const std::size_t i,
-                                                         const Block<b> &H) const
-    {
-      return i + 1 == n ? D[i] : symmetric_difference<b>(D[i], multiply<b>(H, L[i + 1]));
-    }
-
-    /// Nodes begin to end - 1, after those before them.
-    template <int b>
-    void BlockTridiagonalSolver<b>::eliminate_from_left(const std::size_t begin,
-                                                        const std::size_t end) const
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        Elimination<b> e{};
-        if (i > 0)
-          e.multiplier = multiply<b>(L[i], from_left[i - 1].inverse);
-        e.transposed = transpose<b>(e.multiplier);
-        e.inverse = invert<b>(pivot_from_left(i, e.multiplier), D[i], i);
-        from_left.set(i, e);
-      }
-    }
-
-    /// Nodes begin - 1 down to end, after those behind them.
-    template <int b>
-    void BlockTridiagonalSolver<b>::eliminate_from_right(const std::size_t begin,
-                                                         const std::size_t end) const
-    {
-      for (std::size_t i = begin; i-- > end;)
-      {
-        Elimination<b> e{};
-        if (i + 1 < n)
-          e.multiplier = multiply<b>(transpose<b>(L[i + 1]), from_right[i + 1].inverse);
-        e.transposed = transpose<b>(e.multiplier);
-        e.inverse = invert<b>(pivot_from_right(i, e.multiplier), D[i], i);
-        from_right.set(i, e);
-      }
-    }
-
-    /// The halves that only columns need. False if one of them has a pivot that is rounding, where
-    /// the elimination to the middle has none.
-    template <int b>
-    bool BlockTridiagonalSolver<b>::complete() const
-    {
-      if (is_whole || is_halves)
-        return is_whole;
-      try
-      {
-        eliminate_from_left(middle + 1, n);
-        eliminate_from_right(middle, 0);
-        is_whole = true;
-      }
-      catch (const BodyNotHeld &)
-      {
-        is_halves = true;
-      }
-      return is_whole;
-    }
-
-    template <int b>
-    void BlockTridiagonalSolver<b>::solve_middle(double *x) const
-    {
-      double *m = x + b * middle, solution[b];
-      if (middle > 0)
-        subtract<b>(from_left[middle].multiplier, m - b, m);
-      if (middle + 1 < n)
-        subtract<b>(from_right[middle].multiplier, m + b, m);
-      multiply<b>(middle_inverse, m, solution);
-      std::copy(solution, solution + b, m);
-    }
-
-    template <int b>
-    BothEliminations<b> BlockTridiagonalSolver<b>::eliminations() const
-    {
-      return {from_left.data(), from_right.data(), static_cast<std::ptrdiff_t>(n),
-              static_cast<std::ptrdiff_t>(middle)};
-    }
-
-    template <int b>
-    void BlockTridiagonalSolver<b>::solve(std::vector<double> &x) const
-    {
-      for (const unsigned int dof : constrained)
-        x[dof] = 0.;
-      vectorised(
-          [this, all = x.data()]
-          {
-            Inwards(eliminations(), all).finish(1);
-            solve_middle(all);
-            Outwards(eliminations(), all).finish(1);
-          });
-    }
-
-    template <int b>
-    void BlockTridiagonalSolver<b>::solve_beside(std::vector<double> &x, const LocalSolver &other,
-                                                 std::vector<double> &y) const
-    {
-      const auto *const alike = dynamic_cast<const BlockTridiagonalSolver *>(&other);
-      if (alike == nullptr)
-        return LocalSolver::solve_beside(x, other, y);
-      for (const unsigned int dof : constrained)
-        x[dof] = 0.;
-      for (const unsigned int dof : alike->constrained)
-        y[dof] = 0.;
-      const auto together = [](auto first, auto second)
-      {
-        const std::ptrdiff_t n = std::min(first.n_steps(), second.n_steps());
-        for (std::ptrdiff_t k = 1; k <= n; ++k)
-        {
-          first.step(k);
-          second.step(k);
-        }
-        first.finish(std::max<std::ptrdiff_t>(n, 0) + 1);
-        second.finish(std::max<std::ptrdiff_t>(n, 0) + 1);
-      };
-      vectorised(
-          [&together, this, alike, all_x = x.data(), all_y = y.data()]
-          {
-            together(Inwards(eliminations(), all_x), Inwards(alike->eliminations(), all_y));
-            solve_middle(all_x);
-            alike->solve_middle(all_y);
-            together(Outwards(eliminations(), all_x), Outwards(alike->eliminations(), all_y));
-          });
-    }
-
-    /// Solves on nodes @p node and the next one with everything outside them eliminated.
-    template <int b>
-    void BlockTridiagonalSolver<b>::solve_element(const unsigned int node,
-                                                  const std::array<double, 2 * b> &rhs,
-                                                  double *x) const
-    {
-      // [Dl  L^T] [x0]   [r0]
-      // [L   Dr ] [x1] = [r1]
-      const Block<b> &coupling = L[node + 1];
-      const Block<b> pivot = symmetric_difference<b>(
-          pivot_from_right(node + 1, from_right[node + 1].multiplier),
-          multiply<b>(from_left[node + 1].multiplier, transpose<b>(coupling)));
-      const Block<b> inverse = invert<b>(pivot, D[node + 1], node + 1);
-      double r0[b], r1[b];
-      std::copy(rhs.begin(), rhs.begin() + b, r0);
-      std::copy(rhs.begin() + b, rhs.end(), r1);
-      subtract<b>(from_left[node + 1].multiplier, r0, r1);
-      multiply<b>(inverse, r1, x + b);
-      subtract_transposed<b>(coupling, x + b, r0);
-      multiply<b>(from_left[node].inverse, r0, x);
-    }
-
-    /// The element that @p rhs lives on, by its first node, and the entries there; false if it is
-    /// more than one.
-    template <int b>
-    bool BlockTridiagonalSolver<b>::element_of(const LinearForm &rhs, unsigned int &node,
-                                               std::array<double, 2 * b> &r) const
-    {
-      node = rhs.index.empty() ? 0 : *std::min_element(rhs.index.begin(), rhs.index.end()) / b;
-      node = std::min<unsigned int>(node, n - 2);
-      for (std::size_t k = 0; k < rhs.index.size(); ++k)
-      {
-        if (rhs.index[k] / b > node + 1)
-          return false;
-        if (!std::binary_search(constrained.begin(), constrained.end(), rhs.index[k]))
-          r[rhs.index[k] - b * node] += rhs.value[k];
-      }
-      return true;
-    }
-
-    template <int b>
-    double BlockTridiagonalSolver<b>::flexibility(const LinearForm &rhs) const
-    {
-      unsigned int node;
-      std::array<double, 2 * b> r{}, x{};
-      if (n > 1 && complete() && element_of(rhs, node, r))
-      {
-        solve_element(node, r, x.data());
-        return std::inner_product(r.begin(), r.end(), x.begin(), 0.);
-      }
-      std::vector<double> full(b * n, 0.);
-      rhs.add_to(1., full);
-      solve(full);
-      return rhs.dot(full);
-    }
-
-    template <int b>
-    void BlockTridiagonalSolver<b>::column(const LinearForm &rhs, WindowedVector &x) const
-    {
-      x.first = 0;
-      x.value.clear();
-      std::vector<double> &full = work;
-      full.resize(b * n);
-      if (n == 1 || !complete())
-      {
-        std::fill(full.begin(), full.end(), 0.);
-        rhs.add_to(1., full);
-        solve(full);
-        x.value = full;
-        return;
-      }
-
-      unsigned int node;
-      std::array<double, 2 * b> r{};
-      if (!element_of(rhs, node, r))
-        throw std::logic_error("the right-hand side of a column spans more than one element");
-      double *p = full.data();
-      solve_element(node, r, p + b * node);
-
-      double limit[b];
-      for (int c = 0; c < b; ++c)
-        limit[c] =
-            negligible * std::max(std::fabs(p[b * node + c]), std::fabs(p[b * node + b + c]));
-      const auto small = [&](const std::size_t k)
-      {
-        bool all = true;
-        for (int c = 0; c < b; ++c)
-        {
-          limit[c] = std::max(limit[c], negligible * std::fabs(p[b * k + c]));
-          all = all && std::fabs(p[b * k + c]) <= limit[c];
-        }
-        return all;
-      };
-      std::size_t first = node, last = node + 1;
-      for (int quiet = 0; first > 0 && quiet < negligible_nodes; --first)
-      {
-        std::fill(p + b * (first - 1), p + b * first, 0.);
-        subtract_transposed<b>(from_left[first].multiplier, p + b * first, p + b * (first - 1));
-        quiet = small(first - 1) ? quiet + 1 : 0;
-      }
-      for (int quiet = 0; last + 1 < n && quiet < negligible_nodes; ++last)
-      {
-        std::fill(p + b * (last + 1), p + b * (last + 2), 0.);
-        subtract_transposed<b>(from_right[last].multiplier, p + b * last, p + b * (last + 1));
-        quiet = small(last + 1) ? quiet + 1 : 0;
-      }
-      if (first == 0 && last + 1 == n)
-      {
-        // Without decay the matrix may be as good as singular (statics): then the columns have to
-        // round like the displacements that solve() gives, or the contact forces pay for the
-        // difference.
-        std::fill(full.begin(), full.end(), 0.);
-        rhs.add_to(1., full);
-        solve(full);
-      }
-      x.first = b * first;
-      x.value.assign(p + b * first, p + b * (last + 1));
-      x.pad(ScalarProduct::lanes, b * n);
-    }
   } // namespace
 
   std::unique_ptr<LocalSolver> make_block_tridiagonal_solver(const unsigned int block_size)
@@ -378,15 +59,15 @@ namespace taut
     switch (block_size)
     {
     case 1:
-      return std::make_unique<BlockTridiagonalSolver<1>>();
+      return std::make_unique<BlockTridiagonalSolver<Block<1>>>();
     case 2:
-      return std::make_unique<BlockTridiagonalSolver<2>>();
+      return std::make_unique<BlockTridiagonalSolver<Block<2>>>();
     case 3:
-      return std::make_unique<BlockTridiagonalSolver<3>>();
+      return std::make_unique<BlockTridiagonalSolver<Block<3>>>();
     case 4:
-      return std::make_unique<BlockTridiagonalSolver<4>>();
+      return std::make_unique<BlockTridiagonalSolver<Block<4>>>();
     case 6:
-      return std::make_unique<BlockTridiagonalSolver<6>>();
+      return std::make_unique<CableSolver>();
     default:
       throw std::logic_error(
           "block size of a block-tridiagonal solver that is none of 1, 2, 3, 4, 6");

@@ -4,6 +4,7 @@
 
 #include <taut/base/exceptions.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -12,7 +13,34 @@
 namespace taut
 {
   template <int b>
-  using Block = std::array<double, b * b>;
+  struct Block : std::array<double, b * b>
+  {
+    static constexpr int n_dofs = b; ///< of a node
+  };
+
+  template <int b>
+  inline void add(const double factor, const Block<b> &A, Block<b> &sum)
+  {
+    for (int k = 0; k < b * b; ++k)
+      sum[k] += factor * A[k];
+  }
+
+  template <int b>
+  inline void clear_row(Block<b> &A, const int i)
+  {
+    std::fill_n(A.begin() + b * i, b, 0.);
+  }
+  template <int b>
+  inline void clear_column(Block<b> &A, const int i)
+  {
+    for (int r = 0; r < b; ++r)
+      A[b * r + i] = 0.;
+  }
+  template <int b>
+  inline void add_entry(Block<b> &A, const int r, const int c, const double value)
+  {
+    A[b * r + c] += value;
+  }
 
   /// y -= A x
   template <int b>
@@ -77,13 +105,17 @@ namespace taut
     return C;
   }
 
+  /// Of blocks that hold a whole node.
+  constexpr int all_dofs[] = {0, 1, 2, 3, 4, 5};
+
   /// Smallest accepted ratio of a pivot to the diagonal entry it came from.
   constexpr double smallest_pivot = 1e-15;
 
   /// Inverse of a definite block through its Cholesky factor. @p original has the diagonal before
-  /// elimination.
+  /// elimination, @p dofs the DoFs of @p node that the message names.
   template <int b>
-  Block<b> invert(const Block<b> &A, const Block<b> &original, const std::size_t node)
+  Block<b> invert(const Block<b> &A, const Block<b> &original, const std::size_t node,
+                  const int *const dofs = all_dofs)
   {
     double L[b][b] = {};
     for (int r = 0; r < b; ++r)
@@ -98,7 +130,7 @@ namespace taut
           L[r][r] = std::sqrt(sum);
         else
           throw BodyNotHeld("the matrix is singular to working precision at node " +
-                            std::to_string(node) + ", DoF " + std::to_string(r) +
+                            std::to_string(node) + ", DoF " + std::to_string(dofs[r]) +
                             " of the node: nothing holds it there");
       }
     Block<b> inverse{};

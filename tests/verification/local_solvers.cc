@@ -15,6 +15,23 @@ namespace
 {
   constexpr unsigned int n = 41;
 
+  /// Sizes of blocks, and whether the third direction of three is coupled to the others.
+  struct Blocks
+  {
+    unsigned int size;
+    bool coupled;
+    std::string name() const
+    {
+      return "blocks of " + std::to_string(size) + (coupled ? "" : ", z decoupled");
+    }
+    bool couple(const unsigned int i, const unsigned int j) const
+    {
+      return coupled || (i % 3 == 2) == (j % 3 == 2);
+    }
+  };
+  const std::vector<Blocks> all_blocks = {{1, true}, {2, true}, {3, true},
+                                          {4, true}, {6, true}, {6, false}};
+
   /// Springs of 1 N/m between n points, the first point on a spring of k.
   std::unique_ptr<taut::SymmetricMatrix> string(const double k)
   {
@@ -53,15 +70,17 @@ TEST(LocalSolvers, products_give_back_what_was_solved)
   std::mt19937 random(1);
   std::uniform_real_distribution<double> value(-1., 1.);
   constexpr unsigned int n_nodes = 201;
-  for (const unsigned int b : {1u, 2u, 3u, 4u, 6u})
+  for (const Blocks &blocks : all_blocks)
     for (const std::string name : {"block tridiagonal", "sparse direct"})
     {
-      SCOPED_TRACE(name + ", blocks of " + std::to_string(b));
+      SCOPED_TRACE(name + ", " + blocks.name());
+      const unsigned int b = blocks.size;
       const unsigned int size = b * n_nodes;
       const auto matrix = taut::make_block_tridiagonal(b, size);
       for (unsigned int i = 0; i < size; ++i)
         for (unsigned int j = i / b == 0 ? 0 : b * (i / b - 1); j <= i; ++j)
-          matrix->add(i, j, i == j ? 4. * b : value(random));
+          if (blocks.couple(i, j))
+            matrix->add(i, j, i == j ? 4. * b : value(random));
       const std::vector<unsigned int> held = {0, size / 2, size - 1};
       const auto solver = taut::make_local_solver(name, *matrix);
       solver->factor({{.5, matrix.get()}, {1.5, matrix.get()}}, held);
@@ -132,10 +151,11 @@ TEST(LocalSolvers, repeated_rows_multiply_as_if_they_were_read)
 {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> value(-1., 1.);
-  for (const unsigned int b : {1u, 2u, 3u, 4u, 6u})
+  for (const Blocks &blocks : all_blocks)
     for (const unsigned int n_nodes : {1u, 2u, 3u, 4u, 5u, 301u})
     {
-      SCOPED_TRACE("blocks of " + std::to_string(b) + ", nodes: " + std::to_string(n_nodes));
+      SCOPED_TRACE(blocks.name() + ", nodes: " + std::to_string(n_nodes));
+      const unsigned int b = blocks.size;
       const unsigned int size = b * n_nodes;
       std::vector<double> element(4 * b * b);
       for (double &v : element)
@@ -144,9 +164,11 @@ TEST(LocalSolvers, repeated_rows_multiply_as_if_they_were_read)
       for (unsigned int node = 0; node + 1 < n_nodes; ++node)
         for (unsigned int i = 0; i < 2 * b; ++i)
           for (unsigned int j = 0; j <= i; ++j)
-            matrix->add(b * node + i, b * node + j, element[2 * b * i + j]);
+            if (blocks.couple(i, j))
+              matrix->add(b * node + i, b * node + j, element[2 * b * i + j]);
       matrix->add(b * (n_nodes / 3), b * (n_nodes / 3), 3.);
-      matrix->add(b * (2 * n_nodes / 3) + b - 1, b * (2 * n_nodes / 3), 2.);
+      if (blocks.coupled)
+        matrix->add(b * (2 * n_nodes / 3) + b - 1, b * (2 * n_nodes / 3), 2.);
 
       std::vector<double> x(size), expected(size, 0.);
       for (double &v : x)
@@ -191,19 +213,24 @@ TEST(LocalSolvers, bodies_side_by_side_are_solved_like_one_by_one)
 {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> value(-1., 1.);
-  for (const unsigned int b : {1u, 2u, 3u, 4u, 6u})
+  for (const Blocks &blocks : all_blocks)
     for (const std::string name : {"block tridiagonal", "sparse direct"})
       for (const unsigned int n_nodes : {1u, 2u, 3u, 40u, 93u})
       {
-        const auto make = [&](const unsigned int nodes)
+        SCOPED_TRACE(name + ", " + blocks.name() + ", nodes: " + std::to_string(n_nodes));
+        const unsigned int b = blocks.size;
+        // A decoupled body stands beside a coupled one, or beside another decoupled one.
+        const auto make = [&](const unsigned int nodes, const Blocks &of)
         {
           auto matrix = taut::make_block_tridiagonal(b, b * nodes);
           for (unsigned int i = 0; i < b * nodes; ++i)
             for (unsigned int j = i / b == 0 ? 0 : b * (i / b - 1); j <= i; ++j)
-              matrix->add(i, j, i == j ? 4. * b : value(random));
+              if (of.couple(i, j))
+                matrix->add(i, j, i == j ? 4. * b : value(random));
           return matrix;
         };
-        const auto A = make(40), B = make(n_nodes);
+        const auto A = make(40, blocks),
+                   B = make(n_nodes, n_nodes % 2 == 0 ? Blocks{b, true} : blocks);
         const auto first = taut::make_local_solver("block tridiagonal", *A),
                    second = taut::make_local_solver(name, *B);
         first->factor({{1., A.get()}}, {1});

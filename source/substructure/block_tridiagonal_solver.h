@@ -1,0 +1,372 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_block_tridiagonal_solver_h
+#define taut_block_tridiagonal_solver_h
+
+#include "block_substitution.h"
+#include "block_tridiagonal_matrix.h"
+
+#include <taut/base/instruction_set.h>
+#include <taut/substructure/local_solver.h>
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+
+namespace taut
+{
+  /**
+   * With D_i and L_i the blocks of A (L_i couples node i to i - 1), the elimination from the left
+   * has pivots Dl_i = D_i - L_i Dl_{i-1}^-1 L_i^T and multipliers G_i = L_i Dl_{i-1}^-1; the one
+   * from the right Dr_i = D_i - L_{i+1}^T Dr_{i+1}^-1 L_{i+1} and H_i = L_{i+1}^T Dr_{i+1}^-1. A
+   * solve runs both to the middle node.
+   */
+  template <typename AnyBlock>
+  class BlockTridiagonalSolver : public LocalSolver
+  {
+    static constexpr int b = AnyBlock::n_dofs; ///< of a node
+
+    /// Relative size below which the tail of a column is left out, and for how many nodes in a row.
+    static constexpr double negligible = 1e-18;
+    static constexpr int negligible_nodes = 3;
+
+  public:
+    void factor(const std::vector<ScaledMatrix> &summands,
+                const std::vector<unsigned int> &constrained_dofs) override;
+    void solve(std::vector<double> &x) const override;
+    void solve_beside(std::vector<double> &x, const LocalSolver &other,
+                      std::vector<double> &y) const override;
+    void column(const LinearForm &rhs, WindowedVector &x) const override;
+    double flexibility(const LinearForm &rhs) const override;
+
+  private:
+    BothEliminations<AnyBlock> eliminations() const;
+    AnyBlock pivot_from_left(std::size_t i, const AnyBlock &G) const;
+    AnyBlock pivot_from_right(std::size_t i, const AnyBlock &H) const;
+    void eliminate_from_left(std::size_t begin, std::size_t end) const;
+    void eliminate_from_right(std::size_t begin, std::size_t end) const;
+    bool complete() const;
+    void solve_middle(double *x) const;
+
+    bool element_of(const LinearForm &rhs, unsigned int &node, std::array<double, 2 * b> &r) const;
+    void solve_element(unsigned int node, const std::array<double, 2 * b> &rhs, double *x) const;
+
+    std::size_t n = 0, middle = 0;
+    std::vector<AnyBlock> D, L;
+    mutable Eliminations<AnyBlock> from_left, from_right;
+
+    /// A cable's matrix changes in each step, and a step without contacts needs no columns.
+    static constexpr bool all_at_once = b < 6;
+    mutable bool is_whole = false, is_halves = false;
+    AnyBlock middle_inverse;
+    std::vector<unsigned int> constrained;
+    mutable std::vector<double> work; ///< of column()
+  };
+
+  template <typename AnyBlock>
+  void BlockTridiagonalSolver<AnyBlock>::factor(const std::vector<ScaledMatrix> &summands,
+                                                const std::vector<unsigned int> &constrained_dofs)
+  {
+    constrained = constrained_dofs;
+    n = summands.front().second->size() / b;
+    middle = n / 2;
+    D.assign(n, {});
+    L.assign(n, {});
+    for (const auto &[factor, matrix] : summands)
+      if (const auto *const own = dynamic_cast<const BlockTridiagonalMatrix<b> *>(matrix))
+        own->add_to(factor, D, L);
+      else
+        matrix->visit(
+            [&, factor = factor](unsigned int i, unsigned int j, double value)
+            {
+              add_entry(i / b == j / b ? D[i / b] : L[i / b], i % b, j % b, factor * value);
+              if (i / b == j / b && i != j)
+                add_entry(D[i / b], j % b, i % b, factor * value);
+            });
+    for (const unsigned int dof : constrained)
+    {
+      const std::size_t node = dof / b;
+      clear_row(D[node], dof % b);
+      clear_column(D[node], dof % b);
+      clear_row(L[node], dof % b);
+      if (node + 1 < n)
+        clear_column(L[node + 1], dof % b);
+      add_entry(D[node], dof % b, dof % b, 1.);
+    }
+
+    from_left.reinit(n);
+    from_right.reinit(n);
+    is_whole = all_at_once;
+    is_halves = false;
+    if (is_whole)
+    {
+      eliminate_from_left(0, n);
+      eliminate_from_right(n, 0);
+    }
+    else
+      vectorised(
+          [this]
+          {
+            eliminate_from_left(0, middle + 1);
+            eliminate_from_right(n, middle);
+          });
+    AnyBlock pivot = pivot_from_left(middle, from_left[middle].multiplier);
+    if (middle + 1 < n)
+      pivot = symmetric_difference(pivot, multiply(from_right[middle].multiplier, L[middle + 1]));
+    middle_inverse = invert(pivot, D[middle], middle);
+  }
+
+  /// Dl_i, with G_i.
+  template <typename AnyBlock>
+  AnyBlock BlockTridiagonalSolver<AnyBlock>::pivot_from_left(const std::size_t i,
+                                                             const AnyBlock &G) const
+  {
+    return i == 0 ? D[i] : symmetric_difference(D[i], multiply(G, transpose(L[i])));
+  }
+
+  /// Dr_i, with H_i.
+  template <typename AnyBlock>
+  AnyBlock BlockTridiagonalSolver<AnyBlock>::pivot_from_right(const std::size_t i,
+                                                              const AnyBlock &H) const
+  {
+    return i + 1 == n ? D[i] : symmetric_difference(D[i], multiply(H, L[i + 1]));
+  }
+
+  /// Nodes begin to end - 1, after those before them.
+  template <typename AnyBlock>
+  void BlockTridiagonalSolver<AnyBlock>::eliminate_from_left(const std::size_t begin,
+                                                             const std::size_t end) const
+  {
+    for (std::size_t i = begin; i < end; ++i)
+    {
+      Elimination<AnyBlock> e{};
+      if (i > 0)
+        e.multiplier = multiply(L[i], from_left[i - 1].inverse);
+      e.transposed = transpose(e.multiplier);
+      e.inverse = invert(pivot_from_left(i, e.multiplier), D[i], i);
+      from_left.set(i, e);
+    }
+  }
+
+  /// Nodes begin - 1 down to end, after those behind them.
+  template <typename AnyBlock>
+  void BlockTridiagonalSolver<AnyBlock>::eliminate_from_right(const std::size_t begin,
+                                                              const std::size_t end) const
+  {
+    for (std::size_t i = begin; i-- > end;)
+    {
+      Elimination<AnyBlock> e{};
+      if (i + 1 < n)
+        e.multiplier = multiply(transpose(L[i + 1]), from_right[i + 1].inverse);
+      e.transposed = transpose(e.multiplier);
+      e.inverse = invert(pivot_from_right(i, e.multiplier), D[i], i);
+      from_right.set(i, e);
+    }
+  }
+
+  /// The halves that only columns need. False if one of them has a pivot that is rounding, where
+  /// the elimination to the middle has none.
+  template <typename AnyBlock>
+  bool BlockTridiagonalSolver<AnyBlock>::complete() const
+  {
+    if (is_whole || is_halves)
+      return is_whole;
+    try
+    {
+      eliminate_from_left(middle + 1, n);
+      eliminate_from_right(middle, 0);
+      is_whole = true;
+    }
+    catch (const BodyNotHeld &)
+    {
+      is_halves = true;
+    }
+    return is_whole;
+  }
+
+  template <typename AnyBlock>
+  void BlockTridiagonalSolver<AnyBlock>::solve_middle(double *x) const
+  {
+    double *m = x + b * middle, solution[b];
+    if (middle > 0)
+      subtract(from_left[middle].multiplier, m - b, m);
+    if (middle + 1 < n)
+      subtract(from_right[middle].multiplier, m + b, m);
+    multiply(middle_inverse, m, solution);
+    std::copy(solution, solution + b, m);
+  }
+
+  template <typename AnyBlock>
+  BothEliminations<AnyBlock> BlockTridiagonalSolver<AnyBlock>::eliminations() const
+  {
+    return {from_left.data(), from_right.data(), static_cast<std::ptrdiff_t>(n),
+            static_cast<std::ptrdiff_t>(middle)};
+  }
+
+  template <typename AnyBlock>
+  void BlockTridiagonalSolver<AnyBlock>::solve(std::vector<double> &x) const
+  {
+    for (const unsigned int dof : constrained)
+      x[dof] = 0.;
+    vectorised(
+        [this, all = x.data()]
+        {
+          Inwards(eliminations(), all).finish(1);
+          solve_middle(all);
+          Outwards(eliminations(), all).finish(1);
+        });
+  }
+
+  template <typename AnyBlock>
+  void BlockTridiagonalSolver<AnyBlock>::solve_beside(std::vector<double> &x,
+                                                      const LocalSolver &other,
+                                                      std::vector<double> &y) const
+  {
+    const auto *const alike = dynamic_cast<const BlockTridiagonalSolver *>(&other);
+    if (alike == nullptr)
+      return LocalSolver::solve_beside(x, other, y);
+    for (const unsigned int dof : constrained)
+      x[dof] = 0.;
+    for (const unsigned int dof : alike->constrained)
+      y[dof] = 0.;
+    const auto together = [](auto first, auto second)
+    {
+      const std::ptrdiff_t n = std::min(first.n_steps(), second.n_steps());
+      for (std::ptrdiff_t k = 1; k <= n; ++k)
+      {
+        first.step(k);
+        second.step(k);
+      }
+      first.finish(std::max<std::ptrdiff_t>(n, 0) + 1);
+      second.finish(std::max<std::ptrdiff_t>(n, 0) + 1);
+    };
+    vectorised(
+        [&together, this, alike, all_x = x.data(), all_y = y.data()]
+        {
+          together(Inwards(eliminations(), all_x), Inwards(alike->eliminations(), all_y));
+          solve_middle(all_x);
+          alike->solve_middle(all_y);
+          together(Outwards(eliminations(), all_x), Outwards(alike->eliminations(), all_y));
+        });
+  }
+
+  /// Solves on nodes @p node and the next one with everything outside them eliminated.
+  template <typename AnyBlock>
+  void BlockTridiagonalSolver<AnyBlock>::solve_element(const unsigned int node,
+                                                       const std::array<double, 2 * b> &rhs,
+                                                       double *x) const
+  {
+    // [Dl  L^T] [x0]   [r0]
+    // [L   Dr ] [x1] = [r1]
+    const AnyBlock &coupling = L[node + 1];
+    const AnyBlock pivot =
+        symmetric_difference(pivot_from_right(node + 1, from_right[node + 1].multiplier),
+                             multiply(from_left[node + 1].multiplier, transpose(coupling)));
+    const AnyBlock inverse = invert(pivot, D[node + 1], node + 1);
+    double r0[b], r1[b];
+    std::copy(rhs.begin(), rhs.begin() + b, r0);
+    std::copy(rhs.begin() + b, rhs.end(), r1);
+    subtract(from_left[node + 1].multiplier, r0, r1);
+    multiply(inverse, r1, x + b);
+    subtract_transposed(coupling, x + b, r0);
+    multiply(from_left[node].inverse, r0, x);
+  }
+
+  /// The element that @p rhs lives on, by its first node, and the entries there; false if it is
+  /// more than one.
+  template <typename AnyBlock>
+  bool BlockTridiagonalSolver<AnyBlock>::element_of(const LinearForm &rhs, unsigned int &node,
+                                                    std::array<double, 2 * b> &r) const
+  {
+    node = rhs.index.empty() ? 0 : *std::min_element(rhs.index.begin(), rhs.index.end()) / b;
+    node = std::min<unsigned int>(node, n - 2);
+    for (std::size_t k = 0; k < rhs.index.size(); ++k)
+    {
+      if (rhs.index[k] / b > node + 1)
+        return false;
+      if (!std::binary_search(constrained.begin(), constrained.end(), rhs.index[k]))
+        r[rhs.index[k] - b * node] += rhs.value[k];
+    }
+    return true;
+  }
+
+  template <typename AnyBlock>
+  double BlockTridiagonalSolver<AnyBlock>::flexibility(const LinearForm &rhs) const
+  {
+    unsigned int node;
+    std::array<double, 2 * b> r{}, x{};
+    if (n > 1 && complete() && element_of(rhs, node, r))
+    {
+      solve_element(node, r, x.data());
+      return std::inner_product(r.begin(), r.end(), x.begin(), 0.);
+    }
+    std::vector<double> full(b * n, 0.);
+    rhs.add_to(1., full);
+    solve(full);
+    return rhs.dot(full);
+  }
+
+  template <typename AnyBlock>
+  void BlockTridiagonalSolver<AnyBlock>::column(const LinearForm &rhs, WindowedVector &x) const
+  {
+    x.first = 0;
+    x.value.clear();
+    std::vector<double> &full = work;
+    full.resize(b * n);
+    if (n == 1 || !complete())
+    {
+      std::fill(full.begin(), full.end(), 0.);
+      rhs.add_to(1., full);
+      solve(full);
+      x.value = full;
+      return;
+    }
+
+    unsigned int node;
+    std::array<double, 2 * b> r{};
+    if (!element_of(rhs, node, r))
+      throw std::logic_error("the right-hand side of a column spans more than one element");
+    double *p = full.data();
+    solve_element(node, r, p + b * node);
+
+    double limit[b];
+    for (int c = 0; c < b; ++c)
+      limit[c] = negligible * std::max(std::fabs(p[b * node + c]), std::fabs(p[b * node + b + c]));
+    const auto small = [&](const std::size_t k)
+    {
+      bool all = true;
+      for (int c = 0; c < b; ++c)
+      {
+        limit[c] = std::max(limit[c], negligible * std::fabs(p[b * k + c]));
+        all = all && std::fabs(p[b * k + c]) <= limit[c];
+      }
+      return all;
+    };
+    std::size_t first = node, last = node + 1;
+    for (int quiet = 0; first > 0 && quiet < negligible_nodes; --first)
+    {
+      std::fill(p + b * (first - 1), p + b * first, 0.);
+      subtract_transposed(from_left[first].multiplier, p + b * first, p + b * (first - 1));
+      quiet = small(first - 1) ? quiet + 1 : 0;
+    }
+    for (int quiet = 0; last + 1 < n && quiet < negligible_nodes; ++last)
+    {
+      std::fill(p + b * (last + 1), p + b * (last + 2), 0.);
+      subtract_transposed(from_right[last].multiplier, p + b * last, p + b * (last + 1));
+      quiet = small(last + 1) ? quiet + 1 : 0;
+    }
+    if (first == 0 && last + 1 == n)
+    {
+      // Without decay the matrix may be as good as singular (statics): then the columns have to
+      // round like the displacements that solve() gives, or the contact forces pay for the
+      // difference.
+      std::fill(full.begin(), full.end(), 0.);
+      rhs.add_to(1., full);
+      solve(full);
+    }
+    x.first = b * first;
+    x.value.assign(p + b * first, p + b * (last + 1));
+    x.pad(ScalarProduct::lanes, b * n);
+  }
+} // namespace taut
+
+#endif
