@@ -58,6 +58,13 @@ namespace taut
       std::memcpy(&values, column, sizeof(values));
       v -= factor * values;
     }
+    /// += x times @p row, one by one
+    void add_products(const VectorNode &x, const double *row)
+    {
+      Vector values;
+      std::memcpy(&values, row, sizeof(values));
+      v += x.v * values;
+    }
 
   private:
     Vector v;

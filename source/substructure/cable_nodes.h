@@ -101,17 +101,24 @@ namespace taut
                       const double value)
     {
       Entries &entries = nodes[node];
-      add_entry(own ? entries.diagonal : entries.before, r, c, value);
-      if (!own)
-        add_entry(entries.transposed, c, r, value);
-      else if (r != c)
-        add_entry(entries.diagonal, c, r, value);
+      const auto add_to_part = [&](auto DecoupledBlock::*part, const int size)
+      {
+        const int p = DecoupledBlock::place(r), q = DecoupledBlock::place(c);
+        (own ? entries.diagonal.*part : entries.before.*part)[size * p + q] += value;
+        if (!own || r != c)
+          (own ? entries.diagonal.*part : entries.transposed.*part)[size * q + p] += value;
+      };
+      if (DecoupledBlock::is_lateral(r))
+        add_to_part(&DecoupledBlock::lateral, 2);
+      else
+        add_to_part(&DecoupledBlock::plane, 4);
     }
 
     void add_coupling(const std::size_t node, const bool own, const int r, const int c,
                       const double value)
     {
-      couplings.resize(nodes.size());
+      if (couplings.empty())
+        couplings.resize(nodes.size());
       Coupling &coupling = couplings[node];
       const int p = DecoupledBlock::place(r), q = DecoupledBlock::place(c);
       if (DecoupledBlock::is_lateral(r))
@@ -164,6 +171,7 @@ namespace taut
     void add_couplings(const std::size_t i, const DecoupledNode &before, const DecoupledNode &here,
                        const DecoupledNode &behind, DecoupledNode &sum) const
     {
+      constexpr double zero[4] = {};
       double along_z[2];
       for (int p = 0; p < 2; ++p)
       {
@@ -172,10 +180,12 @@ namespace taut
         sum.plane.add(here.lateral[p], own.data());
         sum.plane.add(before.lateral[p], couplings[i].plane_before[p].data());
         sum.plane.add(behind.lateral[p], couplings[i + 1].lateral_before[p].data());
-        along_z[p] = sum.lateral[p];
-        for (int q = 0; q < 4; ++q)
-          along_z[p] += own[q] * here.plane[q] + to_before[q] * before.plane[q] +
-                        to_behind[q] * behind.plane[q];
+        Node<4> products;
+        products.read(zero);
+        products.add_products(here.plane, own.data());
+        products.add_products(before.plane, to_before.data());
+        products.add_products(behind.plane, to_behind.data());
+        along_z[p] = sum.lateral[p] + ((products[0] + products[1]) + (products[2] + products[3]));
       }
       sum.lateral.read(along_z);
     }

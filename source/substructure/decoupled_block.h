@@ -14,11 +14,13 @@ namespace taut
     static constexpr std::array<int, 4> plane_dofs = {0, 1, 3, 4};
     static constexpr std::array<int, 2> lateral_dofs = {2, 5};
 
-    /// Where a DoF of the node is within the DoFs of the plane, or the lateral ones.
     static constexpr bool is_lateral(const int dof) { return dof % 3 == 2; }
+
+    /// Where a DoF of the node is within the DoFs of the plane, or the lateral ones.
     static constexpr int place(const int dof)
     {
-      return is_lateral(dof) ? dof / 3 : dof % 3 + 2 * (dof / 3);
+      constexpr int places[] = {0, 1, 0, 2, 3, 1};
+      return places[dof];
     }
     static constexpr bool are_together(const int i, const int j)
     {
