@@ -208,6 +208,41 @@ TEST(LocalSolvers, repeated_rows_multiply_as_if_they_were_read)
     }
 }
 
+// A spring of another kind of matrix stands between a node of a cable and the ground: upright, or at
+// an angle, which couples the plane with z where the cable itself does not.
+TEST(LocalSolvers, matrices_of_two_kinds_are_added)
+{
+  constexpr unsigned int b = 6, n_nodes = 40, size = b * n_nodes, node = 17;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> value(-1., 1.);
+  for (const bool cable_couples : {false, true})
+    for (const bool spring_couples : {false, true})
+    {
+      SCOPED_TRACE(std::to_string(cable_couples) + ", " + std::to_string(spring_couples));
+      const auto cable = taut::make_block_tridiagonal(b, size);
+      for (unsigned int i = 0; i < size; ++i)
+        for (unsigned int j = i / b == 0 ? 0 : b * (i / b - 1); j <= i; ++j)
+          if (Blocks{b, cable_couples}.couple(i, j))
+            cable->add(i, j, i == j ? 4. * b : value(random));
+      taut::CoordinateMatrix spring(size);
+      const double direction[3] = {.6, .8, spring_couples ? .5 : 0.};
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int j = 0; j <= i; ++j)
+          spring.add(b * node + i, b * node + j, 30. * direction[i] * direction[j]);
+      const auto solver = taut::make_local_solver("block tridiagonal", *cable);
+      solver->factor({{2., cable.get()}, {1., &spring}}, {});
+      std::vector<double> rhs(size), product(size, 0.);
+      for (double &v : rhs)
+        v = value(random);
+      std::vector<double> x = rhs;
+      solver->solve(x);
+      cable->vmult_add(2., x.data(), product.data());
+      spring.vmult_add(1., x.data(), product.data());
+      for (unsigned int i = 0; i < size; ++i)
+        EXPECT_NEAR(product[i], rhs[i], 1e-12) << i;
+    }
+}
+
 // Two bodies of different lengths, in one loop and one after the other; and of different solvers.
 TEST(LocalSolvers, bodies_side_by_side_are_solved_like_one_by_one)
 {
@@ -293,5 +328,33 @@ TEST(LocalSolvers, refuse_what_is_not_held)
       const auto solver = taut::make_local_solver(name, *matrix);
       EXPECT_THROW(solver->factor({{1., matrix.get()}}, {}), taut::BodyNotHeld)
           << name << ", " << k;
+    }
+}
+
+// The node of a cable and its DoF, whether the plane and z are solved together or not.
+TEST(LocalSolvers, name_what_is_not_held)
+{
+  constexpr unsigned int b = 6, n_nodes = 9;
+  for (const bool coupled : {false, true})
+    for (unsigned int loose = 0; loose < b; ++loose)
+    {
+      const auto matrix = taut::make_block_tridiagonal(b, b * n_nodes);
+      for (unsigned int i = 0; i < b * n_nodes; ++i)
+        if (i != 2 * b + loose)
+          matrix->add(i, i, 1.);
+      if (coupled)
+        matrix->add(1, 2, .1);
+      const auto solver = taut::make_local_solver("block tridiagonal", *matrix);
+      std::string message;
+      try
+      {
+        solver->factor({{1., matrix.get()}}, {});
+      }
+      catch (const taut::BodyNotHeld &error)
+      {
+        message = error.what();
+      }
+      EXPECT_NE(message.find("node 2, DoF " + std::to_string(loose)), std::string::npos)
+          << coupled << ", " << message;
     }
 }
