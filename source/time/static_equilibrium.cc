@@ -37,40 +37,6 @@ namespace taut
     constexpr double sufficient = 1e-4;
     constexpr double shortest_step = 1e-6;
 
-    /// A pivot below this part of the stiffness of its spring is not positive.
-    constexpr double least_pivot = 1e-6;
-
-    /**
-     * Whether the structure stays definite with -2 s in place of 0 across the links that push, s
-     * the stiffness of the springs that it has there for the check: by a Cholesky factor of 1/(2 s)
-     * - flexibility, which is the Schur complement of the structure in these springs. Returns the
-     * first spring without a positive pivot, or their number. Without flexibilities nothing is
-     * known.
-     */
-    std::size_t first_that_gives_way(StaticStep &step,
-                                     const std::vector<TurningAtRest::Across> &springs)
-    {
-      const std::size_t n = springs.size();
-      std::vector<std::size_t> rows;
-      for (const TurningAtRest::Across &spring : springs)
-        rows.push_back(spring.row);
-      std::vector<std::vector<double>> L;
-      if (!step.flexibility(rows, L))
-        return n;
-      for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t j = 0; j <= i; ++j)
-        {
-          double sum = (i == j ? 1. : 0.) -
-                       2. * std::sqrt(springs[i].stiffness * springs[j].stiffness) * L[i][j];
-          for (std::size_t k = 0; k < j; ++k)
-            sum -= L[i][k] * L[j][k];
-          if (i == j && !(sum > least_pivot))
-            return i;
-          L[i][j] = i == j ? std::sqrt(sum) : sum / L[j][j];
-        }
-      return n;
-    }
-
     /**
      * Newton's method with the complementarity problem solved exactly in each iteration (N. H.
      * Josephy, 1979), with full steps; if that ends nowhere, or where a tangent is not definite,
@@ -237,7 +203,7 @@ namespace taut
         StaticStep step(structure, turning.constraints(), parameters, time, soft,
                         state.displacement);
         step.solve();
-        const std::size_t unstable = first_that_gives_way(step, springs);
+        const std::size_t unstable = turning.first_that_gives_way(step, springs);
         if (unstable == springs.size())
           return true;
         const std::size_t i = turning.constraint_of(springs[unstable]);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "turning_at_rest.h"
+#include "static_step.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +16,9 @@ namespace taut
 
     /// Of each link: one along it, then two across it.
     constexpr std::size_t n_springs = 3;
+
+    /// A pivot below this part of the stiffness of its spring is not positive.
+    constexpr double least_pivot = 1e-6;
   } // namespace
 
   TurningAtRest::TurningAtRest(const Structure &structure, const Constraints &constraints,
@@ -156,5 +160,29 @@ namespace taut
     if (!springs.empty())
       set(state.displacement, N, true);
     return springs;
+  }
+
+  std::size_t TurningAtRest::first_that_gives_way(StaticStep &step,
+                                                  const std::vector<Across> &springs)
+  {
+    const std::size_t n = springs.size();
+    std::vector<std::size_t> rows;
+    for (const Across &spring : springs)
+      rows.push_back(spring.row);
+    std::vector<std::vector<double>> L;
+    if (!step.flexibility(rows, L))
+      return n;
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j <= i; ++j)
+      {
+        double sum = (i == j ? 1. : 0.) -
+                     2. * std::sqrt(springs[i].stiffness * springs[j].stiffness) * L[i][j];
+        for (std::size_t k = 0; k < j; ++k)
+          sum -= L[i][k] * L[j][k];
+        if (i == j && !(sum > least_pivot))
+          return i;
+        L[i][j] = i == j ? std::sqrt(sum) : sum / L[j][j];
+      }
+    return n;
   }
 } // namespace taut

@@ -10,6 +10,8 @@
 
 namespace taut
 {
+  class StaticStep;
+
   /**
    * The constraints for the iterations of a search of an equilibrium: those that turn become linear
    * about the last displacements, D + B (U - U_i), and have their geometric stiffness N / |Delta|
@@ -61,6 +63,15 @@ namespace taut
     /// Makes constraints() those of the check of a state, with the springs returned; empty: nothing
     /// pushes, and constraints() are as before.
     std::vector<Across> begin_check(const StaticState &state);
+
+    /**
+     * After a step with the springs of begin_check(): whether the structure stays definite with
+     * -2 s in place of 0 across the links that push, s the stiffness of these springs, by a
+     * Cholesky factor of 1/(2 s) - flexibility, which is the Schur complement of the structure in
+     * them. Returns the first spring without a positive pivot, or their number. Without
+     * flexibilities nothing is known.
+     */
+    static std::size_t first_that_gives_way(StaticStep &step, const std::vector<Across> &springs);
 
     /// The constraint that a spring across it belongs to.
     std::size_t constraint_of(const Across &spring) const
