@@ -33,14 +33,8 @@ namespace taut
 
   CsvFile::CsvFile(const std::string &path, const std::vector<std::string> &columns,
                    const bool goes_on)
-      : path(path)
+      : table(path, columns, goes_on)
   {
-    if (goes_on)
-      return;
-    file.create(path);
-    for (const std::string &column : columns)
-      *this << column;
-    end_line();
   }
 
   CsvFile::Number::Number(const double value) : value(value)
@@ -59,57 +53,29 @@ namespace taut
       last[0] = Number(value);
     }
     const Number &number = is_same(last[0]) ? last[0] : last[1];
-    buffer.append(number.text + line_begins, number.length - line_begins);
+    table.add(number.text + line_begins, number.length - line_begins);
     line_begins = false;
     return *this;
   }
 
   CsvFile &CsvFile::operator<<(const std::string &text)
   {
-    if (!line_begins)
-      buffer += ',';
+    table.add((line_begins ? "" : ",") + csv_cell(text));
     line_begins = false;
-    buffer += csv_cell(text);
     return *this;
   }
 
   CsvFile &CsvFile::begin_line(const double time)
   {
-    buffer += time_text(time);
+    table.add(time_text(time));
     line_begins = false;
     return *this;
   }
 
   void CsvFile::end_line()
   {
-    buffer += '\n';
+    table.add("\n", 1);
     line_begins = true;
-    if (buffer.size() > table_buffer)
-      write();
-  }
-
-  /// What could not be written stays in the buffer, for another try.
-  void CsvFile::write()
-  {
-    file.append(buffer);
-    buffer.clear();
-  }
-
-  std::size_t CsvFile::save()
-  {
-    write();
-    file.sync();
-    return file.length();
-  }
-
-  void CsvFile::resume(const std::size_t length)
-  {
-    file.resume(path, length);
-  }
-
-  void CsvFile::close()
-  {
-    write();
-    file.close();
+    table.end_line();
   }
 } // namespace taut

@@ -6,15 +6,26 @@ namespace taut
 {
   namespace
   {
-    class TextTable : public NumberTable
+    template <typename File>
+    class TableIn : public NumberTable
     {
     public:
-      TextTable(const std::string &path, const std::vector<std::string> &columns,
-                const bool goes_on)
+      TableIn(const std::string &path, const std::vector<std::string> &columns, const bool goes_on)
           : file(path, columns, goes_on)
       {
       }
+      std::size_t save() override { return file.save(); }
+      void resume(const std::size_t length) override { file.resume(length); }
+      void close() override { file.close(); }
 
+    protected:
+      File file;
+    };
+
+    class TextTable : public TableIn<CsvFile>
+    {
+    public:
+      using TableIn::TableIn;
       void add_line(const double time, const std::vector<double> &values) override
       {
         file.begin_line(time);
@@ -22,67 +33,24 @@ namespace taut
           file << value;
         file.end_line();
       }
-      std::size_t save() override { return file.save(); }
-      void resume(const std::size_t length) override { file.resume(length); }
-      void close() override { file.close(); }
-
-    private:
-      CsvFile file;
     };
 
-    class BinaryTable : public NumberTable
+    class BinaryTable : public TableIn<TableFile>
     {
     public:
-      BinaryTable(const std::string &path, const std::vector<std::string> &columns,
-                  const bool goes_on)
-          : path(path)
-      {
-        if (goes_on)
-          return;
-        file.create(path);
-        for (const std::string &column : columns)
-          buffer += (buffer.empty() ? "" : ",") + csv_cell(column);
-        buffer += '\n';
-      }
-
+      using TableIn::TableIn;
       void add_line(const double time, const std::vector<double> &values) override
       {
         add(&time, 1);
         add(values.data(), values.size());
-        if (buffer.size() > table_buffer)
-          write();
-      }
-
-      std::size_t save() override
-      {
-        write();
-        file.sync();
-        return file.length();
-      }
-      void resume(const std::size_t length) override { file.resume(path, length); }
-
-      void close() override
-      {
-        write();
-        file.close();
+        file.end_line();
       }
 
     private:
       void add(const double *values, const std::size_t n)
       {
-        buffer.append(reinterpret_cast<const char *>(values), n * sizeof(double));
+        file.add(reinterpret_cast<const char *>(values), n * sizeof(double));
       }
-
-      /// What could not be written stays in the buffer, for another try.
-      void write()
-      {
-        file.append(buffer);
-        buffer.clear();
-      }
-
-      std::string path;
-      GrowingFile file;
-      std::string buffer;
     };
   } // namespace
 

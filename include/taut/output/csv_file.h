@@ -2,7 +2,7 @@
 #ifndef taut_csv_file_h
 #define taut_csv_file_h
 
-#include <taut/base/growing_file.h>
+#include <taut/output/table_file.h>
 
 #include <array>
 #include <string>
@@ -10,9 +10,6 @@
 
 namespace taut
 {
-  /// What tables keep in memory before they write [bytes].
-  constexpr std::size_t table_buffer = 1 << 16;
-
   /// A time [s] as short as it was meant: to 14 digits, 0.009 for 9 steps of 0.001.
   std::string time_text(double time);
 
@@ -39,15 +36,10 @@ namespace taut
     /// Ends the current line. Throws UserError when the disk is full.
     void end_line();
 
-    /// Writes what is buffered and closes. Throws UserError when the disk is full.
-    void close();
-
-    /// Brings what is buffered to the disk and returns the length of the file. Throws UserError
-    /// when the disk is full.
-    std::size_t save();
-
-    /// Goes on after this length and drops what follows. Throws UserError if the file is shorter.
-    void resume(std::size_t length);
+    /// As those of TableFile.
+    void close() { table.close(); }
+    std::size_t save() { return table.save(); }
+    void resume(const std::size_t length) { table.resume(length); }
 
   private:
     /// A comma and a number.
@@ -60,11 +52,7 @@ namespace taut
       std::size_t length;
     };
 
-    void write();
-
-    std::string path;
-    GrowingFile file;
-    std::string buffer;
+    TableFile table;
     bool line_begins = true;
 
     /// The last two numbers: a value, its least and its largest are often two.
