@@ -208,8 +208,8 @@ TEST(LocalSolvers, repeated_rows_multiply_as_if_they_were_read)
     }
 }
 
-// A spring of another kind of matrix stands between a node of a cable and the ground: upright, or at
-// an angle, which couples the plane with z where the cable itself does not.
+// A spring of another kind of matrix stands between a node of a cable and the ground: upright, or
+// at an angle, which couples the plane with z where the cable itself does not.
 TEST(LocalSolvers, matrices_of_two_kinds_are_added)
 {
   constexpr unsigned int b = 6, n_nodes = 40, size = b * n_nodes, node = 17;
