@@ -128,17 +128,26 @@ namespace taut
       done = std::max(done, repetition.begin);
       const std::size_t stop = std::min(end, repetition.end);
       if (repetition.is_zero)
+      {
         for (; done < stop; ++done)
           y[done] = result(y[done], 0.);
-      const auto repeat = [&, rows = repetition.rows](const auto stride)
+        continue;
+      }
+      // Coefficients by value: what is written cannot be one of them.
+      const auto repeat = [&](const auto stride)
       {
+        constexpr int first_row = width % stride, n_rows = (2 * width - first_row) / stride + 1;
+        double rows[n_rows][lanes];
+        for (int o = 0; o < n_rows; ++o)
+          for (int k = 0; k < lanes; ++k)
+            rows[o][k] = repetition.rows[first_row + stride * o][k];
         for (; done + lanes <= stop; done += lanes)
 #pragma omp simd
           for (int k = 0; k < lanes; ++k)
           {
             double sum = 0.;
-            for (int o = width % stride; o <= 2 * width; o += stride)
-              sum += rows[o][k] * x[done + k + o - width];
+            for (int o = 0; o < n_rows; ++o)
+              sum += rows[o][k] * x[done + k + first_row + stride * o - width];
             y[done + k] = result(y[done + k], sum);
           }
       };
