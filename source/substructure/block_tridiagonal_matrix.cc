@@ -69,7 +69,8 @@ namespace taut
             if (o % n_directions != 0)
               repetition.directions_are_apart = false;
           }
-        repetitions.push_back(repetition);
+        if (!is_cable || repetition.directions_are_apart)
+          repetitions.push_back(repetition);
       }
       begin = end;
     }
@@ -133,28 +134,25 @@ namespace taut
           y[done] = result(y[done], 0.);
         continue;
       }
-      // Coefficients by value: what is written cannot be one of them.
-      const auto repeat = [&](const auto stride)
+      const auto repeat = [&](const auto stride, const auto &rows)
       {
-        constexpr int first_row = width % stride, n_rows = (2 * width - first_row) / stride + 1;
-        double rows[n_rows][lanes];
-        for (int o = 0; o < n_rows; ++o)
-          for (int k = 0; k < lanes; ++k)
-            rows[o][k] = repetition.rows[first_row + stride * o][k];
         for (; done + lanes <= stop; done += lanes)
 #pragma omp simd
           for (int k = 0; k < lanes; ++k)
           {
             double sum = 0.;
-            for (int o = 0; o < n_rows; ++o)
-              sum += rows[o][k] * x[done + k + first_row + stride * o - width];
+            for (int o = width % stride; o <= 2 * width; o += stride)
+              sum += rows[o][k] * x[done + k + o - width];
             y[done + k] = result(y[done + k], sum);
           }
       };
-      if constexpr (b % n_directions == 0)
-        if (repetition.directions_are_apart)
-          repeat(std::integral_constant<int, n_directions>());
-      repeat(std::integral_constant<int, 1>());
+      if constexpr (is_cable)
+        repeat(std::integral_constant<int, n_directions>(), repetition.rows);
+      else
+      {
+        const auto rows = repetition.rows; // in registers, as what is written cannot be one of them
+        repeat(std::integral_constant<int, 1>(), rows);
+      }
     }
     if (done < std::min(last, end))
     {

@@ -45,11 +45,13 @@ namespace taut
     bool decouples() const { return entries.decouples(); }
 
   private:
-    static constexpr int width = 2 * b - 1;                      ///< diagonals below the main one
+    static constexpr int width = 2 * b - 1; ///< diagonals below the main one
+    static constexpr bool is_cable = b == CableNodes::b;
     static constexpr int n_directions = 3;                       ///< of cables
     static constexpr int lanes = b % n_directions == 0 ? 24 : 8; ///< whole nodes
 
-    /// Rows begin to end - 1 are those of `lanes` rows, again and again; whole nodes.
+    /// Rows begin to end - 1 are those of `lanes` rows, again and again; whole nodes. Of cables
+    /// only where directions are apart: other rows are read as fast.
     struct Repetition
     {
       std::size_t begin, end;
@@ -66,7 +68,7 @@ namespace taut
     void product_at_end(std::size_t i, const double *x, double *y, const Result &result) const;
 
     std::size_t n;
-    std::conditional_t<b == CableNodes::b, CableNodes, Diagonals<b>> entries;
+    std::conditional_t<is_cable, CableNodes, Diagonals<b>> entries;
     std::vector<Repetition> repetitions;
   };
 } // namespace taut
