@@ -174,31 +174,19 @@ namespace taut
     throw EntryError(body.origin(), out.str());
   }
 
-  void FactoredStructure::begin_step(const double mass, const double damping,
-                                     const bool may_use_amplitudes)
+  void FactoredStructure::factor(const double mass, const double damping,
+                                 const bool may_use_amplitudes)
   {
     use_amplitudes = may_use_amplitudes;
     mass_factor = mass;
     damping_factor = damping;
     kind = Kind::step;
-  }
-
-  void FactoredStructure::begin_stiffness()
-  {
-    kind = Kind::stiffness;
-    motions.assign(solvers.size(), {});
-  }
-
-  void FactoredStructure::factor_all()
-  {
     for (std::size_t k = 0; k < solvers.size(); ++k)
-      factor(k);
+      factor_body(k, use_amplitudes);
   }
 
-  void FactoredStructure::factor(const std::size_t k)
+  void FactoredStructure::factor_body(const std::size_t k, const bool use_amplitudes)
   {
-    if (kind == Kind::stiffness)
-      return factor_held(k);
     const std::vector<ScaledMatrix> A = summands(k);
     double loss = 0.;
     motions[k] = {};
@@ -209,11 +197,12 @@ namespace taut
     }
     catch (const BodyNotHeld &)
     {
-      if (!take_apart(k))
+      if (!take_apart(k, use_amplitudes))
         throw;
       return;
     }
-    if (loss > (use_amplitudes ? largest_loss_beside_amplitudes : largest_loss) && take_apart(k))
+    if (loss > (use_amplitudes ? largest_loss_beside_amplitudes : largest_loss) &&
+        take_apart(k, use_amplitudes))
       return;
     check_digits(k, loss);
   }
@@ -221,7 +210,7 @@ namespace taut
   /// False if the rigid body modes cannot be unknowns, or need not, as the next iteration of
   /// Newton's method corrects what rounding loses of them; where they only may not, says what
   /// allows it.
-  bool FactoredStructure::take_apart(const std::size_t k)
+  bool FactoredStructure::take_apart(const std::size_t k, const bool use_amplitudes)
   {
     const Substructure &body = bodies[k];
     if (!body.is_linear() || body.null_space().vectors.empty() || !set_rigid_body_modes(k))
@@ -312,16 +301,20 @@ namespace taut
     }
   }
 
-  /// K_k, with springs on the DoFs that fix its null space.
-  void FactoredStructure::factor_held(const std::size_t k)
+  void FactoredStructure::factor_stiffness()
   {
-    Substructure::NullSpace null_space = bodies[k].null_space();
-    const auto held = with_springs(stiffness(k), null_space.fixing_dofs);
-    motions[k].resistance.assign(null_space.vectors.size(), 0.);
-    motions[k].vectors = std::move(null_space.vectors);
-    motions[k].fixing_dofs = std::move(null_space.fixing_dofs);
-    factor(k, *solvers[k], {{1., held.get()}}, bodies[k].constrained_dofs());
-    check_digits(k, lost_digits(k, *solvers[k], {{1., held.get()}}));
+    kind = Kind::stiffness;
+    motions.assign(solvers.size(), {});
+    for (std::size_t k = 0; k < solvers.size(); ++k)
+    {
+      Substructure::NullSpace null_space = bodies[k].null_space();
+      const auto held = with_springs(stiffness(k), null_space.fixing_dofs);
+      motions[k].resistance.assign(null_space.vectors.size(), 0.);
+      motions[k].vectors = std::move(null_space.vectors);
+      motions[k].fixing_dofs = std::move(null_space.fixing_dofs);
+      factor(k, *solvers[k], {{1., held.get()}}, bodies[k].constrained_dofs());
+      check_digits(k, lost_digits(k, *solvers[k], {{1., held.get()}}));
+    }
   }
 
   /// A matrix that was set takes the place of M_k, with all of its DoFs.

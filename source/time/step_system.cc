@@ -36,15 +36,24 @@ namespace taut
     structure.communicator().agree(
         [&]
         {
-          if (c.is_at_rest())
-            solvers.begin_stiffness();
-          else
-            solvers.begin_step(c.mass_factor(), c.velocity,
+          for (int attempt = 0;; ++attempt)
+            try
+            {
+              for (const std::size_t k : nonlinear)
+                solvers.set_tangent(k, tangent(k, attempt));
+              tangents_are_exact = attempt == 0;
+              if (c.is_at_rest())
+                solvers.factor_stiffness();
+              else
+                solvers.factor(c.mass_factor(), c.velocity,
                                parameters.interface.form != "matrix-free");
-          for (std::size_t k = 0; k < structure.size(); ++k)
-            if (std::find(nonlinear.begin(), nonlinear.end(), k) == nonlinear.end())
-              solvers.factor(k);
-          factor_nonlinear();
+              break;
+            }
+            catch (const EntryError &) // singular, or next to it
+            {
+              if (nonlinear.empty() || attempt == most_attempts)
+                throw;
+            }
         });
     number_modes();
     schur->setup(S);
@@ -71,18 +80,14 @@ namespace taut
     schur->set_compliance(S);
   }
 
-  /// Each body with a tangent that only its own lack of stiffness makes definite: what is in one
-  /// rank with it does not matter.
   void StepSystem::factor_nonlinear()
   {
-    tangents_are_exact = true;
     for (const std::size_t k : nonlinear)
       for (int attempt = 0;; ++attempt)
         try
         {
           solvers.set_tangent(k, tangent(k, attempt));
-          solvers.factor(k);
-          tangents_are_exact = tangents_are_exact && attempt == 0;
+          solvers.factor_again(k);
           break;
         }
         catch (const EntryError &) // singular, or next to it

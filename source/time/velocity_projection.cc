@@ -94,7 +94,7 @@ namespace taut
             solvers.factor_mass();
           else
             for (const std::size_t k : with_constraints)
-              solvers.factor(k);
+              solvers.factor_again(k);
         });
   }
 

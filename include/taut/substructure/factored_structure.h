@@ -24,19 +24,7 @@ namespace taut
      * factor; if the body has none, or without @p use_amplitudes, an EntryError names it and what
      * helps. BodyNotHeld names a body that nothing holds.
      */
-    void factor(const double mass, const double damping, const bool use_amplitudes = true)
-    {
-      begin_step(mass, damping, use_amplitudes);
-      factor_all();
-    }
-
-    /// What factor() or factor_stiffness() do, but for the factors: those of each body k follow by
-    /// factor(k).
-    void begin_step(double mass, double damping, bool use_amplitudes = true);
-    void begin_stiffness();
-
-    /// Factors A_k of one body, again if need be. Throws as the functions for all bodies do.
-    void factor(std::size_t k);
+    void factor(double mass, double damping, bool use_amplitudes = true);
 
     /**
      * The motions that K_k does not resist, of a body whose inertia J = mass M_k + damping C_k is
@@ -80,11 +68,7 @@ namespace taut
      * inverse is a generalised inverse of K_k, exact for forces that are balanced on the null
      * space (the springs then carry nothing).
      */
-    void factor_stiffness()
-    {
-      begin_stiffness();
-      factor_all();
-    }
+    void factor_stiffness();
 
     const LocalSolver &operator[](std::size_t k) const { return *solvers[k]; }
 
@@ -99,6 +83,9 @@ namespace taut
     {
       tangents[k] = std::move(tangent);
     }
+
+    /// Factors A_k of one body again, with the factors of the last factor().
+    void factor_again(std::size_t k) { factor_body(k, use_amplitudes); }
 
     /// X_k = A_k^-1 X_k for all k.
     void solve(BodyVectors &X) const;
@@ -133,9 +120,8 @@ namespace taut
     double lost_digits(std::size_t k, const LocalSolver &solver,
                        const std::vector<ScaledMatrix> &summands) const;
     void check_digits(std::size_t k, double loss) const;
-    void factor_all();
-    void factor_held(std::size_t k);
-    bool take_apart(std::size_t k);
+    void factor_body(std::size_t k, bool use_amplitudes);
+    bool take_apart(std::size_t k, bool use_amplitudes);
     bool set_rigid_body_modes(std::size_t k);
 
     const Structure &bodies;
