@@ -17,8 +17,8 @@ namespace taut
     if (goes_on)
       return;
     file.create(path);
-    for (const std::string &column : columns)
-      buffer += (buffer.empty() ? "" : ",") + csv_cell(column);
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      buffer += (i == 0 ? "" : ",") + csv_cell(columns[i]);
     buffer += '\n';
   }
 

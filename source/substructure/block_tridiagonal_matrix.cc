@@ -57,7 +57,8 @@ namespace taut
         ++end;
       if (end - begin >= least)
       {
-        Repetition repetition{b * begin, b * end, true, true, {}};
+        Repetition repetition{b * begin, b * end, true, {}};
+        bool directions_are_apart = true; // as those of the masses of cables
         for (int o = -width; o <= width; ++o)
           for (int k = 0; k < lanes; ++k)
           {
@@ -67,9 +68,9 @@ namespace taut
               continue;
             repetition.is_zero = false;
             if (o % n_directions != 0)
-              repetition.directions_are_apart = false;
+              directions_are_apart = false;
           }
-        if (!is_cable || repetition.directions_are_apart)
+        if (!is_cable || directions_are_apart)
           repetitions.push_back(repetition);
       }
       begin = end;

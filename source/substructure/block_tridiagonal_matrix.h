@@ -55,8 +55,7 @@ namespace taut
     struct Repetition
     {
       std::size_t begin, end;
-      bool is_zero;              ///< no damping
-      bool directions_are_apart; ///< only every third diagonal is not zero: masses of cables
+      bool is_zero; ///< no damping
       std::array<std::array<double, lanes>, 2 * width + 1> rows;
     };
 

@@ -106,7 +106,7 @@ namespace taut
   }
 
   /// Of blocks that hold a whole node.
-  constexpr int all_dofs[] = {0, 1, 2, 3, 4, 5};
+  inline constexpr int all_dofs[] = {0, 1, 2, 3, 4, 5};
 
   /// Smallest accepted ratio of a pivot to the diagonal entry it came from.
   constexpr double smallest_pivot = 1e-15;

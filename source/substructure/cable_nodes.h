@@ -5,6 +5,7 @@
 #include "decoupled_block.h"
 
 #include <cstddef>
+#include <type_traits>
 #include <vector>
 
 namespace taut

@@ -31,7 +31,7 @@ namespace taut
       diagonals[row - column][row] += value;
     }
 
-    /// With column <= row; zero outside the band.
+    /// With column <= row <= column + width.
     double operator()(const std::size_t row, const std::size_t column) const
     {
       return diagonals[row - column][row];

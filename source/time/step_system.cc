@@ -33,30 +33,43 @@ namespace taut
   {
     c = coefficients;
     compliance = S;
-    structure.communicator().agree(
-        [&]
-        {
-          for (int attempt = 0;; ++attempt)
+    const Communicator &processes = structure.communicator();
+    const bool has_tangents = processes.any(!nonlinear.empty());
+    bool fails = true;
+    for (int attempt = 0; fails; ++attempt)
+    {
+      bool fails_here = false;
+      processes.agree(
+          [&]
+          {
             try
             {
-              for (const std::size_t k : nonlinear)
-                solvers.set_tangent(k, tangent(k, attempt));
-              tangents_are_exact = attempt == 0;
-              if (c.is_at_rest())
-                solvers.factor_stiffness();
-              else
-                solvers.factor(c.mass_factor(), c.velocity,
-                               parameters.interface.form != "matrix-free");
-              break;
+              factor(attempt);
             }
             catch (const EntryError &) // singular, or next to it
             {
-              if (nonlinear.empty() || attempt == most_attempts)
+              if (!has_tangents || attempt == most_attempts)
                 throw;
+              fails_here = true;
             }
-        });
+          });
+      fails = processes.any(fails_here);
+    }
     number_modes();
     schur->setup(S);
+  }
+
+  /// All bodies, so that a structure without a definite tangent has the same tangents on any number
+  /// of ranks.
+  void StepSystem::factor(const int attempt)
+  {
+    for (const std::size_t k : nonlinear)
+      solvers.set_tangent(k, tangent(k, attempt));
+    tangents_are_exact = attempt == 0;
+    if (c.is_at_rest())
+      solvers.factor_stiffness();
+    else
+      solvers.factor(c.mass_factor(), c.velocity, parameters.interface.form != "matrix-free");
   }
 
   void StepSystem::set_nonlinear(const std::vector<std::size_t> &bodies, const Tangent &of_body)

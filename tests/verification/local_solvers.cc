@@ -15,22 +15,33 @@ namespace
 {
   constexpr unsigned int n = 41;
 
-  /// Sizes of blocks, and whether the third direction of three is coupled to the others.
+  /// Sizes of blocks, and which of three directions they couple.
   struct Blocks
   {
+    enum Coupling
+    {
+      all,
+      plane, ///< the first two
+      none
+    };
     unsigned int size;
-    bool coupled;
+    Coupling coupling;
     std::string name() const
     {
-      return "blocks of " + std::to_string(size) + (coupled ? "" : ", z decoupled");
+      return "blocks of " + std::to_string(size) +
+             (coupling == all     ? ""
+              : coupling == plane ? ", z decoupled"
+                                  : ", directions decoupled");
     }
     bool couple(const unsigned int i, const unsigned int j) const
     {
-      return coupled || (i % 3 == 2) == (j % 3 == 2);
+      return coupling == all || (coupling == plane && (i % 3 == 2) == (j % 3 == 2)) ||
+             i % 3 == j % 3;
     }
   };
-  const std::vector<Blocks> all_blocks = {{1, true}, {2, true}, {3, true},
-                                          {4, true}, {6, true}, {6, false}};
+  const std::vector<Blocks> all_blocks = {{1, Blocks::all}, {2, Blocks::all}, {3, Blocks::all},
+                                          {4, Blocks::all}, {6, Blocks::all}, {6, Blocks::plane},
+                                          {6, Blocks::none}};
 
   /// Springs of 1 N/m between n points, the first point on a spring of k.
   std::unique_ptr<taut::SymmetricMatrix> string(const double k)
@@ -81,7 +92,7 @@ TEST(LocalSolvers, products_give_back_what_was_solved)
         for (unsigned int j = i / b == 0 ? 0 : b * (i / b - 1); j <= i; ++j)
           if (blocks.couple(i, j))
             matrix->add(i, j, i == j ? 4. * b : value(random));
-      const std::vector<unsigned int> held = {0, size / 2, size - 1};
+      const std::vector<unsigned int> held = {0, b * (n_nodes / 2) + 2 % b, size - 1};
       const auto solver = taut::make_local_solver(name, *matrix);
       solver->factor({{.5, matrix.get()}, {1.5, matrix.get()}}, held);
       const auto check = [&](std::vector<double> x, const std::vector<double> &rhs)
@@ -167,7 +178,7 @@ TEST(LocalSolvers, repeated_rows_multiply_as_if_they_were_read)
             if (blocks.couple(i, j))
               matrix->add(b * node + i, b * node + j, element[2 * b * i + j]);
       matrix->add(b * (n_nodes / 3), b * (n_nodes / 3), 3.);
-      if (blocks.coupled)
+      if (blocks.coupling == Blocks::all)
         matrix->add(b * (2 * n_nodes / 3) + b - 1, b * (2 * n_nodes / 3), 2.);
 
       std::vector<double> x(size), expected(size, 0.);
@@ -199,6 +210,13 @@ TEST(LocalSolvers, repeated_rows_multiply_as_if_they_were_read)
               EXPECT_NEAR(part[i - begin], expected[i], 1e-13) << i;
           }
       }
+      // Nothing at all is a repetition, too.
+      const auto zero = taut::make_block_tridiagonal(b, size);
+      zero->find_repetitions();
+      std::vector<double> nothing(size, 1.);
+      zero->vmult_rows(0, size, x.data(), nothing.data());
+      EXPECT_EQ(nothing, std::vector<double>(size, 0.));
+
       // What is added later counts.
       const unsigned int later = b * (n_nodes / 2);
       matrix->add(later, later, 1.);
@@ -222,7 +240,7 @@ TEST(LocalSolvers, matrices_of_two_kinds_are_added)
       const auto cable = taut::make_block_tridiagonal(b, size);
       for (unsigned int i = 0; i < size; ++i)
         for (unsigned int j = i / b == 0 ? 0 : b * (i / b - 1); j <= i; ++j)
-          if (Blocks{b, cable_couples}.couple(i, j))
+          if (Blocks{b, cable_couples ? Blocks::all : Blocks::plane}.couple(i, j))
             cable->add(i, j, i == j ? 4. * b : value(random));
       taut::CoordinateMatrix spring(size);
       const double direction[3] = {.6, .8, spring_couples ? .5 : 0.};
@@ -265,7 +283,7 @@ TEST(LocalSolvers, bodies_side_by_side_are_solved_like_one_by_one)
           return matrix;
         };
         const auto A = make(40, blocks),
-                   B = make(n_nodes, n_nodes % 2 == 0 ? Blocks{b, true} : blocks);
+                   B = make(n_nodes, n_nodes % 2 == 0 ? Blocks{b, Blocks::all} : blocks);
         const auto first = taut::make_local_solver("block tridiagonal", *A),
                    second = taut::make_local_solver(name, *B);
         first->factor({{1., A.get()}}, {1});

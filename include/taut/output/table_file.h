@@ -23,7 +23,8 @@ namespace taut
     void add(const char *bytes, const std::size_t n) { buffer.append(bytes, n); }
     void add(const std::string &bytes) { buffer += bytes; }
 
-    /// Ends the current line. Throws UserError when the disk is full.
+    /// Call it where the current line is complete, whatever ends a line. Throws UserError when the
+    /// disk is full.
     void end_line();
 
     /// Writes what is buffered and closes. Throws UserError when the disk is full.

@@ -94,6 +94,7 @@ namespace taut
                                const MixedComplementaritySolution &applied,
                                MixedComplementaritySolution &correction);
     void number_modes();
+    void factor(int attempt);
     void factor_nonlinear();
 
     const Structure &structure;

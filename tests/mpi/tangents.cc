@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: where the tangent of one body is not definite, all bodies take the next one, on any number
+// of ranks. Source: of two wires one has a tangent with a negative pivot at first.
+#include "../verification/run.h"
+
+#include <taut/time/step_system.h>
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+using namespace verification;
+
+TEST(Tangents, are_made_definite_on_all_ranks_together)
+{
+  Session session(
+      "set Generator = network\nset Gravity = 0, 0\nset Start = undeformed\n"
+      "subsection Network\n set Wires = one, two\n set Supports = a, b\n"
+      " subsection Wire one\n  set To = 1, 0\n  set Components = string\n"
+      "  set Mass per length = 1\n  set Tension = 100\n  set Element size = 0.25\n end\n"
+      " subsection Wire two\n  set From = 0, 1\n  set To = 1, 1\n  set Components = string\n"
+      "  set Mass per length = 1\n  set Tension = 100\n  set Element size = 0.25\n end\n"
+      " subsection Support a\n  set Wire = one\n  set Positions = 0, 1\n end\n"
+      " subsection Support b\n  set Wire = two\n  set Positions = 0, 1\n end\n"
+      "end\nsubsection Time\n set Step = 0.01\n set End = 0.01\nend\n",
+      {}, taut::Communicator(MPI_COMM_WORLD));
+  const taut::Structure &structure = session.simulation().structure();
+  ASSERT_EQ(structure.all_bodies().size(), 2u);
+  std::vector<std::size_t> own(structure.size());
+  std::iota(own.begin(), own.end(), 0);
+
+  for (const std::string softer : {"one", "two"})
+    for (const int first_definite : {0, 1, 3})
+    {
+      std::vector<std::vector<int>> asked_for(structure.size());
+      taut::StepSystem system(structure, session.simulation().constraints(),
+                              session.parameters().solver);
+      system.set_nonlinear(own,
+                           [&](const std::size_t k, const int attempt)
+                           {
+                             asked_for[k].push_back(attempt);
+                             auto K = structure[k].stiffness().clone();
+                             if (structure[k].name() == softer && attempt < first_definite)
+                               K->add(2, 2, -1e6);
+                             return K;
+                           });
+      taut::StepCoefficients step;
+      step.velocity = 100.;
+      step.acceleration = 1e4;
+      for (const taut::StepCoefficients &c : {step, taut::StepCoefficients()})
+      {
+        SCOPED_TRACE(softer + ", " + std::to_string(first_definite) +
+                     (c.is_at_rest() ? ", at rest" : ""));
+        std::vector<int> expected(first_definite + 1);
+        std::iota(expected.begin(), expected.end(), 0);
+        for (std::vector<int> &attempts : asked_for)
+          attempts.clear();
+        system.prepare(c, {});
+        for (const std::vector<int> &attempts : asked_for)
+          EXPECT_EQ(attempts, expected);
+        EXPECT_EQ(system.has_own_tangents(), first_definite == 0);
+      }
+    }
+}
