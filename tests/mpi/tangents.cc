@@ -40,7 +40,7 @@ TEST(Tangents, are_made_definite_on_all_ranks_together)
                            {
                              asked_for[k].push_back(attempt);
                              auto K = structure[k].stiffness().clone();
-                             if (structure[k].name() == softer && attempt < first_definite)
+                             if (structure[k].name().find(softer) == 0 && attempt < first_definite)
                                K->add(2, 2, -1e6);
                              return K;
                            });
