@@ -7,6 +7,9 @@
 #include <taut/base/communicator.h>
 #include <taut/simulation/simulation.h>
 
+#include <unistd.h>
+
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -114,18 +117,30 @@ namespace
     Hash of_rows;
   };
 
+  std::string new_folder()
+  {
+    static int count = 0;
+    return (std::filesystem::temp_directory_path() /
+            ("taut_digests_" + std::to_string(getpid()) + "_" + std::to_string(++count)))
+        .string();
+  }
+
   void print_scene(const std::string &file, const std::vector<std::string> &overrides,
                    const std::string &arrays, const taut::Communicator &processes)
   {
     const std::string name = std::filesystem::path(file).stem().string();
+    std::string folder = new_folder();
+    processes.broadcast(folder);
     Digest digest;
     std::string ending = "complete";
     std::ostringstream log;
     try
     {
       taut::Parameters parameters;
-      parameters.read(file, overrides);
-      parameters.output.writes = false;
+      std::vector<std::string> all = {"Output/Folder=" + folder, "Output/Field interval=0",
+                                      "Output/Interval=1e9", "Output/Link interval=1e9"};
+      all.insert(all.end(), overrides.begin(), overrides.end());
+      parameters.read(file, all);
       taut::Simulation simulation(parameters, log, processes);
       simulation.observe(digest);
       try
@@ -134,12 +149,13 @@ namespace
       }
       catch (const std::exception &why)
       {
-        ending = why.what();
+        ending = std::string("ended: ") + why.what();
+        std::replace(ending.begin(), ending.end(), '\n', ' ');
       }
       const std::uint64_t value = digest.value();
       if (processes.is_root())
         std::printf("%s %016llx %ld %s\n", name.c_str(), static_cast<unsigned long long>(value),
-                    digest.n_records, ending == "complete" ? "complete" : "ended");
+                    digest.n_records, ending.c_str());
       if (!arrays.empty() && processes.size() == 1 && digest.n_records > 0)
         digest.save(arrays + "/" + name);
     }
@@ -149,6 +165,9 @@ namespace
         std::printf("%s - 0 %s\n", name.c_str(), why.what());
     }
     std::fflush(stdout);
+    std::error_code ignored;
+    if (processes.is_root())
+      std::filesystem::remove_all(folder, ignored);
   }
 
   /// One line a family and cover: scenes with an answer, and a hash of which these are.
