@@ -99,6 +99,12 @@ namespace taut
       append(i);
   }
 
+  void Constraints::set_conserving(const std::vector<char> &conserving)
+  {
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      constraints[i].conserving = conserving[i];
+  }
+
   void Constraints::update(const double t)
   {
     for (std::size_t i = first_with_place; i < constraints.size(); ++i)

@@ -3,7 +3,7 @@
 
 #include <taut/model/contact_mass.h>
 #include <taut/model/scene_constraints.h>
-#include <taut/time/choose_scheme.h>
+#include <taut/time/contact_resolution.h>
 
 #include <algorithm>
 
@@ -70,15 +70,14 @@ namespace taut
     Scene lighter = scene;
     for (const std::size_t i : stops)
       lighter.links[i].contact_mass = ContactMass::keeps_total;
-    // Links with a stiffness may act as rigid, too: that depends on the bodies.
-    if (std::any_of(lighter.links.begin(), lighter.links.end(),
-                    [](const Link &link) { return link.unilateral() && !is_massless(link); }))
-    {
-      const SceneBodies structure(lighter);
-      const Constraints constraints = scene_constraints(lighter, structure);
-      if (!rigid_constraints(structure, constraints, parameters, step).empty())
+    // Links with a stiffness may act as rigid, too, and so does a node that something with mass is
+    // joined to: that depends on the bodies.
+    const SceneBodies structure(lighter);
+    const Constraints constraints = scene_constraints(lighter, structure);
+    const ContactResolution resolution(structure, constraints, parameters, step);
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      if (resolution.acts_as_rigid(i))
         return;
-    }
     scene = std::move(lighter);
   }
 } // namespace taut

@@ -37,8 +37,7 @@ namespace taut
         shared->begin();
       Scene scene = find_lengths(parameters.scene(), parameters.solver, shared);
       if (parameters.chooses_contact_mass())
-        redistribute_contact_mass(scene, parameters.solver,
-                                  parameters.step_parameters.shortest(parameters.step));
+        redistribute_contact_mass(scene, parameters.solver, parameters.step);
       return scene;
     }
   } // namespace
@@ -73,6 +72,7 @@ namespace taut
     reactions.update_start(reference, start, links);
     stop_before_start();
     const TimeIntegrator *integrator = parameters.end_time > 0. ? &choose_integrator() : nullptr;
+    measures->set_scheme(parameters.scheme == "automatic", parameters.step_parameters.adaptive());
 
     // The first factorisation, which finds the bodies that nothing holds.
     std::unique_ptr<TimeStepper> time_stepper;
@@ -293,7 +293,7 @@ namespace taut
   void Simulation::advance(TimeStepper &stepper, const ObserverList &observers)
   {
     StepControl control(parameters.step_parameters, parameters.step, n_steps(),
-                        !stepper.is_linear());
+                        !stepper.is_linear(), longest_steps);
     if (checkpoint)
       resume(stepper, control, observers);
     else
@@ -324,7 +324,7 @@ namespace taut
 
   const TimeIntegrator &Simulation::choose_integrator()
   {
-    const double step = parameters.step_parameters.shortest(parameters.step);
+    const double step = parameters.step_parameters.longest(parameters.step);
     std::vector<std::size_t> massless;
     for (std::size_t i = 0; i < links.size(); ++i)
       if (links[i].is_link() && is_massless(model.links[links[i].link]))
@@ -332,24 +332,32 @@ namespace taut
     if (!massless.empty())
       log << "Mass redistribution: nodes of wires under " << links.names(massless)
           << " gave their mass to their neighbours\n";
+    const ContactResolution resolution(bodies, links, parameters.solver, parameters.step,
+                                       parameters.step_parameters.adaptive(), parameters.end_time);
     std::string name = parameters.scheme;
+    std::map<std::string, std::string> entries;
+    std::string reason;
     if (name == "automatic")
     {
       const SchemeChoice choice =
-          choose_scheme(bodies, links, parameters.solver, step, parameters.restitution());
-      chosen_integrator = parameters.integrator(choice.name, choice.entries);
-      log << "Scheme (automatic): " << chosen_integrator->description() << ", because "
-          << choice.reason << '\n';
-      keep_scheme(*chosen_integrator,
-                  parameters.unused_scheme_entries(choice.name, choice.entries));
-      return *chosen_integrator;
+          choose_scheme(bodies, links, resolution, parameters.restitution());
+      name = choice.name;
+      entries = choice.entries;
+      reason = ", because " + choice.reason;
     }
-    const TimeIntegrator &integrator = parameters.integrator(name);
-    log << "Scheme: " << integrator.description() << '\n';
+    chosen_integrator = parameters.integrator(name, entries);
+    const TimeIntegrator &integrator = *chosen_integrator;
+    log << (reason.empty() ? "Scheme: " : "Scheme (automatic): ") << integrator.description()
+        << reason << '\n';
     check_mass(integrator, bodies, step);
-    keep_scheme(integrator, parameters.unused_scheme_entries(name, {}));
-    if (!parameters.allow_unsuitable_scheme)
-      check_scheme(integrator, bodies, links, parameters.solver, step);
+    keep_scheme(integrator, parameters.unused_scheme_entries(name, entries));
+    if (reason.empty() && !parameters.allow_unsuitable_scheme)
+      check_scheme(integrator, bodies, links, resolution, parameters.solver, step);
+    if (integrator.coefficients(step).velocity_projection)
+    {
+      links.set_conserving(resolution.conserving());
+      longest_steps = resolution.longest_steps();
+    }
     return integrator;
   }
 

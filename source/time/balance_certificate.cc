@@ -56,7 +56,7 @@ namespace taut
     constraints.largest_forces(state.multiplier, contact_force);
 
     double result = 0.;
-    work_of_balance = 0.;
+    work_of_balance.assign(structure.size(), 0.);
     may_be_cancellation = true;
     worst = 0;
     for (std::size_t k = 0; k < structure.size(); ++k)
@@ -141,7 +141,7 @@ namespace taut
         double power = 0.;
         for (std::size_t i = 0; i < size; ++i)
           power += dU[i] * (r[begin + i] + kappa * r0[begin + i]);
-        work_of_balance += (1. - c.alpha_f) * power;
+        work_of_balance[k] += (1. - c.alpha_f) * power;
       }
       for (; constraint != body.constraints().end() && constraint->dof < end; ++constraint)
         residual[constraint->dof - begin] = 0.;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
-#include <taut/interface/schur_complement.h>
 #include <taut/time/choose_scheme.h>
 #include <taut/time/integrator.h>
 #include <taut/time/largest_frequency.h>
@@ -21,30 +20,6 @@ namespace taut
     /// Part of the longest stable step that is taken for stable, as the largest frequency is known
     /// from below only: see largest_frequency().
     constexpr double surely_stable = .98;
-
-    /// B^T A^-1 B of the unilateral constraints, 0 for the others.
-    std::vector<double> flexibilities(const Structure &structure, const Constraints &constraints,
-                                      const SolverParameters &parameters, const StepCoefficients &c)
-    {
-      FactoredStructure solvers(structure, parameters.local_solver);
-      const Communicator &processes = structure.communicator();
-      processes.agree([&] { solvers.factor(c.mass_factor(), c.velocity); });
-      std::vector<double> result(constraints.size(), 0.);
-      for (std::size_t i = 0; i < constraints.size(); ++i)
-        for (const Term &term : constraints[i].terms)
-          if (constraints[i].unilateral)
-          {
-            result[i] += solvers[term.substructure].flexibility(term.form);
-            const auto &motions = solvers.rigid_body_modes()[term.substructure];
-            for (std::size_t v = 0; v < motions.vectors.size(); ++v)
-            {
-              const double motion = term.form.dot(motions.vectors[v]);
-              result[i] += motion * motion / motions.resistance[v];
-            }
-          }
-      processes.sum(result);
-      return result;
-    }
 
     /// Not 0 for each constraint that acts on elements, and not on lumped masses alone.
     std::vector<double> rows_on_elements(const Structure &structure, const Constraints &constraints)
@@ -117,51 +92,33 @@ namespace taut
     }
   } // namespace
 
-  std::vector<std::size_t> rigid_constraints(const Structure &structure,
-                                             const Constraints &constraints,
-                                             const SolverParameters &parameters, const double step)
-  {
-    std::vector<std::size_t> result;
-    bool has_unilateral = false;
-    for (std::size_t i = 0; i < constraints.size(); ++i)
-      has_unilateral = has_unilateral || constraints[i].unilateral;
-    if (!has_unilateral)
-      return result;
-    const StepCoefficients c = generalised_alpha(step, .8);
-    const std::vector<double> flexibility = flexibilities(structure, constraints, parameters, c);
-    const std::vector<char> without_mass = constraints.without_mass();
-    for (std::size_t i = 0; i < constraints.size(); ++i)
-      if (constraints[i].unilateral && !without_mass[i] &&
-          1. / (constraints[i].stiffness + c.velocity * constraints[i].damping) < flexibility[i])
-        result.push_back(i);
-    return result;
-  }
-
   SchemeChoice choose_scheme(const Structure &structure, const Constraints &constraints,
-                             const SolverParameters &parameters, const double step,
-                             const double restitution)
+                             const ContactResolution &resolution, const double restitution)
   {
-    const std::vector<std::size_t> rigid =
-        rigid_constraints(structure, constraints, parameters, step);
+    const std::size_t unresolved = resolution.first_unresolved();
+    const bool all_resolved = unresolved == constraints.size();
     if (restitution > 0.)
       check_restitution(structure, constraints);
     const std::string nonlinear = nonlinear_body(structure), law = link_with_law(constraints),
                       turning = link_that_turns(constraints);
-    if (rigid.empty() && nonlinear.empty() && law.empty() && turning.empty())
+    if (all_resolved && nonlinear.empty() && law.empty() && turning.empty())
       return {"generalised-alpha",
               {{"Generalised-alpha/Spectral radius", "0.8"}},
               "no unilateral link is stiffer than the bodies in one step"};
     const std::string reason =
-        !nonlinear.empty() && rigid.empty()
+        !nonlinear.empty() && all_resolved
             ? "body '" + nonlinear +
                   "' moves by large amounts, and the mean forces of this scheme keep its energy"
-        : rigid.empty() && !turning.empty()
+        : all_resolved && !turning.empty()
             ? "link '" + turning + "' turns, and the mean forces of this scheme keep the energy"
-        : rigid.empty() ? "link '" + law +
-                              "' follows a law that is not linear, and the mean forces of this "
-                              "scheme keep its energy"
-                        : "unilateral link '" + constraints[rigid.front()].name +
-                              "' acts as rigid: it is stiffer than the bodies in one step";
+        : all_resolved ? "link '" + law +
+                             "' follows a law that is not linear, and the mean forces of this "
+                             "scheme keep its energy"
+        : resolution.acts_as_rigid(unresolved)
+            ? "unilateral link '" + constraints[unresolved].name +
+                  "' acts as rigid: it is stiffer than the bodies in one step"
+            : "a step does not resolve the impacts at unilateral link '" +
+                  constraints[unresolved].name + "'";
     const std::string body = body_without_definite_mass(structure);
     if (!body.empty() && !turning.empty())
       throw EntryError("Time/Scheme",
@@ -216,8 +173,8 @@ namespace taut
   } // namespace
 
   void check_scheme(const TimeIntegrator &integrator, const Structure &structure,
-                    const Constraints &constraints, const SolverParameters &parameters,
-                    const double step)
+                    const Constraints &constraints, const ContactResolution &resolution,
+                    const SolverParameters &parameters, const double step)
   {
     check_stability(integrator, structure, constraints, parameters, step);
     const StepCoefficients c = integrator.coefficients(step);
@@ -249,13 +206,14 @@ namespace taut
       throw EntryError("Time/Scheme", integrator.description() + " gains energy where link '" +
                                           turning +
                                           "' turns. Take 'automatic' or 'backward Euler'" + anyway);
-    const std::vector<std::size_t> rigid =
-        rigid_constraints(structure, constraints, parameters, step);
-    if (rigid.empty())
+    std::size_t rigid = 0;
+    while (rigid < constraints.size() && !resolution.acts_as_rigid(rigid))
+      ++rigid;
+    if (rigid == constraints.size())
       return;
     std::ostringstream out;
     out << integrator.description() << " fails at unilateral links that act as rigid, here '"
-        << constraints[rigid.front()].name << "': an error of its force keeps " << ringing
+        << constraints[rigid].name << "': an error of its force keeps " << ringing
         << " of itself from step to step, so that it rings. Take 'automatic' or more dissipation, "
            "give the link a Stiffness, set 'Time/Mass redistribution'"
         << anyway;

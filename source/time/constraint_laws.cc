@@ -27,29 +27,55 @@ namespace taut
   ConstraintLaws::ConstraintLaws(const Constraints &constraints) : constraints(constraints)
   {
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      if (constraints[i].law)
-        rows.push_back({i, constraints[i].law.get()});
+    {
+      const ForceLaw *law = constraints[i].law.get();
+      if (!law && constraints[i].conserving)
+      {
+        using Points = std::vector<std::pair<double, double>>;
+        linear.push_back(std::make_shared<TableLaw>(Points{{1., constraints[i].stiffness}}));
+        law = linear.back().get();
+      }
+      if (law)
+        rows.push_back({i, law});
+    }
     row_of.assign(constraints.size(), rows.size());
     for (std::size_t r = 0; r < rows.size(); ++r)
       row_of[rows[r].index] = r;
   }
 
+  double ConstraintLaws::Row::mean_force(const double u) const
+  {
+    if (!conserving || (u >= 0. && u0 >= 0.))
+      return law->mean_force(u0, u);
+    if (u <= 0. && u0 <= 0.)
+      return 0.;
+    return law->energy(std::max(u, u0)) / std::fabs(u - u0);
+  }
+
+  double ConstraintLaws::Row::slope_of_mean(const double u) const
+  {
+    const double difference = u - u0;
+    if (conserving && u <= 0.)
+      return u0 > 0. ? -mean_force(u) / difference : 0.;
+    if (std::fabs(difference) > least_difference * std::max(std::fabs(u), std::fabs(u0)))
+      return (law->force(u) - mean_force(u)) / difference;
+    return .5 * law->stiffness(.5 * (u + u0));
+  }
+
   double ConstraintLaws::Row::force(const double u) const
   {
-    return at_end * law->force(u) + (of_mean > 0. ? of_mean * law->mean_force(u0, u) : 0.) +
-           damping * (u - undamped);
+    const double damped = conserving ? std::max(0., u) - std::max(0., undamped) : u - undamped;
+    return at_end * law->force(u) + (of_mean > 0. ? of_mean * mean_force(u) : 0.) +
+           damping * damped;
   }
 
   double ConstraintLaws::Row::slope(const double u) const
   {
     double of_law = at_end * law->stiffness(u);
-    const double difference = u - u0;
-    if (of_mean > 0. &&
-        std::fabs(difference) > least_difference * std::max(std::fabs(u), std::fabs(u0)))
-      of_law += of_mean * (law->force(u) - law->mean_force(u0, u)) / difference;
-    else if (of_mean > 0.)
-      of_law += .5 * of_mean * law->stiffness(.5 * (u + u0));
-    return std::max(of_law, least_slope * law->largest_stiffness()) + damping;
+    if (of_mean > 0.)
+      of_law += of_mean * slope_of_mean(u);
+    return std::max(of_law, least_slope * law->largest_stiffness()) +
+           (conserving && u < 0. ? 0. : damping);
   }
 
   void ConstraintLaws::begin(const std::size_t i, Row row, const double low, const double high)
@@ -61,7 +87,7 @@ namespace taut
   void ConstraintLaws::begin_at_end(const std::size_t i, const double u, const double damping,
                                     const double undamped)
   {
-    Row row{i, constraints[i].law.get(), u};
+    Row row{i, rows[row_of[i]].law, u};
     row.damping = damping;
     row.undamped = undamped;
     begin(i, row, std::min(0., undamped), std::max(0., undamped));
@@ -70,12 +96,34 @@ namespace taut
   void ConstraintLaws::begin_mean(const std::size_t i, const double u, const double theta,
                                   const double damping)
   {
-    Row row{i, constraints[i].law.get(), u};
+    Row row{i, rows[row_of[i]].law, u};
     row.at_end = (2. * theta - 1.) / theta;
     row.of_mean = 2. * (1. - theta) / theta;
     row.damping = damping;
     row.undamped = u;
     begin(i, row, -std::fabs(u), std::fabs(u));
+  }
+
+  void ConstraintLaws::begin_conserving(const std::size_t i, const double u, const double damping)
+  {
+    Row row = rows[row_of[i]];
+    row.u0 = row.undamped = u;
+    row.at_end = 0.;
+    row.of_mean = 2.;
+    row.damping = damping;
+    row.conserving = true;
+    row.open = 0.;
+    if (u > 0.)
+    {
+      // The mean falls as 1 / (u_0 - u), what the damper takes off it stays.
+      double low = -u;
+      while (damping > 0. && row.force(low) > 0.)
+        low *= 4.;
+      row.open = damping > 0.
+                     ? increasing_root([&](const double at) { return row.force(at); }, low, u)
+                     : -std::numeric_limits<double>::infinity();
+    }
+    rows[row_of[i]] = row;
   }
 
   double ConstraintLaws::lack(const std::size_t i, const double u, const double L) const
@@ -165,8 +213,9 @@ namespace taut
   {
     const std::vector<double> gap = problem.free_gap, scale = problem.gap_scale;
     std::vector<double> u;
+    // From the side where the slopes of a conserving constraint only fall.
     for (const Row &row : rows)
-      u.push_back(std::max(row.u0, row.open));
+      u.push_back(std::max(row.conserving ? -gap[row.index] : row.u0, row.open));
     Point last, now;
     const MixedComplementaritySolution *solution = nullptr;
     double before = std::numeric_limits<double>::infinity();
@@ -185,7 +234,7 @@ namespace taut
       now.multiplier = solution->multiplier;
       now.gap = solution->gap;
       for (std::size_t i = 0; i < constraints.size(); ++i)
-        now.gap[i] -= S[i] * now.multiplier[i] + (constraints[i].law ? shift[i] : 0.);
+        now.gap[i] -= S[i] * now.multiplier[i] + (has(i) ? shift[i] : 0.);
       const ComplementarityOperator &F = system.interface().matrix();
       const double found = error(now, problem, F);
       if (found <= converged || (found <= stagnated && found >= not_closer * before))
@@ -198,7 +247,7 @@ namespace taut
     }
     // Where a link is open, the law is that of rest. What the others lack is in the certificate.
     for (const Row &row : rows)
-      if (solution->multiplier[row.index] == 0.)
+      if (solution->multiplier[row.index] == 0. && std::isfinite(row.open))
       {
         shift[row.index] = row.open;
         problem.free_gap[row.index] = gap[row.index] + row.open;

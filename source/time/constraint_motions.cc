@@ -79,9 +79,10 @@ namespace taut
     {
       const ConstraintData &constraint = constraints[i];
       // Kelvin-Voigt: N = k u + c u' with u' = velocity du + known.
-      if (constraint.law)
+      const bool has_law = laws.has(i);
+      if (has_law)
         begin_law(i, before);
-      link_history[i] = constraint.law ? 0. : spring_history(i, before);
+      link_history[i] = has_law ? 0. : spring_history(i, before);
 
       double gap = before.geometric_gap[i], scale = std::fabs(gap);
       if (constraint.moving)
@@ -230,7 +231,9 @@ namespace taut
       const double known_a = c.a_V * spring.v + c.a_A * spring.a + c.a_dU * spring.du;
       const double own = elastic_mean(i) ? solved.multiplier[i] : balanced[i],
                    free_u = S[i] * own + link_history[i],
-                   u = elastic_mean(i) && constraints[i].unilateral ? std::max(0., free_u) : free_u;
+                   u = conserves(i)                                   ? std::max(0., -gap)
+                       : elastic_mean(i) && constraints[i].unilateral ? std::max(0., free_u)
+                                                                      : free_u;
       spring.du = u - spring.u;
       spring.u = u;
       spring.v = c.velocity * spring.du + known_v;
@@ -262,7 +265,7 @@ namespace taut
       {
         const double u = S[i] * solved.multiplier[i] + link_history[i];
         recomputed.gap[i] = state.geometric_gap[i] + u;
-        if (constraints[i].law)
+        if (laws.has(i))
           recomputed.gap[i] += laws.lack(i, u, solved.multiplier[i]);
       }
       else if (velocity_level(i))

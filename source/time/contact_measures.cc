@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/archive.h>
-#include <taut/base/instruction_set.h>
 #include <taut/time/contact_measures.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numeric>
 #include <sstream>
 
 namespace taut
@@ -21,34 +18,9 @@ namespace taut
     /// one's.
     constexpr double most_steps_of_motion = 2.;
 
-    /// Part of the energy of the reference that rounding gives or takes in a long run at rest.
-    constexpr double rounding_of_energy = 1e-8;
-
-    /// The same of a step, and the turn through which moments that are rounding may do work [rad].
+    /// Part of the energy that rounding gives or takes in a step of a body that is not linear, and
+    /// the turn through which moments that are rounding may do work [rad].
     constexpr double rounding_of_step = 1e-14, noise_turn = 1e-2;
-
-    /// Part of the terms of a gap that its carried value may be off by.
-    constexpr double rounding_of_gaps = 1e-12;
-
-    /// Scalar product, in partial sums that do not wait for each other.
-    double dot(const std::vector<double> &x, const std::vector<double> &y)
-    {
-      constexpr std::size_t lanes = 16;
-      std::array<double, lanes> sums = {};
-      vectorised(
-          [&sums, a = x.data(), b = y.data(), n = x.size()]
-          {
-            std::array<double, lanes> s = {};
-            for (std::size_t i = 0; i + lanes <= n; i += lanes)
-#pragma omp simd
-              for (std::size_t l = 0; l < lanes; ++l)
-                s[l] += a[i + l] * b[i + l];
-            for (std::size_t i = n - n % lanes; i < n; ++i)
-              s[i % lanes] += a[i] * b[i];
-            sums = s;
-          });
-      return std::accumulate(sums.begin(), sums.end(), 0.);
-    }
 
     /// Bound of the highest angular frequency at each DoF from the diagonals, 2 sqrt(K_jj / M_jj);
     /// 0 where there is no mass or no stiffness [rad/s].
@@ -74,52 +46,50 @@ namespace taut
   ContactMeasures::ContactMeasures(const Structure &structure, const Constraints &constraints,
                                    const Reference &reference, const State &start)
       : structure(structure), constraints(constraints), reference(reference),
-        forces(constraints.size()), multiplier0(start.multiplier), gap0(start.gap)
+        forces(constraints.size()), energies(structure, constraints, reference, start)
   {
     const std::vector<double> times = resolved_times();
-    constraints.share_of_motions(reference.displacement,
-                                 noise = std::vector<double>(constraints.size()),
-                                 work = std::vector<double>(constraints.size()));
-    structure.communicator().sum(work);
-    for (std::size_t i = 0; i < constraints.size(); ++i)
+    const std::size_t n = energies.groups().n_groups();
+    first_one_sided.assign(n, no_link);
+    for (std::size_t i = constraints.size(); i-- > 0;)
     {
-      noise[i] = rounding_of_gaps * (work[i] + std::fabs(constraints[i].gap));
       forces[i].window = times[i];
       forces[i].mean = start.multiplier[i];
       forces[i].impulses.push_back({start.time, 0.});
+      if (constraints[i].unilateral)
+        first_one_sided[energies.groups().of_constraint(i)] = i;
     }
-    bool some_far = false;
-    for (std::size_t k = 0; k < structure.size(); ++k)
-      some_far = some_far || !structure[k].is_linear();
-    moves_far = structure.communicator().any(some_far) || constraints.has_turning();
+    contact_gains.assign(n, 0.);
+    motion_gains.assign(n, 0.);
     measure_rest(start);
-    measure_scale(start, Certificate());
   }
 
-  /// What rounding may give at rest: of the strain energy, and of forces in gaps. In bodies that
-  /// are not linear each step may give it again.
+  /// Groups that move far, and what rounding may give in each of their steps.
   void ContactMeasures::measure_rest(const State &start)
   {
-    double sums[] = {0., 0.};
+    const ConnectedBodies &groups = energies.groups();
+    const std::size_t n = groups.n_groups();
+    std::vector<double> sums(2 * n, 0.);
     structure.communicator().agree(
         [&]
         {
           for (std::size_t k = 0; k < structure.size(); ++k)
           {
             const Substructure &body = structure[k];
-            sums[0] += .5 * std::fabs(dot(reference.displacement[k], reference.force[k]));
             if (body.is_linear())
               continue;
-            sums[1] += rounding_of_step * body.strain_energy(displacement(reference, start, k)) +
-                       noise_turn * body.rounding_of_force(1);
+            sums[groups.of_body(k)] += 1.;
+            sums[n + groups.of_body(k)] +=
+                rounding_of_step * body.strain_energy(displacement(reference, start, k)) +
+                noise_turn * body.rounding_of_force(1);
           }
         });
-    structure.communicator().sum(sums, 2);
-    rest = sums[0];
-    rest_of_step = sums[1];
-    for (std::size_t i = 0; i < constraints.size(); ++i)
-      rest += std::fabs(start.multiplier[i]) * noise[i] / rounding_of_gaps;
-    rest *= rounding_of_energy;
+    structure.communicator().sum(sums);
+    for (std::size_t i = constraints.n_fixed(); i < constraints.first_moving(); ++i)
+      sums[groups.of_constraint(i)] += 1.;
+    for (std::size_t g = 0; g < n; ++g)
+      moves_far.push_back(sums[g] > 0.);
+    rest_of_step.assign(sums.begin() + n, sums.end());
   }
 
   /// 2 / omega_max of the elements under each unilateral constraint; 0: lumped bodies only.
@@ -149,26 +119,34 @@ namespace taut
                                const Certificate &certificate)
   {
     ++n_steps;
-    bool is_one_sided = false;
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       if (!constraints[i].unilateral)
         continue;
-      is_one_sided = true;
-      add_energy(i, state, c);
       add_force(forces[i], state.time, state.last_step, state.multiplier[i]);
       add_gap(i, state, c);
-      multiplier0[i] = state.multiplier[i];
-      gap0[i] = state.gap[i];
     }
-    // Without a unilateral constraint there is no contact that could have given it.
-    if (is_one_sided && c.mean_force && !c.velocity_level)
-      found.contact_energy += std::max(0., certificate.energy_gain);
-    if (moves_far)
-      found.motion_energy += std::max(0., certificate.energy_gain);
+    energies.record(state, c);
+    add_gains(state, c);
     if (n_steps < steps_between_scales || n_steps % steps_between_scales == 0)
-      measure_scale(state, certificate);
-    kinetic = std::max(kinetic, certificate.kinetic_energy);
+      energies.measure_scale(state);
+    (void)certificate;
+  }
+
+  /// Without a unilateral constraint there is no contact that could have given it.
+  void ContactMeasures::add_gains(const State &state, const StepCoefficients &c)
+  {
+    if (state.energy_gains.empty())
+      return;
+    const bool of_contacts = c.mean_force && !c.velocity_level;
+    for (std::size_t g = 0; g < contact_gains.size(); ++g)
+    {
+      const double gain = std::max(0., state.energy_gains[g]);
+      if (of_contacts && first_one_sided[g] != no_link)
+        contact_gains[g] += gain;
+      if (moves_far[g])
+        motion_gains[g] += gain;
+    }
   }
 
   template <typename Archive>
@@ -177,12 +155,9 @@ namespace taut
     for (Force &f : forces)
     {
       archive &f.impulses &f.impulse &f.mean &f.peak &f.mean_peak &f.event_impulse;
-      archive &f.largest_impulse &f.event_energy &f.event_begin &f.gap &f.motion;
+      archive &f.largest_impulse &f.gap &f.motion;
     }
-    archive &multiplier0 &gap0 &noise &worst_event &kinetic &strain &loads &n_steps;
-    archive &found.contact_energy &found.motion_energy &found.scale &found.relative_energy &found
-        .energy_constraint;
-    archive &found.energy_begin &found.energy_end &found.gap &found.gap_constraint;
+    archive &contact_gains &motion_gains &n_steps &found.gap &found.gap_constraint;
     archive &found.gap_drifts &found.resolution &found.resolution_row &found.peak;
     archive &found.mean_peak &found.mean_time;
   }
@@ -190,40 +165,13 @@ namespace taut
   void ContactMeasures::save(OutputArchive &archive)
   {
     store(archive);
+    energies.save(archive);
   }
 
   void ContactMeasures::load(InputArchive &archive)
   {
     store(archive);
-  }
-
-  void ContactMeasures::add_energy(const std::size_t i, const State &state,
-                                   const StepCoefficients &c)
-  {
-    Force &force = forces[i];
-    const bool is_mean = c.mean_force && state.is_mean[i];
-    const double change = state.gap[i] - gap0[i];
-    double energy = 0.;
-    if (is_mean && !constraints[i].moving && std::isinf(constraints[i].stiffness))
-      energy = state.constraint_work[i];
-    else if (std::fabs(change) > noise[i])
-      energy = is_mean ? state.multiplier[i] * change
-                       : .5 * (multiplier0[i] + state.multiplier[i]) * change;
-    if (!(c.mean_force && !c.velocity_level))
-      found.contact_energy += std::max(0., energy);
-    if (!(multiplier0[i] > 0.))
-    {
-      force.event_energy = 0.;
-      force.event_begin = state.time;
-    }
-    force.event_energy += energy;
-    if (force.event_energy > worst_event)
-    {
-      worst_event = force.event_energy;
-      found.energy_constraint = i;
-      found.energy_begin = force.event_begin;
-      found.energy_end = state.time;
-    }
+    energies.load(archive);
   }
 
   void ContactMeasures::add_force(Force &force, const double t, const double dt, const double value)
@@ -267,46 +215,51 @@ namespace taut
     force.gap = std::max(force.gap, gap);
   }
 
-  void ContactMeasures::measure_scale(const State &state, const Certificate &certificate)
+  void ContactMeasures::find_contact_energy(Summary &result) const
   {
-    double sums[] = {0., 0., 0.};
-    std::vector<double> vector;
-    for (std::size_t k = 0; k < structure.size(); ++k)
+    const ConnectedBodies &groups = energies.groups();
+    const auto consider = [&](const std::size_t i, const double given, const double taken)
     {
-      const Substructure &body = structure[k];
-      if (certificate.kinetic_energy == 0.)
-      {
-        vector.assign(body.n_dofs(), 0.);
-        body.mass().vmult_add(.5, state.V[k].data(), vector.data());
-        sums[0] += dot(vector, state.V[k]);
-      }
-      sums[1] += .5 * dot(state.U[k], state.KU[k]);
-      body.external_force(state.time, vector);
-      sums[2] += dot(vector, state.U[k]) - dot(reference.force[k], state.U[k]);
-    }
-    structure.communicator().sum(sums, 3);
-    kinetic = std::max(kinetic, sums[0]);
-    strain = std::max(strain, std::fabs(sums[1]));
-    loads = std::max(loads, std::fabs(sums[2]));
-    constraints.share_of_motions(state.U, vector = std::vector<double>(constraints.size()),
-                                 work = std::vector<double>(constraints.size()));
-    structure.communicator().sum(work);
+      const double energy = given + taken, scale = energies.scale(groups.of_constraint(i));
+      if (!(energy > result.relative_energy * scale))
+        return;
+      const LinkEnergies::Account account = energies.account(i);
+      result.relative_energy = energy / scale;
+      result.contact_energy = energy;
+      result.taken = taken;
+      result.scale = scale;
+      result.energy_constraint = i;
+      result.energy_begin = account.begin;
+      result.energy_end = account.end;
+      result.contact_time = std::isfinite(account.shortest) ? account.shortest : 0.;
+      result.step = account.step;
+    };
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      noise[i] = std::max(noise[i], rounding_of_gaps * work[i]);
+      if (constraints[i].unilateral)
+      {
+        const LinkEnergies::Account account = energies.account(i);
+        consider(i, account.given, account.taken);
+      }
+    for (std::size_t g = 0; g < contact_gains.size(); ++g)
+    {
+      if (first_one_sided[g] != no_link)
+        consider(first_one_sided[g], contact_gains[g], 0.);
+      const double gain = motion_gains[g] - n_steps * rest_of_step[g];
+      result.motion_energy += motion_gains[g];
+      if (gain > 0.)
+        result.relative_motion_energy =
+            std::max(result.relative_motion_energy, gain / energies.scale(g));
+    }
   }
 
   ContactMeasures::Summary ContactMeasures::summary() const
   {
     Summary result = found;
-    result.scale = kinetic + strain + loads + rest;
-    if (result.contact_energy > 0.)
-      result.relative_energy = result.contact_energy / result.scale;
-    if (const double gain = result.motion_energy - n_steps * rest_of_step; gain > 0.)
-      result.relative_motion_energy = gain / result.scale;
+    find_contact_energy(result);
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       const Force &force = forces[i];
-      if (force.gap > most_steps_of_motion * force.motion && force.gap > noise[i] &&
+      if (force.gap > most_steps_of_motion * force.motion && force.gap > energies.noise(i) &&
           force.motion > 0.)
         result.gap_drifts = true;
       if (!(force.peak > result.resolution * force.mean_peak) || !(force.mean_peak > 0.))
@@ -320,23 +273,41 @@ namespace taut
     return result;
   }
 
+  /// Who gave or took what, and how long its contacts are.
+  std::string ContactMeasures::energy_message(const Summary &s) const
+  {
+    std::ostringstream out;
+    out.precision(3);
+    out << "unilateral link '" << constraints[s.energy_constraint].name << "' "
+        << (s.taken > .5 * s.contact_energy ? "took " : "gave ") << s.contact_energy << " J, "
+        << s.relative_energy
+        << " of the energy of what it is connected with, most between t = " << s.energy_begin
+        << " and " << s.energy_end << " s";
+    if (s.step > 0.)
+      out << "; its shortest contact lasts " << s.contact_time << " s, " << s.contact_time / s.step
+          << " steps";
+    return out.str();
+  }
+
+  std::string ContactMeasures::remedy() const
+  {
+    if (!is_automatic)
+      return "Set 'Time/Scheme' to 'automatic', or take a smaller step";
+    return is_adaptive ? "Take a smaller Tolerance"
+                       : "Take a smaller Step, or 'Step control = adaptive'";
+  }
+
   std::string ContactMeasures::error() const
   {
     const Summary s = summary();
     std::ostringstream out;
     if (s.relative_energy > wrong_energy)
-      out << "unilateral links gave " << s.contact_energy << " J, " << s.relative_energy
-          << " of the energy that moves, where they can only take it: most at '"
-          << constraints[s.energy_constraint].name << "' between t = " << s.energy_begin << " and "
-          << s.energy_end
-          << " s. The motion is wrong. Set 'Time/Scheme' to 'automatic', take a smaller step, or "
-             "set "
-             "'Time/Allow energy gain'";
+      out << energy_message(s) << ". The motion is wrong. " << remedy()
+          << ", or set 'Time/Allow energy gain'";
     else if (s.relative_motion_energy > wrong_energy)
       out << "bodies that move by large amounts gained " << s.motion_energy << " J, "
-          << s.relative_motion_energy
-          << " of the energy that moves, from nowhere. The motion is wrong. Set 'Time/Scheme' to "
-             "'automatic', take a smaller step, or set 'Time/Allow energy gain'";
+          << s.relative_motion_energy << " of the energy that moves, from nowhere. The motion is "
+          << "wrong. " << remedy() << ", or set 'Time/Allow energy gain'";
     return out.str();
   }
 
@@ -359,14 +330,13 @@ namespace taut
       result.push_back({kind, message.str(), value, limit, time});
     };
     if (s.relative_energy > suspicious_energy)
-      add("contact_energy", s.relative_energy, suspicious_energy, s.energy_end,
-          "unilateral links gave ", s.contact_energy, " J, most at '",
-          constraints[s.energy_constraint].name, "' between t = ", s.energy_begin, " and ",
-          s.energy_end, " s: take 'Scheme = automatic' or a smaller step");
+      add("contact_energy", s.relative_energy, suspicious_energy,
+          std::isfinite(s.energy_end) ? s.energy_end : s.energy_begin, energy_message(s), ". ",
+          remedy());
     if (s.relative_motion_energy > suspicious_energy)
       add("motion_energy", s.relative_motion_energy, suspicious_energy, 0.,
-          "bodies that move by large amounts gained ", s.motion_energy,
-          " J from nowhere: take 'Scheme = automatic' or a smaller step");
+          "bodies that move by large amounts gained ", s.motion_energy, " J from nowhere. ",
+          remedy());
     if (s.gap_drifts)
       add("contact_gap", s.gap, 0., 0., "'", constraints[s.gap_constraint].name,
           "' presses across a gap, or penetrates, by more than the motion of a step: take "
@@ -384,7 +354,7 @@ namespace taut
     const Summary s = summary();
     std::ostringstream out;
     out.precision(2);
-    if (moves_far)
+    if (std::find(moves_far.begin(), moves_far.end(), 1) != moves_far.end())
       out << "Large motions: gain of energy " << s.relative_motion_energy << " of the largest\n";
     if (constraints.size() > 0)
       out << "Contacts: energy " << s.relative_energy << " of the largest, gap " << s.gap

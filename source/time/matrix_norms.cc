@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 
 namespace taut
@@ -104,6 +105,21 @@ namespace taut
             << velocity[kind] << ". Check loads, stiffnesses and masses for extreme values.";
         throw EntryError(body.origin(), out.str());
       }
+  }
+
+  std::vector<double> total_masses(const Structure &structure)
+  {
+    std::vector<double> result;
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      const Substructure &body = structure[k];
+      std::vector<double> e(body.n_dofs()), Me(body.n_dofs(), 0.);
+      for (unsigned int i = 0; i < e.size(); ++i)
+        e[i] = body.kind(i) == 0 ? 1. : 0.;
+      body.mass().vmult_add(1., e.data(), Me.data());
+      result.push_back(std::max(0., std::inner_product(e.begin(), e.end(), Me.begin(), 0.)));
+    }
+    return result;
   }
 
   KindNorm::KindNorm(const Substructure &body, const SymmetricMatrix &matrix)

@@ -181,28 +181,4 @@ namespace taut
     }
     return false;
   }
-
-  /**
-   * Backward Euler with forces at the ends of steps: kinetic energy falls by the work of inertia
-   * and by that of the change of velocity with itself, and the energies of bodies rise by more than
-   * the work of their forces at the end where they are not convex. What the sum of both gains comes
-   * from nowhere.
-   */
-  void TimeStepper::measure_energy_at_ends()
-  {
-    double gain = 0.;
-    structure.communicator().agree([&] { gain = nonlinear.energy_surplus(1., current); });
-    std::vector<double> change, product;
-    for (std::size_t k = 0; k < structure.size(); ++k)
-    {
-      change = current.V[k];
-      for (std::size_t i = 0; i < change.size(); ++i)
-        change[i] -= current.V_old[k][i];
-      product.assign(change.size(), 0.);
-      structure[k].mass().vmult_add(.5, change.data(), product.data());
-      gain -= std::inner_product(change.begin(), change.end(), product.begin(), 0.);
-    }
-    structure.communicator().sum(&gain, 1);
-    last.energy_gain = gain + turning.surplus(current.multiplier, constraint_motions.increments());
-  }
 } // namespace taut

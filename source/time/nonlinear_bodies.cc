@@ -168,20 +168,17 @@ namespace taut
     return steps[k].U1 = displacement(*reference, state, k);
   }
 
-  double NonlinearBodies::energy_surplus(const double part_of_end, const State &state)
+  double NonlinearBodies::energy_surplus(const std::size_t k, const double part_of_end,
+                                         const State &state)
   {
-    double sum = 0.;
-    for (const std::size_t k : bodies)
-    {
-      const Substructure &body = (*structure)[k];
-      Step &own = steps[k];
-      const double before = own.energy_is_known ? own.energy : body.strain_energy(own.U0);
-      own.energy = body.strain_energy(end_of_step(k, state));
-      sum += own.energy - before;
-      for (std::size_t i = 0; i < own.dU.size(); ++i)
-        sum -= ((1. - part_of_end) * own.f0[i] + part_of_end * own.f[i] + reference->force[k][i]) *
-               own.dU[i];
-    }
+    const Substructure &body = (*structure)[k];
+    Step &own = steps[k];
+    const double before = own.energy_is_known ? own.energy : body.strain_energy(own.U0);
+    own.energy = body.strain_energy(end_of_step(k, state));
+    double sum = own.energy - before;
+    for (std::size_t i = 0; i < own.dU.size(); ++i)
+      sum -= ((1. - part_of_end) * own.f0[i] + part_of_end * own.f[i] + reference->force[k][i]) *
+             own.dU[i];
     return sum;
   }
 

@@ -5,14 +5,37 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <utility>
 
 namespace taut
 {
   namespace
   {
-    /// How often a step is halved that Newton's method does not converge in.
-    constexpr unsigned int most_halvings = 8;
+    /// How often a step is halved that Newton's method does not converge in, and at most for a
+    /// contact with a damper.
+    constexpr unsigned int most_halvings = 8, most_for_contacts = 20;
+
+    /// Steps with a tenth of the tolerance after which the length doubles.
+    constexpr unsigned int most_calm = 2;
+    constexpr double calm = .1;
+
+    /// Local errors of smooth motions fall with the third power of the step.
+    constexpr double order_of_error = 3.;
+
+    unsigned int halvings(const StepParameters &parameters, const double step, const bool may_halve,
+                          const std::vector<double> &longest_steps)
+    {
+      unsigned int n = parameters.adaptive() ? parameters.n_halvings
+                       : may_halve           ? most_halvings
+                                             : 0;
+      for (const double longest : longest_steps)
+        if (longest < step)
+          n = std::max(n, std::min(most_for_contacts, static_cast<unsigned int>(
+                                                          std::ceil(std::log2(step / longest)))));
+      return n;
+    }
   } // namespace
 
   void StepParameters::declare_parameters(dealii::ParameterHandler &prm)
@@ -20,24 +43,38 @@ namespace taut
     using namespace dealii::Patterns;
     prm.add_parameter("Step control", control,
                       "'fixed': all steps have the length Step. 'adaptive': Step times powers of "
-                      "two, by the local error",
+                      "two, by the local error; impacts and jumps of loads are met by short steps",
                       Selection("fixed|adaptive"));
     prm.enter_subsection("Adaptive step");
     prm.add_parameter("Tolerance", tolerance,
                       "Largest local error of a step over the largest displacement so far [1]",
                       Double(1e-14, 1.));
     prm.add_parameter("Halvings", n_halvings,
-                      "The shortest step is Step over two to this power [1]", Integer(0, 20));
+                      "The shortest step is Step over two to this power: so exactly impacts are "
+                      "met that the tolerance asks for more of [1]",
+                      Integer(0, 40));
     prm.add_parameter("Doublings", n_doublings,
                       "The longest step is Step times two to this power [1]", Integer(0, 20));
+    prm.add_parameter(
+        "Largest step", largest,
+        "The longest step is at most this; 0: by Doublings. Loads and given motions "
+        "are looked at sixteen times a Step: what is shorter needs a smaller Step [s]",
+        Double(0., 1e9));
     prm.leave_subsection();
   }
 
+  unsigned int StepParameters::most_doublings(const double step) const
+  {
+    unsigned int n = n_doublings;
+    while (n > 0 && largest > 0. && std::ldexp(step, static_cast<int>(n)) > largest)
+      --n;
+    return n;
+  }
+
   StepControl::StepControl(const StepParameters &parameters, const double step, const long n_steps,
-                           const bool may_halve)
-      : parameters(parameters), n_levels(parameters.adaptive() ? parameters.n_halvings
-                                         : may_halve           ? most_halvings
-                                                               : 0),
+                           const bool may_halve, std::vector<double> longest)
+      : parameters(parameters), longest_steps(std::move(longest)),
+        n_levels(halvings(parameters, step, may_halve, longest_steps)), step(step),
         shortest(std::ldexp(step, -static_cast<int>(n_levels))),
         end(std::min(n_steps, std::numeric_limits<long>::max() >> n_levels) << n_levels),
         level(n_levels)
@@ -60,55 +97,85 @@ namespace taut
         if (level == 0)
           throw;
       }
-      stepper.restore(before);
+      take_back(stepper, 1);
+    }
+  }
+
+  void StepControl::take_back(TimeStepper &stepper, const unsigned int n_levels_down)
+  {
+    stepper.restore(before);
+    level -= std::min(level, n_levels_down);
+    ++repeated;
+    n_calm = 0;
+  }
+
+  /// A closed constraint asks for shorter steps than the last one.
+  bool StepControl::is_too_long_for_contacts(const State &state) const
+  {
+    constexpr double rounding = 1e-9;
+    for (std::size_t i = 0; i < longest_steps.size(); ++i)
+      if (shortest * length() > longest_steps[i] * (1. + rounding) &&
+          (before.multiplier[i] > 0. || state.multiplier[i] > 0.))
+        return true;
+    return false;
+  }
+
+  void StepControl::advance_fixed(TimeStepper &stepper)
+  {
+    if (n_levels == 0)
+    {
+      stepper.advance();
+      ++position;
+      return;
+    }
+    before = stepper.state();
+    solve(stepper);
+    while (level > 0 && is_too_long_for_contacts(stepper.state()))
+    {
+      take_back(stepper, 1);
+      solve(stepper);
+    }
+    position += length();
+    bool is_closed = false;
+    for (std::size_t i = 0; i < longest_steps.size(); ++i)
+      is_closed = is_closed || (longest_steps[i] < step && stepper.state().multiplier[i] > 0.);
+    while (level < n_levels && !is_closed && position % (2 * length()) == 0)
+      ++level;
+  }
+
+  void StepControl::advance_adaptive(TimeStepper &stepper)
+  {
+    before = stepper.state();
+    const bool is_first = position == 0;
+    while (position + length() > end)
       --level;
-      ++repeated;
+    double error = 0.;
+    for (;;)
+    {
+      while (level > 0 && !stepper.resolves_loads(shortest * length(), step, parameters.tolerance))
+        --level;
+      solve(stepper);
+      error = stepper.local_error() / parameters.tolerance;
+      if (level == 0 || (!(error > 1.) && !is_too_long_for_contacts(stepper.state())))
+        break;
+      const double too_long = std::isfinite(error) ? std::log2(std::max(error, 1.)) : 0.;
+      take_back(stepper, std::max(1u, static_cast<unsigned int>(too_long / order_of_error)));
+    }
+    position += length();
+    n_calm = error < calm && !is_first ? n_calm + 1 : 0;
+    if (n_calm >= most_calm && level < n_levels + parameters.most_doublings(step) &&
+        position % (2 * length()) == 0)
+    {
+      ++level;
       n_calm = 0;
     }
   }
 
   void StepControl::advance(TimeStepper &stepper)
   {
-    if (!parameters.adaptive())
-    {
-      if (n_levels == 0)
-        stepper.advance();
-      else
-      {
-        before = stepper.state();
-        solve(stepper);
-      }
-      position += length();
-      while (level < n_levels && position % (2 * length()) == 0)
-        ++level;
-      return;
-    }
-    before = stepper.state();
-    const bool is_first = position == 0;
-    while (position + length() > end)
-      --level;
-    double error;
-    bool has_changed;
-    for (;;)
-    {
-      solve(stepper);
-      error = stepper.local_error() / parameters.tolerance;
-      has_changed = stepper.rigid_constraint_changed(before);
-      if (level == 0 || has_changed || had_changed || !(error > 1.))
-        break;
-      stepper.restore(before);
-      --level;
-      ++repeated;
-      n_calm = 0;
-    }
-    position += length();
-    n_calm = error < .1 && !is_first && !has_changed && !had_changed ? n_calm + 1 : 0;
-    had_changed = has_changed;
-    if (n_calm >= 4 && level < parameters.n_halvings + parameters.n_doublings &&
-        position % (2 * length()) == 0)
-    {
-      ++level;
-      n_calm = 0;
-    }
+    if (parameters.adaptive())
+      advance_adaptive(stepper);
+    else
+      advance_fixed(stepper);
   }
 } // namespace taut

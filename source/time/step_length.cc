@@ -4,6 +4,8 @@
 #include <taut/time/time_stepper.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 namespace taut
 {
@@ -45,6 +47,21 @@ namespace taut
     n_in_segment = 0;
   }
 
+  /// What the motion of a body misses in the last step, into work_v; and what impulses change of
+  /// its velocities besides, times the step, into work_a.
+  void TimeStepper::set_local_error(const std::size_t k)
+  {
+    const std::vector<double> &dU = current.dU[k], &V = current.V[k], &V0 = current.V_old[k],
+                              &A = current.A[k], &A0 = forces.old_A[k];
+    const double mean = step * step / (6. * (1. + step_before / step));
+    for (std::size_t i = 0; i < dU.size(); ++i)
+      work_v[i] = coefficients.mean_force
+                      ? mean * (A[i] - A0[i])
+                      : dU[i] - step * (V0[i] + step * (A0[i] / 3. + A[i] / 6.));
+    for (std::size_t i = 0; i < dU.size(); ++i)
+      work_a[i] = coefficients.velocity_projection ? step * (V[i] - V0[i] - step * A[i]) : 0.;
+  }
+
   double TimeStepper::local_error()
   {
     PerKind error = {0., 0.}, size = {0., 0.};
@@ -60,24 +77,24 @@ namespace taut
           x[dof] = 0.;
         return largest(structure[k], x);
       };
-      const std::vector<double> &dU = current.dU[k], &V = current.V_old[k], &A = current.A[k],
-                                &A0 = forces.old_A[k];
-      const double mean = step * step / (6. * (1. + step_before / step));
-      for (std::size_t i = 0; i < dU.size(); ++i)
-        work_v[i] = coefficients.mean_force
-                        ? mean * (A[i] - A0[i])
-                        : dU[i] - step * (V[i] + step * (A0[i] / 3. + A[i] / 6.));
-      const PerKind e = largest_motion(work_v);
-      std::copy(V.begin(), V.end(), work_v.begin());
+      set_local_error(k);
+      for (std::vector<double> *const e : {&work_v, &work_a})
+        if (!structure[k].is_lumped() && masses[k] > 0.)
+          error[0] = std::max(error[0], mean_square(k, *e));
+        else
+        {
+          const PerKind all = largest_motion(*e);
+          for (int kind = 0; kind < 2; ++kind)
+            error[kind] = std::max(error[kind], all[kind]);
+        }
+      const std::vector<double> &V0 = current.V_old[k];
+      std::copy(V0.begin(), V0.end(), work_v.begin());
       const PerKind v = largest_motion(work_v);
-      for (std::size_t i = 0; i < dU.size(); ++i)
+      for (std::size_t i = 0; i < V0.size(); ++i)
         work_v[i] = reference_state.displacement[k][i] + current.U[k][i];
       const PerKind u = largest_motion(work_v);
       for (int kind = 0; kind < 2; ++kind)
-      {
-        error[kind] = std::max(error[kind], e[kind]);
         size[kind] = std::max(size[kind], u[kind] + step * v[kind]);
-      }
     }
     double result = 0.;
     for (int kind = 0; kind < 2; ++kind)
@@ -90,13 +107,13 @@ namespace taut
     return result;
   }
 
-  bool TimeStepper::rigid_constraint_changed(const State &before)
+  /// The root of the mean square of a motion of a body of elements, by mass [m].
+  double TimeStepper::mean_square(const std::size_t k, const std::vector<double> &x)
   {
-    const std::vector<double> &S = constraint_motions.compliance();
-    for (std::size_t i = 0; i < constraints.size(); ++i)
-      if (constraints[i].unilateral && 2. * S[i] < system->interface().matrix().diagonal(i) &&
-          (before.multiplier[i] > 0.) != (current.multiplier[i] > 0.))
-        return true;
-    return false;
+    std::vector<double> &product = work_rows;
+    product.assign(structure[k].n_dofs(), 0.);
+    structure[k].mass().vmult_add(1., x.data(), product.data());
+    const double sum = std::inner_product(product.begin(), product.end(), x.begin(), 0.);
+    return std::sqrt(std::max(0., sum) / masses[k]);
   }
 } // namespace taut

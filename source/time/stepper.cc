@@ -14,25 +14,37 @@ namespace taut
     stepper = std::make_unique<TimeStepper>(structure, constraints, options.solver, choose(options),
                                             options.step, start.reference, start.state,
                                             options.start == Start::equilibrium);
-    control = std::make_unique<StepControl>(
-        StepParameters(), options.step, std::numeric_limits<long>::max(), !stepper->is_linear());
+    control =
+        std::make_unique<StepControl>(options.steps, options.step, std::numeric_limits<long>::max(),
+                                      !stepper->is_linear(), longest_steps);
   }
 
   const TimeIntegrator &Stepper::choose(const StepperOptions &options)
   {
+    contact_measures.set_scheme(options.scheme == "automatic", options.steps.adaptive());
+    const ContactResolution resolution(structure, constraints, options.solver, options.step,
+                                       options.steps.adaptive(), options.end);
     if (options.scheme == "automatic")
     {
       const SchemeChoice choice =
-          choose_scheme(structure, constraints, options.solver, options.step, options.restitution);
+          choose_scheme(structure, constraints, resolution, options.restitution);
       integrator = make_integrator(choice.name, choice.entries);
       scheme_description = integrator->description() + ", because " + choice.reason;
-      return *integrator;
     }
-    integrator = make_integrator(options.scheme, options.scheme_entries);
-    scheme_description = integrator->description();
-    check_mass(*integrator, structure, options.step);
-    if (!options.allow_unsuitable_scheme)
-      check_scheme(*integrator, structure, constraints, options.solver, options.step);
+    else
+    {
+      integrator = make_integrator(options.scheme, options.scheme_entries);
+      scheme_description = integrator->description();
+      check_mass(*integrator, structure, options.step);
+      if (!options.allow_unsuitable_scheme)
+        check_scheme(*integrator, structure, constraints, resolution, options.solver,
+                     options.steps.longest(options.step));
+    }
+    if (integrator->coefficients(options.step).velocity_projection)
+    {
+      constraints.set_conserving(resolution.conserving());
+      longest_steps = resolution.longest_steps();
+    }
     return *integrator;
   }
 

@@ -5,7 +5,6 @@
 #include <taut/time/time_stepper.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace taut
 {
@@ -67,7 +66,8 @@ namespace taut
         system(std::make_unique<StepSystem>(structure, constraints, this->parameters)),
         turning(at_time(constraints, current.time), reference_state),
         constraint_motions(structure, constraints, turning, reference_state, current),
-        nonlinear(structure, reference_state),
+        nonlinear(structure, reference_state), groups(structure, constraints), loads(structure),
+        masses(total_masses(structure)),
         balance(structure, constraints, reference_state, nonlinear),
         check(structure, constraints, this->parameters.contact_tolerance)
   {
@@ -89,19 +89,14 @@ namespace taut
     first_step_is_backward_euler = first_step_is_backward_euler && !c.starts_itself();
     double moving_supports = 0.;
     for (std::size_t k = 0; k < structure.size(); ++k)
-    {
       moving_supports += structure[k].has_moving_constraints();
-      std::fill(work_a.begin(), work_a.end(), 0.);
-      structure[k].mass().vmult_add(.5, current.V[k].data(), work_a.data());
-      current.kinetic_energy +=
-          std::inner_product(current.V[k].begin(), current.V[k].end(), work_a.begin(), 0.);
-    }
-    double sums[] = {moving_supports, current.kinetic_energy,
-                     static_cast<double>(nonlinear.indices().size())};
-    structure.communicator().sum(sums, 3);
+    double sums[] = {moving_supports, static_cast<double>(nonlinear.indices().size())};
+    structure.communicator().sum(sums, 2);
     supports_move = sums[0] > 0.;
-    current.kinetic_energy = sums[1];
-    bodies_are_linear = sums[2] == 0.;
+    bodies_are_linear = sums[1] == 0.;
+    current.kinetic_energies.assign(groups.n_groups(), 0.);
+    add_kinetic_energies(current.V, current.kinetic_energies);
+    structure.communicator().sum(current.kinetic_energies);
     set_nonlinear();
     prepare(first_step_is_backward_euler ? backward_euler(step) : c);
     if (c.starts_itself())

@@ -133,15 +133,8 @@ namespace taut
     return out.str();
   }
 
-  double TurningConstraints::surplus(const std::vector<double> &N,
-                                     const std::vector<double> &motion) const
+  double TurningConstraints::surplus(const std::size_t i, const double N, const double motion) const
   {
-    double sum = 0.;
-    for (std::size_t k = 0; k < increments.size() && !is_mean; ++k)
-    {
-      const std::size_t i = constraints.n_fixed() + k;
-      sum += N[i] * (motion[i] - increments[k]);
-    }
-    return sum;
+    return is_mean ? 0. : N * (motion - increment(i));
   }
 } // namespace taut

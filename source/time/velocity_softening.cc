@@ -3,6 +3,7 @@
 #include <taut/time/velocity_projection.h>
 
 #include <cmath>
+#include <limits>
 
 namespace taut
 {
@@ -54,7 +55,8 @@ namespace taut
       if (!constraints[i].unilateral || S[i] == 0.)
         continue;
       const double ratio = S[i] / (fading * flexibility[i]);
-      relative_softening[i] = ratio * ratio;
+      relative_softening[i] =
+          constraints[i].conserving ? std::numeric_limits<double>::infinity() : ratio * ratio;
     }
   }
 

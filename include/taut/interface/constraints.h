@@ -65,7 +65,10 @@ namespace taut
     /// The law of N over the compression of the spring, of unilateral constraints; null: linear.
     /// The stiffness is then its largest one.
     std::shared_ptr<const ForceLaw> law = {};
-    double damping = 0.;                     ///< [N s/m, N m s/rad]
+    double damping = 0.; ///< [N s/m, N m s/rad]
+    /// True if a mean force over a step works as much as its spring stores, closing and opening
+    /// included; see ContactResolution.
+    bool conserving = false;
     double gap = 0.;                         ///< D at U = 0, N = 0 [m, rad]
     std::vector<Term> terms = {};            ///< B_i: D = terms . U + gap + N / stiffness
     std::shared_ptr<MovingPlace> place = {}; ///< of a constraint that moves; sets terms and gap
@@ -95,6 +98,9 @@ namespace taut
     std::size_t first_moving() const { return first_with_place; }
     bool has_turning() const { return fixed < first_with_place; }
     const ConstraintData &operator[](std::size_t i) const { return constraints[i]; }
+
+    /// Which constraints are conserving: not 0, one entry a constraint.
+    void set_conserving(const std::vector<char> &conserving);
 
     /// Puts the moving constraints where they are at time t [s]. Throws UserError when one leaves
     /// its wire.

@@ -120,7 +120,8 @@ namespace taut
     Statistics figures;
     std::unique_ptr<ModelLimits> limits; ///< of a run
     std::vector<Observer *> guests;
-    std::unique_ptr<TimeIntegrator> chosen_integrator; ///< of Scheme = automatic
+    std::unique_ptr<TimeIntegrator> chosen_integrator;
+    std::vector<double> longest_steps; ///< of links with dampers [s]
     std::unique_ptr<ContactMeasures> measures;
     StepCoefficients coefficients;           ///< of the last step
     std::string scheme;                      ///< with its parameters

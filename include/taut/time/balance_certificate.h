@@ -53,7 +53,7 @@ namespace taut
 
     /// dU . [(1 - alpha_f) r + alpha_f r0] of this rank's bodies after measure(), with mean forces:
     /// the work of all forces but the means of this step [J].
-    double work() const { return work_of_balance; }
+    double work(const std::size_t k) const { return work_of_balance[k]; }
 
     /// Body of the largest residual.
     std::size_t worst_body() const { return worst; }
@@ -84,7 +84,7 @@ namespace taut
     BodyVectors impulses;                       ///< forces of this step only
     std::vector<double> mean_A;                 ///< accelerations that M acts on, of one body
     std::vector<double> inertia, damping;       ///< forces of a tile
-    double work_of_balance = 0.;
+    std::vector<double> work_of_balance;        ///< of each body
     std::size_t worst = 0;
     bool may_be_cancellation = true;
   };

@@ -4,6 +4,7 @@
 
 #include <taut/time/step_system.h>
 
+#include <memory>
 #include <vector>
 
 namespace taut
@@ -46,6 +47,13 @@ namespace taut
     void begin_mean(std::size_t i, double u, double theta, double damping);
 
     /**
+     * The same at theta = 1/2 for a conserving constraint: f_mean is the quotient of what a spring
+     * that only resists compression stores, (W(u) - W(u_0)) / (u - u_0) with W = 0 for u < 0, so
+     * that @p u is minus the gap where the constraint is open. The damper acts on compressions.
+     */
+    void begin_conserving(std::size_t i, double u, double damping);
+
+    /**
      * Solves @p problem, whose free gaps are g without multipliers where a constraint has a law,
      * and leaves there the shifts of the law. @p S and @p shift become those of the last
      * linearisation; errors are those of @p check. The result is kept until the next call.
@@ -54,6 +62,9 @@ namespace taut
                                               StepSystem &system, const StepCheck &check,
                                               Certificate &certificate, std::vector<double> &S,
                                               std::vector<double> &shift);
+
+    /// Whether the spring of a constraint follows a law in this step.
+    bool has(const std::size_t i) const { return row_of[i] < rows.size(); }
 
     /// What compression @p u and multiplier @p L lack of the law, as a gap: (L - phi(u)) / phi'(u).
     /// 0 for a constraint without a law.
@@ -66,10 +77,13 @@ namespace taut
       std::size_t index;
       const ForceLaw *law;
       double u0 = 0., at_end = 1., of_mean = 0., damping = 0., undamped = 0.;
-      double open = 0.; ///< where phi vanishes
+      bool conserving = false; ///< u and u0 below zero count as open
+      double open = 0.;        ///< where phi vanishes; minus infinity: nowhere
 
       double force(double u) const;
       double slope(double u) const;
+      double mean_force(double u) const;
+      double slope_of_mean(double u) const;
     };
 
     /// Gaps without springs, and multipliers.
@@ -88,6 +102,7 @@ namespace taut
     void shorten(const Point &from, Point &to, const std::vector<double> &S) const;
 
     const Constraints &constraints;
+    std::vector<std::shared_ptr<const ForceLaw>> linear; ///< laws of conserving constraints
     std::vector<Row> rows;
     std::vector<std::size_t> row_of; ///< of each constraint, rows.size() of one without a law
   };

@@ -160,6 +160,7 @@ namespace taut
     double largest_stray(const State &state, std::size_t &worst);
     void add_body_terms(const BodyVectors &U);
     bool elastic_mean(std::size_t i) const { return mean[i] && S[i] > 0.; }
+    bool conserves(std::size_t i) const { return constraints[i].conserving && elastic_mean(i); }
     bool velocity_level(std::size_t i) const
     {
       return mean[i] && !c.velocity_projection && (c.velocity_level || !constraints[i].unilateral);

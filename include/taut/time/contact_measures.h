@@ -6,6 +6,7 @@
 #include <taut/interface/constraints.h>
 #include <taut/time/certificate.h>
 #include <taut/time/integrator.h>
+#include <taut/time/link_energies.h>
 #include <taut/time/state.h>
 
 #include <deque>
@@ -18,15 +19,13 @@ namespace taut
    * What a run's contacts did, where the certificate of each step sees nothing: it proves that a
    * step's equations are solved, not that the scheme suits the contacts.
    *
-   * Contact energy: what contacts gave that only can take it. Forces at the ends of steps do the
-   * work W = (N_0 + N_1)(D_1 - D_0) / 2 on a unilateral constraint, and the positive ones are
-   * summed; with mean forces on conditions on velocities W = N (D_1 - D_0); with mean forces and
-   * conditions on gaps, where W cannot be positive, it is the gain of energy of the whole system
-   * that nothing explains (Certificate::energy_gain). Over the largest kinetic energy plus the
-   * largest strain energy plus the largest work of loads, measured from the reference.
+   * Contact energy: what a constraint gave or took beside what its spring stores and its damper
+   * takes, see LinkEnergies, over the energy of the bodies that it is connected with. Where rigid
+   * constraints have mean forces and conditions on gaps, what a group of connected bodies gained
+   * that nothing explains (State::energy_gains) counts, too.
    *
-   * Energy of large motions: the gains of energy that nothing explains (Certificate::energy_gain)
-   * of all steps of a system with a body that is not linear, over the same.
+   * Energy of large motions: the gains of energy that nothing explains of all steps, of a group
+   * with a body that is not linear, over the same.
    *
    * Gap: the largest penetration, or gap of a constraint that presses, of rigid unilateral
    * constraints.
@@ -41,6 +40,14 @@ namespace taut
     /// The arguments but @p start are kept by reference.
     ContactMeasures(const Structure &structure, const Constraints &constraints,
                     const Reference &reference, const State &start);
+
+    /// Whether the scheme was chosen by its constraints, and by whose step: what to do about a
+    /// wrong contact depends on it.
+    void set_scheme(const bool automatic, const bool adaptive)
+    {
+      is_automatic = automatic;
+      is_adaptive = adaptive;
+    }
 
     /// An accepted step, made with these coefficients. Called by all ranks together.
     void record(const State &state, const StepCoefficients &c, const Certificate &certificate);
@@ -58,13 +65,15 @@ namespace taut
     /// Results of the run so far.
     struct Summary
     {
-      double contact_energy = 0.;                ///< [J]
-      double scale = 0.;                         ///< kinetic + strain + loads, and rounding [J]
+      double contact_energy = 0.;                ///< given and taken by the worst constraint [J]
+      double taken = 0.;                         ///< of that what it took [J]
+      double scale = 0.;                         ///< of its group, see LinkEnergies [J]
       double relative_energy = 0.;               ///< contact energy over the scale [1]
+      double contact_time = 0., step = 0.;       ///< its shortest contact, and its step [s]
       double motion_energy = 0.;                 ///< of large motions [J]
       double relative_motion_energy = 0.;        ///< over the scale [1]
-      std::size_t energy_constraint = 0;         ///< of the contact that gave most
-      double energy_begin = 0., energy_end = 0.; ///< when it closed and opened [s]
+      std::size_t energy_constraint = 0;         ///< the worst one
+      double energy_begin = 0., energy_end = 0.; ///< of its largest contact [s]
       double gap = 0.;                           ///< [m, rad]
       std::size_t gap_constraint = 0;
       bool gap_drifts = false; ///< more than a step of motion
@@ -74,7 +83,7 @@ namespace taut
     };
     Summary summary() const;
 
-    /// Part of the scale from which a gain of energy is a warning, and an error.
+    /// Part of the scale from which energy given or taken is a warning, and an error.
     static constexpr double suspicious_energy = 1e-2, wrong_energy = .1;
 
     /// Resolution above which it is said.
@@ -92,7 +101,7 @@ namespace taut
     /// One line for the log, and one for each warning.
     std::string report() const;
 
-    /// The message of a run with a gain of energy beyond wrong_energy; empty if it has none.
+    /// The message of a run with an energy beyond wrong_energy; empty if it has none.
     std::string error() const;
 
     /// Path in the parameter file of what error() is about; empty: all of it.
@@ -107,32 +116,32 @@ namespace taut
           impulses; ///< time and impulse until then, in the window
       double impulse = 0., mean = 0., peak = 0., mean_peak = 0.;
       double event_impulse = 0., largest_impulse = 0.;
-      double event_energy = 0., event_begin = 0.;
       double gap = 0., motion = 0.; ///< largest, and of a step [m, rad]
     };
 
     template <typename Archive>
     void store(Archive &archive);
     void add_force(Force &force, double t, double dt, double value);
-    void add_energy(std::size_t i, const State &state, const StepCoefficients &c);
+    void add_gains(const State &state, const StepCoefficients &c);
+    void find_contact_energy(Summary &result) const;
+    std::string energy_message(const Summary &s) const;
+    std::string remedy() const;
     void add_gap(std::size_t i, const State &state, const StepCoefficients &c);
     void measure_rest(const State &start);
-    void measure_scale(const State &state, const Certificate &certificate);
     std::vector<double> resolved_times() const;
 
     const Structure &structure;
     const Constraints &constraints;
     const Reference &reference;
     std::vector<Force> forces;
-    std::vector<double> multiplier0, gap0, noise;
-    bool moves_far = false; ///< a body of some rank is not linear
+    LinkEnergies energies;
+    std::vector<char> moves_far;                     ///< groups with a body that is not linear
+    std::vector<double> contact_gains, motion_gains; ///< of the groups [J]
+    std::vector<double> rest_of_step;                ///< rounding in a step of the latter [J]
+    std::vector<std::size_t> first_one_sided;        ///< constraint of each group
+    bool is_automatic = false, is_adaptive = false;
     Summary found;
-    double worst_event = 0.;
-    double kinetic = 0., strain = 0., loads = 0.; ///< largest so far [J]
-    double rest = 0.;                             ///< rounding at rest [J]
-    double rest_of_step = 0.;                     ///< in a step of bodies that are not linear [J]
     long n_steps = 0;
-    std::vector<double> work;
   };
 } // namespace taut
 

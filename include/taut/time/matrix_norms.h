@@ -56,6 +56,10 @@ namespace taut
   void check_size(const Substructure &body, const PerKind &force, const PerKind &displacement,
                   const PerKind &velocity, const std::string &when);
 
+  /// Mass of each body of this rank that moves as a whole, e . M e with e = 1 for displacements and
+  /// 0 for slopes; of bodies with several displacements a node that many times their mass [kg].
+  std::vector<double> total_masses(const Structure &structure);
+
   /**
    * Largest absolute row sums of a matrix by kind of row and column, free DoFs only:
    * bounds |A| |x| from the largest entries of x.

@@ -66,10 +66,11 @@ namespace taut
     /// KU = f - f_ref at the end of a step that ends in @p state.
     void set_end_force(std::size_t k, const StepCoefficients &c, State &state) const;
 
-    /// The change of their energies in the step to @p state minus the work that went into it, of a
-    /// force that is @p part_of_end that of the end and else that of the start. Half: zero where
-    /// the mean force is that of the energy, negative where material damping takes some [J].
-    double energy_surplus(double part_of_end, const State &state);
+    /// Of a body of indices(), the change of its energy in the step to @p state minus the work that
+    /// went into it, of a force that is @p part_of_end that of the end and else that of the start.
+    /// Half: zero where the mean force is that of the energy, negative where material damping takes
+    /// some [J].
+    double energy_surplus(std::size_t k, double part_of_end, const State &state);
 
     /// After a step with mean forces: the internal force of the state itself, and the balance
     /// with it.

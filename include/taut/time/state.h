@@ -46,7 +46,10 @@ namespace taut
 
     std::vector<double> gap_rate; ///< D', of schemes with mean forces only [m/s, rad/s]
 
-    double kinetic_energy = 0.; ///< with mean forces and conditions on gaps only [J]
+    /// Of each group of connected bodies, with mean forces and conditions on gaps only: kinetic
+    /// energy, and what the group gained in the step that neither loads nor moving constraints gave
+    /// [J].
+    std::vector<double> kinetic_energies, energy_gains;
 
     /// Of schemes with mean forces, otherwise empty: not 0 for each constraint whose multiplier is
     /// a mean over the last step, and the work of its forces on the bodies, without the part that
@@ -75,7 +78,8 @@ namespace taut
     template <typename Archive>
     void serialize(Archive &archive, unsigned int)
     {
-      archive &time &last_step &multiplier &gap &geometric_gap &gap_rate &kinetic_energy;
+      archive &time &last_step &multiplier &gap &geometric_gap &gap_rate;
+      archive &kinetic_energies &energy_gains;
       archive &is_mean &constraint_work &impulse_work &link_springs;
     }
 

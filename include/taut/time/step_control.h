@@ -17,36 +17,44 @@ namespace taut
   /// How long steps are.
   struct StepParameters
   {
-    std::string control = "fixed";                ///< or "adaptive"
-    double tolerance = 1e-4;                      ///< of TimeStepper::local_error() [1]
-    unsigned int n_halvings = 6, n_doublings = 4; ///< bounds of the step, from Step
+    std::string control = "fixed";                 ///< or "adaptive"
+    double tolerance = 1e-4;                       ///< of TimeStepper::local_error() [1]
+    unsigned int n_halvings = 10, n_doublings = 4; ///< bounds of the step, from Step
+    double largest = 0.;                           ///< longest step; 0: by the doublings [s]
 
     /// Declares the members in the current subsection.
     void declare_parameters(dealii::ParameterHandler &prm);
     bool adaptive() const { return control == "adaptive"; }
 
-    /// The shortest step that a Step [s] becomes [s].
-    double shortest(double step) const
+    /// How often a Step [s] may be doubled.
+    unsigned int most_doublings(double step) const;
+
+    /// The longest step that a Step [s] becomes [s].
+    double longest(double step) const
     {
-      return adaptive() ? std::ldexp(step, -static_cast<int>(n_halvings)) : step;
+      return adaptive() ? std::ldexp(step, static_cast<int>(most_doublings(step))) : step;
     }
   };
 
   /**
    * Steps of a length times a power of two, so that matrices are factored anew only at a change and
-   * times are multiples of the shortest step. A step is repeated at half its length if its local
-   * error is above the tolerance, down to the shortest one, which counts as it is; the error is not
-   * known, and the length stays, in a step where a rigid unilateral constraint opens or closes and
-   * in the next one, whose accelerations are jumps. After four steps with a tenth of the tolerance
-   * the length doubles, at a multiple of the new one.
+   * times are multiples of the shortest step. An adaptive step is repeated with a shorter one if
+   * its local error is above the tolerance, down to the shortest one, which counts as it is. An
+   * impact is such an error, as it is a jump of the velocities: it ends up in a step in which the
+   * bodies move by the tolerance. So does a jump of a load or of a given motion, which is looked
+   * for inside of each step beforehand. After two steps with a tenth of the tolerance the length
+   * doubles, at a multiple of the new one.
+   *
+   * Fixed steps, too, are made in parts where a body that is not linear has no answer to the whole,
+   * and while a constraint with a damper is closed whose contacts they do not resolve.
    */
   class StepControl
   {
   public:
-    /// From t = 0 to @p n_steps times @p step [s]. @p may_halve: fixed steps, too, are made in
-    /// parts where bodies that are not linear have no answer to the whole.
-    StepControl(const StepParameters &parameters, double step, long n_steps,
-                bool may_halve = false);
+    /// From t = 0 to @p n_steps times @p step [s]. @p may_halve: bodies are not linear. @p
+    /// longest_steps: of each constraint the longest step while it is closed [s]; empty: any.
+    StepControl(const StepParameters &parameters, double step, long n_steps, bool may_halve = false,
+                std::vector<double> longest_steps = {});
 
     bool is_finished() const { return position == end; }
 
@@ -62,22 +70,26 @@ namespace taut
     template <typename Archive>
     void serialize(Archive &archive, unsigned int)
     {
-      archive &position &repeated &level &n_calm &had_changed;
+      archive &position &repeated &level &n_calm;
     }
 
   private:
     long length() const { return 1L << level; }
 
     void solve(TimeStepper &stepper);
+    bool is_too_long_for_contacts(const State &state) const;
+    void take_back(TimeStepper &stepper, unsigned int n_levels_down);
+    void advance_fixed(TimeStepper &stepper);
+    void advance_adaptive(TimeStepper &stepper);
 
     const StepParameters parameters;
+    const std::vector<double> longest_steps;
     const unsigned int n_levels; ///< how often a step may be halved
-    const double shortest;       ///< [s]
+    const double step, shortest; ///< [s]
     const long end;              ///< in shortest steps
     long position = 0, repeated = 0;
     unsigned int level, n_calm = 0;
-    State before;             ///< the step
-    bool had_changed = false; ///< a rigid constraint in the last step: its accelerations are a jump
+    State before; ///< the step
   };
 } // namespace taut
 

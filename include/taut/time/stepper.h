@@ -17,7 +17,11 @@ namespace taut
   /// How a system moves through time; the defaults suit most.
   struct StepperOptions
   {
-    double step = 1e-3; ///< [s]
+    double step = 1e-3;        ///< [s]
+    StepParameters steps = {}; ///< fixed, or adaptive
+
+    /// Until when "automatic" looks at the ways of moving constraints; 0: at their start only [s].
+    double end = 0.;
     Start start = Start::equilibrium;
 
     /// "automatic" chooses by the constraints that act as rigid; otherwise the name of a registered
@@ -87,6 +91,7 @@ namespace taut
     Constraints constraints;
     std::unique_ptr<TimeIntegrator> integrator;
     std::string scheme_description;
+    std::vector<double> longest_steps; ///< of constraints with dampers [s]
     InitialState start;
     ContactMeasures contact_measures;
     std::unique_ptr<TimeStepper> stepper;

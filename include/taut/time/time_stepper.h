@@ -3,10 +3,12 @@
 #define taut_time_stepper_h
 
 #include <taut/base/archive_forward.h>
+#include <taut/interface/connected_bodies.h>
 #include <taut/time/balance_certificate.h>
 #include <taut/time/certificate.h>
 #include <taut/time/constraint_motions.h>
 #include <taut/time/integrator.h>
+#include <taut/time/load_sampling.h>
 #include <taut/time/matrix_norms.h>
 #include <taut/time/nonlinear_bodies.h>
 #include <taut/time/solver_parameters.h>
@@ -69,13 +71,19 @@ namespace taut
      * derivative that the accelerations before and after show: dU - step V0 - step^2 (A0/3 + A/6)
      * (O. C. Zienkiewicz, Y. M. Xie, Earthquake Engineering and Structural Dynamics 20 (1991)). The
      * accelerations of schemes with mean forces are means, and dU = step V0 + step^2 A/2: its error
-     * is step^3/12 of that derivative, step^2 (A - A0) / (6 (1 + last step / step)).
-     * Displacements and slopes each for themselves. Called by all ranks together.
+     * is step^3/12 of that derivative, step^2 (A - A0) / (6 (1 + last step / step)). What impulses
+     * change of the velocities besides, dV, counts as step dV. Of a body of elements the error is
+     * the root of its mean square by mass, sqrt(e . M e / m); of masses and rigid bodies the
+     * largest, displacements and slopes each for themselves. Called by all ranks together.
      */
     double local_error();
 
-    /// True if a unilateral constraint that acts as rigid opened or closed since @p before.
-    bool rigid_constraint_changed(const State &before);
+    /// True if the next step, of @p length [s], misses nothing of loads and given motions; see
+    /// LoadSampling. Called by all ranks together.
+    bool resolves_loads(double length, double reference_step, double tolerance)
+    {
+      return loads.is_resolved(current.time, length, reference_step, tolerance);
+    }
 
     const State &state() const { return current; }
     const Reference &reference() const { return reference_state; }
@@ -111,8 +119,12 @@ namespace taut
     void check_turning() const;
     double set_guess();
     void project_velocities();
+    void set_local_error(std::size_t k);
+    double mean_square(std::size_t k, const std::vector<double> &x);
     void measure_energy();
     void measure_energy_at_ends();
+    void add_kinetic_energies(const BodyVectors &V, std::vector<double> &of_groups);
+    double gain_of_spring(std::size_t i) const;
     void accept_increments();
     void accept(std::size_t k, std::size_t begin, std::size_t end);
     void measure_balance(const BalanceCertificate::SetRows &set_rows = {});
@@ -155,9 +167,12 @@ namespace taut
     TurningConstraints turning;
     ConstraintMotions constraint_motions;
     NonlinearBodies nonlinear;
-    bool tangents_are_kept = false; ///< from step to step
-    bool bodies_are_linear = true;  ///< those of all ranks
-    bool supports_move = false;     ///< of a body of some rank
+    const ConnectedBodies groups;
+    LoadSampling loads;
+    const std::vector<double> masses; ///< of the bodies, see total_masses() [kg]
+    bool tangents_are_kept = false;   ///< from step to step
+    bool bodies_are_linear = true;    ///< those of all ranks
+    bool supports_move = false;       ///< of a body of some rank
     BalanceCertificate balance;
     double own_balance = 0.; ///< of this rank
     StepCheck check;
@@ -168,7 +183,7 @@ namespace taut
     BodyVectors lift;                   ///< increments of moving supports
     std::vector<double> work_v, work_a; ///< as long as the longest body
     std::vector<double> damping_of_tile, inertia_of_tile;
-    std::vector<double> work_rows;
+    std::vector<double> work_rows, work_of_groups;
   };
 } // namespace taut
 

@@ -64,8 +64,9 @@ namespace taut
     /// |Delta_0| [m].
     double distance(const std::size_t i) const { return norm(start[i - constraints.n_fixed()]); }
 
-    /// Work of the forces N on the bodies in the step beyond N (D_1 - D_0): 0 with mean forces [J].
-    double surplus(const std::vector<double> &N, const std::vector<double> &motion) const;
+    /// Work of a force N on the bodies in the step, in which B^T dU is @p motion, beyond
+    /// N (D_1 - D_0): 0 with mean forces [J].
+    double surplus(std::size_t i, double N, double motion) const;
 
   private:
     void face_start();

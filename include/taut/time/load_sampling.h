@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_load_sampling_h
+#define taut_load_sampling_h
+
+#include <taut/substructure/structure.h>
+
+#include <vector>
+
+namespace taut
+{
+  /**
+   * Looks inside a step for jumps and short pulses of loads and given motions, which the ends of
+   * the step do not show. Use it before an adaptive step.
+   *
+   * Values are taken sixteen times a reference step, and four times a step at least. Their integral
+   * by trapezoids is compared with that by Simpson's rule from the ends and the middle: both agree
+   * to fourth order where the values are smooth.
+   */
+  class LoadSampling
+  {
+  public:
+    /// @p structure is kept by reference.
+    explicit LoadSampling(const Structure &structure);
+
+    /**
+     * True if both integrals over @p length [s] from @p t [s] agree within @p tolerance of the
+     * largest value so far times @p reference_step [s]. Called by all ranks together.
+     */
+    bool is_resolved(double t, double length, double reference_step, double tolerance);
+
+  private:
+    /// Integrals of the values of one body or given motion.
+    struct Sums
+    {
+      std::vector<double> trapezoids, simpson;
+      double size = 0.; ///< largest value
+    };
+    template <typename Sample>
+    double mismatch(double t, double length, double reference_step, const Sample &sample,
+                    double &largest);
+
+    const Structure &structure;
+    std::vector<std::size_t> varying;  ///< bodies with loads that vary
+    std::vector<double> largest_loads; ///< of each of these so far [N]
+    std::vector<double> largest_motions;
+    bool is_constant = true; ///< on all ranks
+    std::vector<double> values;
+    Sums sums;
+  };
+} // namespace taut
+
+#endif

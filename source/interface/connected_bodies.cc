@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/gather_entries.h>
+#include <taut/interface/connected_bodies.h>
+
+#include <numeric>
+
+namespace taut
+{
+  ConnectedBodies::ConnectedBodies(const Structure &structure, const Constraints &constraints)
+  {
+    MatrixEntries acts_on;
+    const auto add = [&](const std::size_t i, const std::vector<Term> &terms)
+    {
+      for (const Term &term : terms)
+        acts_on.add(i, structure.number(term.substructure), 1.);
+    };
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      if (constraints[i].direction)
+        for (const std::vector<Term> &motion : constraints[i].direction->motion)
+          add(i, motion);
+      else
+        add(i, constraints[i].terms);
+    gather(structure.communicator(), acts_on);
+
+    std::vector<std::size_t> root(structure.all_bodies().size());
+    std::iota(root.begin(), root.end(), 0);
+    const auto find = [&](std::size_t b)
+    {
+      while (root[b] != b)
+        b = root[b] = root[root[b]];
+      return b;
+    };
+    constexpr std::size_t none = no_link;
+    std::vector<std::size_t> first(constraints.size(), none);
+    for (std::size_t e = 0; e < acts_on.size(); ++e)
+      if (std::size_t &other = first[acts_on.row[e]]; other == none)
+        other = acts_on.column[e];
+      else
+        root[find(acts_on.column[e])] = find(other);
+
+    std::vector<std::size_t> group(root.size(), none);
+    for (std::size_t b = 0; b < root.size(); ++b)
+      if (std::size_t &number = group[find(b)]; number == none)
+        number = n++;
+    for (std::size_t k = 0; k < structure.size(); ++k)
+      body.push_back(group[find(structure.number(k))]);
+    for (const std::size_t b : first)
+      constraint.push_back(b == none ? 0 : group[find(b)]);
+  }
+} // namespace taut

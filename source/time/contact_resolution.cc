@@ -1,0 +1,446 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/interface/schur_complement.h>
+#include <taut/time/contact_resolution.h>
+#include <taut/time/integrator.h>
+#include <taut/time/matrix_norms.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numeric>
+
+namespace taut
+{
+  namespace
+  {
+    /// Ratio times share up to which generalised-alpha keeps the energy of an impact to a percent:
+    /// a mass on a stop with twelve steps a contact.
+    constexpr double resolved = .018;
+
+    /// Share of its energy that a body may lose in an impact: below, a smooth force is worth more.
+    constexpr double small_share = .02;
+
+    /// Steps a contact with a damper needs for a rebound that is right to a percent.
+    constexpr double steps_of_a_damped_contact = 8.;
+
+    /// Part of the step that is short for everything: F then is that of the mass alone.
+    constexpr double short_step = 1e-3;
+
+    /// Part of its flexibility that a node without mass keeps when all that is joined to it holds
+    /// still; below, something with mass stands behind it.
+    constexpr double own_part = .5;
+
+    /// Constraints whose couplings are looked at entry by entry; of more, bounds are taken.
+    constexpr std::size_t most_columns = 1500;
+
+    /// Places along the way of a moving constraint.
+    constexpr int n_places = 400;
+
+    /// How far the largest eigenvalue is found, and in how many iterations.
+    constexpr double eigenvalue_tolerance = .01;
+    constexpr int most_iterations = 200;
+
+    /// Part of the diagonal that makes a system with dependent constraints definite.
+    constexpr double shift_of_dependent_rows = 1e-9;
+
+    /// F of the bodies in one step, without the springs of the constraints.
+    class Flexibilities
+    {
+    public:
+      Flexibilities(const Structure &structure, const Constraints &constraints,
+                    const SolverParameters &parameters, const double step)
+          : structure(structure), constraints(constraints), c(generalised_alpha(step, .8)),
+            solvers(structure, parameters.local_solver),
+            schur(make_schur_complement(parameters.interface, solvers, constraints))
+      {
+        structure.communicator().agree([&] { solvers.factor(c.mass_factor(), c.velocity); });
+        S.resize(constraints.size());
+        for (std::size_t i = 0; i < S.size(); ++i)
+          S[i] = 1. / (constraints[i].stiffness + c.velocity * constraints[i].damping);
+        schur->setup(S);
+      }
+
+      /// S of a constraint, with its damper [m/N, rad/(N m)].
+      double compliance(const std::size_t i) const { return S[i]; }
+
+      /// Factor of M in A [1/s^2].
+      double mass_factor() const { return c.mass_factor(); }
+
+      /// B_i^T A^-1 B_i of one body of this rank.
+      double of_body(const Term &term) const
+      {
+        double sum = solvers[term.substructure].flexibility(term.form);
+        const auto &modes = solvers.rigid_body_modes()[term.substructure];
+        for (std::size_t v = 0; v < modes.vectors.size(); ++v)
+          sum += std::pow(term.form.dot(modes.vectors[v]), 2) / modes.resistance[v];
+        return sum;
+      }
+
+      /// Column i of F with the constraints of @p closed imposed.
+      void column(const std::size_t i, const std::vector<std::size_t> &closed,
+                  std::vector<double> &result)
+      {
+        ComplementarityOperator &F = schur->matrix();
+        std::vector<std::size_t> set;
+        for (const std::size_t j : closed)
+          if (F.diagonal(j) > 0.)
+            set.push_back(j);
+        std::vector<double> unit(constraints.size(), 0.), x, of_x;
+        unit[i] = 1.;
+        F.apply(unit, result);
+        result[i] -= S[i];
+        add_modes(i, result);
+        if (set.empty() ||
+            (!F.solve(set, result, 0., x) && !F.solve(set, result, shift_of_dependent_rows, x)))
+          return;
+        F.apply(x, of_x);
+        for (std::size_t j = 0; j < result.size(); ++j)
+          result[j] -= of_x[j];
+      }
+
+      /// After a move of the constraints.
+      void update_moving() { schur->update_moving(); }
+
+    private:
+      /// The motions as a whole of bodies whose inertia is lost in their stiffness.
+      void add_modes(const std::size_t i, std::vector<double> &result) const
+      {
+        if (!solvers.has_rigid_body_modes())
+          return;
+        std::vector<double> sums(constraints.size(), 0.);
+        for (std::size_t k = 0; k < structure.size(); ++k)
+        {
+          const auto &modes = solvers.rigid_body_modes()[k];
+          for (std::size_t v = 0; v < modes.vectors.size(); ++v)
+            for (const Term &own : constraints[i].terms)
+              for (std::size_t j = 0; j < sums.size() && own.substructure == k; ++j)
+                for (const Term &other : constraints[j].terms)
+                  if (other.substructure == k)
+                    sums[j] += own.form.dot(modes.vectors[v]) * other.form.dot(modes.vectors[v]) /
+                               modes.resistance[v];
+        }
+        structure.communicator().sum(sums);
+        for (std::size_t j = 0; j < sums.size(); ++j)
+          result[j] += sums[j];
+      }
+
+      const Structure &structure;
+      const Constraints &constraints;
+      const StepCoefficients c;
+      FactoredStructure solvers;
+      std::unique_ptr<SchurComplement> schur;
+      std::vector<double> S;
+    };
+
+    /// The largest eigenvalue of a matrix without negative entries, from above (L. Collatz, 1942):
+    /// the largest (G x)_i / x_i of any positive x.
+    double largest_eigenvalue(const std::vector<std::vector<double>> &G,
+                              const std::vector<std::size_t> &group)
+    {
+      std::vector<double> x(group.size(), 1.), y(group.size());
+      double above = std::numeric_limits<double>::infinity();
+      for (int iteration = 0; iteration < most_iterations; ++iteration)
+      {
+        double highest = 0., lowest = std::numeric_limits<double>::infinity(), largest = 0.;
+        for (std::size_t a = 0; a < group.size(); ++a)
+        {
+          y[a] = 0.;
+          for (std::size_t b = 0; b < group.size(); ++b)
+            y[a] += G[group[a]][group[b]] * x[b];
+          highest = std::max(highest, y[a] / x[a]);
+          lowest = std::min(lowest, y[a] / x[a]);
+          largest = std::max(largest, y[a]);
+        }
+        above = std::min(above, highest);
+        if (highest <= (1. + eigenvalue_tolerance) * lowest || !(largest > 0.))
+          break;
+        // The mean of both vectors converges where the matrix only swaps them.
+        for (std::size_t a = 0; a < group.size(); ++a)
+          x[a] = std::max(.5 * (x[a] + y[a] / largest), std::numeric_limits<double>::min());
+      }
+      return above;
+    }
+
+    /// Constraints that have to do with each other, by the entries of a symmetric matrix.
+    std::vector<std::vector<std::size_t>> groups(const std::vector<std::vector<double>> &G)
+    {
+      std::vector<std::size_t> root(G.size());
+      std::iota(root.begin(), root.end(), 0);
+      const auto find = [&](std::size_t i)
+      {
+        while (root[i] != i)
+          i = root[i] = root[root[i]];
+        return i;
+      };
+      for (std::size_t a = 0; a < G.size(); ++a)
+        for (std::size_t b = 0; b < a; ++b)
+          if (G[a][b] > 0.)
+            root[find(a)] = find(b);
+      std::vector<std::vector<std::size_t>> of_root(G.size()), result;
+      for (std::size_t a = 0; a < G.size(); ++a)
+        of_root[find(a)].push_back(a);
+      for (std::vector<std::size_t> &group : of_root)
+        if (!group.empty())
+          result.push_back(std::move(group));
+      return result;
+    }
+
+    /// How much of a motion as a whole the linear form takes, with its sign.
+    double part_of_translation(const Structure &structure, const Term &term)
+    {
+      double size = 0., sum = 0.;
+      for (std::size_t e = 0; e < term.form.index.size(); ++e)
+        if (structure[term.substructure].kind(term.form.index[e]) == 0)
+        {
+          size += std::fabs(term.form.value[e]);
+          sum += term.form.value[e];
+        }
+      return std::copysign(size, sum);
+    }
+
+    /// Rigid and elastic bilateral constraints, and unilateral ones between two bodies if asked.
+    std::vector<std::size_t> joins(const Structure &structure, const Constraints &constraints,
+                                   const bool unilateral, const std::size_t but)
+    {
+      std::vector<double> n_bodies(constraints.size(), 0.);
+      for (std::size_t i = 0; i < constraints.size(); ++i)
+      {
+        std::vector<std::size_t> bodies;
+        for (const Term &term : constraints[i].terms)
+          if (std::find(bodies.begin(), bodies.end(), term.substructure) == bodies.end())
+            bodies.push_back(term.substructure);
+        n_bodies[i] = static_cast<double>(bodies.size());
+      }
+      structure.communicator().sum(n_bodies);
+      std::vector<std::size_t> result;
+      for (std::size_t i = 0; i < constraints.size(); ++i)
+        if (i != but && (!constraints[i].unilateral || (unilateral && n_bodies[i] > 1.)))
+          result.push_back(i);
+      return result;
+    }
+  } // namespace
+
+  /**
+   * Ratio, share and contact time of the constraints of a system. The elastic ones are looked at
+   * together, as a step closes them together; of rigid ones only whether they press on a node
+   * without mass.
+   */
+  class ContactResolution::Search
+  {
+  public:
+    Search(const Structure &structure, const Constraints &constraints,
+           const SolverParameters &parameters, const double step, std::vector<Row> &of)
+        : structure(structure), constraints(constraints), of(of),
+          in_step(structure, constraints, parameters, step),
+          at_once(structure, constraints, parameters, short_step * step),
+          mass(total_masses(structure)), closed(joins(structure, constraints, false, no_link))
+    {
+    }
+
+    void judge_rigid(const std::vector<char> &without_mass)
+    {
+      std::vector<double> column;
+      for (std::size_t i = 0; i < of.size(); ++i)
+      {
+        if (!of[i].unilateral || of[i].elastic)
+          continue;
+        of[i].ratio = std::numeric_limits<double>::infinity();
+        if (!without_mass[i])
+          continue;
+        at_once.column(i, {}, column);
+        const double alone = column[i];
+        at_once.column(i, joins(structure, constraints, true, i), column);
+        if (column[i] >= own_part * alone)
+          of[i].ratio = 0.;
+      }
+    }
+
+    void judge_elastic(const std::vector<std::size_t> &rows)
+    {
+      find_shares(rows);
+      if (rows.size() > most_columns)
+      {
+        judge_by_bounds(rows);
+        return;
+      }
+      std::vector<std::vector<double>> G(rows.size(), std::vector<double>(rows.size(), 0.));
+      std::vector<double> column;
+      for (std::size_t a = 0; a < rows.size(); ++a)
+      {
+        in_step.column(rows[a], closed, column);
+        for (std::size_t b = 0; b < rows.size(); ++b)
+          G[b][a] = std::max(0., column[rows[b]]) /
+                    std::sqrt(in_step.compliance(rows[a]) * in_step.compliance(rows[b]));
+      }
+      for (const std::vector<std::size_t> &group : groups(G))
+      {
+        const double ratio = largest_eigenvalue(G, group);
+        for (const std::size_t a : group)
+          of[rows[a]].ratio = ratio;
+      }
+    }
+
+    /// An elastic constraint that moves, where it is now.
+    void judge_moving(const std::size_t i)
+    {
+      std::vector<double> column;
+      in_step.column(i, closed, column);
+      of[i].ratio = std::max(of[i].ratio, column[i] / in_step.compliance(i));
+      at_once.column(i, closed, column);
+      find_share(i, column[i]);
+    }
+
+    void update_moving()
+    {
+      in_step.update_moving();
+      at_once.update_moving();
+    }
+
+  private:
+    /// From |F_ij| <= sqrt(F_ii F_jj): the sum of the ratios of all.
+    void judge_by_bounds(const std::vector<std::size_t> &rows)
+    {
+      double sum = 0.;
+      std::vector<double> column;
+      for (const std::size_t i : rows)
+      {
+        in_step.column(i, {}, column);
+        sum += column[i] / in_step.compliance(i);
+      }
+      for (const std::size_t i : rows)
+        of[i].ratio = sum;
+    }
+
+    /// Of a constraint by itself, with f_ii / m of its joined bodies as F of a short step.
+    void find_share(const std::size_t i, const double flexibility)
+    {
+      double share = 0.;
+      for (const Term &term : constraints[i].terms)
+      {
+        const double own =
+            structure[term.substructure].is_lumped()
+                ? at_once.of_body(term) / flexibility
+                : std::pow(part_of_translation(structure, term), 2) /
+                      (flexibility * at_once.mass_factor() * mass[term.substructure]);
+        share = std::max(share, own);
+      }
+      of[i].share = std::min(1., structure.communicator().max(share));
+    }
+
+    /// Of elements, those of all constraints that push them to the same side together.
+    void find_shares(const std::vector<std::size_t> &rows)
+    {
+      std::vector<double> column;
+      std::vector<std::array<double, 2>> of_body(structure.size(), {0., 0.});
+      for (const std::size_t i : rows)
+      {
+        at_once.column(i, closed, column);
+        const double flexibility = column[i] * at_once.mass_factor();
+        of[i].contact_time =
+            std::acos(-1.) / std::sqrt(constraints[i].stiffness * std::max(flexibility, 0.));
+        find_share(i, column[i]);
+        for (const Term &term : constraints[i].terms)
+        {
+          const double part = part_of_translation(structure, term);
+          of_body[term.substructure][part < 0.] +=
+              part * part / (flexibility * mass[term.substructure]);
+        }
+      }
+      for (const std::size_t i : rows)
+      {
+        double share = of[i].share;
+        for (const Term &term : constraints[i].terms)
+          if (!structure[term.substructure].is_lumped())
+            share = std::max(share,
+                             of_body[term.substructure][part_of_translation(structure, term) < 0.]);
+        of[i].share = std::min(1., structure.communicator().max(share));
+      }
+    }
+
+    const Structure &structure;
+    const Constraints &constraints;
+    std::vector<Row> &of;
+    Flexibilities in_step, at_once;
+    const std::vector<double> mass;
+    const std::vector<std::size_t> closed;
+  };
+
+  ContactResolution::ContactResolution(const Structure &structure, const Constraints &all,
+                                       const SolverParameters &parameters, const double step,
+                                       const bool adaptive, const double until)
+      : adaptive(adaptive), of(all.size())
+  {
+    Constraints constraints = all; // moves along its way here
+    const std::vector<char> without_mass = constraints.without_mass();
+    std::vector<std::size_t> elastic, moving;
+    bool is_needed = false;
+    for (std::size_t i = 0; i < of.size(); ++i)
+    {
+      const ConstraintData &constraint = constraints[i];
+      of[i].unilateral = constraint.unilateral;
+      of[i].elastic = !std::isinf(constraint.stiffness);
+      of[i].damped = constraint.damping > 0.;
+      of[i].may_conserve = constraint.unilateral && of[i].elastic && !constraint.moving &&
+                           !constraint.direction && !without_mass[i];
+      if (constraint.unilateral && of[i].elastic)
+        (constraint.moving ? moving : elastic).push_back(i);
+      is_needed = is_needed || (constraint.unilateral && (of[i].elastic || without_mass[i]));
+    }
+    if (!is_needed)
+    {
+      for (Row &row : of)
+        row.ratio = row.unilateral ? std::numeric_limits<double>::infinity() : 0.;
+      return;
+    }
+    Search search(structure, constraints, parameters, step, of);
+    search.judge_rigid(without_mass);
+    search.judge_elastic(elastic);
+    if (moving.empty())
+      return;
+    for (int place = 0; place <= (until > 0. ? n_places : 0); ++place)
+    {
+      if (place > 0)
+      {
+        constraints.update(until * place / n_places);
+        search.update_moving();
+      }
+      for (const std::size_t i : moving)
+        search.judge_moving(i);
+    }
+  }
+
+  bool ContactResolution::is_resolved(const std::size_t i) const
+  {
+    const Row &row = of[i];
+    return !row.unilateral || (row.ratio <= 1. && row.ratio * row.share <= resolved &&
+                               !(adaptive && row.may_conserve && row.share > small_share));
+  }
+
+  std::size_t ContactResolution::first_unresolved() const
+  {
+    std::size_t i = 0;
+    while (i < of.size() && is_resolved(i))
+      ++i;
+    return i;
+  }
+
+  std::vector<char> ContactResolution::conserving() const
+  {
+    std::vector<char> result;
+    for (const Row &row : of)
+      result.push_back(row.may_conserve && row.share > small_share);
+    return result;
+  }
+
+  std::vector<double> ContactResolution::longest_steps() const
+  {
+    std::vector<double> result;
+    for (const Row &row : of)
+      result.push_back(row.may_conserve && row.share > small_share && row.damped
+                           ? row.contact_time / steps_of_a_damped_contact
+                           : std::numeric_limits<double>::infinity());
+    return result;
+  }
+} // namespace taut

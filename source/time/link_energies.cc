@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/archive.h>
+#include <taut/base/instruction_set.h>
+#include <taut/time/link_energies.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace taut
+{
+  namespace
+  {
+    /// Part of the energy of the reference that rounding gives or takes in a long run at rest.
+    constexpr double rounding_of_energy = 1e-8;
+
+    /// Scalar product, in partial sums that do not wait for each other.
+    double product(const std::vector<double> &x, const std::vector<double> &y)
+    {
+      constexpr std::size_t lanes = 16;
+      std::array<double, lanes> sums = {};
+      vectorised(
+          [&sums, a = x.data(), b = y.data(), n = x.size()]
+          {
+            std::array<double, lanes> s = {};
+            for (std::size_t i = 0; i + lanes <= n; i += lanes)
+#pragma omp simd
+              for (std::size_t l = 0; l < lanes; ++l)
+                s[l] += a[i + l] * b[i + l];
+            for (std::size_t i = n - n % lanes; i < n; ++i)
+              s[i % lanes] += a[i] * b[i];
+            sums = s;
+          });
+      return std::accumulate(sums.begin(), sums.end(), 0.);
+    }
+  } // namespace
+
+  LinkEnergies::LinkEnergies(const Structure &structure, const Constraints &constraints,
+                             const Reference &reference, const State &start)
+      : structure(structure), constraints(constraints), reference(reference),
+        connected(structure, constraints), rows(constraints.size()), energies(connected.n_groups())
+  {
+    work.resize(rows.size());
+    terms.resize(rows.size());
+    constraints.share_of_motions(reference.displacement, work, terms);
+    structure.communicator().sum(terms);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      rows[i].multiplier = start.multiplier[i];
+      rows[i].gap = start.gap[i];
+      rows[i].u = start.link_springs[i].u;
+      rows[i].noise = rounding_of_gaps * (terms[i] + std::fabs(constraints[i].gap));
+      rows[i].begin = start.time;
+    }
+    measure_rest(start);
+    measure_scale(start);
+  }
+
+  void LinkEnergies::measure_rest(const State &start)
+  {
+    std::vector<double> sums(energies.size(), 0.);
+    for (std::size_t k = 0; k < structure.size(); ++k)
+      sums[connected.of_body(k)] +=
+          .5 * std::fabs(product(reference.displacement[k], reference.force[k]));
+    structure.communicator().sum(sums);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      sums[connected.of_constraint(i)] +=
+          std::fabs(start.multiplier[i]) * rows[i].noise / rounding_of_gaps;
+    for (std::size_t g = 0; g < energies.size(); ++g)
+      energies[g].rest = rounding_of_energy * sums[g];
+  }
+
+  /// What a constraint gives the bodies in a step beside its spring and damper.
+  double LinkEnergies::gain(const std::size_t i, const State &state,
+                            const StepCoefficients &c) const
+  {
+    const ConstraintData &constraint = constraints[i];
+    const Row &row = rows[i];
+    const double change = state.gap[i] - row.gap;
+    const bool is_mean = c.mean_force && state.is_mean[i];
+    if (is_mean && !constraint.moving)
+    {
+      if (std::isinf(constraint.stiffness))
+        return state.constraint_work[i];
+      const State::LinkSpring &spring = state.link_springs[i];
+      return state.constraint_work[i] + constraint.stored_energy(spring.u) -
+             constraint.stored_energy(row.u) +
+             constraint.damping * spring.du * spring.du / state.last_step;
+    }
+    if (!(std::fabs(change) > row.noise))
+      return 0.;
+    return is_mean ? state.multiplier[i] * change
+                   : .5 * (row.multiplier + state.multiplier[i]) * change;
+  }
+
+  void LinkEnergies::add_contact(Account &account, const double energy, const double begin,
+                                 const double end)
+  {
+    (energy > 0. ? account.given : account.taken) += std::fabs(energy);
+    if (!(std::fabs(energy) > account.largest))
+      return;
+    account.largest = std::fabs(energy);
+    account.begin = begin;
+    account.end = end;
+  }
+
+  void LinkEnergies::record(const State &state, const StepCoefficients &c)
+  {
+    const bool whole = c.mean_force && !c.velocity_level; // gains are those of groups
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      if (!constraints[i].unilateral)
+        continue;
+      Row &row = rows[i];
+      const double N = state.multiplier[i];
+      if (row.multiplier > 0. || N > 0.)
+      {
+        if (!(row.multiplier > 0.))
+          row.begin = state.time - state.last_step;
+        if (!std::isinf(constraints[i].stiffness))
+          row.closing += gain(i, state, c);
+        else if (!whole)
+          row.closing += std::max(0., gain(i, state, c));
+        if (!(N > 0.))
+        {
+          add_contact(row.account, row.closing, row.begin, state.time);
+          row.account.step = state.last_step;
+          row.account.shortest = std::min(row.account.shortest, state.time - row.begin);
+          row.closing = 0.;
+        }
+      }
+      row.multiplier = N;
+      row.end = state.time;
+      row.gap = state.gap[i];
+      row.u = state.link_springs[i].u;
+    }
+  }
+
+  LinkEnergies::Account LinkEnergies::account(const std::size_t i) const
+  {
+    const Row &row = rows[i];
+    Account result = row.account;
+    if (row.closing != 0.)
+      add_contact(result, row.closing, row.begin, row.end);
+    return result;
+  }
+
+  void LinkEnergies::measure_scale(const State &state)
+  {
+    const std::size_t n = energies.size();
+    std::vector<double> sums(2 * n, 0.), springs(n, 0.);
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      const Substructure &body = structure[k];
+      work.assign(body.n_dofs(), 0.);
+      body.mass().vmult_add(.5, state.V[k].data(), work.data());
+      sums[connected.of_body(k)] += product(work, state.V[k]);
+      sums[n + connected.of_body(k)] += .5 * product(state.U[k], state.KU[k]);
+    }
+    structure.communicator().sum(sums);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      springs[connected.of_constraint(i)] += constraints[i].stored_energy(state.link_springs[i].u);
+    for (std::size_t g = 0; g < n; ++g)
+    {
+      energies[g].kinetic = std::max(energies[g].kinetic, sums[g]);
+      energies[g].strain = std::max(energies[g].strain, std::fabs(sums[n + g]));
+      energies[g].springs = std::max(energies[g].springs, springs[g]);
+    }
+    work.assign(rows.size(), 0.);
+    constraints.share_of_motions(state.U, work, terms);
+    structure.communicator().sum(terms);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      rows[i].noise = std::max(rows[i].noise, rounding_of_gaps * terms[i]);
+  }
+
+  double LinkEnergies::scale(const std::size_t group) const
+  {
+    const Energies &e = energies[group];
+    return e.kinetic + e.strain + e.springs + e.rest;
+  }
+
+  template <typename Archive>
+  void LinkEnergies::store(Archive &archive)
+  {
+    for (Row &row : rows)
+      archive &row;
+    for (Energies &e : energies)
+      archive &e;
+  }
+
+  void LinkEnergies::save(OutputArchive &archive)
+  {
+    store(archive);
+  }
+
+  void LinkEnergies::load(InputArchive &archive)
+  {
+    store(archive);
+  }
+} // namespace taut
