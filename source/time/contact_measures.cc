@@ -215,40 +215,45 @@ namespace taut
     force.gap = std::max(force.gap, gap);
   }
 
+  /// Of the group whose constraints gave and took most; named is the worst of them.
   void ContactMeasures::find_contact_energy(Summary &result) const
   {
     const ConnectedBodies &groups = energies.groups();
-    const auto consider = [&](const std::size_t i, const double given, const double taken)
-    {
-      const double energy = given + taken, scale = energies.scale(groups.of_constraint(i));
-      if (!(energy > result.relative_energy * scale))
-        return;
-      const LinkEnergies::Account account = energies.account(i);
-      result.relative_energy = energy / scale;
-      result.contact_energy = energy;
-      result.taken = taken;
-      result.scale = scale;
-      result.energy_constraint = i;
-      result.energy_begin = account.begin;
-      result.energy_end = account.end;
-      result.contact_time = std::isfinite(account.shortest) ? account.shortest : 0.;
-      result.step = account.step;
-    };
+    std::vector<double> given = contact_gains, taken(given.size(), 0.), worst(given.size(), 0.);
+    std::vector<std::size_t> row = first_one_sided;
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      if (constraints[i].unilateral)
-      {
-        const LinkEnergies::Account account = energies.account(i);
-        consider(i, account.given, account.taken);
-      }
-    for (std::size_t g = 0; g < contact_gains.size(); ++g)
     {
-      if (first_one_sided[g] != no_link)
-        consider(first_one_sided[g], contact_gains[g], 0.);
+      if (!constraints[i].unilateral)
+        continue;
+      const LinkEnergies::Account account = energies.account(i);
+      const std::size_t group = groups.of_constraint(i);
+      given[group] += account.given;
+      taken[group] += account.taken;
+      if (!(account.given + account.taken > worst[group]))
+        continue;
+      worst[group] = account.given + account.taken;
+      row[group] = i;
+    }
+    for (std::size_t g = 0; g < given.size(); ++g)
+    {
+      const double energy = given[g] + taken[g], scale = energies.scale(g);
+      if (row[g] != no_link && energy > result.relative_energy * scale)
+      {
+        const LinkEnergies::Account account = energies.account(row[g]);
+        result.relative_energy = energy / scale;
+        result.contact_energy = energy;
+        result.taken = taken[g];
+        result.scale = scale;
+        result.energy_constraint = row[g];
+        result.energy_begin = account.begin;
+        result.energy_end = account.end;
+        result.contact_time = std::isfinite(account.shortest) ? account.shortest : 0.;
+        result.step = account.step;
+      }
       const double gain = motion_gains[g] - n_steps * rest_of_step[g];
       result.motion_energy += motion_gains[g];
       if (gain > 0.)
-        result.relative_motion_energy =
-            std::max(result.relative_motion_energy, gain / energies.scale(g));
+        result.relative_motion_energy = std::max(result.relative_motion_energy, gain / scale);
     }
   }
 
@@ -278,11 +283,12 @@ namespace taut
   {
     std::ostringstream out;
     out.precision(3);
-    out << "unilateral link '" << constraints[s.energy_constraint].name << "' "
-        << (s.taken > .5 * s.contact_energy ? "took " : "gave ") << s.contact_energy << " J, "
-        << s.relative_energy
-        << " of the energy of what it is connected with, most between t = " << s.energy_begin
-        << " and " << s.energy_end << " s";
+    const bool took = s.taken > .5 * s.contact_energy;
+    out << "unilateral links " << (took ? "took " : "gave ") << s.contact_energy << " J, "
+        << s.relative_energy << " of the energy of what they are connected with, "
+        << (took ? "beside their springs and dampers" : "where they can only take it")
+        << ": most at '" << constraints[s.energy_constraint].name
+        << "' between t = " << s.energy_begin << " and " << s.energy_end << " s";
     if (s.step > 0.)
       out << "; its shortest contact lasts " << s.contact_time << " s, " << s.contact_time / s.step
           << " steps";

@@ -2,6 +2,7 @@
 #include <taut/base/archive.h>
 #include <taut/base/instruction_set.h>
 #include <taut/time/link_energies.h>
+#include <taut/time/matrix_norms.h>
 
 #include <algorithm>
 #include <array>
@@ -39,7 +40,8 @@ namespace taut
   LinkEnergies::LinkEnergies(const Structure &structure, const Constraints &constraints,
                              const Reference &reference, const State &start)
       : structure(structure), constraints(constraints), reference(reference),
-        connected(structure, constraints), rows(constraints.size()), energies(connected.n_groups())
+        connected(structure, constraints), masses(total_masses(structure)),
+        rows(constraints.size()), energies(connected.n_groups())
   {
     work.resize(rows.size());
     terms.resize(rows.size());
@@ -146,10 +148,25 @@ namespace taut
     return result;
   }
 
+  /// What the loads of a body would give it in one step if nothing held it: at rest, all that
+  /// moves is rounding of this [J].
+  double LinkEnergies::energy_of_loads(const std::size_t k, const State &state)
+  {
+    if (!(masses[k] > 0.))
+      return 0.;
+    structure[k].external_force(state.time, work);
+    double force = 0.;
+    for (unsigned int i = 0; i < work.size(); ++i)
+      if (structure[k].kind(i) == 0)
+        force += std::fabs(work[i]);
+    const double speed = state.last_step * force / masses[k];
+    return .5 * masses[k] * speed * speed;
+  }
+
   void LinkEnergies::measure_scale(const State &state)
   {
     const std::size_t n = energies.size();
-    std::vector<double> sums(2 * n, 0.), springs(n, 0.);
+    std::vector<double> sums(3 * n, 0.), springs(n, 0.);
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       const Substructure &body = structure[k];
@@ -157,6 +174,7 @@ namespace taut
       body.mass().vmult_add(.5, state.V[k].data(), work.data());
       sums[connected.of_body(k)] += product(work, state.V[k]);
       sums[n + connected.of_body(k)] += .5 * product(state.U[k], state.KU[k]);
+      sums[2 * n + connected.of_body(k)] += energy_of_loads(k, state);
     }
     structure.communicator().sum(sums);
     for (std::size_t i = 0; i < rows.size(); ++i)
@@ -166,6 +184,7 @@ namespace taut
       energies[g].kinetic = std::max(energies[g].kinetic, sums[g]);
       energies[g].strain = std::max(energies[g].strain, std::fabs(sums[n + g]));
       energies[g].springs = std::max(energies[g].springs, springs[g]);
+      energies[g].loads = std::max(energies[g].loads, sums[2 * n + g]);
     }
     work.assign(rows.size(), 0.);
     constraints.share_of_motions(state.U, work, terms);
@@ -177,7 +196,7 @@ namespace taut
   double LinkEnergies::scale(const std::size_t group) const
   {
     const Energies &e = energies[group];
-    return e.kinetic + e.strain + e.springs + e.rest;
+    return e.kinetic + e.strain + e.springs + e.loads + e.rest;
   }
 
   template <typename Archive>

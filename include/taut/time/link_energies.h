@@ -54,7 +54,8 @@ namespace taut
     /// Of a constraint, with its contact that is not over.
     Account account(std::size_t i) const;
 
-    /// Largest kinetic, strain and spring energies so far of a group, and rounding [J].
+    /// Largest kinetic, strain and spring energies so far of a group, what its loads give in a
+    /// step, and rounding [J].
     double scale(std::size_t group) const;
     const ConnectedBodies &groups() const { return connected; }
 
@@ -85,12 +86,12 @@ namespace taut
     };
     struct Energies
     {
-      double kinetic = 0., strain = 0., springs = 0., rest = 0.;
+      double kinetic = 0., strain = 0., springs = 0., loads = 0., rest = 0.;
 
       template <typename Archive>
       void serialize(Archive &archive, unsigned int)
       {
-        archive &kinetic &strain &springs &rest;
+        archive &kinetic &strain &springs &loads &rest;
       }
     };
     template <typename Archive>
@@ -98,11 +99,13 @@ namespace taut
     double gain(std::size_t i, const State &state, const StepCoefficients &c) const;
     static void add_contact(Account &account, double energy, double begin, double end);
     void measure_rest(const State &start);
+    double energy_of_loads(std::size_t k, const State &state);
 
     const Structure &structure;
     const Constraints &constraints;
     const Reference &reference;
     const ConnectedBodies connected;
+    const std::vector<double> masses; ///< of the bodies of this rank [kg]
     std::vector<Row> rows;
     std::vector<Energies> energies; ///< of the groups
     std::vector<double> work, terms;
