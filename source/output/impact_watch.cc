@@ -35,20 +35,20 @@ namespace taut
   std::vector<std::size_t> ImpactWatch::struck(const StepView &step) const
   {
     std::vector<std::size_t> result;
-    const auto closes = [&](const std::size_t i)
-    { return rate[i] < -rest * largest[step.constraints[i].rotational]; };
     double strongest = 0.;
     for (std::size_t i = 0; i < rate.size(); ++i)
-      if (step.constraints[i].unilateral && closes(i))
-        strongest = std::max(strongest, step.state.multiplier[i]);
-    for (std::size_t i = 0; i < rate.size() && strongest > 0.; ++i)
     {
       const ConstraintData &constraint = step.constraints[i];
       const double N = step.state.multiplier[i];
-      if (constraint.unilateral && std::isinf(constraint.stiffness) && N > rounding * strongest &&
-          (closes(i) || N > growth * force[i]))
-        result.push_back(i);
+      if (!constraint.unilateral || !std::isinf(constraint.stiffness) || !(N > growth * force[i]))
+        continue;
+      result.push_back(i);
+      if (rate[i] < -rest * largest[constraint.rotational])
+        strongest = std::max(strongest, N);
     }
+    const auto is_none = [&](const std::size_t i)
+    { return !(strongest > 0. && step.state.multiplier[i] > rounding * strongest); };
+    result.erase(std::remove_if(result.begin(), result.end(), is_none), result.end());
     return result;
   }
 

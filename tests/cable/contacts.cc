@@ -190,6 +190,15 @@ end
   EXPECT_NEAR(force, of_floor, .02 * of_floor);
 }
 
+/// One held end or both are below the floor.
+TEST(CableContacts, held_ends_inside_an_obstacle)
+{
+  expect(error_of(scene, {"Contact o/Point=0, -0.2", "Body cable/From=0, -0.4"}),
+         {"Contact o: ", "no force satisfies link 'o node 0'", "ends are held"});
+  expect(error_of(scene, {"Contact o/Point=0, 0.1"}),
+         {"Contact o: ", "'o node 0', 'o node 16'", "what holds their ends"});
+}
+
 TEST(CableContacts, what_is_out_of_reach_is_named)
 {
   try

@@ -121,3 +121,23 @@ TEST(SimultaneousImpacts, are_not_named_without_restitution)
   expect_velocities(outcome, {.2, .2, .2, .2, .2});
   EXPECT_EQ(outcome.log.find("Impacts:"), std::string::npos) << outcome.log;
 }
+
+// A mass that only lies on two stops has rates of rounding, and forces of its weight.
+TEST(SimultaneousImpacts, are_none_at_rest)
+{
+  std::string scene =
+      "set Generator = network\nset Gravity = 0, -9.81\nset Start = undeformed\nsubsection "
+      "Time\nset End = 0.1\nset Step = 1e-3\nsubsection Moreau-Jean\nset Restitution "
+      "= 0.5\nend\nend\nsubsection Network\nset Masses = a\nset Links = l, r\n"
+      "subsection Mass a\nset Position = 0, 0\nset Motions = x, y\nset Mass = 7\nend\n";
+  for (const std::string side : {"l", "r"})
+    scene += "subsection Link " + side +
+             "\nset Type = stop\nset From = ground\nset To = a\nset "
+             "Direction = " +
+             (side == "l" ? "0.3" : "-0.3") + ", 1\nend\n";
+  const Outcome at_rest = run(scene + "end\n", {"Time/Allow energy gain=true"});
+  EXPECT_EQ(at_rest.log.find("Impacts:"), std::string::npos) << at_rest.log;
+  const Outcome falls =
+      run(scene + "end\n", {"Network/Link l/Gap=0.01", "Network/Link r/Gap=0.01"});
+  EXPECT_NE(falls.log.find("'l', 'r', contacts that share"), std::string::npos) << falls.log;
+}

@@ -13,8 +13,8 @@ namespace taut
    * Notes impacts with restitution that happen in one step at contacts that share a body. Newton's
    * law then holds for all of them at once; impacts one after the other may end otherwise.
    *
-   * A rigid unilateral constraint is struck in a step if it has a force and was closing before, or
-   * if its force is far above that of the step before. Two share a body if both move one, or of
+   * Rigid unilateral constraints are struck in a step if their forces are far above those of the
+   * step before, and one of them was closing. Two share a body if both move one, or of
    * lumped masses the same DoF.
    */
   class ImpactWatch : public Observer
