@@ -13,6 +13,9 @@ namespace taut
 {
   namespace
   {
+    /// Part of the length by which a cable that is just as long as the way between its ends rounds.
+    constexpr double exactly_taut = 1e-12;
+
     /// Of the softest cable of a search, 2 to 20 times the tension unless EA is less.
     double first_stiffness(const double EA, const double tension)
     {
@@ -72,6 +75,8 @@ namespace taut
                  of_stretch = std::cbrt(EA * std::pow(w * span, 2) / 24.);
     if (EA * (distance / length - 1.) > of_stretch)
       return find_shape(cable, Parabola{chord, down, 0.}.positions(cable, from), held, load);
+    if (w == 0. && std::fabs(distance - length) <= exactly_taut * length)
+      return {Parabola{chord, down, 0.}.positions(cable, from)};
     if (w == 0.)
       throw UserError("a cable of " + text_of(length) + " m between ends " + text_of(distance) +
                       " m apart has no shape of its own without weight or wind; make it shorter or "

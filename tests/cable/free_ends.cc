@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: a cable that one end holds hangs straight down at rest, wherever To is given, or says what
-// it lacks. Expected value: the length under its own weight, L + w L^2 / (2 EA).
+// it lacks; one that is exactly taut is straight. Expected value: the length under its own weight,
+// L + w L^2 / (2 EA).
 #include "cable/errors_of_runs.h"
 #include "verification/run.h"
 
@@ -120,4 +121,16 @@ TEST(FreeEnds, slack_between_two_places_above_each_other)
   expect(error_of(rope, {"Body rope/Held ends=both", "Body rope/To=0, -9"}),
          {"Body rope", "no plane to hang in", "Held ends"});
   expect(error_of(rope, {"Body rope/To=0, 10"}), {"no plane to hang in"});
+}
+
+// As long as the way between its ends, without weight: a straight line that its inertia holds.
+TEST(FreeEnds, exactly_taut_without_weight)
+{
+  const Overrides straight = {"Gravity=0, 0", "Start=undeformed", "Body rope/Held ends=both",
+                              "Body rope/To=6, -8", "Time/End=0.05"};
+  for (const Coordinates &middle : places(straight, length / 2.))
+    EXPECT_LT(norm(middle - Coordinates{3., -4.}), 1e-12);
+  Overrides slack = straight;
+  slack.push_back("Body rope/Unstressed length=10.000001");
+  expect(error_of(rope, slack), {"no shape of its own"});
 }

@@ -29,8 +29,9 @@ namespace taut
                         double tension = 0.);
 
   /// The same between two places, with hinges there, under a force per unstressed length [N/m]:
-  /// from a parabola of the cable's length, or from the straight line if that is longer. Throws
-  /// UserError also for a slack cable without a force: it has no shape of its own.
+  /// from a parabola of the cable's length, or from the straight line if that is longer. Without a
+  /// force a cable of just that length lies in the straight line, without tension, and a longer one
+  /// has no shape of its own: UserError.
   CableShape hang(const CableElements &cable, const Coordinates &from, const Coordinates &to,
                   const Coordinates &force);
 
