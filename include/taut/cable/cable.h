@@ -60,8 +60,8 @@ namespace taut
    * A cable in space that moves by large amounts. U is the displacement from its found shape, the
    * equilibrium under weight and constant force with both ends held at `from` and `to`, whatever is
    * held later: see hang(). Where these are above each other, the cable is slack and one end is
-   * free, it is that of hang_freely(). Positions are counted from `from`, so that a scene far from the origin
-   * rounds as one that is near.
+   * free, it is that of hang_freely(). Positions are counted from `from`, so that a scene far from
+   * the origin rounds as one that is near.
    *
    * The internal force is that of CableElements at the positions found + U, and the external force
    * is all of the load: at U = 0 they balance on all DoFs but those of the ends, where their
