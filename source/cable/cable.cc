@@ -151,11 +151,32 @@ namespace taut
             "it has no length");
   }
 
+  /// Whether one end alone is held, and the other is as near below it as the cable is long: between
+  /// these places it would fold, and its shape is that with the other end free.
+  bool Cable::hangs_freely() const
+  {
+    const Coordinates load = force_per_length(data);
+    if (data.holds_from == data.holds_to || data.geometry == CableGeometry::linear ||
+        !(norm(load) > 0.))
+      return false;
+    const Coordinates down = add_scaled({}, 1. / norm(load), load),
+                      chord = data.holds_from ? data.to - data.from : data.from - data.to;
+    const double below = dot(chord, down), beside = norm(add_scaled(chord, -below, down));
+    return below >= 0. && below <= hanging_length(element, load) &&
+           beside <= above_each_other * data.length;
+  }
+
   void Cable::find()
   {
+    const Coordinates to = data.to - data.from, load = force_per_length(data);
     about_entry(origin(),
-                [&] { found = hang(element, {}, data.to - data.from, force_per_length(data)); });
-    check_strain(std::vector<double>(element.n_dofs(), 0.));
+                [&]
+                {
+                  found = hangs_freely() ? hang_freely(element, data.holds_to ? to : Coordinates(),
+                                                       data.holds_to, load)
+                                         : hang(element, {}, to, load);
+                });
+    check_at_rest(std::vector<double>(element.n_dofs(), 0.));
     if (data.starts_straight)
       check_start(data, element, found);
   }

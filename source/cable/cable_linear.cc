@@ -63,7 +63,7 @@ namespace taut
   std::shared_ptr<Substructure> Cable::linearised(const std::shared_ptr<const Substructure> &self,
                                                   const std::vector<double> &U) const
   {
-    if (data.geometry != CableGeometry::linearised || is_linear())
+    if (!is_to_be_linearised())
       return nullptr;
     return std::shared_ptr<Substructure>(new Cable(*this, self, U));
   }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace taut
 {
@@ -15,8 +16,18 @@ namespace taut
     /// Strain of the differences that make the linear tension, whose relative error is its square.
     constexpr double small_strain = 1e-4;
 
+    /// Angle between the middle of the last element and a free end above which this is a kink
+    /// [rad], and tension of the end over that of the middle below which there is none. A cable
+    /// that hangs from one end is straight at the other.
+    constexpr double kink = .1, no_tension = 1e-3;
+
     constexpr unsigned int pieces = 4; ///< of an element, in pictures and of a linear tension
-  }                                    // namespace
+
+    std::string entry_of(const std::string &origin, const std::string &name)
+    {
+      return origin.empty() ? name : origin + "/" + name;
+    }
+  } // namespace
 
   /// Over the unstressed arc length. Of a cable that is linear T0 + EA t . u', t the tangent of
   /// the positions of its K and u from where the tension is T0: linear in U as its forces are, by
@@ -43,7 +54,17 @@ namespace taut
     };
   }
 
-  void Cable::check_strain(const std::vector<double> &U) const
+  bool Cable::is_in_tension(const std::vector<double> &U) const
+  {
+    const std::vector<double> q = positions(U);
+    const double h = element.element_length(), rounding = rounding_of_force(0);
+    for (unsigned int e = 0; e < element.n_elements(); ++e)
+      if (!(element.tension(q, (e + .5) * h) > rounding))
+        return false;
+    return element.smallest_strain(q) * data.section.axial_stiffness >= -rounding;
+  }
+
+  void Cable::check_at_rest(const std::vector<double> &U) const
   {
     const std::vector<double> q = positions(U);
     double strain = 0.;
@@ -58,10 +79,31 @@ namespace taut
     else
       strain = element.largest_strain(q);
     if (!(strain <= data.largest_strain))
-      throw EntryError(origin().empty() ? "Largest strain" : origin() + "/Largest strain",
+      throw EntryError(entry_of(origin(), "Largest strain"),
                        "at rest the cable is stretched by " + text_of(strain) + ", more than " +
                            text_of(data.largest_strain) +
                            "; make it longer or stiffer, or allow more");
+    if (!is_linear() && data.element == CableElement::ancf)
+      for (const bool last : {false, true})
+        if (!(last ? data.holds_to : data.holds_from))
+          check_free_end(q, last);
+  }
+
+  /// Where an ANCF element has neither tension nor bending stiffness nothing decides its direction,
+  /// nor, by a part of its length, the place of the end.
+  void Cable::check_free_end(const std::vector<double> &q, const bool last) const
+  {
+    const double h = element.element_length(), end = last ? data.length : 0.,
+                 middle = last ? data.length - .5 * h : .5 * h, N = element.tension(q, middle);
+    const Coordinates a = element.tangent(q, middle), b = element.tangent(q, end);
+    if (dot(a, b) >= std::cos(kink) * norm(a) * norm(b) ||
+        std::fabs(element.tension(q, end)) > no_tension * N)
+      return;
+    throw EntryError(entry_of(origin(), "Bending stiffness"),
+                     std::string("at rest the free end at ") + (last ? "To" : "From") +
+                         " has neither tension nor enough bending stiffness, so that its last "
+                         "element bends anyhow; take a little more of it, Element = bar, or a To "
+                         "straight below From along weight and wind");
   }
 
   void Cable::write_vtu(const std::string &path, const std::vector<double> &U) const

@@ -13,6 +13,9 @@ namespace taut
 {
   namespace
   {
+    /// Part of the length by which a cable that is just as long as the way between its ends rounds.
+    constexpr double exactly_taut = 1e-12;
+
     /// Of the softest cable of a search, 2 to 20 times the tension unless EA is less.
     double first_stiffness(const double EA, const double tension)
     {
@@ -72,6 +75,8 @@ namespace taut
                  of_stretch = std::cbrt(EA * std::pow(w * span, 2) / 24.);
     if (EA * (distance / length - 1.) > of_stretch)
       return find_shape(cable, Parabola{chord, down, 0.}.positions(cable, from), held, load);
+    if (w == 0. && std::fabs(distance - length) <= exactly_taut * length)
+      return {Parabola{chord, down, 0.}.positions(cable, from)};
     if (w == 0.)
       throw UserError("a cable of " + text_of(length) + " m between ends " + text_of(distance) +
                       " m apart has no shape of its own without weight or wind; make it shorter or "
@@ -81,10 +86,45 @@ namespace taut
       return find_shape(
           cable, parabola(chord, down, length * (1. + of_stretch / EA)).positions(cable, from),
           held, load);
+    if (span <= above_each_other * distance)
+      throw UserError(
+          "no stable equilibrium of the cable: along weight and wind its ends are above "
+          "each other, and it is slack between them, with no plane to hang in. Move "
+          "one of them to the side, or let Held ends leave the lower one free");
     // Stretched by its tension: without any, nothing would hold the first step.
     const double tension = .5 * w * length + of_slack,
                  stretched = length * (1. + tension / first_stiffness(EA, tension));
     return find_shape(cable, parabola(chord, down, stretched).positions(cable, from), held, load,
                       tension);
+  }
+
+  double hanging_length(const CableElements &cable, const Coordinates &force)
+  {
+    const double length = cable.length();
+    return length + .5 * norm(force) * length * length / cable.section().axial_stiffness;
+  }
+
+  CableShape hang_freely(const CableElements &cable, const Coordinates &held, const bool from_last,
+                         const Coordinates &force)
+  {
+    const double length = cable.length(),
+                 strain = norm(force) * length / cable.section().axial_stiffness;
+    const Coordinates down = unit_or_zero(force);
+    // Way from the held end, and its derivative by s.
+    const auto way = [&](const double s)
+    {
+      const double x = from_last ? length - s : s;
+      return x + strain * x * (1. - .5 * x / length);
+    };
+    const auto slope = [&](const double s)
+    {
+      const double x = from_last ? length - s : s;
+      return (from_last ? -1. : 1.) * (1. + strain * (1. - x / length));
+    };
+    CableShape result;
+    result.positions =
+        cable.interpolate([&](const double s) { return add_scaled(held, way(s), down); },
+                          [&](const double s) { return add_scaled({}, slope(s), down); });
+    return result;
   }
 } // namespace taut

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -19,10 +20,24 @@ namespace taut
 {
   namespace
   {
-    /// Distance of the ends of an undeformed link along a direction [m].
-    double distance(const Scene &scene, const Link &link, const Coordinates &direction)
+    /// Vectors from end to end of undeformed links [m]. Where places of a body are is known to the
+    /// body alone.
+    std::vector<Coordinates> between_ends(const Scene &scene, const std::vector<Link> &links)
     {
-      return dot(place(scene, link.to) - place(scene, link.from), direction);
+      const bool is_on_body = std::any_of(links.begin(), links.end(),
+                                          [](const Link &link) {
+                                            return link.from.kind == Attachment::Kind::body ||
+                                                   link.to.kind == Attachment::Kind::body;
+                                          });
+      std::optional<SceneBodies> bodies;
+      if (is_on_body)
+        bodies.emplace(scene);
+      const auto at = [&](const Attachment &end)
+      { return bodies ? bodies->position(scene, end) : place(scene, end); };
+      std::vector<Coordinates> result;
+      for (const Link &link : links)
+        result.push_back(at(link.to) - at(link.from));
+      return result;
     }
 
     /// Half of a dropper's mass on each of its ends.
@@ -116,8 +131,9 @@ namespace taut
     }
 
     /// Distances of the ends of the droppers, each along a direction, in the static state of a
-    /// scene.
+    /// scene; @p between their undeformed ends.
     std::vector<double> distances(const Scene &scene, const std::vector<Link> &droppers,
+                                  const std::vector<Coordinates> &between,
                                   const std::vector<Coordinates> &directions,
                                   const SolverParameters &parameters)
     {
@@ -130,8 +146,7 @@ namespace taut
         std::vector<Term> terms;
         structure.motion(droppers[i].to, false, directions[i], 1., terms);
         structure.motion(droppers[i].from, false, directions[i], -1., terms);
-        result.push_back(distance(scene, droppers[i], directions[i]) +
-                         evaluate(terms, state.displacement));
+        result.push_back(dot(between[i], directions[i]) + evaluate(terms, state.displacement));
       }
       return result;
     }
@@ -151,6 +166,7 @@ namespace taut
      * and Engineering 3 (1974), 115-134), so that the static state is that of a linear scene.
      */
     DropperForm form_under(const Scene &base, const std::vector<Link> &droppers,
+                           const std::vector<Coordinates> &between,
                            const std::vector<double> &tension, const SolverParameters &parameters)
     {
       Scene scene = base;
@@ -164,7 +180,7 @@ namespace taut
         directions.push_back(droppers[i].direction);
         finds_directions |= droppers[i].find_direction;
       }
-      DropperForm form{tension, distances(scene, droppers, directions, parameters),
+      DropperForm form{tension, distances(scene, droppers, between, directions, parameters),
                        std::vector<double>(droppers.size(), 0.)};
       for (std::size_t i = 0; i < droppers.size(); ++i)
         if (!(form.length[i] > 0.))
@@ -188,10 +204,11 @@ namespace taut
           spring.to = droppers[i].to;
           spring.direction = directions[i];
           spring.stiffness = tension[i] / form.length[i];
-          spring.gap = distance(scene, spring, directions[i]);
+          spring.gap = dot(between[i], directions[i]);
           scene.links.push_back(spring);
         }
-      const std::vector<double> extent = distances(scene, droppers, directions, parameters);
+      const std::vector<double> extent =
+          distances(scene, droppers, between, directions, parameters);
       for (std::size_t i = 0; i < droppers.size(); ++i)
         if (droppers[i].find_direction)
         {
@@ -205,25 +222,26 @@ namespace taut
 
     /// Turns a dropper into the direction that was found.
     void set_direction(const Scene &scene, const double tension, const double length,
-                       const double extent, Link &link)
+                       const double extent, const Coordinates &between, Link &link)
     {
       const double c = std::sqrt(1. - extent * extent / (length * length)), s = extent / length;
       const Coordinates along = link.direction, across = sideways(scene, link), zero;
       link.direction = add_scaled(add_scaled(zero, c, along), s, across);
       link.sideways = add_scaled(add_scaled(zero, -s, along), c, across);
       link.sideways_stiffness = tension / length;
-      link.sideways_gap = distance(scene, link, link.sideways);
+      link.sideways_gap = dot(between, link.sideways);
     }
 
     /// Tensions and lengths of the droppers between the parts of a scene without them.
     DropperForm find_form(const Scene &base, std::vector<Link> droppers,
+                          const std::vector<Coordinates> &between,
                           const SolverParameters &parameters)
     {
       constexpr int max_iterations = 30;
       for (int iteration = 0;; ++iteration)
       {
         const DropperForm form =
-            form_under(base, droppers, tensions(base, droppers, parameters), parameters);
+            form_under(base, droppers, between, tensions(base, droppers, parameters), parameters);
         double change = 0.;
         for (std::size_t i = 0; i < droppers.size(); ++i)
         {
@@ -286,7 +304,6 @@ namespace taut
       if (link.find_length)
       {
         droppers.push_back(link);
-        droppers.back().length = distance(scene, link, link.direction);
         ends.insert(ends.end(), {link.from, link.to});
       }
     if (droppers.empty())
@@ -298,13 +315,16 @@ namespace taut
       dropper.from = part.inside(dropper.from);
       dropper.to = part.inside(dropper.to);
     }
+    const std::vector<Coordinates> between = between_ends(part.scene, droppers);
+    for (std::size_t k = 0; k < droppers.size(); ++k)
+      droppers[k].length = dot(between[k], droppers[k].direction);
     const auto find = [&]
     {
       Scene base = part.scene;
       base.links.erase(std::remove_if(base.links.begin(), base.links.end(),
                                       [](const Link &link) { return link.find_length; }),
                        base.links.end());
-      return find_form(base, droppers, parameters);
+      return find_form(base, droppers, between, parameters);
     };
     const DropperForm form = shared && part.scene.bodies.empty()
                                  ? shared->forms.find(key(part.scene, parameters), find)
@@ -319,10 +339,10 @@ namespace taut
         if (link.axial_stiffness > 0.)
           link.stiffness = link.axial_stiffness / form.length[i];
         if (link.find_direction)
-          set_direction(scene, form.tension[i], form.length[i], form.sideways[i], link);
+          set_direction(scene, form.tension[i], form.length[i], form.sideways[i], between[i], link);
         // D = -n . (u_to - u_from) + gap + N / stiffness = 0 under the tension
-        link.gap = form.length[i] - distance(scene, link, link.direction) -
-                   link.elongation(form.tension[i]);
+        link.gap =
+            form.length[i] - dot(between[i], link.direction) - link.elongation(form.tension[i]);
         add_mass(link, scene);
         ++i;
       }

@@ -3,7 +3,9 @@
 #include <taut/model/surface_constraints.h>
 #include <taut/solid/contact_constraints.h>
 #include <taut/solid/rigid_obstacle.h>
+#include <taut/substructure/slender_body.h>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 
@@ -84,6 +86,60 @@ namespace taut
       return node_to_segment_constraints(slave, master, slave.thickness, distance);
     }
 
+    /// Sine of the angle between two normals above which they are not those of one plane: so much
+    /// of what a body slides along it a gap is wrong by.
+    constexpr double same_normal = 1e-6;
+
+    /// Whether a body moves by large amounts, as far as it is on this rank. One that has small
+    /// motions about its reference position from the start on does not.
+    bool moves_far(const Scene &scene, const SceneBodies &bodies, const std::size_t body)
+    {
+      for (const std::size_t k : bodies.indices_of_body(body))
+      {
+        if (k == Structure::elsewhere || bodies[k].is_linear())
+          continue;
+        const auto *const slender = dynamic_cast<const SlenderBody *>(&bodies[k]);
+        if (!(slender && slender->is_to_be_linearised() && scene.start == Start::undeformed))
+          return true;
+      }
+      return false;
+    }
+
+    bool are_parallel(const std::vector<SurfaceConstraint> &rows)
+    {
+      return std::all_of(rows.begin(), rows.end(),
+                         [&](const SurfaceConstraint &row)
+                         { return norm(row.normal - rows.front().normal) <= same_normal; });
+    }
+
+    /// Rows keep normals and distances of the reference position, which hold for large motions on
+    /// planes only. Throws EntryError for a body that moves by large amounts on anything else.
+    void check_large_motions(const Scene &scene, const SceneBodies &bodies,
+                             const SurfaceContact &contact,
+                             const std::vector<SurfaceConstraint> &rows)
+    {
+      const bool has_obstacle = contact.obstacle.shape != ObstacleSetting::Shape::none;
+      const bool is_far = moves_far(scene, bodies, contact.slave.body) ||
+                          (!has_obstacle && moves_far(scene, bodies, contact.master.body));
+      const bool is_plane = contact.obstacle.shape == ObstacleSetting::Shape::plane ||
+                            (!has_obstacle && are_parallel(rows));
+      if (is_plane || !bodies.communicator().any(is_far))
+        return;
+      const std::string kept = "a contact keeps the normals and distances of the shape at rest: a "
+                               "body that moves by large amounts would touch tangent planes "
+                               "instead of ",
+                        small = ", or small motions of the cable: Geometry = linear, or linearised "
+                                "with Start = undeformed";
+      if (has_obstacle)
+        throw EntryError(contact.origin + "/Obstacle",
+                         kept + "this obstacle. Take a plane" + small);
+      throw EntryError(contact.origin + "/Slave",
+                       kept +
+                           "this surface, whose normals differ. Take a plane side of a solid "
+                           "as Slave" +
+                           small);
+    }
+
     /// Gives the areas of hanging nodes to the nodes that they depend on, as their forces go.
     void condense(const ContactSurface &slave, std::vector<SurfaceConstraint> &constraints)
     {
@@ -153,7 +209,9 @@ namespace taut
     for (std::size_t c = 0; c < scene.contacts.size(); ++c)
     {
       const SurfaceContact &contact = scene.contacts[c];
-      for (const SurfaceConstraint &constraint : contact_geometry(scene, c).constraints)
+      const std::vector<SurfaceConstraint> rows = contact_geometry(scene, c).constraints;
+      check_large_motions(scene, bodies, contact, rows);
+      for (const SurfaceConstraint &constraint : rows)
       {
         ConstraintData data{contact.name + " node " + std::to_string(constraint.node),
                             contact.origin};

@@ -12,6 +12,7 @@
 #include <taut/model/shared_parts.h>
 #include <taut/output/contact_tables.h>
 #include <taut/output/fields.h>
+#include <taut/output/impact_watch.h>
 #include <taut/output/scene_report.h>
 #include <taut/output/series.h>
 #include <taut/output/slack_watch.h>
@@ -113,6 +114,7 @@ namespace taut
                   parameters.output.subdivisions);
     ObserverList observers(processes);
     SlackWatch slack;
+    ImpactWatch impacts;
     const RunView run_view = {parameters.output.folder, parameters.output.interval, processes,
                               checkpoint != nullptr};
     if (!integrator)
@@ -153,6 +155,7 @@ namespace taut
     add_guests(observers);
     observers.add(&fields);
     observers.add(&slack);
+    observers.add(&impacts);
     observers.begin(run_view);
     if (parameters.output.checkpoint_interval > 0. && !checkpoint)
       observers.save(); // one that cannot says so before the first step
@@ -182,6 +185,7 @@ namespace taut
         figures.print(log);
         if (processes.size() == 1)
           slack.print(log);
+        impacts.print(log);
         limits->print(log);
       }
       catch (const std::exception &)
@@ -200,6 +204,7 @@ namespace taut
     figures.print(log);
     log << measures->report();
     slack.print(log);
+    impacts.print(log);
     limits->print(log);
     print_cost(stepper, figures.until(), all);
     log << "Results in " << parameters.output.folder << '\n';
@@ -216,27 +221,6 @@ namespace taut
     const std::string error = measures->error();
     if (!error.empty() && !parameters.allow_energy_gain)
       throw EntryError(measures->error_origin(), error);
-  }
-
-  void Simulation::print_cost(const TimeStepper &stepper, const double until,
-                              const double all) const
-  {
-    const long n_steps = stepper.n_steps_done();
-    if (n_steps == 0)
-      return;
-    log << n_steps << " steps in " << all << " s, " << until / all
-        << " x real time; without output " << 1e6 * seconds / n_steps << " us a step, "
-        << until / seconds << " x real time\n";
-    if (!stepper.is_linear())
-      log << "Newton's method: " << static_cast<double>(stepper.n_newton_iterations()) / n_steps
-          << " solves a step\n";
-    const InterfaceStatistics solves = stepper.interface_statistics();
-    if (solves.n_systems > 0)
-      log << "Conjugate gradients: " << static_cast<double>(solves.n_iterations) / solves.n_systems
-          << " iterations a system, " << static_cast<double>(solves.n_systems) / n_steps
-          << " systems a step, "
-          << static_cast<double>(solves.n_local_solves) / solves.n_applications
-          << " bodies solved a product\n";
   }
 
   void Simulation::stop_before_start()
@@ -367,21 +351,6 @@ namespace taut
     unused_entries = std::move(unused);
     for (const std::string &entry : unused_entries)
       log << "  not used by it: " << entry << '\n';
-  }
-
-  RunDescription Simulation::description(const bool is_partial) const
-  {
-    std::vector<ModelWarning> warnings = limits->warnings();
-    for (const ContactMeasures::Warning &warning : measures->warnings())
-      warnings.push_back(
-          {warning.kind, warning.message, warning.value, warning.limit, "1", warning.time});
-    return {parameters.file_name(),
-            parameters.generator_name,
-            scheme,
-            parameters.step,
-            n_steps() * parameters.step,
-            is_partial,
-            warnings};
   }
 
   StepView Simulation::view(const State &state, const Certificate &certificate) const

@@ -128,7 +128,7 @@ namespace taut
         {
           for (std::size_t k = 0; k < bodies.size(); ++k)
             if (const auto *slender = dynamic_cast<const SlenderBody *>(&bodies[k]))
-              slender->check_strain(displacement(reference, start, k));
+              slender->check_at_rest(displacement(reference, start, k));
         });
   }
 

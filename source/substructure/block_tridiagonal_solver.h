@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <stdexcept>
 
 namespace taut
 {
@@ -312,7 +311,9 @@ namespace taut
     x.value.clear();
     std::vector<double> &full = work;
     full.resize(b * n);
-    if (n == 1 || !complete())
+    unsigned int node;
+    std::array<double, 2 * b> r{};
+    if (n == 1 || !complete() || !element_of(rhs, node, r))
     {
       std::fill(full.begin(), full.end(), 0.);
       rhs.add_to(1., full);
@@ -321,10 +322,6 @@ namespace taut
       return;
     }
 
-    unsigned int node;
-    std::array<double, 2 * b> r{};
-    if (!element_of(rhs, node, r))
-      throw std::logic_error("the right-hand side of a column spans more than one element");
     double *p = full.data();
     solve_element(node, r, p + b * node);
 

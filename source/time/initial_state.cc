@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace taut
 {
@@ -93,6 +94,35 @@ namespace taut
       if (start == Start::equilibrium)
         result.reference.gap = state.geometric_gap;
     }
+    /// Part of the terms of a gap, or of the distance of the ends, up to which a joint counts as
+    /// closed: numbers that are written with five digits.
+    constexpr double closed = 1e-5;
+
+    /// A rigid joint that starts open would close within the first step, whatever its length.
+    void check_joints(const Structure &structure, const Constraints &constraints,
+                      const InitialState &start)
+    {
+      const State &state = start.state;
+      std::vector<double> motion(constraints.size()), size(constraints.size());
+      constraints.share_of_motions(state.U, motion, size);
+      structure.communicator().sum(size);
+      for (std::size_t i = 0; i < constraints.size(); ++i)
+      {
+        const ConstraintData &joint = constraints[i];
+        const double gap = state.geometric_gap[i], terms = joint.direction
+                                                               ? joint.direction->length
+                                                               : size[i] + std::fabs(joint.gap);
+        if (joint.unilateral || !std::isinf(joint.stiffness) || joint.moving ||
+            std::fabs(gap) <= closed * terms)
+          continue;
+        std::ostringstream out;
+        out << "joint '" << joint.name << "' starts with a gap of " << gap
+            << (joint.rotational ? " rad" : " m")
+            << ": a rigid one starts closed, or would close within the first step. Change its "
+            << (joint.direction ? "Length" : "Gap") << " or the start, or give it a Stiffness";
+        throw EntryError(constraints.origin(i), out.str());
+      }
+    }
   } // namespace
 
   InitialState find_initial_state(Structure &structure, Constraints &constraints,
@@ -146,6 +176,8 @@ namespace taut
           }
         });
     set_rows(constraints, start, result);
+    if (start != Start::equilibrium)
+      check_joints(structure, constraints, result);
     return result;
   }
 } // namespace taut

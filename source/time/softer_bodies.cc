@@ -104,6 +104,17 @@ namespace taut
     return true;
   }
 
+  bool SofterBodies::are_in_tension(const BodyVectors &U) const
+  {
+    return std::all_of(nonlinear.begin(), nonlinear.end(),
+                       [&](const std::size_t k)
+                       {
+                         const auto *const slender =
+                             dynamic_cast<const SlenderBody *>(&structure[k]);
+                         return slender && slender->is_in_tension(U[k]);
+                       });
+  }
+
   std::unique_ptr<SymmetricMatrix>
   SofterBodies::tangent(const std::size_t k, const std::vector<double> &U, const int attempt) const
   {

@@ -41,6 +41,9 @@ namespace taut
     /// rounding: what a motion costs no energy of is no tension, as of a cable that lies slack.
     bool are_indifferent(const BodyVectors &U) const;
 
+    /// True if all of them are slender and in tension at @p U but at free ends.
+    bool are_in_tension(const BodyVectors &U) const;
+
   private:
     const Substructure &body(std::size_t k) const { return softer[k] ? *softer[k] : structure[k]; }
 

@@ -181,8 +181,8 @@ namespace taut
         return false;
       }
 
-      /// True if the tangents are definite or, of cables that lie on something, indifferent: there
-      /// what is slack stays where it is.
+      /// True if the tangents are definite or, of cables that lie on something or hang
+      /// freely, indifferent: what is slack there stays where it is, and a free end has no tension.
       bool stays(const StaticStep &step, const StaticState &state) const
       {
         const Communicator &processes = structure.communicator();
@@ -191,7 +191,8 @@ namespace taut
         bool touches = false;
         for (std::size_t i = 0; i < constraints.size(); ++i)
           touches = touches || (constraints[i].unilateral && state.multiplier[i] > 0.);
-        return touches && !processes.any(!soft.are_indifferent(state.displacement));
+        return (touches || !processes.any(!soft.are_in_tension(state.displacement))) &&
+               !processes.any(!soft.are_indifferent(state.displacement));
       }
 
       /// False if links that push give way to the side.

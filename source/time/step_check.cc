@@ -38,9 +38,13 @@ namespace taut
     }
     catch (const ContradictoryRows &e)
     {
-      fail("the links " + constraints.names(e.rows()) +
-               " contradict each other: no contact forces satisfy them all. Remove one of them, "
-               "give one a finite stiffness, or check the initial gaps",
+      const bool is_one = e.rows().size() == 1;
+      fail((is_one ? "no force satisfies link " + constraints.names(e.rows()) +
+                         ": its ends are held where it does not let them be. Remove it, give it"
+                   : "the links " + constraints.names(e.rows()) +
+                         " contradict each other, or what holds their ends: no contact forces "
+                         "satisfy them all. Remove one of them, give one") +
+               " a finite stiffness, or check the initial gaps",
            e.rows().empty() ? "" : constraints.origin(e.rows().front()));
     }
   }

@@ -2,6 +2,7 @@
 // Claim: contacts of cables with obstacles are those of lines in space: the same wherever the scene
 // is and however it is turned, on any side of the cable. Expected values: closed forms, and the
 // same scene in the plane z = 0.
+#include "cable/errors_of_runs.h"
 #include "verification/run.h"
 
 #include <taut/base/exceptions.h>
@@ -73,7 +74,8 @@ end
 TEST(CableContacts, a_sphere_beside_the_cable_is_not_touched)
 {
   const verification::Overrides below = {"Contact o/Obstacle=sphere", "Contact o/Radius=0.8",
-                                         "Contact o/Point=5, -1.5, 0"};
+                                         "Contact o/Point=5, -1.5, 0",
+                                         "Body cable/Geometry=linear"};
   EXPECT_GT(touch(below).force, 1.);
   verification::Overrides far = below;
   far.insert(far.end(), {"Body cable/From=0, 0, 100", "Body cable/To=10, 0, 100"});
@@ -123,6 +125,78 @@ TEST(CableContacts, any_side_of_the_cable)
   const Touch taut = touch({"Gravity=0, 0", "Body cable/Unstressed length=9.99"});
   EXPECT_EQ(taut.n_nodes, 17u);
   EXPECT_NEAR(taut.least_gap, .5, 1e-9);
+}
+
+/// Rows of a contact are tangent planes at the shape at rest, which large motions leave.
+TEST(CableContacts, large_motions_are_on_planes_only)
+{
+  const std::string refused = "Contact o/Obstacle: a contact keeps the normals and distances";
+  for (const std::string obstacle : {"sphere", "cylinder", "height"})
+  {
+    const verification::Overrides curved = {"Contact o/Obstacle=" + obstacle,
+                                            obstacle == "cylinder" ? "Contact o/Direction=0, 0, 1"
+                                                                   : "Contact o/Direction=0, 1",
+                                            "Contact o/Point=5, -2", "Contact o/Radius=0.5",
+                                            "Contact o/Height=-1.5 + 0.3*exp(-(x - 5)^2)"};
+    const auto with = [&](verification::Overrides more)
+    {
+      more.insert(more.end(), curved.begin(), curved.end());
+      return more;
+    };
+    for (const char *const start : {"equilibrium", "undeformed", "given"})
+      expect(error_of(scene, with({std::string("Start=") + start})), {refused, "Take a plane"});
+    const std::string linearised = "Body cable/Geometry=linearised";
+    expect(error_of(scene, with({linearised})), {refused, "linearised with Start = undeformed"});
+    EXPECT_EQ(error_of(scene, with({linearised, "Start=undeformed"})), "") << obstacle;
+    EXPECT_EQ(error_of(scene, with({"Body cable/Geometry=linear"})), "") << obstacle;
+  }
+  EXPECT_EQ(error_of(scene, {"Start=undeformed", "Contact o/Point=0, -2"}), "");
+}
+
+/// The normals of mortar rows are those of the slave: of a sagging cable they differ.
+TEST(CableContacts, large_motions_on_a_plane_side_of_a_solid)
+{
+  const std::string block = R"(subsection Body block
+  set Type = solid
+  set Young's modulus = 1e7
+  set Density = 0
+  set Fixed boundaries = 2
+  subsection Mesh
+    set Generator = subdivided_hyper_rectangle
+    set Arguments = 20, 1 : 1, -1 : 9, -0.5
+  end
+end
+)";
+  const verification::Overrides between = {"Bodies=cable, block", "Contact o/Obstacle=none"};
+  const auto with = [&](verification::Overrides more)
+  {
+    more.insert(more.begin(), between.begin(), between.end());
+    return more;
+  };
+  const verification::Overrides of_cable = {"Contact o/Slave=cable", "Contact o/Master=block: 3"},
+                                of_block = {"Contact o/Slave=block: 3", "Contact o/Master=cable"};
+  expect(error_of(scene + block, with(of_cable)),
+         {"Contact o/Slave: a contact keeps", "whose normals differ", "plane side of a solid"});
+  EXPECT_EQ(error_of(scene + block, with(of_block)), "");
+  // As much as a rigid floor carries, but for the mean gaps of the mesh: two per cent.
+  double force = 0.;
+  verification::run_scene(scene + block, with(of_block),
+                          [&](const StepView &step)
+                          {
+                            for (const double N : step.state.multiplier)
+                              force += N;
+                          });
+  const double of_floor = touch({}).force;
+  EXPECT_NEAR(force, of_floor, .02 * of_floor);
+}
+
+/// One held end or both are below the floor.
+TEST(CableContacts, held_ends_inside_an_obstacle)
+{
+  expect(error_of(scene, {"Contact o/Point=0, -0.2", "Body cable/From=0, -0.4"}),
+         {"Contact o: ", "no force satisfies link 'o node 0'", "ends are held"});
+  expect(error_of(scene, {"Contact o/Point=0, 0.1"}),
+         {"Contact o: ", "'o node 0', 'o node 16'", "what holds their ends"});
 }
 
 TEST(CableContacts, what_is_out_of_reach_is_named)

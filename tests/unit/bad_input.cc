@@ -968,15 +968,27 @@ end
            "1\nend\nsubsection Link b\n set From=ground\nset To = line @ 7\nset Direction=0, "
            "1\nset Gap = 0.1\nend\nsubsection Load push"}},
          {"static equilibrium", "'a'", "'b'", "contradict each other", "finite stiffness"}},
-        {"joints_with_different_gaps_in_dynamics",
+        {"joint_that_starts_open",
          network,
          {{"= equilibrium", "= undeformed"},
           {"= hanger, stop", "= hanger, stop, a, b"},
           {"subsection Load push",
-           "subsection Link a # here\n set From=ground\nset To = line @ 7\nset Direction=0, "
-           "1\nend\nsubsection Link b\n set From=ground\nset To = line @ 7\nset Direction=0, "
+           "subsection Link a\n set From=ground\nset To = line @ 7\nset Direction=0, "
+           "1\nend\nsubsection Link b # here\n set From=ground\nset To = line @ 7\nset "
+           "Direction=0, "
            "1\nset Gap = 0.1\nend\nsubsection Load push"}},
-         {"at t = 0.01 s", "'a'", "'b'", "contradict each other", "finite stiffness"},
+         {"Network/Link b", "joint 'b' starts with a gap of 0.1 m", "give it a Stiffness"}},
+        {"joint_at_a_support_that_moves",
+         network,
+         {{"= equilibrium", "= undeformed"},
+          {"= hanger, stop", "= hanger, stop, a"},
+          {"= ends, clamp,", "= ends, lift, clamp,"},
+          {"subsection Load push",
+           "subsection Support lift\nset Wire = line\nset Positions = 7\nset Displacement = "
+           "t\nend\nsubsection Link a # here\n set From=ground\nset To = line @ 7\nset "
+           "Direction=0, "
+           "1\nend\nsubsection Load push"}},
+         {"at t = 0.01 s", "no force satisfies link 'a'", "finite stiffness"},
          true},
         {"stops_that_overlap",
          network,

@@ -59,8 +59,9 @@ namespace taut
   /**
    * A cable in space that moves by large amounts. U is the displacement from its found shape, the
    * equilibrium under weight and constant force with both ends held at `from` and `to`, whatever is
-   * held later: see hang(). Positions are counted from `from`, so that a scene far from the origin
-   * rounds as one that is near.
+   * held later: see hang(). Where these are above each other, the cable is slack and one end is
+   * free, it is that of hang_freely(). Positions are counted from `from`, so that a scene far from
+   * the origin rounds as one that is near.
    *
    * The internal force is that of CableElements at the positions found + U, and the external force
    * is all of the load: at U = 0 they balance on all DoFs but those of the ends, where their
@@ -109,6 +110,11 @@ namespace taut
     std::shared_ptr<Substructure> linearised(const std::shared_ptr<const Substructure> &self,
                                              const std::vector<double> &U) const override;
 
+    bool is_to_be_linearised() const override
+    {
+      return data.geometry == CableGeometry::linearised && !is_linear();
+    }
+
     /// Whether its K is the tangent at the state that a run starts from.
     bool is_linearised() const { return !linear_at.empty(); }
 
@@ -118,7 +124,9 @@ namespace taut
     /// Where it is compressed most, beyond rounding; one that is linear never is slack.
     bool is_slack(const std::vector<double> &U, Slack &slack) const override;
 
-    void check_strain(const std::vector<double> &U) const override;
+    bool is_in_tension(const std::vector<double> &U) const override;
+
+    void check_at_rest(const std::vector<double> &U) const override;
 
     double axial_stiffness() const override { return data.section.axial_stiffness; }
     std::unique_ptr<Substructure> with_axial_stiffness(double EA) const override;
@@ -151,7 +159,9 @@ namespace taut
     Cable(const Cable &nonlinear, const std::shared_ptr<const Substructure> &self,
           const std::vector<double> &U);
     void check() const;
+    bool hangs_freely() const;
     void find();
+    void check_free_end(const std::vector<double> &q, bool last) const;
     void hold();
     void assemble();
     void straighten();

@@ -29,10 +29,24 @@ namespace taut
                         double tension = 0.);
 
   /// The same between two places, with hinges there, under a force per unstressed length [N/m]:
-  /// from a parabola of the cable's length, or from the straight line if that is longer. Throws
-  /// UserError also for a slack cable without a force: it has no shape of its own.
+  /// from a parabola of the cable's length, or from the straight line if that is longer. Without a
+  /// force a cable of just that length lies in the straight line, without tension, and a longer one
+  /// has no shape of its own: UserError.
   CableShape hang(const CableElements &cable, const Coordinates &from, const Coordinates &to,
                   const Coordinates &force);
+
+  /// The part of their distance, or of the length, by which two ends are beside a line along the
+  /// load and count as above each other: so little gives a slack cable no plane to hang in.
+  constexpr double above_each_other = 1e-6;
+
+  /// How far a cable reaches along @p force that hangs from one end and is free at the other [m].
+  double hanging_length(const CableElements &cable, const Coordinates &force);
+
+  /// That cable, held at @p held, which is its last end if @p from_last, otherwise its first: a
+  /// straight line with tension down to zero at the free end, exactly the one of the elements. The
+  /// force is not zero.
+  CableShape hang_freely(const CableElements &cable, const Coordinates &held, bool from_last,
+                         const Coordinates &force);
 
   /// The component across @p force, along the chord, of the tension of a shape: the same all along
   /// the cable, and under weight alone what is called its horizontal tension [N].

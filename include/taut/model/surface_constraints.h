@@ -23,7 +23,8 @@ namespace taut
   ContactGeometry contact_geometry(const Scene &scene, std::size_t contact);
 
   /// The constraints of all contacts of a scene, one contact after the other, with the forms of the
-  /// bodies of this rank.
+  /// bodies of this rank. Throws EntryError, too, if a body that moves by large amounts touches
+  /// anything but a plane. Called by all ranks together.
   std::vector<ConstraintData> surface_constraints(const Scene &scene, const SceneBodies &bodies);
 } // namespace taut
 

@@ -43,7 +43,7 @@ namespace taut
 
     /**
      * x = A^-1 rhs without the tails where it has decayed below 1e-18 of its largest entry of the
-     * same kind. @p rhs lives on the DoFs of one element.
+     * same kind; with them where @p rhs lives on the DoFs of more than one element.
      */
     virtual void column(const LinearForm &rhs, WindowedVector &x) const = 0;
 

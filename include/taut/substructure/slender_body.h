@@ -39,6 +39,9 @@ namespace taut
       return nullptr;
     }
 
+    /// Whether linearised() will make a linear body, unless it throws.
+    virtual bool is_to_be_linearised() const { return false; }
+
     /// A place that is under compression though the body resists tension only, and what then keeps
     /// the body in shape beside its inertia.
     struct Slack
@@ -52,9 +55,12 @@ namespace taut
     /// @p slack.
     virtual bool is_slack(const std::vector<double> &U, Slack &slack) const = 0;
 
-    /// Throws EntryError if the body is stretched more than it may be at rest, at a displacement U
-    /// from the undeformed body.
-    virtual void check_strain(const std::vector<double> &U) const = 0;
+    /// True if it is in tension at such a displacement, all but its ends, which may have none.
+    virtual bool is_in_tension(const std::vector<double> &) const { return false; }
+
+    /// Throws EntryError if the body is stretched more than it may be at rest, or has a free end
+    /// that nothing keeps straight, at a displacement U from the undeformed body.
+    virtual void check_at_rest(const std::vector<double> &U) const = 0;
   };
 } // namespace taut
 

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/archive.h>
+#include <taut/output/impact_watch.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+#include <sstream>
+
+namespace taut
+{
+  namespace
+  {
+    /// Part of the largest rate so far below which a constraint rests: rounding of steps.
+    constexpr double rest = 1e-9;
+
+    /// A force that grows by more in a step is an impact, not a load: those of weights and of
+    /// motions that steps resolve change by parts of themselves.
+    constexpr double growth = 2.;
+
+    /// Part of the largest force of an impact below which others are rounding.
+    constexpr double rounding = 1e-9;
+
+    /// Where the DoFs of each body begin in a list of those of all ranks, and their number.
+    std::vector<std::size_t> first_dofs(const Structure &structure)
+    {
+      std::vector<std::size_t> first = {0};
+      for (const Structure::Body &body : structure.all_bodies())
+        first.push_back(first.back() + body.n_dofs);
+      return first;
+    }
+  } // namespace
+
+  /// The constraints that are struck in a step; none if none of them was closing.
+  std::vector<std::size_t> ImpactWatch::struck(const StepView &step) const
+  {
+    std::vector<std::size_t> result;
+    double strongest = 0.;
+    for (std::size_t i = 0; i < rate.size(); ++i)
+    {
+      const ConstraintData &constraint = step.constraints[i];
+      const double N = step.state.multiplier[i];
+      if (!constraint.unilateral || !std::isinf(constraint.stiffness) || !(N > growth * force[i]))
+        continue;
+      result.push_back(i);
+      if (rate[i] < -rest * largest[constraint.rotational])
+        strongest = std::max(strongest, N);
+    }
+    const auto is_none = [&](const std::size_t i)
+    { return !(strongest > 0. && step.state.multiplier[i] > rounding * strongest); };
+    result.erase(std::remove_if(result.begin(), result.end(), is_none), result.end());
+    return result;
+  }
+
+  /// Those of them that share a body with another one. Called by all ranks together.
+  std::vector<std::size_t> ImpactWatch::sharing(const StepView &step,
+                                                const std::vector<std::size_t> &constraints) const
+  {
+    const SceneBodies &structure = step.structure;
+    const std::vector<std::size_t> first = first_dofs(structure);
+    const auto visit = [&](const std::size_t i, const auto &act)
+    {
+      std::vector<std::size_t> met;
+      for (const Term &term : step.constraints[i].terms)
+      {
+        const std::size_t k = term.substructure, begin = first[structure.number(k)];
+        for (std::size_t e = 0; e < term.form.index.size(); ++e)
+          if (term.form.value[e] != 0.)
+            met.push_back(begin + (structure[k].is_lumped() ? term.form.index[e] : 0));
+      }
+      std::sort(met.begin(), met.end());
+      met.erase(std::unique(met.begin(), met.end()), met.end());
+      std::for_each(met.begin(), met.end(), act);
+    };
+    std::vector<double> n(first.back(), 0.), shares(constraints.size(), 0.);
+    for (const std::size_t i : constraints)
+      visit(i, [&](const std::size_t place) { n[place] += 1.; });
+    processes.sum(n);
+    for (std::size_t j = 0; j < constraints.size(); ++j)
+      visit(constraints[j],
+            [&](const std::size_t place)
+            {
+              if (n[place] > 1.)
+                shares[j] = 1.;
+            });
+    processes.sum(shares);
+    std::vector<std::size_t> result;
+    for (std::size_t j = 0; j < constraints.size(); ++j)
+      if (shares[j] > 0.)
+        result.push_back(constraints[j]);
+    return result;
+  }
+
+  void ImpactWatch::record(const StepView &step)
+  {
+    const State &state = step.state;
+    const bool is_start = !is_running;
+    is_running = true;
+    if (!is_start && !(step.scheme.restitution > 0.))
+      return;
+    if (!is_start)
+    {
+      const std::vector<std::size_t> all = struck(step);
+      const std::vector<std::size_t> together =
+          all.size() > 1 ? sharing(step, all) : std::vector<std::size_t>();
+      if (!together.empty() && n_steps++ == 0)
+      {
+        first = state.time;
+        names = step.constraints.names(together);
+      }
+    }
+    rate = is_start ? step.constraints.motions(state.V) : state.gap_rate;
+    force = state.multiplier;
+    for (std::size_t i = 0; i < rate.size(); ++i)
+    {
+      double &of_kind = largest[step.constraints[i].rotational];
+      of_kind = std::max(of_kind, std::fabs(rate[i]));
+    }
+  }
+
+  template <typename Archive>
+  void ImpactWatch::store(Archive &archive)
+  {
+    archive &is_running &rate &force &largest[0] & largest[1] & n_steps &first &names;
+  }
+
+  void ImpactWatch::save(OutputArchive &archive)
+  {
+    store(archive);
+  }
+
+  void ImpactWatch::resume(InputArchive &archive, const StepView &)
+  {
+    store(archive);
+  }
+
+  void ImpactWatch::print(std::ostream &out) const
+  {
+    if (n_steps == 0)
+      return;
+    std::ostringstream line; // with digits of its own
+    line << "Impacts: in " << n_steps << (n_steps == 1 ? " step" : " steps, first")
+         << " at t = " << first << " s at " << names
+         << ", contacts that share a body were struck together: restitution then holds at all of "
+            "them at once, not at one after the other. If their order matters, take steps in which "
+            "bodies move less than the gaps between them";
+    out << line.str() << '\n';
+  }
+} // namespace taut

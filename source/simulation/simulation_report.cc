@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/simulation/simulation.h>
+
+#include <ostream>
+
+namespace taut
+{
+  void Simulation::print_cost(const TimeStepper &stepper, const double until,
+                              const double all) const
+  {
+    const long n_steps = stepper.n_steps_done();
+    if (n_steps == 0)
+      return;
+    log << n_steps << " steps in " << all << " s, " << until / all
+        << " x real time; without output " << 1e6 * seconds / n_steps << " us a step, "
+        << until / seconds << " x real time\n";
+    if (!stepper.is_linear())
+      log << "Newton's method: " << static_cast<double>(stepper.n_newton_iterations()) / n_steps
+          << " solves a step\n";
+    const InterfaceStatistics solves = stepper.interface_statistics();
+    if (solves.n_systems > 0)
+      log << "Conjugate gradients: " << static_cast<double>(solves.n_iterations) / solves.n_systems
+          << " iterations a system, " << static_cast<double>(solves.n_systems) / n_steps
+          << " systems a step, "
+          << static_cast<double>(solves.n_local_solves) / solves.n_applications
+          << " bodies solved a product\n";
+  }
+
+  RunDescription Simulation::description(const bool is_partial) const
+  {
+    std::vector<ModelWarning> warnings = limits->warnings();
+    for (const ContactMeasures::Warning &warning : measures->warnings())
+      warnings.push_back(
+          {warning.kind, warning.message, warning.value, warning.limit, "1", warning.time});
+    return {parameters.file_name(),
+            parameters.generator_name,
+            scheme,
+            parameters.step,
+            n_steps() * parameters.step,
+            is_partial,
+            warnings};
+  }
+} // namespace taut

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: lengths of droppers that hang from cables are found, so that what they hold stands at the
+// prescribed height. Expected values: two bars under a force; distances of displaced places.
+#include "cable/errors_of_runs.h"
+#include "verification/run.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace
+{
+  using namespace taut;
+
+  constexpr double span = 20., g = 9.81;
+
+  /// A messenger cable 1 m above a string, with droppers at these places.
+  std::string line(const std::string &messenger, const std::string &at_cable,
+                   const std::string &at_wire)
+  {
+    return R"(set Generator = network
+set Gravity = 0, -9.81
+set Start = equilibrium
+set Bodies = messenger
+subsection Body messenger
+  set Type = cable
+  set From = 0, 1, 0
+  set To = 20, 1, 0
+)" + messenger +
+           R"(end
+subsection Network
+  set Wires = contact
+  set Supports = ends
+  set Links = hanger
+  subsection Wire contact
+    set From = 0, 0
+    set To = 20, 0
+    set Components = string
+    set Tension = 2000
+    set Mass per length = 1
+  end
+  subsection Support ends
+    set Wire = contact
+    set Positions = 0, 20
+  end
+  subsection Link hanger
+    set Type = dropper
+    set From = messenger @ )" +
+           at_cable + "\nset To = contact @ " + at_wire + R"(
+    set Direction = 0, -1
+    set Find length = true
+    set Axial stiffness = 1e5
+  end
+end
+subsection Time
+  set End = 0
+end
+)";
+  }
+
+  struct Found
+  {
+    std::vector<double> length, force, height, distance;
+  };
+
+  Found find(const std::string &scene, const verification::Overrides &overrides = {})
+  {
+    Found result;
+    verification::run_scene(scene, overrides,
+                            [&](const StepView &view)
+                            {
+                              result = Found();
+                              const auto height = [&](const Attachment &end)
+                              {
+                                std::vector<Term> terms;
+                                view.structure.motion(end, false, {0., 1.}, 1., terms);
+                                return view.structure.position(view.scene, end).y +
+                                       evaluate(terms, view.reference.displacement) +
+                                       evaluate(terms, view.state.U);
+                              };
+                              for (std::size_t i = 0; i < view.scene.links.size(); ++i)
+                              {
+                                const Link &link = view.scene.links[i];
+                                result.length.push_back(link.length);
+                                result.force.push_back(view.state.multiplier[i]);
+                                result.height.push_back(height(link.to));
+                                result.distance.push_back(height(link.from) - height(link.to));
+                              }
+                            });
+    return result;
+  }
+} // namespace
+
+// A cable without weight between its ends and a dropper in the middle is two bars.
+TEST(FoundLengths, under_two_bars)
+{
+  constexpr double EA = 1e6, length = 19.98, V = span / 2. * g;
+  double low = 0., high = 2.;
+  for (int k = 0; k < 100; ++k)
+  {
+    const double d = .5 * (low + high), l = std::hypot(span / 2., d),
+                 T = EA * (l / (length / 2.) - 1.);
+    (2. * T * d / l < V ? low : high) = d;
+  }
+  const std::string bars =
+      "set Unstressed length = 19.98\nset Axial stiffness = 1e6\nset Element = "
+      "bar\nset Elements = 4\n";
+  const Found found = find(line(bars, "9.99, 0", "10"));
+  ASSERT_EQ(found.length.size(), 1u);
+  EXPECT_NEAR(found.force[0], V, 1e-9 * V);
+  EXPECT_NEAR(found.length[0], 1. - low, 1e-9);
+  EXPECT_NEAR(found.height[0], 0., 1e-9);
+}
+
+// Also one that sags by several times the way to the wire: of 21 m it would lie 2 m below.
+TEST(FoundLengths, under_cables_with_weight)
+{
+  const std::string weight = "set Axial stiffness = 1e6\nset Mass per length = 1\n";
+  for (const std::string shape : {"Sag = 0.2", "Horizontal tension = 3e3"})
+    for (const std::string geometry : {"nonlinear", "linearised"})
+    {
+      const std::string scene =
+          line(weight + "set " + shape + "\nset Geometry = " + geometry + "\n", "4, 0; 9, 0; 15, 0",
+               "4, 9, 15");
+      const Found found = find(scene, {"Network/Link hanger/Prescribed displacement=0.02"});
+      ASSERT_EQ(found.length.size(), 3u);
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        EXPECT_NEAR(found.height[i], .02, 1e-9) << shape << geometry;
+        EXPECT_NEAR(found.distance[i], found.length[i], 1e-9) << shape << geometry;
+        EXPECT_GT(found.force[i], 0.);
+      }
+    }
+  expect(error_of(line(weight + "set Unstressed length = 21\n", "10, 0", "10")),
+         {"Network/Link hanger", "would have no length"});
+}
+
+// The wire that is held may be a cable, too: its displacement counts from its own shape at rest.
+TEST(FoundLengths, of_what_holds_a_cable)
+{
+  const std::string weight = "set Axial stiffness = 1e6\nset Mass per length = 1\nset Sag = 0.1\n",
+                    lower = "subsection Body lower\nset Type = cable\nset From = 0, 0, 0\nset To = "
+                            "20, 0, 0\n" +
+                            weight + "end\n";
+  const Found found = find(line(weight, "10, 0", "10") + lower,
+                           {"Bodies=messenger, lower", "Network/Link hanger/To=lower @ 10, 0",
+                            "Network/Link hanger/Prescribed displacement=0.05"});
+  ASSERT_EQ(found.length.size(), 1u);
+  EXPECT_NEAR(found.height[0], -.05, 1e-4); // 0.1 m of sag, less 0.05 m
+  EXPECT_NEAR(found.distance[0], found.length[0], 1e-9);
+}

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: a rigid joint that starts open is refused, for it would close within one step of any
+// length; one that is closed but for rounding, elastic or at rest is taken. Expected values: the
+// messages; the place where a joint holds.
+#include "run.h"
+
+#include <taut/base/exceptions.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+namespace
+{
+  using verification::Overrides;
+
+  const std::string pendulum = R"(set Generator = network
+set Gravity = 0, -9.81
+set Start = given
+subsection Network
+  set Masses = m
+  set Links = rod
+  subsection Mass m
+    set Position = 0, -1
+    set Motions = x, y
+    set Mass = 2
+  end
+  subsection Link rod
+    set Type = joint
+    set From = ground @ 0, 0
+    set To = m
+  end
+end
+subsection Time
+  set End = 0.02
+  set Step = 1e-3
+end
+)";
+
+  /// Height of the mass over its place at the end; the message of the error.
+  double height(const Overrides &overrides, std::string *error = nullptr)
+  {
+    double y = 0.;
+    try
+    {
+      verification::run_scene(
+          pendulum, overrides,
+          [&](const taut::StepView &view)
+          {
+            std::vector<taut::Term> terms;
+            view.structure.motion({taut::Attachment::Kind::mass, 0}, false, {0., 1.}, 1., terms);
+            y = evaluate(terms, view.reference.displacement) + evaluate(terms, view.state.U);
+          });
+    }
+    catch (const taut::EntryError &e)
+    {
+      EXPECT_TRUE(error) << e.message();
+      if (error)
+        *error = e.entry() + ": " + e.message();
+    }
+    return y;
+  }
+
+  const std::string rod = "Network/Link rod/";
+} // namespace
+
+TEST(OpenJoints, are_refused_at_the_start)
+{
+  for (const Overrides &open :
+       {Overrides{rod + "Gap=0.1"}, Overrides{rod + "Gap=-1e-6"},
+        Overrides{"Network/Mass m/Initial displacement=0, 0.01, 0"},
+        Overrides{rod + "Turns=true", rod + "Length=1.1"},
+        Overrides{rod + "Turns=true", "Network/Mass m/Initial displacement=0, 0.01, 0"}})
+    for (const std::string start : {"given", "undeformed"})
+    {
+      if (start == "undeformed" && open.back().find("Initial") != std::string::npos)
+        continue;
+      Overrides entries = open;
+      entries.push_back("Start=" + start);
+      std::string error;
+      height(entries, &error);
+      for (const char *const part :
+           {"Network/Link rod: joint 'rod' starts with a gap of ", "give it a Stiffness"})
+        EXPECT_NE(error.find(part), std::string::npos) << open.back() << ": " << error;
+    }
+}
+
+TEST(OpenJoints, are_closed_but_for_rounding_or_at_rest)
+{
+  const std::string lifted = "Network/Mass m/Initial displacement=0, 0.1, 0";
+  EXPECT_NEAR(height({}), 0., 1e-12);
+  EXPECT_NEAR(height({rod + "Gap=0.1", lifted}), .1, 1e-12);
+  EXPECT_NEAR(height({rod + "Gap=0.10000000001", lifted}), .1, 1e-9);
+  EXPECT_NEAR(height({rod + "Turns=true", rod + "Length=1.0000000001"}), 0., 1e-9);
+  EXPECT_NEAR(height({rod + "Turns=true", rod + "Length=0.9", lifted}), .1, 1e-9);
+  EXPECT_NEAR(height({rod + "Gap=0.1", "Start=equilibrium"}), .1, 1e-12);
+  EXPECT_GT(height({rod + "Gap=0.1", rod + "Stiffness=1e3"}), 0.);
+}

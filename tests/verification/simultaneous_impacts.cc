@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: impacts with restitution in one step are simultaneous ones, which keep momentum and, with
+// e = 1, energy; impacts that steps tell apart follow one after the other; the log says which it
+// was. Expected values: Newton's law for each contact or for all at once.
+#include "run.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace
+{
+  using verification::Overrides;
+  using verification::Session;
+
+  /// Newton's cradle: five equal masses along x, the first with 1 m/s, 10 mm from the second; the
+  /// others apart by a gap [m].
+  std::string cradle(const double gap, const std::string &more = "")
+  {
+    const std::string names = "abcde";
+    std::string text = "set Generator = network\nset Gravity = 0, 0\nset Start = given\nsubsection "
+                       "Time\nset End = 0.1\nset Step = 1e-4\nsubsection Moreau-Jean\nset "
+                       "Restitution = 1\nend\nend\nsubsection Network\nset Masses = a, b, c, d, "
+                       "e\nset Links = ab, bc, cd, de" +
+                       more + "\n";
+    for (std::size_t i = 0; i < names.size(); ++i)
+    {
+      text += std::string("subsection Mass ") + names[i] + "\nset Position = " + std::to_string(i) +
+              ", 0\nset Motions = x, y\nset Mass = 1\n" +
+              (i == 0 ? "set Initial velocity = 1, 0, 0\n" : "") + "end\n";
+      if (i > 0)
+        text += std::string("subsection Link ") + names[i - 1] + names[i] +
+                "\nset Type = stop\nset Direction = 1, 0\nset From = " + names[i - 1] +
+                "\nset To = " + names[i] +
+                "\nset Gap = " + verification::number(i == 1 ? .01 : gap) + "\nend\n";
+    }
+    return text + "end\n";
+  }
+
+  struct Outcome
+  {
+    std::vector<double> velocity; ///< along x, of each mass [m/s]
+    std::string log;
+  };
+
+  Outcome run(const std::string &scene, const Overrides &overrides = {})
+  {
+    Outcome result;
+    Session session(scene, overrides);
+    session.run(
+        [&](const taut::StepView &view)
+        {
+          result.velocity.clear();
+          for (std::size_t i = 0; i < view.scene.masses.size(); ++i)
+          {
+            std::vector<taut::Term> terms;
+            view.structure.motion({taut::Attachment::Kind::mass, i}, false, {1., 0.}, 1., terms);
+            result.velocity.push_back(evaluate(terms, view.state.V));
+          }
+        });
+    result.log = session.log();
+    return result;
+  }
+
+  void expect_velocities(const Outcome &outcome, const std::vector<double> &expected)
+  {
+    ASSERT_EQ(outcome.velocity.size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      EXPECT_NEAR(outcome.velocity[i], expected[i], 1e-12) << i;
+  }
+} // namespace
+
+// All gaps but the first are far below a step of motion, 0.1 mm: Newton's law for all contacts,
+// with the approach of each, 1, 0, 0, 0, has v_b - v_a = 1, v_b = v_c = v_d = v_e. Conditions on
+// velocities alone are those of contacts that were closed.
+TEST(SimultaneousImpacts, are_those_of_one_step)
+{
+  const Overrides velocities = {"Time.Scheme=Moreau-Jean",
+                                "Time.Moreau-Jean.Conditions=velocities"};
+  for (const double gap : {0., 1e-12, 1e-7})
+    for (const Overrides &scheme : {Overrides(), velocities})
+    {
+      const Outcome outcome = run(cradle(gap), scheme);
+      const bool is_sequence = gap > 0. && !scheme.empty();
+      if (is_sequence)
+        expect_velocities(outcome, {0., 0., 0., 0., 1.});
+      else
+        expect_velocities(outcome, {-.6, .4, .4, .4, .4});
+      for (const char *const text :
+           {"Impacts: in 1 step at t = 0.0101 s", "'ab', 'bc', 'cd', 'de', contacts that share"})
+        EXPECT_EQ(outcome.log.find(text) == std::string::npos, is_sequence) << gap << outcome.log;
+    }
+}
+
+// Each mass gives its velocity to the next one.
+TEST(SimultaneousImpacts, are_none_where_steps_tell_them_apart)
+{
+  const Outcome outcome = run(cradle(.01));
+  expect_velocities(outcome, {0., 0., 0., 0., 1.});
+  EXPECT_EQ(outcome.log.find("Impacts:"), std::string::npos) << outcome.log;
+}
+
+// The first mass also presses on a floor and hits it at the same time; lumped masses have no
+// inertia between x and y.
+TEST(SimultaneousImpacts, need_a_body_that_shares_them)
+{
+  const std::string floor =
+      "subsection Network\nsubsection Link floor\nset Type = stop\nset From "
+      "= ground\nset To = a\nset Direction = 0, 1\nset Gap = 0.01\nend\nend\n";
+  const Outcome outcome =
+      run(cradle(.01, ", floor") + floor, {"Network.Mass a.Initial velocity=1, -1, 0"});
+  expect_velocities(outcome, {0., 0., 0., 0., 1.});
+  EXPECT_EQ(outcome.log.find("Impacts:"), std::string::npos) << outcome.log;
+}
+
+TEST(SimultaneousImpacts, are_not_named_without_restitution)
+{
+  const Outcome outcome = run(cradle(0.), {"Time.Moreau-Jean.Restitution=0"});
+  expect_velocities(outcome, {.2, .2, .2, .2, .2});
+  EXPECT_EQ(outcome.log.find("Impacts:"), std::string::npos) << outcome.log;
+}
+
+// A mass that only lies on two stops has rates of rounding, and forces of its weight.
+TEST(SimultaneousImpacts, are_none_at_rest)
+{
+  std::string scene =
+      "set Generator = network\nset Gravity = 0, -9.81\nset Start = undeformed\nsubsection "
+      "Time\nset End = 0.1\nset Step = 1e-3\nsubsection Moreau-Jean\nset Restitution "
+      "= 0.5\nend\nend\nsubsection Network\nset Masses = a\nset Links = l, r\n"
+      "subsection Mass a\nset Position = 0, 0\nset Motions = x, y\nset Mass = 7\nend\n";
+  for (const std::string side : {"l", "r"})
+    scene += "subsection Link " + side +
+             "\nset Type = stop\nset From = ground\nset To = a\nset "
+             "Direction = " +
+             (side == "l" ? "0.3" : "-0.3") + ", 1\nend\n";
+  const Outcome at_rest = run(scene + "end\n", {"Time/Allow energy gain=true"});
+  EXPECT_EQ(at_rest.log.find("Impacts:"), std::string::npos) << at_rest.log;
+  const Outcome falls =
+      run(scene + "end\n", {"Network/Link l/Gap=0.01", "Network/Link r/Gap=0.01"});
+  EXPECT_NE(falls.log.find("'l', 'r', contacts that share"), std::string::npos) << falls.log;
+}
