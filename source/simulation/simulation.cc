@@ -286,6 +286,8 @@ namespace taut
     {
       const auto before = std::chrono::steady_clock::now();
       control.advance(stepper);
+      if (!parameters.allow_unsuitable_scheme)
+        stepper.check_moving_contacts();
       coefficients = stepper.scheme();
       measures->record(stepper.state(), coefficients, stepper.certificate());
       seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();

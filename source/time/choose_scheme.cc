@@ -13,10 +13,6 @@ namespace taut
 {
   namespace
   {
-    /// Part of itself that the error of a rigid constraint's force may keep from step to step: with
-    /// this one it is below a thousandth after ten steps.
-    constexpr double most_ringing = .5;
-
     /// Part of the longest stable step that is taken for stable, as the largest frequency is known
     /// from below only: see largest_frequency().
     constexpr double surely_stable = .98;
@@ -193,8 +189,7 @@ namespace taut
                          "here of '" +
                              constraints[i].name + "'; take 'gaps then velocities'" + anyway);
     }
-    const double ringing = c.ringing();
-    if (c.mean_force || ringing <= most_ringing)
+    if (c.mean_force || !c.rings())
       return;
     const std::string nonlinear = nonlinear_body(structure);
     if (!nonlinear.empty())
@@ -213,7 +208,7 @@ namespace taut
       return;
     std::ostringstream out;
     out << integrator.description() << " fails at unilateral links that act as rigid, here '"
-        << constraints[rigid].name << "': an error of its force keeps " << ringing
+        << constraints[rigid].name << "': an error of its force keeps " << c.ringing()
         << " of itself from step to step, so that it rings. Take 'automatic' or more dissipation, "
            "give the link a Stiffness, set 'Time/Mass redistribution'"
         << anyway;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/interface/schur_complement.h>
+#include "link_flexibilities.h"
+
 #include <taut/time/contact_resolution.h>
-#include <taut/time/integrator.h>
 #include <taut/time/matrix_norms.h>
 
 #include <algorithm>
@@ -22,6 +22,9 @@ namespace taut
     /// Share of its energy that a body may lose in an impact: below, a smooth force is worth more.
     constexpr double small_share = .02;
 
+    /// Share from which an impact is more than waves: adaptive steps, too, then keep its energy.
+    constexpr double large_share = .1;
+
     /// Steps a contact with a damper needs for a rebound that is right to a percent.
     constexpr double steps_of_a_damped_contact = 8.;
 
@@ -41,98 +44,6 @@ namespace taut
     /// How far the largest eigenvalue is found, and in how many iterations.
     constexpr double eigenvalue_tolerance = .01;
     constexpr int most_iterations = 200;
-
-    /// Part of the diagonal that makes a system with dependent constraints definite.
-    constexpr double shift_of_dependent_rows = 1e-9;
-
-    /// F of the bodies in one step, without the springs of the constraints.
-    class Flexibilities
-    {
-    public:
-      Flexibilities(const Structure &structure, const Constraints &constraints,
-                    const SolverParameters &parameters, const double step)
-          : structure(structure), constraints(constraints), c(generalised_alpha(step, .8)),
-            solvers(structure, parameters.local_solver),
-            schur(make_schur_complement(parameters.interface, solvers, constraints))
-      {
-        structure.communicator().agree([&] { solvers.factor(c.mass_factor(), c.velocity); });
-        S.resize(constraints.size());
-        for (std::size_t i = 0; i < S.size(); ++i)
-          S[i] = 1. / (constraints[i].stiffness + c.velocity * constraints[i].damping);
-        schur->setup(S);
-      }
-
-      /// S of a constraint, with its damper [m/N, rad/(N m)].
-      double compliance(const std::size_t i) const { return S[i]; }
-
-      /// Factor of M in A [1/s^2].
-      double mass_factor() const { return c.mass_factor(); }
-
-      /// B_i^T A^-1 B_i of one body of this rank.
-      double of_body(const Term &term) const
-      {
-        double sum = solvers[term.substructure].flexibility(term.form);
-        const auto &modes = solvers.rigid_body_modes()[term.substructure];
-        for (std::size_t v = 0; v < modes.vectors.size(); ++v)
-          sum += std::pow(term.form.dot(modes.vectors[v]), 2) / modes.resistance[v];
-        return sum;
-      }
-
-      /// Column i of F with the constraints of @p closed imposed.
-      void column(const std::size_t i, const std::vector<std::size_t> &closed,
-                  std::vector<double> &result)
-      {
-        ComplementarityOperator &F = schur->matrix();
-        std::vector<std::size_t> set;
-        for (const std::size_t j : closed)
-          if (F.diagonal(j) > 0.)
-            set.push_back(j);
-        std::vector<double> unit(constraints.size(), 0.), x, of_x;
-        unit[i] = 1.;
-        F.apply(unit, result);
-        result[i] -= S[i];
-        add_modes(i, result);
-        if (set.empty() ||
-            (!F.solve(set, result, 0., x) && !F.solve(set, result, shift_of_dependent_rows, x)))
-          return;
-        F.apply(x, of_x);
-        for (std::size_t j = 0; j < result.size(); ++j)
-          result[j] -= of_x[j];
-      }
-
-      /// After a move of the constraints.
-      void update_moving() { schur->update_moving(); }
-
-    private:
-      /// The motions as a whole of bodies whose inertia is lost in their stiffness.
-      void add_modes(const std::size_t i, std::vector<double> &result) const
-      {
-        if (!solvers.has_rigid_body_modes())
-          return;
-        std::vector<double> sums(constraints.size(), 0.);
-        for (std::size_t k = 0; k < structure.size(); ++k)
-        {
-          const auto &modes = solvers.rigid_body_modes()[k];
-          for (std::size_t v = 0; v < modes.vectors.size(); ++v)
-            for (const Term &own : constraints[i].terms)
-              for (std::size_t j = 0; j < sums.size() && own.substructure == k; ++j)
-                for (const Term &other : constraints[j].terms)
-                  if (other.substructure == k)
-                    sums[j] += own.form.dot(modes.vectors[v]) * other.form.dot(modes.vectors[v]) /
-                               modes.resistance[v];
-        }
-        structure.communicator().sum(sums);
-        for (std::size_t j = 0; j < sums.size(); ++j)
-          result[j] += sums[j];
-      }
-
-      const Structure &structure;
-      const Constraints &constraints;
-      const StepCoefficients c;
-      FactoredStructure solvers;
-      std::unique_ptr<SchurComplement> schur;
-      std::vector<double> S;
-    };
 
     /// The largest eigenvalue of a matrix without negative entries, from above (L. Collatz, 1942):
     /// the largest (G x)_i / x_i of any positive x.
@@ -362,7 +273,7 @@ namespace taut
     const Structure &structure;
     const Constraints &constraints;
     std::vector<Row> &of;
-    Flexibilities in_step, at_once;
+    LinkFlexibilities in_step, at_once;
     const std::vector<double> mass;
     const std::vector<std::size_t> closed;
   };
@@ -415,7 +326,7 @@ namespace taut
   {
     const Row &row = of[i];
     return !row.unilateral || (row.ratio <= 1. && row.ratio * row.share <= resolved &&
-                               !(adaptive && row.may_conserve && row.share > small_share));
+                               !(adaptive && row.may_conserve && row.share > large_share));
   }
 
   std::size_t ContactResolution::first_unresolved() const

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
 #include <taut/substructure/constrained_body.h>
+#include <taut/time/contact_resolution.h>
 #include <taut/time/time_stepper.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <sstream>
 
 namespace taut
 {
@@ -115,5 +117,23 @@ namespace taut
     structure[k].mass().vmult_add(1., x.data(), product.data());
     const double sum = std::inner_product(product.begin(), product.end(), x.begin(), 0.);
     return std::sqrt(std::max(0., sum) / masses[k]);
+  }
+
+  void TimeStepper::check_moving_contacts()
+  {
+    if (coefficients.mean_force || !coefficients.rings())
+      return;
+    const std::vector<double> &S = constraint_motions.compliance();
+    ComplementarityOperator &F = system->interface().matrix();
+    for (std::size_t i = constraints.first_moving(); i < constraints.size(); ++i)
+      if (constraints[i].unilateral && S[i] > 0. && F.diagonal(i) > 2. * S[i] &&
+          flexibilities_of_whole_bodies(constraints, {i}, F)[i] > 2. * S[i])
+      {
+        std::ostringstream out;
+        out << "link '" << constraints[i].name << "' acts as rigid at t = " << current.time
+            << " s: there it is stiffer than the bodies in one step, which "
+            << integrator.description() << " does not suit. Take 'Moreau-Jean', or a smaller step";
+        throw EntryError(constraints.origin(i), out.str());
+      }
   }
 } // namespace taut

@@ -21,6 +21,7 @@ namespace taut
 
   const TimeIntegrator &Stepper::choose(const StepperOptions &options)
   {
+    allow_unsuitable_scheme = options.allow_unsuitable_scheme;
     contact_measures.set_scheme(options.scheme == "automatic", options.steps.adaptive());
     const ContactResolution resolution(structure, constraints, options.solver, options.step,
                                        options.steps.adaptive(), options.end);
@@ -53,6 +54,8 @@ namespace taut
     do
     {
       control->advance(*stepper);
+      if (!allow_unsuitable_scheme)
+        stepper->check_moving_contacts();
       contact_measures.record(stepper->state(), stepper->scheme(), stepper->certificate());
     } while (!control->is_at_step());
   }

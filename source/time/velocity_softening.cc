@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // How elastic constraints take part in the projection of velocities.
+#include <taut/time/contact_resolution.h>
 #include <taut/time/velocity_projection.h>
 
 #include <cmath>
@@ -11,9 +12,6 @@ namespace taut
   {
     /// Fades the projection of elastic constraints out where S exceeds this part of F_ii.
     constexpr double fading = .3;
-
-    /// Part of the diagonal that makes a system with dependent constraints definite.
-    constexpr double shift_of_dependent_rows = 1e-9;
   } // namespace
 
   void VelocityProjection::prepare(const StepCoefficients &coefficients, const double tau,
@@ -42,7 +40,7 @@ namespace taut
                                               const std::vector<double> &S,
                                               ComplementarityOperator &F)
   {
-    const std::vector<double> diagonal = flexibilities(elastic, F);
+    const std::vector<double> diagonal = flexibilities_of_whole_bodies(constraints, elastic, F);
     for (const std::size_t i : elastic)
       flexibility[i] = (diagonal[i] - S[i]) / (1. - c.alpha_f);
   }
@@ -60,39 +58,11 @@ namespace taut
     }
   }
 
-  /**
-   * The diagonal of a matrix of the constraints as the bodies have it with their rigid bilateral
-   * constraints closed, F_ii - F_ib F_bb^-1 F_bi, of the constraints listed: bodies that are cut in
-   * pieces answer as if they were whole.
-   */
-  std::vector<double> VelocityProjection::flexibilities(const std::vector<std::size_t> &wanted,
-                                                        ComplementarityOperator &F) const
-  {
-    std::vector<std::size_t> bilateral;
-    for (std::size_t i = 0; i < constraints.size(); ++i)
-      if (!constraints[i].unilateral && std::isinf(constraints[i].stiffness) && F.diagonal(i) > 0.)
-        bilateral.push_back(i);
-    std::vector<double> result(constraints.size(), 0.), unit(constraints.size(), 0.), column, x;
-    for (const std::size_t i : wanted)
-    {
-      result[i] = F.diagonal(i);
-      if (bilateral.empty())
-        continue;
-      unit[i] = 1.;
-      F.apply(unit, column);
-      unit[i] = 0.;
-      if (!F.solve(bilateral, column, 0., x))
-        F.solve(bilateral, column, shift_of_dependent_rows, x);
-      for (const std::size_t b : bilateral)
-        result[i] -= column[b] * x[b];
-    }
-    return result;
-  }
-
   /// f has no softening on the diagonals of what is wanted.
   void VelocityProjection::find_mass_flexibilities(const std::vector<std::size_t> &elastic)
   {
-    const std::vector<double> diagonal = flexibilities(elastic, schur->matrix());
+    const std::vector<double> diagonal =
+        flexibilities_of_whole_bodies(constraints, elastic, schur->matrix());
     for (const std::size_t i : elastic)
       of_mass[i] = diagonal[i];
   }

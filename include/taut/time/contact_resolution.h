@@ -2,6 +2,7 @@
 #ifndef taut_contact_resolution_h
 #define taut_contact_resolution_h
 
+#include <taut/complementarity/operator.h>
 #include <taut/interface/constraints.h>
 #include <taut/time/solver_parameters.h>
 
@@ -32,9 +33,9 @@ namespace taut
   {
   public:
     /**
-     * For steps of @p step [s]; if they are @p adaptive, of any length where an impact moves a body
-     * as a whole, as only waves are shortened in time. Moving constraints are judged along their
-     * way until @p until [s]. The arguments are not kept. Called by all ranks together.
+     * For steps of @p step [s]. @p adaptive ones may be longer when they meet an impact, so that
+     * one that moves a body as a whole counts as not resolved. Moving constraints are judged along
+     * their way until @p until [s]. The arguments are not kept. Called by all ranks together.
      */
     ContactResolution(const Structure &structure, const Constraints &constraints,
                       const SolverParameters &parameters, double step, bool adaptive = false,
@@ -68,6 +69,15 @@ namespace taut
     const bool adaptive;
     std::vector<Row> of;
   };
+
+  /**
+   * F_ii of the constraints @p wanted as the bodies have it with their rigid bilateral constraints
+   * closed, F_ii - F_ib F_bb^-1 F_bi: bodies that are cut in pieces answer as if they were whole. 0
+   * for the others. Called by all ranks together [m/N, rad/(N m)].
+   */
+  std::vector<double> flexibilities_of_whole_bodies(const Constraints &constraints,
+                                                    const std::vector<std::size_t> &wanted,
+                                                    ComplementarityOperator &F);
 } // namespace taut
 
 #endif

@@ -76,6 +76,9 @@ namespace taut
     /// without mean forces, where U is held: the spectral radius of what is left of the scheme [1].
     double ringing() const;
 
+    /// True if such an error is still felt after ten steps: more than half of it is kept a step.
+    bool rings() const { return ringing() > .5; }
+
     template <typename Archive>
     void serialize(Archive &archive, unsigned int)
     {

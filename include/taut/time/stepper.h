@@ -91,6 +91,7 @@ namespace taut
     Constraints constraints;
     std::unique_ptr<TimeIntegrator> integrator;
     std::string scheme_description;
+    bool allow_unsuitable_scheme = false;
     std::vector<double> longest_steps; ///< of constraints with dampers [s]
     InitialState start;
     ContactMeasures contact_measures;

@@ -85,6 +85,13 @@ namespace taut
       return loads.is_resolved(current.time, length, reference_step, tolerance);
     }
 
+    /**
+     * Throws an EntryError if a moving elastic constraint acts as rigid where it is now, in a
+     * scheme whose forces then ring; see ContactResolution. Called by all ranks together, after a
+     * step.
+     */
+    void check_moving_contacts();
+
     const State &state() const { return current; }
     const Reference &reference() const { return reference_state; }
     const Certificate &certificate() const { return last; }

@@ -65,8 +65,6 @@ namespace taut
 
   private:
     bool has_to_act(const ConstraintMotions &motions, const State &state);
-    std::vector<double> flexibilities(const std::vector<std::size_t> &wanted,
-                                      ComplementarityOperator &F) const;
     void find_flexibilities(const std::vector<std::size_t> &elastic, const std::vector<double> &S,
                             ComplementarityOperator &F);
     void find_mass_flexibilities(const std::vector<std::size_t> &elastic);

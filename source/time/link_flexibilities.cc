@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "link_flexibilities.h"
+
+#include <taut/time/contact_resolution.h>
+
+#include <cmath>
+
+namespace taut
+{
+  namespace
+  {
+    /// Part of the diagonal that makes a system with dependent constraints definite.
+    constexpr double shift_of_dependent_rows = 1e-9;
+  } // namespace
+
+  LinkFlexibilities::LinkFlexibilities(const Structure &structure, const Constraints &constraints,
+                                       const SolverParameters &parameters, const double step)
+      : structure(structure), constraints(constraints), c(generalised_alpha(step, .8)),
+        solvers(structure, parameters.local_solver),
+        schur(make_schur_complement(parameters.interface, solvers, constraints))
+  {
+    structure.communicator().agree([&] { solvers.factor(c.mass_factor(), c.velocity); });
+    S.resize(constraints.size());
+    for (std::size_t i = 0; i < S.size(); ++i)
+      S[i] = 1. / (constraints[i].stiffness + c.velocity * constraints[i].damping);
+    schur->setup(S);
+  }
+
+  double LinkFlexibilities::of_body(const Term &term) const
+  {
+    double sum = solvers[term.substructure].flexibility(term.form);
+    const auto &modes = solvers.rigid_body_modes()[term.substructure];
+    for (std::size_t v = 0; v < modes.vectors.size(); ++v)
+      sum += std::pow(term.form.dot(modes.vectors[v]), 2) / modes.resistance[v];
+    return sum;
+  }
+
+  void LinkFlexibilities::column(const std::size_t i, const std::vector<std::size_t> &closed,
+                                 std::vector<double> &result) const
+  {
+    ComplementarityOperator &F = schur->matrix();
+    std::vector<std::size_t> set;
+    for (const std::size_t j : closed)
+      if (F.diagonal(j) > 0.)
+        set.push_back(j);
+    std::vector<double> unit(constraints.size(), 0.), x, of_x;
+    unit[i] = 1.;
+    F.apply(unit, result);
+    result[i] -= S[i];
+    add_modes(i, result);
+    if (set.empty() ||
+        (!F.solve(set, result, 0., x) && !F.solve(set, result, shift_of_dependent_rows, x)))
+      return;
+    F.apply(x, of_x);
+    for (std::size_t j = 0; j < result.size(); ++j)
+      result[j] -= of_x[j];
+  }
+
+  /// The motions as a whole of bodies whose inertia is lost in their stiffness.
+  void LinkFlexibilities::add_modes(const std::size_t i, std::vector<double> &result) const
+  {
+    if (!solvers.has_rigid_body_modes())
+      return;
+    std::vector<double> sums(constraints.size(), 0.);
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      const auto &modes = solvers.rigid_body_modes()[k];
+      for (std::size_t v = 0; v < modes.vectors.size(); ++v)
+        for (const Term &own : constraints[i].terms)
+          for (std::size_t j = 0; j < sums.size() && own.substructure == k; ++j)
+            for (const Term &other : constraints[j].terms)
+              if (other.substructure == k)
+                sums[j] += own.form.dot(modes.vectors[v]) * other.form.dot(modes.vectors[v]) /
+                           modes.resistance[v];
+    }
+    structure.communicator().sum(sums);
+    for (std::size_t j = 0; j < sums.size(); ++j)
+      result[j] += sums[j];
+  }
+
+  std::vector<double> flexibilities_of_whole_bodies(const Constraints &constraints,
+                                                    const std::vector<std::size_t> &wanted,
+                                                    ComplementarityOperator &F)
+  {
+    std::vector<std::size_t> bilateral;
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      if (!constraints[i].unilateral && std::isinf(constraints[i].stiffness) && F.diagonal(i) > 0.)
+        bilateral.push_back(i);
+    std::vector<double> result(constraints.size(), 0.), unit(constraints.size(), 0.), column, x;
+    for (const std::size_t i : wanted)
+    {
+      result[i] = F.diagonal(i);
+      if (bilateral.empty())
+        continue;
+      unit[i] = 1.;
+      F.apply(unit, column);
+      unit[i] = 0.;
+      if (!F.solve(bilateral, column, 0., x))
+        F.solve(bilateral, column, shift_of_dependent_rows, x);
+      for (const std::size_t b : bilateral)
+        result[i] -= column[b] * x[b];
+    }
+    return result;
+  }
+} // namespace taut

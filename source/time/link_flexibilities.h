@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_link_flexibilities_h
+#define taut_link_flexibilities_h
+
+#include <taut/interface/schur_complement.h>
+#include <taut/time/integrator.h>
+#include <taut/time/solver_parameters.h>
+
+#include <memory>
+#include <vector>
+
+namespace taut
+{
+  /// F of the bodies in one step of generalised-alpha, without the springs of the constraints: what
+  /// ContactResolution asks of it.
+  class LinkFlexibilities
+  {
+  public:
+    /// @p step [s]; the references are kept. Called by all ranks together, as all functions.
+    LinkFlexibilities(const Structure &structure, const Constraints &constraints,
+                      const SolverParameters &parameters, double step);
+
+    /// S of a constraint, with its damper [m/N, rad/(N m)].
+    double compliance(const std::size_t i) const { return S[i]; }
+
+    /// Factor of M in A [1/s^2].
+    double mass_factor() const { return c.mass_factor(); }
+
+    /// B_i^T A^-1 B_i of one body of this rank [m/N, rad/(N m)].
+    double of_body(const Term &term) const;
+
+    /// Column i of F with the constraints of @p closed imposed, each with its S.
+    void column(std::size_t i, const std::vector<std::size_t> &closed,
+                std::vector<double> &result) const;
+
+    /// After a move of the constraints.
+    void update_moving() { schur->update_moving(); }
+
+  private:
+    void add_modes(std::size_t i, std::vector<double> &result) const;
+
+    const Structure &structure;
+    const Constraints &constraints;
+    const StepCoefficients c;
+    FactoredStructure solvers;
+    std::unique_ptr<SchurComplement> schur;
+    std::vector<double> S;
+  };
+} // namespace taut
+
+#endif
