@@ -101,6 +101,9 @@ namespace hunt
           B(j, r) += T(i, j) * row.terms[with_mass[i]];
       }
       acts_on_mass.push_back(size > 0.);
+      for (const std::size_t i : without_mass)
+        if (size > 0. && row.rigid() && row.terms[i] != 0.)
+          throw std::runtime_error("a rigid constraint holds a mass to a DoF without one");
       springs.push_back(row.law       ? pieces_of(*row.law, reach)
                         : row.rigid() ? Pieces{}
                                       : Pieces{{0.}, {0.}, {row.stiffness}});
@@ -114,6 +117,25 @@ namespace hunt
     find_forces(modes);
     hold_rigid(modes);
     assemble();
+  }
+
+  /// To the stiffness and the constant load, those of the springs that are closed.
+  void Phase::add_closed_springs(const Modes &modes, dealii::FullMatrix<double> &K,
+                                 Vector &constant) const
+  {
+    for (std::size_t r = 0; r < modes.size(); ++r)
+      if (const LinearModel::Row &row = parts.model.rows[r]; modes[r] > 0 && !row.rigid())
+      {
+        const Pieces &spring = parts.springs[r];
+        const std::size_t piece = modes[r] - 1;
+        const double k = spring.k[piece], force = spring.f[piece] - k * (spring.u[piece] + row.gap);
+        for (std::size_t i = 0; i < constant.size(); ++i)
+        {
+          constant[i] += force * row.terms[i];
+          for (std::size_t j = 0; j < constant.size(); ++j)
+            K(i, j) += k * row.terms[i] * row.terms[j];
+        }
+      }
   }
 
   /// u = T q where there is mass; elsewhere from the equilibrium with the springs that are closed.
@@ -130,22 +152,10 @@ namespace hunt
 
     dealii::FullMatrix<double> K = model.stiffness;
     Vector constant = model.constant_load;
+    add_closed_springs(modes, K, constant);
     std::vector<std::size_t> held;
     for (std::size_t r = 0; r < modes.size(); ++r)
-      if (modes[r] > 0 && !model.rows[r].rigid())
-      {
-        const Pieces &spring = parts.springs[r];
-        const std::size_t piece = modes[r] - 1;
-        const double k = spring.k[piece],
-                     force = spring.f[piece] - k * (spring.u[piece] + model.rows[r].gap);
-        for (std::size_t i = 0; i < model.size(); ++i)
-        {
-          constant[i] += force * model.rows[r].terms[i];
-          for (std::size_t j = 0; j < model.size(); ++j)
-            K(i, j) += k * model.rows[r].terms[i] * model.rows[r].terms[j];
-        }
-      }
-      else if (modes[r] > 0 && !parts.acts_on_mass[r])
+      if (modes[r] > 0 && model.rows[r].rigid() && !parts.acts_on_mass[r])
         held.push_back(r);
 
     dealii::FullMatrix<double> S(n_z + held.size(), n_z + held.size());
@@ -262,8 +272,8 @@ namespace hunt
       std::copy(forces[r].begin(), forces[r].end(), A.begin() + (2 * n + r) * size);
     A[(one + 1) * size + one + 2] = -parts.model.frequency;
     A[(one + 2) * size + one + 1] = parts.model.frequency;
-    const double rate = std::sqrt(frobenius(inertia, 0, n)) + frobenius(inertia, n, n) +
-                        parts.model.frequency;
+    const double rate =
+        std::sqrt(frobenius(inertia, 0, n)) + frobenius(inertia, n, n) + parts.model.frequency;
     longest = series_reach / rate;
   }
 

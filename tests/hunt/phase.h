@@ -32,10 +32,10 @@ namespace hunt
 
     const LinearModel &model;
     std::vector<std::size_t> with_mass, without_mass;
-    dealii::FullMatrix<double> T;    ///< of the DoFs with mass
-    dealii::FullMatrix<double> B;    ///< terms of the rows in q, one column a row
-    std::vector<char> acts_on_mass;  ///< of the rows
-    std::vector<Pieces> springs;     ///< of the rows that are not rigid
+    dealii::FullMatrix<double> T;   ///< of the DoFs with mass
+    dealii::FullMatrix<double> B;   ///< terms of the rows in q, one column a row
+    std::vector<char> acts_on_mass; ///< of the rows
+    std::vector<Pieces> springs;    ///< of the rows that are not rigid
   };
 
   /**
@@ -66,6 +66,8 @@ namespace hunt
     const std::vector<Vector> &acceleration() const { return inertia; }
 
   private:
+    void add_closed_springs(const Modes &modes, dealii::FullMatrix<double> &K,
+                            Vector &constant) const;
     void find_displacements(const Modes &modes);
     void find_forces(const Modes &modes);
     void hold_rigid(const Modes &modes);

@@ -25,23 +25,18 @@ namespace hunt
     /// Steps of the references by the program in one of the run.
     constexpr std::size_t coarse = 16, fine = 32;
 
-    double momentum(const History &history)
+    /// Samples behind the end of the run.
+    constexpr int n_behind = 16;
+
+    /// The largest of a place between two samples [m/s].
+    double largest_speed(const History &history)
     {
-      // Of bodies whose speed is v: 2 T / v is not less than that of the whole.
-      double kinetic = 0., distance = 0.;
-      for (const Sample &sample : history)
-        kinetic = std::max(kinetic, sample.kinetic);
+      double result = 0.;
       for (std::size_t k = 1; k < history.size(); ++k)
         for (std::size_t i = 0; i < history[k].place.size(); ++i)
-          distance = std::max(distance,
-                              std::fabs(history[k].place[i] - history[k - 1].place[i]) /
-                                  (history[k].time - history[k - 1].time));
-      return distance > 0. ? 2. * kinetic / distance : 0.;
-    }
-
-    double outside(const double x, const double a, const double b, const double c)
-    {
-      return std::max({0., x - std::max({a, b, c}), std::min({a, b, c}) - x});
+          result = std::max(result, std::fabs(history[k].place[i] - history[k - 1].place[i]) /
+                                        (history[k].time - history[k - 1].time));
+      return result;
     }
 
     double ratio(const double a, const double b)
@@ -51,14 +46,14 @@ namespace hunt
 
     struct Largest
     {
-      double place = 0., impulse = 0., energy = 0.;
+      double place = 0., impulse = 0., energy = 0., speed = 0.;
     };
 
     Largest largest_values(const History &history)
     {
       Largest result;
+      result.speed = largest_speed(history);
       double least = history[0].potential, most = least;
-      result.impulse = least_impulse * momentum(history);
       for (const Sample &sample : history)
       {
         for (std::size_t i = 0; i < sample.place.size(); ++i)
@@ -69,30 +64,70 @@ namespace hunt
         least = std::min(least, sample.potential);
         most = std::max(most, sample.potential);
       }
+      // 2 T / v of bodies with speeds up to v is at most their momentum.
+      result.impulse =
+          std::max(result.impulse, least_impulse * ratio(2. * result.energy, result.speed));
       result.energy = std::max(result.energy, most - least);
       return result;
+    }
+
+    /// The range of what the samples of a window have.
+    class Range
+    {
+    public:
+      Range(const History &history, const std::size_t k, const double time)
+      {
+        first = k > 0 ? k - 1 : 0;
+        last = std::min(k + 1, history.size() - 1);
+        while (first > 0 && history[k].time - history[first].time < time)
+          --first;
+        while (last + 1 < history.size() && history[last].time - history[k].time < time)
+          ++last;
+      }
+
+      /// How far @p x is from what @p value is of the samples.
+      template <typename Value>
+      double distance(const double x, const Value &value) const
+      {
+        double least = value(first), most = least;
+        for (std::size_t k = first + 1; k <= last && (x < least || x > most); ++k)
+        {
+          least = std::min(least, value(k));
+          most = std::max(most, value(k));
+        }
+        // Not-a-number stays one.
+        return x >= least && x <= most ? 0. : std::max(x - most, least - x);
+      }
+
+    private:
+      std::size_t first, last;
+    };
+
+    /// The larger one; not-a-number if one is.
+    double worse(const double a, const double b)
+    {
+      return a > b || a != a ? a : b;
     }
   } // namespace
 
   Difference difference(const History &reference, const History &run)
   {
     const Largest size = largest_values(reference);
+    const double late = ratio(place_bound * size.place, size.speed);
     Difference result;
-    const std::size_t n = std::min(run.size(), reference.size());
-    for (std::size_t k = 0; k < n; ++k)
+    for (std::size_t k = 0; k < std::min(run.size(), reference.size()); ++k)
     {
-      const Sample &before = reference[k > 0 ? k - 1 : 0], &here = reference[k],
-                   &after = reference[k + 1 < reference.size() ? k + 1 : k];
-      for (std::size_t i = 0; i < here.place.size(); ++i)
-        result.place = std::max(result.place, std::fabs(run[k].place[i] - here.place[i]));
-      for (std::size_t i = 0; i < here.impulse.size(); ++i)
-        result.impulse = std::max(result.impulse, outside(run[k].impulse[i], before.impulse[i],
-                                                          here.impulse[i], after.impulse[i]));
-      const auto gain = [](const Sample &sample, const History &history)
-      { return sample.energy() - history[0].energy(); };
+      const Range range(reference, k, late);
+      for (std::size_t i = 0; i < run[k].place.size(); ++i)
+        result.place = worse(std::fabs(run[k].place[i] - reference[k].place[i]), result.place);
+      for (std::size_t i = 0; i < run[k].impulse.size(); ++i)
+        result.impulse = worse(range.distance(run[k].impulse[i], [&](const std::size_t j)
+                                              { return reference[j].impulse[i]; }),
+                               result.impulse);
       result.energy =
-          std::max(result.energy, outside(gain(run[k], run), gain(before, reference),
-                                          gain(here, reference), gain(after, reference)));
+          worse(range.distance(run[k].energy() - run[0].energy(), [&](const std::size_t j)
+                               { return reference[j].energy() - reference[0].energy(); }),
+                result.energy);
     }
     return {ratio(result.place, size.place), ratio(result.impulse, size.impulse),
             ratio(result.energy, size.energy)};
@@ -141,8 +176,6 @@ namespace hunt
         rate = {s[2], s[3], -N * s[0] / (r * p.mass), -N * s[1] / (r * p.mass) - p.gravity, N};
       };
       State state = {p.start[0] * (1. + disturbance), p.start[1], p.start[2], p.start[3], 0.};
-      const double r0 = std::hypot(p.start[0], p.start[1]);
-      (void)r0;
       History history;
       const auto observe = [&](const State &s, const double t)
       {
@@ -154,24 +187,24 @@ namespace hunt
                            p.mass * p.gravity * s[1] + .5 * p.stiffness * stretch * stretch});
       };
       namespace odeint = boost::numeric::odeint;
-      const double size = p.length;
-      (void)size;
-      odeint::integrate_times(
-          odeint::make_controlled(tolerance * p.length, tolerance,
-                                  odeint::runge_kutta_dopri5<State>()),
-          rates, state, times.begin(), times.end(), times.back() / 1e4, observe);
+      odeint::integrate_times(odeint::make_controlled(tolerance * p.length, tolerance,
+                                                      odeint::runge_kutta_dopri5<State>()),
+                              rates, state, times.begin(), times.end(), times.back() / 1e4,
+                              observe);
       return history;
     }
 
     /// The program with a part of the step, by a scheme that 'automatic' did not take.
-    History other_scheme(const HuntScene &scene, const std::size_t parts, const std::string &chosen)
+    History other_scheme(const HuntScene &scene, const std::size_t parts, const double end,
+                         const std::string &chosen)
     {
       const bool took_alpha = chosen.find("(automatic): generalised-alpha") != std::string::npos;
       verification::Session session(
           scene.text,
           {std::string("Time.Scheme=") + (took_alpha ? "Newmark" : "BDF2"),
            "Time.Mass redistribution=no", "Time.Allow unsuitable scheme=true",
-           "Time.Allow energy gain=true", "Time.Step=" + verification::number(scene.step / parts)});
+           "Time.Allow energy gain=true", "Time.Step=" + verification::number(scene.step / parts),
+           "Time.End=" + verification::number(end)});
       Recorder recorder(scene.frequency, parts);
       session.run(std::ref(recorder));
       return recorder.history;
@@ -179,17 +212,20 @@ namespace hunt
   } // namespace
 
   Reference make_reference(const HuntScene &scene, const LinearModel *model,
-                           const std::vector<double> &times, const std::string &chosen)
+                           std::vector<double> times, const std::string &chosen)
   {
     Reference result;
+    const double end = times.back(), behind = std::max(scene.step, place_bound * end);
+    for (int i = 1; i <= n_behind; ++i)
+      times.push_back(end + behind * i / n_behind);
     try
     {
       History other;
       if (scene.kind == ReferenceKind::event_driven)
       {
         result.history = event_driven_history(*model, scene.restitution, scene.reach, times);
-        other = event_driven_history(*model, scene.restitution, scene.reach, times, finer,
-                                     disturbance);
+        other =
+            event_driven_history(*model, scene.restitution, scene.reach, times, finer, disturbance);
       }
       else if (scene.kind == ReferenceKind::pendulum)
       {
@@ -198,8 +234,8 @@ namespace hunt
       }
       else
       {
-        result.history = other_scheme(scene, fine, chosen);
-        other = other_scheme(scene, coarse, chosen);
+        result.history = other_scheme(scene, fine, times.back(), chosen);
+        other = other_scheme(scene, coarse, times.back(), chosen);
       }
       const Difference d = difference(result.history, other);
       result.has_places = d.place < sure * place_bound;

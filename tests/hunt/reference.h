@@ -21,9 +21,10 @@ namespace hunt
   constexpr double place_bound = .02, impulse_bound = .02, energy_bound = .05;
 
   /**
-   * Places are compared at the same times. Impulses and energies jump at an impact: those of the
-   * run may be what the reference has one sample earlier or later, or between. Both histories have
-   * the same times.
+   * Places are compared at the same times. Impulses and energies jump at an impact, and the bound
+   * of the places lets it be early or late by what the fastest place takes for so much motion:
+   * those of the run may be anything that the reference has within this time, or within a step. The
+   * times of the run are the first ones of the reference.
    */
   Difference difference(const History &reference, const History &run);
 
@@ -36,9 +37,10 @@ namespace hunt
     std::string missing;                     ///< why there is none; empty: there is one
   };
 
-  /// The motion of a scene at the times of a run. @p chosen is the log of that run.
+  /// The motion of a scene at the times of a run, and a little longer. @p chosen is the log of that
+  /// run.
   Reference make_reference(const HuntScene &scene, const LinearModel *model,
-                           const std::vector<double> &times, const std::string &chosen);
+                           const std::vector<double> times, const std::string &chosen);
 
   /// Samples of a run of the program, as it goes; and its model, once it has one.
   class Recorder

@@ -22,8 +22,9 @@ namespace
   {
     verification::Session session(
         "set Generator = network\nset Gravity = 0, -" + gravity +
-        "\nset Start = given\nsubsection Network\n set Masses = m" + names +
-        "\n set Links = stop" + links + "\n subsection Mass m\n  set Position = 0, 0\n  set Mass = 2\n"
+        "\nset Start = given\nsubsection Network\n set Masses = m" + names + "\n set Links = stop" +
+        links +
+        "\n subsection Mass m\n  set Position = 0, 0\n  set Mass = 2\n"
         "  set Motions = y\n  set Initial velocity = 0, -3, 0\n end\n" +
         more +
         " subsection Link stop\n  set Type = stop\n  set From = ground\n  set To = m\n"
@@ -65,8 +66,7 @@ TEST(EventDriven, springs_stop_a_mass)
 {
   for (const double k : {2e2, 2e6, 2e9})
   {
-    const hunt::LinearModel model =
-        model_of("  set Stiffness = " + verification::number(k) + "\n");
+    const hunt::LinearModel model = model_of("  set Stiffness = " + verification::number(k) + "\n");
     const double contact = pi / std::sqrt(k / mass), touch = height / speed;
     const hunt::Sample at = sample(model, 0., touch + contact + .4);
     EXPECT_NEAR(at.place[0], -height + speed * .4, 1e-7) << k;
@@ -83,11 +83,11 @@ TEST(EventDriven, damper_never_pulls)
   const hunt::LinearModel model = model_of("  set Stiffness = 2e4\n  set Damping = 100\n");
   const double w = std::sqrt(k / mass), z = c / (2. * mass * w), wd = w * std::sqrt(1. - z * z),
                // The force k d + c d' of d = v/wd exp(-z w t) sin(wd t) vanishes at
-               contact = 2. / wd * std::atan(std::sqrt(1. - z * z) / z) > 0.
-                             ? (pi - std::atan2(2. * z * std::sqrt(1. - z * z), 1. - 2. * z * z)) / wd
-                             : 0.,
-               touch = height / speed, d = speed / wd * std::exp(-z * w * contact) *
-                                           std::sin(wd * contact),
+      contact = 2. / wd * std::atan(std::sqrt(1. - z * z) / z) > 0.
+                    ? (pi - std::atan2(2. * z * std::sqrt(1. - z * z), 1. - 2. * z * z)) / wd
+                    : 0.,
+               touch = height / speed,
+               d = speed / wd * std::exp(-z * w * contact) * std::sin(wd * contact),
                rate = speed / wd * std::exp(-z * w * contact) *
                       (wd * std::cos(wd * contact) - z * w * std::sin(wd * contact));
   EXPECT_NEAR(k * d + c * rate, 0., 1e-8 * k * d + 1e-8);
@@ -111,6 +111,18 @@ TEST(EventDriven, law_of_two_slopes)
   EXPECT_NEAR(at.impulse[0], 2. * mass * speed, 1e-3);
 }
 
+TEST(EventDriven, law_of_a_cubic_spring)
+{
+  // m v^2 / 2 = k u^4 / 4, and the integral of 1 / sqrt(1 - x^4) from 0 to 1.
+  const hunt::LinearModel model =
+      model_of("  set Law = formula\n  set Law formula = 1e6*d^3\n  set Law range = 0.2\n");
+  const double largest = std::pow(2. * mass * speed * speed / 1e6, .25),
+               contact = 2. * largest / speed * 1.3110287771460599;
+  const hunt::Sample at = sample(model, 0., height / speed + contact + .2);
+  EXPECT_NEAR(at.place[0], -height + .2 * speed, 2e-4);
+  EXPECT_NEAR(at.impulse[0], 2. * mass * speed, 1e-3);
+}
+
 TEST(EventDriven, collision_of_two_masses)
 {
   // The upper mass of 4 kg follows with 5 m/s and 0.2 m behind; then both meet the floor.
@@ -121,7 +133,7 @@ TEST(EventDriven, collision_of_two_masses)
       "  set Direction = 0, 1\n  set Gap = 0.2\n end\n";
   const hunt::LinearModel model = model_of("", "0", more, ", n", ", between");
   const double e = .5, meet = .1, v = (2. * 3. + 4. * 5.) / 6., // of the centre
-               lower = v + e * 2. * 4. / 6., upper = v - e * 2. * 2. / 6.;
+      lower = v + e * 2. * 4. / 6., upper = v - e * 2. * 2. / 6.;
   const double t = .02;
   const hunt::Sample at = sample(model, e, meet + t);
   EXPECT_NEAR(at.place[0], -speed * meet - lower * t, 1e-9);

@@ -38,8 +38,9 @@ namespace hunt
 
   void SceneText::add(const std::string &kind, const std::string &name, const Entries &entries)
   {
-    const std::string list = kind == "Mass" ? "Masses" : kind == "Point mass" ? "Point masses"
-                                                                              : kind + "s";
+    const std::string list = kind == "Mass"         ? "Masses"
+                             : kind == "Point mass" ? "Point masses"
+                                                    : kind + "s";
     bool found = false;
     for (auto &[known, all] : names)
       if (known == list)
@@ -80,9 +81,8 @@ namespace hunt
     result += items + "end\n";
     for (const auto &[section, lines] : sections)
       if (!section.empty())
-        result += section + "\n" + lines + std::string(section.find('\n') == std::string::npos
-                                                           ? "end\n"
-                                                           : "end\nend\n");
+        result += section + "\n" + lines +
+                  std::string(section.find('\n') == std::string::npos ? "end\n" : "end\nend\n");
     return result;
   }
 } // namespace hunt

@@ -33,6 +33,7 @@ namespace hunt
     double restitution = 0.; ///< of rigid stops
     double reach = 0.;       ///< springs of links stay far below this compression [m]
     double step = 0.;        ///< [s]
+    double n_steps = 0.;     ///< of this length
     Pendulum pendulum = {};
   };
 

@@ -15,7 +15,7 @@ namespace hunt
     /// Remarks about what a force means, which say nothing of the accuracy of a motion.
     constexpr const char *remarks[] = {"is an impulse over a step"};
 
-    /// The warnings of a log that say what step is needed.
+    /// The warnings of a log that name something and speak of the step.
     std::string warnings(const std::string &log)
     {
       std::istringstream lines(log);
@@ -23,7 +23,8 @@ namespace hunt
       for (std::string line; std::getline(lines, line);)
       {
         bool counts = line.find("Warning: ") != std::string::npos &&
-                      line.find("step") != std::string::npos;
+                      line.find("step") != std::string::npos &&
+                      line.find('\'') != std::string::npos;
         for (const char *remark : remarks)
           counts = counts && line.find(remark) == std::string::npos;
         if (counts)
@@ -39,7 +40,8 @@ namespace hunt
       {
         try
         {
-          verification::Session session(scene.text);
+          verification::Session session(scene.text,
+                                        {"Time.Step=" + verification::number(scene.step)});
           try
           {
             session.run(std::ref(recorder));
@@ -86,8 +88,10 @@ namespace hunt
     return names[static_cast<std::size_t>(verdict)];
   }
 
-  Finding judge(const HuntScene &scene)
+  Finding judge(const HuntScene &original, const double parts)
   {
+    HuntScene scene = original;
+    scene.step /= parts;
     Finding result;
     Run run(scene);
     result.log = run.log;
@@ -95,8 +99,8 @@ namespace hunt
     if (!run.crash.empty())
       return result;
     const History &history = run.recorder.history;
-    if (!run.ended && (history.empty() || history.back().time <
-                                              scene.step * (static_cast<double>(run.at_end) - .5)))
+    if (!run.ended && (history.empty() ||
+                       history.back().time < scene.step * (static_cast<double>(run.at_end) - .5)))
     {
       result.verdict = Verdict::refused;
       result.what = run.refusal;
@@ -105,8 +109,7 @@ namespace hunt
     std::vector<double> times;
     for (const Sample &sample : history)
       times.push_back(sample.time);
-    const Reference reference =
-        make_reference(scene, run.recorder.model.get(), times, run.log);
+    const Reference reference = make_reference(scene, run.recorder.model.get(), times, run.log);
     if (!reference.has_sums)
     {
       result.verdict = Verdict::not_decidable;

@@ -29,13 +29,13 @@ namespace hunt
   {
     Verdict verdict = Verdict::crashed;
     Difference difference;
-    std::string what;             ///< warnings, error, or why it is not decidable
-    bool compares_places = true;  ///< false: the motion is chaotic, sums only
+    std::string what;            ///< warnings, error, or why it is not decidable
+    bool compares_places = true; ///< false: the motion is chaotic, sums only
     std::string log;
   };
 
-  /// Runs a scene and its reference.
-  Finding judge(const HuntScene &scene);
+  /// Runs a scene, with a part of its step, and its reference.
+  Finding judge(const HuntScene &scene, double parts = 1.);
 } // namespace hunt
 
 #endif
