@@ -78,8 +78,8 @@ namespace
 // A second method for the references: the program itself, with steps that resolve more and more.
 TEST(References, fine_steps_come_to_them)
 {
-  constexpr unsigned long seed = 3, n = 240, least_compared = 30;
-  constexpr double most_steps = 40.;
+  constexpr unsigned long seed = 3, n = 300, least_compared = 50;
+  constexpr double most_steps = 80.;
   unsigned long compared = 0;
   for (unsigned long i = 0; i < n; ++i)
   {
@@ -87,19 +87,20 @@ TEST(References, fine_steps_come_to_them)
     if (scene.n_steps > most_steps)
       continue;
     hunt::Finding finding;
+    bool agrees = false;
     for (const double parts : {64., 512., 4096.})
     {
       finding = hunt::judge(scene, parts);
-      if (finding.verdict == Verdict::agreed || finding.verdict == Verdict::not_decidable)
+      agrees = finding.verdict == Verdict::agreed || finding.verdict == Verdict::agreed_but_warned;
+      if (agrees || finding.verdict == Verdict::not_decidable)
         break;
     }
     if (finding.verdict == Verdict::not_decidable)
       continue;
     ++compared;
-    EXPECT_EQ(finding.verdict, Verdict::agreed)
-        << scene.family << ", scene " << i << ": places " << finding.difference.place
-        << ", impulses " << finding.difference.impulse << ", energies " << finding.difference.energy
-        << ' ' << finding.what;
+    EXPECT_TRUE(agrees) << scene.family << ", scene " << i << ": places "
+                        << finding.difference.place << ", impulses " << finding.difference.impulse
+                        << ", energies " << finding.difference.energy << ' ' << finding.what;
   }
   EXPECT_GE(compared, least_compared);
 }
