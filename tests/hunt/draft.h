@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_hunt_draft_h
+#define taut_hunt_draft_h
+
+#include "scene_text.h"
+#include "scenes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace hunt
+{
+  /// Decades of the step below its largest, three tenths of the time scale; wires cost more.
+  constexpr double step_decades = 4., step_decades_of_wires = 3.3, largest_step = .3;
+
+  /// Decades of the stiffness of a link about that of its surroundings: ten.
+  constexpr double softest = -2., stiffest = 8.;
+
+  /// Mass, time and length of a scene, from which its numbers are drawn.
+  struct Scales
+  {
+    double m, t, l;
+    double k() const { return m / (t * t); }
+    double v() const { return l / t; }
+    double g() const { return l / (t * t); }
+    double f() const { return m * g(); }
+  };
+
+  inline Scales draw_scales(Random &random)
+  {
+    return {short_number(random.decades(-2, 2)), short_number(random.decades(-2, 1)),
+            short_number(random.decades(-3, 1))};
+  }
+
+  /// A scene that grows.
+  struct Draft
+  {
+    Random &random;
+    Scales scales;
+    SceneText text = {};
+    HuntScene scene = {};
+
+    std::string draw(const double unit, const double a, const double b)
+    {
+      return number(short_number(unit * random.uniform(a, b)));
+    }
+    std::string draw_decades(const double unit, const double a, const double b)
+    {
+      return number(short_number(unit * random.decades(a, b)));
+    }
+
+    void set_time(const double decades, const double least, const double most)
+    {
+      scene.step = short_number(scales.t * largest_step * random.decades(-decades, 0));
+      const double duration = scales.t * random.uniform(least, most);
+      const double n = std::max(8., std::round(duration / scene.step));
+      scene.n_steps = n;
+      text.set("subsection Time", "Step", number(scene.step));
+      text.set("subsection Time", "End", number(n * scene.step));
+    }
+
+    HuntScene finish()
+    {
+      text.set("subsection Output", "Field interval", "0");
+      scene.text = text.text();
+      return scene;
+    }
+  };
+
+  /// A load on a point, constant or of one frequency.
+  void add_load(Draft &draft, const std::string &on, double force);
+
+  /// A stop under a point, or a dropper that holds it from falling.
+  void add_stop(Draft &draft, const std::string &name, const std::string &on, const Entries &spring,
+                bool is_stop = true);
+
+  /// A stiffness anywhere in the ten decades.
+  Entries elastic(Draft &draft);
+
+  HuntScene smooth_wire(Draft draft);
+  HuntScene wire_on_stop(Draft draft);
+  HuntScene wire_on_rigid_stop(Draft draft);
+  HuntScene moving_contact(Draft draft);
+} // namespace hunt
+
+#endif

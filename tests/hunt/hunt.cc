@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: a run of 'Scheme = automatic' is within 2 % of its reference in places and impulses and
+// within 5 % in energies, or a warning says which step it needs, or the run is refused. Source:
+// motions between events by the exponential of the matrices, impacts by Newton's law; the equation
+// of a pendulum; another scheme with a sixteenth of the step under contacts that move.
+#include "verdict.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+
+namespace
+{
+  using hunt::Verdict;
+
+  /// Part of the decidable scenes that run and agree, part of those that agree and are warned of or
+  /// refused, and part that cannot be decided.
+  constexpr double least_agreed = .6, most_alarms = .05, most_undecided = .1;
+
+  constexpr unsigned long default_scenes = 100, default_seed = 1;
+
+  unsigned long from_environment(const char *name, const unsigned long otherwise)
+  {
+    const char *value = std::getenv(name);
+    return value ? std::strtoul(value, nullptr, 10) : otherwise;
+  }
+
+  using Counts = std::array<unsigned long, hunt::n_verdicts>;
+
+  unsigned long count(const Counts &counts, const Verdict verdict)
+  {
+    return counts[static_cast<std::size_t>(verdict)];
+  }
+
+  void print_line(const std::string &name, const Counts &counts)
+  {
+    std::printf("%-22s", name.c_str());
+    for (const unsigned long n : counts)
+      std::printf("%14lu", n);
+    std::printf("\n");
+  }
+
+  void print_table(const std::map<std::string, Counts> &table, const Counts &total)
+  {
+    std::printf("%-22s", "family");
+    for (std::size_t i = 0; i < hunt::n_verdicts; ++i)
+      std::printf("%14s", hunt::name(static_cast<Verdict>(i)));
+    std::printf("\n");
+    for (const std::string &family : hunt::families())
+      if (const auto found = table.find(family); found != table.end())
+        print_line(family, found->second);
+    print_line("all", total);
+  }
+
+  void write_scene(std::ofstream &file, const unsigned long seed, const unsigned long number,
+                   const hunt::HuntScene &scene, const hunt::Finding &finding)
+  {
+    file << "# seed " << seed << ", scene " << number << ", " << scene.family << ": "
+         << hunt::name(finding.verdict) << "\n# differences: places " << finding.difference.place
+         << (finding.compares_places ? "" : " (chaotic, not compared)") << ", impulses "
+         << finding.difference.impulse << ", energies " << finding.difference.energy << '\n';
+    std::istringstream said(finding.what + "\n" + finding.log);
+    for (std::string line; std::getline(said, line);)
+      if (line.find("Scheme (") != std::string::npos || line.find("Warning") != std::string::npos ||
+          finding.what.find(line) != std::string::npos)
+        file << "# " << line << '\n';
+    file << scene.text << "\n\n";
+  }
+} // namespace
+
+// A second method for the references: the program itself, with steps that resolve more and more.
+TEST(References, fine_steps_come_to_them)
+{
+  constexpr unsigned long seed = 3, n = 300, least_compared = 50;
+  constexpr double most_steps = 80.;
+  unsigned long compared = 0;
+  for (unsigned long i = 0; i < n; ++i)
+  {
+    const hunt::HuntScene scene = hunt::make_scene(seed, i);
+    if (scene.n_steps > most_steps)
+      continue;
+    hunt::Finding finding;
+    bool agrees = false;
+    for (const double parts : {64., 512., 4096.})
+    {
+      finding = hunt::judge(scene, parts);
+      agrees = finding.verdict == Verdict::agreed || finding.verdict == Verdict::agreed_but_warned;
+      if (agrees || finding.verdict == Verdict::not_decidable)
+        break;
+    }
+    if (finding.verdict == Verdict::not_decidable)
+      continue;
+    ++compared;
+    EXPECT_TRUE(agrees) << scene.family << ", scene " << i << ": places "
+                        << finding.difference.place << ", impulses " << finding.difference.impulse
+                        << ", energies " << finding.difference.energy << ' ' << finding.what;
+  }
+  EXPECT_GE(compared, least_compared);
+}
+
+TEST(Hunt, no_answer_is_silent_and_wrong)
+{
+  const unsigned long n = from_environment("TAUT_HUNT_SCENES", default_scenes),
+                      seed = from_environment("TAUT_HUNT_SEED", default_seed),
+                      first = from_environment("TAUT_HUNT_FIRST", 0),
+                      parts = from_environment("TAUT_HUNT_PARTS", 1);
+  const std::string path = "hunt_seed_" + std::to_string(seed) + ".txt";
+  std::ofstream file(path);
+  std::map<std::string, Counts> table;
+  Counts total = {};
+  for (unsigned long i = first; i < first + n; ++i)
+  {
+    const hunt::HuntScene scene = hunt::make_scene(seed, i);
+    const auto begin = std::chrono::steady_clock::now();
+    const hunt::Finding finding = hunt::judge(scene, parts);
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    const auto index = static_cast<std::size_t>(finding.verdict);
+    ++table[scene.family][index];
+    ++total[index];
+    if (finding.verdict != Verdict::agreed)
+      write_scene(file, seed, i, scene, finding);
+    if (std::getenv("TAUT_HUNT_VERBOSE"))
+      std::printf("%5lu %-22s %-14s %9.2e %9.2e %9.2e %5.2f s %s\n", i, scene.family.c_str(),
+                  hunt::name(finding.verdict), finding.difference.place, finding.difference.impulse,
+                  finding.difference.energy, seconds,
+                  finding.what.substr(0, finding.what.find('\n')).c_str());
+  }
+  print_table(table, total);
+  std::printf("Scenes that did not just agree: %s\n", path.c_str());
+
+  const double decidable = static_cast<double>(n - count(total, Verdict::not_decidable)),
+               agreed = static_cast<double>(count(total, Verdict::agreed)),
+               alarms = static_cast<double>(count(total, Verdict::agreed_but_warned) +
+                                            count(total, Verdict::agreed_but_refused));
+  EXPECT_EQ(count(total, Verdict::silent_and_wrong), 0) << "see " << path;
+  EXPECT_EQ(count(total, Verdict::crashed), 0) << "see " << path;
+  EXPECT_GE(agreed + alarms, least_agreed * decidable);
+  EXPECT_LE(alarms, most_alarms * (agreed + alarms));
+  EXPECT_LE(static_cast<double>(count(total, Verdict::not_decidable)), most_undecided * n);
+}

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "linear_model.h"
+
+#include <deal.II/lac/vector.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace hunt
+{
+  double dot(const Vector &a, const Vector &b)
+  {
+    double sum = 0.;
+    for (std::size_t i = 0; i < a.size(); ++i)
+      sum += a[i] * b[i];
+    return sum;
+  }
+
+  bool LinearModel::Row::rigid() const
+  {
+    return std::isinf(stiffness);
+  }
+
+  LinearModel::LinearModel(const taut::StepView &view, const double frequency)
+      : frequency(frequency)
+  {
+    for (std::size_t k = 0; k < view.structure.size(); ++k)
+    {
+      const taut::Substructure &body = view.structure[k];
+      if (!body.is_linear())
+        throw std::runtime_error("body " + body.name() + " is not linear");
+      number.emplace_back(body.n_dofs(), 0);
+      for (const unsigned int dof : body.constrained_dofs())
+        number[k][dof] = -1;
+      for (unsigned int i = 0; i < body.n_dofs(); ++i)
+        if (number[k][i] == 0)
+        {
+          number[k][i] = static_cast<int>(free.size());
+          free.push_back({k, i});
+          is_length.push_back(body.kind(i) == 0);
+        }
+    }
+    add_matrices(view);
+    find_loads(view);
+    add_rows(view);
+    start = displacement(view);
+    start_velocity = velocity(view);
+  }
+
+  void LinearModel::add_matrices(const taut::StepView &view)
+  {
+    for (auto *matrix : {&mass, &damping, &stiffness})
+      matrix->reinit(size(), size());
+    for (std::size_t k = 0; k < view.structure.size(); ++k)
+    {
+      const taut::Substructure &body = view.structure[k];
+      const auto add = [&](const taut::SymmetricMatrix &from, dealii::FullMatrix<double> &to)
+      {
+        from.visit(
+            [&](const unsigned int i, const unsigned int j, const double value)
+            {
+              const int a = number[k][i], b = number[k][j];
+              if (a < 0 || b < 0)
+                return;
+              to(a, b) += value;
+              if (a != b)
+                to(b, a) += value;
+            });
+      };
+      add(body.mass(), mass);
+      add(body.damping(), damping);
+      add(body.stiffness(), stiffness);
+    }
+  }
+
+  Vector LinearModel::load(const taut::StepView &view, const double t) const
+  {
+    taut::BodyVectors P(view.structure.size());
+    for (std::size_t k = 0; k < P.size(); ++k)
+      view.structure[k].external_force(t, P[k]);
+    return gather(P);
+  }
+
+  void LinearModel::find_loads(const taut::StepView &view)
+  {
+    const double period = frequency > 0. ? 2. * std::acos(-1.) / frequency : 1.;
+    const Vector at_start = load(view, 0.), quarter = load(view, .25 * period),
+                 half = load(view, .5 * period), other = load(view, .37 * period);
+    const double c = std::cos(.37 * period * frequency), s = std::sin(.37 * period * frequency);
+    for (std::size_t i = 0; i < size(); ++i)
+    {
+      constant_load.push_back(.5 * (at_start[i] + half[i]));
+      cosine_load.push_back(frequency > 0. ? at_start[i] - constant_load[i] : 0.);
+      sine_load.push_back(frequency > 0. ? quarter[i] - constant_load[i] : 0.);
+      const double expected = constant_load[i] + c * cosine_load[i] + s * sine_load[i];
+      if (std::fabs(other[i] - expected) > 1e-9 * (std::fabs(at_start[i]) + std::fabs(quarter[i])))
+        throw std::runtime_error("a load is no constant and one frequency");
+    }
+  }
+
+  void LinearModel::add_rows(const taut::StepView &view)
+  {
+    for (std::size_t i = 0; i < view.constraints.size(); ++i)
+      has_moving = has_moving || view.constraints[i].moving || view.constraints[i].direction;
+    if (has_moving)
+      return;
+    for (std::size_t i = 0; i < view.constraints.size(); ++i)
+    {
+      const taut::ConstraintData &data = view.constraints[i];
+      Row row = {Vector(size(), 0.), data.gap,     data.unilateral,
+                 data.stiffness,     data.damping, data.law};
+      for (const taut::Term &term : data.terms)
+        for (std::size_t j = 0; j < term.form.index.size(); ++j)
+          if (const int a = number[term.substructure][term.form.index[j]]; a >= 0)
+            row.terms[a] += term.form.value[j];
+      rows.push_back(row);
+    }
+  }
+
+  Vector LinearModel::gather(const taut::BodyVectors &values) const
+  {
+    Vector result;
+    for (const Dof &dof : free)
+      result.push_back(values[dof.body][dof.index]);
+    return result;
+  }
+
+  Vector LinearModel::displacement(const taut::StepView &view) const
+  {
+    Vector result = gather(view.state.U);
+    const Vector reference = gather(view.reference.displacement);
+    for (std::size_t i = 0; i < result.size(); ++i)
+      result[i] += reference[i];
+    return result;
+  }
+
+  Vector LinearModel::velocity(const taut::StepView &view) const
+  {
+    return gather(view.state.V);
+  }
+
+  double LinearModel::kinetic(const Vector &v) const
+  {
+    return .5 * mass.matrix_norm_square(dealii::Vector<double>(v.begin(), v.end()));
+  }
+
+  double LinearModel::potential(const Vector &u) const
+  {
+    return .5 * stiffness.matrix_norm_square(dealii::Vector<double>(u.begin(), u.end())) -
+           dot(constant_load, u);
+  }
+
+  Vector LinearModel::places(const Vector &u) const
+  {
+    Vector result;
+    for (std::size_t i = 0; i < u.size(); ++i)
+      if (is_length[i])
+        result.push_back(u[i]);
+    return result;
+  }
+} // namespace hunt

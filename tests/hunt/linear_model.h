@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_hunt_linear_model_h
+#define taut_hunt_linear_model_h
+
+#include "history.h"
+
+#include <taut/output/observer.h>
+
+#include <deal.II/lac/full_matrix.h>
+
+#include <memory>
+#include <vector>
+
+namespace hunt
+{
+  using Vector = std::vector<double>;
+
+  /**
+   * A scene of linear bodies in dense matrices, free DoFs only:
+   *
+   *     M u" + C u' + K u = P0 + Pc cos(w t) + Ps sin(w t) + B N.
+   *
+   * The discretisation in space is the program's, so that what differs is the integration in time.
+   */
+  struct LinearModel
+  {
+    /// From the start of a run. @p frequency is that of its loads, 0 if they are constant [rad/s].
+    /// Throws std::runtime_error if a load has another course, or if a body is not linear.
+    LinearModel(const taut::StepView &start, double frequency);
+
+    /// A constraint, D = terms . u + gap, see taut::ConstraintData.
+    struct Row
+    {
+      Vector terms;
+      double gap;
+      bool unilateral;
+      double stiffness, damping;
+      std::shared_ptr<const taut::ForceLaw> law;
+
+      bool rigid() const;
+    };
+
+    std::size_t size() const { return free.size(); }
+
+    /// The free DoFs of a vector of the bodies, displacements counted from the undeformed ones.
+    Vector displacement(const taut::StepView &view) const;
+    Vector velocity(const taut::StepView &view) const;
+
+    /// Kinetic energy, and strain energy less the work of the constant loads; no links [J].
+    double kinetic(const Vector &v) const;
+    double potential(const Vector &u) const;
+
+    /// Those of @p u that are lengths.
+    Vector places(const Vector &u) const;
+
+    dealii::FullMatrix<double> mass, damping, stiffness;
+    Vector constant_load, cosine_load, sine_load;
+    double frequency;
+    std::vector<Row> rows; ///< the fixed ones; empty if a constraint moves
+    bool has_moving = false;
+    Vector start, start_velocity;
+
+  private:
+    struct Dof
+    {
+      std::size_t body;
+      unsigned int index;
+    };
+    Vector gather(const taut::BodyVectors &values) const;
+    Vector load(const taut::StepView &view, double t) const;
+    void find_loads(const taut::StepView &view);
+    void add_matrices(const taut::StepView &view);
+    void add_rows(const taut::StepView &view);
+
+    std::vector<Dof> free;
+    std::vector<std::vector<int>> number; ///< of each DoF of a body among the free ones, or -1
+    std::vector<char> is_length;
+  };
+
+  double dot(const Vector &a, const Vector &b);
+} // namespace hunt
+
+#endif

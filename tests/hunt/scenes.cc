@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "draft.h"
+
+#include <cmath>
+
+namespace hunt
+{
+  void add_load(Draft &draft, const std::string &on, const double force)
+  {
+    const double frequency = short_number(draft.random.uniform(.5, 8.) / draft.scales.t);
+    const bool varies = draft.random.chance(.5);
+    if (varies)
+      draft.scene.frequency = frequency;
+    draft.text.add("Load", "push",
+                   {{"On", on},
+                    {"Direction", "0, 1"},
+                    {"Magnitude", draft.draw(force, -1., 1.) +
+                                      (varies ? "*sin(" + number(frequency) + "*t)" : "")}});
+  }
+
+  void add_stop(Draft &draft, const std::string &name, const std::string &on, const Entries &spring,
+                const bool is_stop)
+  {
+    Entries entries = {{"Type", is_stop ? "stop" : "dropper"},
+                       {"From", "ground"},
+                       {"To", on},
+                       {"Direction", is_stop ? "0, 1" : "0, -1"},
+                       {"Gap", draft.draw(draft.scales.l, .05, 1.)}};
+    entries.insert(entries.end(), spring.begin(), spring.end());
+    draft.text.add("Link", name, entries);
+    draft.scene.reach = 20. * draft.scales.l;
+  }
+
+  Entries elastic(Draft &draft)
+  {
+    return {{"Stiffness", draft.draw_decades(draft.scales.k(), softest, stiffest)}};
+  }
+
+  namespace
+  {
+    /// Masses one above the other, the first at the bottom, on springs between them; it falls.
+    void add_chain(Draft &draft, const int n, const bool held, const bool alike = false)
+    {
+      const Scales &s = draft.scales;
+      const double common = -draft.random.uniform(.5, 2.);
+      for (int i = 0; i < n; ++i)
+      {
+        const std::string name = "m" + std::to_string(i);
+        const double own = i == 0 ? common : draft.random.uniform(-2., 1.),
+                     speed = alike ? common : own;
+        draft.text.add("Mass", name,
+                       {{"Position", "0, " + number(10. * i * s.l)},
+                        {"Motions", "y"},
+                        {"Mass", draft.draw_decades(s.m, -.5, .5)},
+                        {"Initial velocity", "0, " + number(short_number(speed * s.v())) + ", 0"}});
+        if (i == 0 && !held)
+          continue;
+        Entries spring = {{"From", i == 0 ? "ground" : "m" + std::to_string(i - 1)},
+                          {"To", name},
+                          {"Stiffness", draft.draw_decades(s.k(), -1, 1.3)}};
+        if (draft.random.chance(.4))
+          spring.emplace_back("Damping", draft.draw_decades(s.m / s.t, -2, 0));
+        draft.text.add("Spring", "s" + std::to_string(i), spring);
+      }
+      draft.text.set("", "Start", "given");
+      const bool falls = draft.random.chance(.5);
+      draft.text.set("", "Gravity", falls ? "0, -" + draft.draw(s.g(), .2, 2.) : "0, 0");
+    }
+
+    HuntScene smooth_masses(Draft draft)
+    {
+      const int n = draft.random.integer(1, 4);
+      const bool rigid = draft.random.chance(.5); // the ends then move alike at the start
+      add_chain(draft, n, true, rigid);
+      add_load(draft, "m0", draft.scales.f());
+      if (n > 1 && draft.random.chance(.7))
+      {
+        Entries joint = {{"Type", "joint"},
+                         {"From", "m0"},
+                         {"To", "m" + std::to_string(n - 1)},
+                         {"Direction", "0, 1"}};
+        if (!rigid)
+          joint.emplace_back("Stiffness", draft.draw_decades(draft.scales.k(), softest, 4));
+        draft.text.add("Link", "tie", joint);
+      }
+      draft.set_time(step_decades, 1.5, 4.);
+      return draft.finish();
+    }
+
+    HuntScene elastic_stop(Draft draft)
+    {
+      add_chain(draft, draft.random.integer(1, 3), draft.random.chance(.5));
+      add_stop(draft, "floor", "m0", elastic(draft));
+      draft.set_time(step_decades, 1.5, 4.);
+      return draft.finish();
+    }
+
+    HuntScene rigid_stop(Draft draft)
+    {
+      add_chain(draft, draft.random.integer(1, 3), draft.random.chance(.5));
+      add_stop(draft, "floor", "m0", {}, draft.random.chance(.7));
+      if (draft.random.chance(.5))
+      {
+        draft.scene.restitution = short_number(draft.random.uniform(.1, 1.));
+        draft.text.set("subsection Time\nsubsection Moreau-Jean", "Restitution",
+                       number(draft.scene.restitution));
+      }
+      draft.set_time(step_decades, 1.5, 4.);
+      return draft.finish();
+    }
+
+    HuntScene damped_stop(Draft draft)
+    {
+      add_chain(draft, draft.random.integer(1, 2), draft.random.chance(.5));
+      const double k = short_number(draft.scales.k() * draft.random.decades(softest, stiffest)),
+                   critical = 2. * std::sqrt(k * draft.scales.m);
+      add_stop(draft, "floor", "m0",
+               {{"Stiffness", number(k)}, {"Damping", draft.draw_decades(critical, -2, .5)}});
+      draft.set_time(step_decades, 1.5, 4.);
+      return draft.finish();
+    }
+
+    HuntScene several_links(Draft draft)
+    {
+      const int n = draft.random.integer(2, 3);
+      add_chain(draft, n, draft.random.chance(.5));
+      const int n_links = draft.random.integer(2, 4);
+      for (int i = 0; i < n_links; ++i)
+      {
+        const bool rigid = draft.random.chance(.3);
+        add_stop(draft, "stop" + std::to_string(i),
+                 "m" + std::to_string(draft.random.integer(0, n - 1)),
+                 rigid ? Entries{} : elastic(draft), draft.random.chance(.7));
+      }
+      if (draft.random.chance(.5))
+        draft.text.add("Link", "between",
+                       {{"Type", "stop"},
+                        {"From", "m0"},
+                        {"To", "m1"},
+                        {"Direction", "0, 1"},
+                        {"Stiffness", elastic(draft).front().second},
+                        {"Gap", draft.draw(draft.scales.l, .05, 1.)}});
+      draft.set_time(step_decades, 1.5, 4.);
+      return draft.finish();
+    }
+
+    HuntScene law(Draft draft)
+    {
+      const Scales &s = draft.scales;
+      add_chain(draft, draft.random.integer(1, 2), draft.random.chance(.5));
+      const double k = s.k() * draft.random.decades(-1, 6), u = s.l / std::sqrt(k / s.k());
+      if (draft.random.chance(.5))
+      {
+        const double f1 = .3 * k * u, f2 = f1 + .7 * u * k * draft.random.decades(-1, 1.5);
+        add_stop(
+            draft, "floor", "m0",
+            {{"Law", "table"},
+             {"Law points", number(short_number(.3 * u)) + ": " + number(short_number(f1)) + ", " +
+                                number(short_number(u)) + ": " + number(short_number(f2))}});
+      }
+      else
+        add_stop(draft, "floor", "m0",
+                 {{"Law", "formula"},
+                  {"Law formula",
+                   number(short_number(k)) + "*d + " + number(short_number(k / (u * u))) + "*d^3"},
+                  {"Law range", number(short_number(10. * u))}});
+      draft.set_time(step_decades, 1.5, 4.);
+      return draft.finish();
+    }
+
+    HuntScene adaptive(Draft draft)
+    {
+      add_chain(draft, draft.random.integer(1, 3), draft.random.chance(.5));
+      add_stop(draft, "floor", "m0", draft.random.chance(.3) ? Entries{} : elastic(draft));
+      draft.set_time(step_decades - 1., 1.5, 4.);
+      draft.text.set("subsection Time", "Step control", "adaptive");
+      return draft.finish();
+    }
+
+    HuntScene turning_rope(Draft draft)
+    {
+      const Scales &s = draft.scales;
+      Pendulum &p = draft.scene.pendulum;
+      p.mass = s.m;
+      p.length = s.l;
+      p.gravity = s.g();
+      p.stiffness = short_number(s.k() * draft.random.decades(0, 6));
+      const double angle = draft.random.uniform(-1.5, 1.5), slack = draft.random.uniform(.7, 1.);
+      p.start = {short_number(slack * s.l * std::sin(angle)),
+                 short_number(-slack * s.l * std::cos(angle)), 0., 0.};
+      draft.text.add("Mass", "bob",
+                     {{"Position", number(p.start[0]) + ", " + number(p.start[1])},
+                      {"Motions", "x, y"},
+                      {"Mass", number(p.mass)}});
+      draft.text.add("Link", "rope",
+                     {{"Type", "dropper"},
+                      {"From", "ground @ 0, 0"},
+                      {"To", "bob"},
+                      {"Turns", "true"},
+                      {"Length", number(p.length)},
+                      {"Stiffness", number(p.stiffness)}});
+      draft.text.set("", "Start", "undeformed");
+      draft.text.set("", "Gravity", "0, -" + number(p.gravity));
+      draft.scene.kind = ReferenceKind::pendulum;
+      draft.set_time(step_decades, 1.5, 4.);
+      return draft.finish();
+    }
+
+    struct Family
+    {
+      const char *name;
+      HuntScene (*make)(Draft);
+    };
+
+    constexpr Family all[] = {{"smooth masses", smooth_masses},
+                              {"elastic stop", elastic_stop},
+                              {"rigid stop", rigid_stop},
+                              {"damped stop", damped_stop},
+                              {"several links", several_links},
+                              {"law", law},
+                              {"adaptive steps", adaptive},
+                              {"smooth wire", smooth_wire},
+                              {"wire on elastic stop", wire_on_stop},
+                              {"wire on rigid stop", wire_on_rigid_stop},
+                              {"moving contact", moving_contact},
+                              {"turning rope", turning_rope}};
+  } // namespace
+
+  const std::vector<std::string> &families()
+  {
+    static const std::vector<std::string> names = []
+    {
+      std::vector<std::string> result;
+      for (const Family &family : all)
+        result.emplace_back(family.name);
+      return result;
+    }();
+    return names;
+  }
+
+  HuntScene make_scene(const std::uint64_t seed, const std::size_t number)
+  {
+    Random random(seed * 1000003 + number);
+    const Family &family = all[number % families().size()];
+    const Scales scales = draw_scales(random);
+    HuntScene scene = family.make({random, scales});
+    scene.family = family.name;
+    return scene;
+  }
+} // namespace hunt

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "draft.h"
+
+namespace hunt
+{
+  namespace
+  {
+    /// A wire of few elements along x; waves cross it in about the time scale.
+    double add_wire(Draft &draft, const std::string &kind, const bool moves = true)
+    {
+      const Scales &s = draft.scales;
+      const double length = short_number(100. * s.l), mu = short_number(s.m / length),
+                   tension = short_number(mu * length * length / (s.t * s.t));
+      const int n = draft.random.integer(4, 8);
+      Entries wire = {{"From", "0, 0"},
+                      {"To", number(length) + ", 0"},
+                      {"Components", kind},
+                      {"Mass per length", number(mu)},
+                      {"Element size", number(length / n)}};
+      if (kind == "bar")
+        wire.emplace_back("Axial stiffness", number(tension));
+      if (kind == "string" || (kind == "beam" && draft.random.chance(.5)))
+        wire.emplace_back("Tension", number(tension));
+      if (kind == "beam")
+        wire.emplace_back("Bending stiffness",
+                          draft.draw_decades(tension * length * length, -3, -1));
+      else
+        wire.emplace_back("Degree", std::to_string(draft.random.integer(1, 2)));
+      if (draft.random.chance(.4))
+        wire.emplace_back("Mass damping", draft.draw(1. / s.t, .01, .5));
+      const std::string along = kind == "bar" ? "axial" : "transverse",
+                        shape = kind == "bar" ? "" : "*sin(pi*s/" + number(length) + ")";
+      if (moves)
+        wire.emplace_back("Initial " + along + " velocity",
+                          "-" + draft.draw(s.v(), .5, 2.) + shape);
+      draft.text.add("Wire", "wire", wire);
+      if (kind != "bar")
+        draft.text.add("Support", "ends",
+                       {{"Wire", "wire"}, {"Positions", "0, " + number(length)}});
+      if (moves)
+        draft.text.set("", "Start", "given");
+      draft.text.set("", "Gravity", "0, 0");
+      return length;
+    }
+
+    std::string kind_of_wire(Draft &draft)
+    {
+      return draft.random.chance(.5) ? "string" : "beam";
+    }
+  } // namespace
+
+  HuntScene smooth_wire(Draft draft)
+  {
+    const bool moves = draft.random.chance(.5);
+    const double length = add_wire(draft, kind_of_wire(draft), moves);
+    add_load(draft, "wire @ " + number(short_number(.3 * length)), 10. * draft.scales.f());
+    if (!moves)
+    {
+      draft.text.add("Mass", "weight",
+                     {{"Position", number(.5 * length) + ", 0"},
+                      {"Motions", "y"},
+                      {"Mass", draft.draw_decades(draft.scales.m, -1, 1)}});
+      draft.text.add("Link", "hanger",
+                     {{"Type", "joint"},
+                      {"From", "weight"},
+                      {"To", "wire @ " + number(.5 * length)},
+                      {"Direction", "0, 1"}});
+      draft.text.set("", "Start", "undeformed");
+    }
+    draft.set_time(step_decades_of_wires, 1., 2.5);
+    return draft.finish();
+  }
+
+  HuntScene wire_on_stop(Draft draft)
+  {
+    const double length = add_wire(draft, kind_of_wire(draft));
+    add_stop(draft, "stop", "wire @ " + number(.5 * length), elastic(draft),
+             draft.random.chance(.6));
+    draft.set_time(step_decades_of_wires, 1., 2.5);
+    return draft.finish();
+  }
+
+  HuntScene wire_on_rigid_stop(Draft draft)
+  {
+    const int kind = draft.random.integer(0, 2);
+    const double length = add_wire(draft, kind == 0 ? "bar" : kind == 1 ? "string" : "beam");
+    if (kind == 0)
+      draft.text.add("Link", "wall",
+                     {{"Type", "stop"},
+                      {"From", "ground"},
+                      {"To", "wire @ 0"},
+                      {"Direction", "1, 0"},
+                      {"Gap", draft.draw(draft.scales.l, .05, .5)}});
+    else
+      add_stop(draft, "stop", "wire @ " + number(.5 * length), {});
+    draft.set_time(step_decades_of_wires, 1., 2.5);
+    return draft.finish();
+  }
+
+  /// A mass that is pushed against a wire and moves along it.
+  HuntScene moving_contact(Draft draft)
+  {
+    const Scales &s = draft.scales;
+    const double length = add_wire(draft, "beam", false);
+    draft.text.add("Mass", "head",
+                   {{"Position", number(.2 * length) + ", " + number(-s.l)},
+                    {"Motions", "y"},
+                    {"Mass", draft.draw_decades(s.m, -1, 0)}});
+    draft.text.add("Load", "lift",
+                   {{"On", "head"}, {"Direction", "0, 1"}, {"Magnitude", draft.draw(s.f(), 1, 5)}});
+    Entries contact = {{"Type", "sliding contact"},
+                       {"From", "head"},
+                       {"To", "wire @ " + number(.2 * length)},
+                       {"Direction", "0, 1"},
+                       {"Speed", number(short_number(.2 * length / s.t))}};
+    if (draft.random.chance(.7))
+      contact.emplace_back("Stiffness", draft.draw_decades(s.k(), 0, 5));
+    draft.text.add("Link", "collector", contact);
+    draft.text.set("subsection Statistics", "Filter frequency", "0");
+    draft.scene.kind = ReferenceKind::program;
+    draft.set_time(2., 1., 2.5);
+    return draft.finish();
+  }
+} // namespace hunt
