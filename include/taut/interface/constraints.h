@@ -87,7 +87,8 @@ namespace taut
   class Constraints
   {
   public:
-    /// @p structure is kept by reference.
+    /// @p structure is kept by reference. Called by all ranks together; throws EntryError, which
+    /// names the constraint, for one that does not fit, see check_constraint().
     Constraints(const Structure &structure, std::vector<ConstraintData> constraints);
 
     std::size_t size() const { return constraints.size(); }
@@ -97,7 +98,7 @@ namespace taut
     const ConstraintData &operator[](std::size_t i) const { return constraints[i]; }
 
     /// Puts the moving constraints where they are at time t [s]. Throws UserError when one leaves
-    /// its wire.
+    /// its wire, or its place gives a form or a gap that does not fit.
     void update(double t);
 
     /// Before a step to time @p end [s] from @p start, where the bodies have displacements
@@ -195,6 +196,7 @@ namespace taut
     std::vector<char> acts_on(std::vector<unsigned int> (Substructure::*dofs)() const) const;
     void append(std::size_t i);
     void append_varying();
+    void place(std::size_t i, double t);
 
     const Structure &structure;
     std::vector<ConstraintData> constraints;
