@@ -58,18 +58,20 @@ namespace door
 
   namespace
   {
-    /// What System::add() refuses, of a constraint on mass 0 of a chain.
-    void make_bad_constraint(Calls &calls, taut::System &system, const std::size_t chain)
+    using Mistakes = std::vector<std::pair<std::string, std::function<Constraint()>>>;
+
+    const std::string bad_link = "bad link";
+
+    /// Numbers of a constraint that System::add() refuses.
+    void make_bad_numbers(Calls &calls, taut::System &system, const std::size_t chain)
     {
       const taut::Displacement up = system.displacement(chain, {}, {0., 1., 0.});
+      const taut::LinkEnd end = system.link_end(chain, {}, {0., 0., 0.}), above{{0., 1., 0.}};
       const auto law = std::make_shared<taut::TableLaw>(
           std::vector<std::pair<double, double>>{{.1, 10.}, {.2, 40.}});
-      const std::string name = "bad link";
-      const auto good = [&] { return Constraint::unilateral(name, up); };
-      taut::Displacement spoilt = up;
-      taut::LinkEnd end = system.link_end(chain, {}, {0., 0., 0.});
       const double bad = calls.bad_number(), negative = -calls.between(1e-9, 1e9);
-      const std::vector<std::pair<std::string, std::function<Constraint()>>> list = {
+      const auto good = [&] { return Constraint::unilateral(bad_link, up); };
+      const Mistakes list = {
           {"negative stiffness", [&] { return good().stiffness(negative); }},
           {"zero stiffness", [&] { return good().stiffness(0.); }},
           {"stiffness NaN", [&] { return good().stiffness(not_a_number); }},
@@ -79,80 +81,52 @@ namespace door
           {"damping of a rigid one", [&] { return good().damping(1.); }},
           {"no law", [&] { return good().law(nullptr); }},
           {"law and stiffness", [&] { return good().law(law).stiffness(7.); }},
-          {"law of a bilateral one", [&] { return Constraint::bilateral(name, up).law(law); }},
+          {"law of a bilateral one", [&] { return Constraint::bilateral(bad_link, up).law(law); }},
+          {"length", [&] { return Constraint::rope(bad_link, above, end, negative); }},
+          {"length NaN", [&] { return Constraint::prop(bad_link, above, end, not_a_number); }},
+          {"infinite length", [&] { return Constraint::rod(bad_link, above, end, infinite); }},
+          {"ends at one place", [&] { return Constraint::rod(bad_link, {{}}, end, 1.); }},
+          {"place of an end",
+           [&] {
+             return Constraint::rod(bad_link, {{0., bad, 0.}}, end, 1.);
+           }},
+          {"gap of a rope", [&] { return Constraint::rope(bad_link, above, end, 1.).gap(.1); }}};
+      const auto &[what, make] = list[calls.below(list.size())];
+      calls.refuse(what, bad_link, [&] { system.add(make()); });
+    }
+
+    /// Forms of a constraint that System::add() refuses.
+    void make_bad_form(Calls &calls, taut::System &system, const std::size_t chain)
+    {
+      taut::Displacement form = system.displacement(chain, {}, {0., 1., 0.});
+      taut::LinkEnd end = system.link_end(chain, {}, {0., 0., 0.});
+      const taut::LinkEnd above{{0., 1., 0.}}, below{{0., -1., 0.}};
+      const std::size_t foreign = 1000 + calls.below(1000000);
+      const std::string &name = bad_link;
+      taut::System other;
+      const std::size_t body =
+          other.add("other", [] { return std::make_unique<Bob>("other", 1.); });
+      const taut::Displacement of_other = other.displacement(body, {}, {0., 1., 0.});
+      taut::Displacement foreign_body = form, foreign_dof = form, ragged = form, value = form;
+      foreign_body[0].substructure = foreign;
+      foreign_dof[0].form.index[0] = static_cast<unsigned int>(foreign);
+      ragged[0].form.value.clear();
+      value[0].form.value[0] = calls.bad_number();
+      end.motion[1][0].substructure = foreign;
+      const Mistakes list = {
           {"no place", [&] { return Constraint::unilateral(name, nullptr); }},
           {"empty", [&] { return Constraint::bilateral(name, {}); }},
           {"empty form",
            [&] {
              return Constraint::bilateral(name, {{0, {}}});
            }},
-          {"foreign body",
-           [&]
-           {
-             spoilt[0].substructure = system.n_bodies() + calls.below(1000000);
-             return Constraint::unilateral(name, spoilt);
-           }},
-          {"foreign DoF",
-           [&]
-           {
-             spoilt[0].form.index[0] = 1000 + calls.below(1000000);
-             return Constraint::unilateral(name, {}, spoilt);
-           }},
-          {"ragged form",
-           [&]
-           {
-             spoilt[0].form.value.clear();
-             return Constraint::unilateral(name, spoilt);
-           }},
-          {"value",
-           [&]
-           {
-             spoilt[0].form.value[0] = bad;
-             return Constraint::bilateral(name, spoilt);
-           }},
-          {"length",
-           [&] {
-             return Constraint::rope(name, {{0., 1., 0.}}, end, negative);
-           }},
-          {"length NaN",
-           [&] {
-             return Constraint::prop(name, {{0., 1., 0.}}, end, not_a_number);
-           }},
-          {"infinite length",
-           [&] {
-             return Constraint::rod(name, {{0., 1., 0.}}, end, infinite);
-           }},
-          {"ends at one place",
-           [&] {
-             return Constraint::rod(name, {{0., 0., 0.}}, end, 1.);
-           }},
-          {"place of an end",
-           [&] {
-             return Constraint::rod(name, {{0., bad, 0.}}, end, 1.);
-           }},
-          {"both ends stand",
-           [&] {
-             return Constraint::rope(name, {{0., 0., 0.}}, {{1., 0., 0.}}, 1.);
-           }},
-          {"gap of a rope",
-           [&] {
-             return Constraint::rope(name, {{0., 1., 0.}}, end, 1.).gap(.1);
-           }},
-          {"foreign end",
-           [&]
-           {
-             end.motion[1][0].substructure += 5000;
-             return Constraint::rope(name, {{0., 1., 0.}}, end, 1.);
-           }},
-          {"form on another system",
-           [&]
-           {
-             taut::System other;
-             const std::size_t body =
-                 other.add("other", [] { return std::make_unique<Bob>("other", 1.); });
-             return Constraint::unilateral(name, other.displacement(body, {}, {0., 1., 0.}));
-           }},
-      };
+          {"foreign body", [&] { return Constraint::unilateral(name, foreign_body); }},
+          {"foreign DoF", [&] { return Constraint::unilateral(name, {}, foreign_dof); }},
+          {"ragged form", [&] { return Constraint::unilateral(name, ragged); }},
+          {"value", [&] { return Constraint::bilateral(name, value); }},
+          {"both ends stand", [&] { return Constraint::rope(name, above, below, 1.); }},
+          {"foreign end", [&] { return Constraint::rope(name, above, end, 1.); }},
+          {"form on another system", [&] { return Constraint::unilateral(name, of_other); }}};
       const auto &[what, make] = list[calls.below(list.size())];
       calls.refuse(what, name, [&] { system.add(make()); });
     }
@@ -215,7 +189,7 @@ namespace door
     const taut::Coordinates up = {0., 1., 0.};
     const std::string number = "number " + std::to_string(foreign);
     const double bad = calls.bad_number();
-    switch (calls.below(10))
+    switch (calls.below(12))
     {
     case 0:
       calls.refuse("displacement", number, [&] { system.displacement(foreign, {}, up); });
@@ -238,79 +212,91 @@ namespace door
     case 6:
       ask_bad_body(calls);
       break;
+    case 7:
+    case 8:
+      make_bad_form(calls, system, chain);
+      break;
     default:
-      make_bad_constraint(calls, system, chain);
+      make_bad_numbers(calls, system, chain);
     }
     if (system.n_bodies() != n_bodies || system.n_constraints() != n_constraints)
       throw Failure("a call that was refused left a trace");
   }
 
+  namespace
+  {
+    /// Of the scheme, with a part of the message.
+    std::string spoil_scheme(Calls &calls, taut::StepperOptions &options)
+    {
+      static const std::pair<std::string, std::string> entries[] = {
+          {"Moreau-Jean/Thta", "0.5"},
+          {"Moreau-Jean/Theta", "0.2"},
+          {"Moreau-Jean/Theta", "nan"},
+          {"Moreau-Jean/Theta", "much"},
+          {"Theta", "0.5"},
+          {"", ""},
+          {"/", "1"},
+          {"Newmark/Beta", "0.25"},
+          {"Moreau-Jean/Conditions", "x"},
+          {"Moreau-Jean/Restitution", "2"}};
+      const auto &[path, value] = entries[calls.below(sizeof(entries) / sizeof(entries[0]))];
+      switch (calls.below(4))
+      {
+      case 0:
+        options.scheme = "Moreau-Jaen";
+        return "did you mean 'Moreau-Jean'";
+      case 1:
+        options.scheme_entries["Newmark/Beta"] = "0.25";
+        return "Newmark/Beta";
+      case 2:
+        options.scheme = "Newmark";
+        options.restitution = .5;
+        return "StepperOptions::restitution";
+      default:
+        options.scheme = "Moreau-Jean";
+        options.scheme_entries[path] = value;
+        return "'" + path + "'";
+      }
+    }
+
+    std::string spoil_solver(Calls &calls, taut::SolverParameters &solver)
+    {
+      std::string *const names[] = {&solver.local_solver, &solver.complementarity,
+                                    &solver.interface.form, &solver.interface.preconditioner,
+                                    &solver.interface.coarse_space};
+      const std::size_t k = calls.below(6);
+      if (k == 5)
+      {
+        solver.contact_tolerance = calls.below(2) == 0 ? calls.bad_number() : -1.;
+        return "Contact tolerance";
+      }
+      *names[k] = "best";
+      return "'best'";
+    }
+  } // namespace
+
   void make_mistake_with_options(Calls &calls, const taut::System &system)
   {
+    static const double steps[] = {0.,       -1.,       -1e-3,  not_a_number,
+                                   infinite, -infinite, 1e-320, 1e200},
+                        ratios[] = {-1e-9, 1.1, not_a_number, infinite, -1.};
     taut::StepperOptions options;
     std::string name;
-    static const double bad_steps[] = {0.,       -1.,       -1e-3,  not_a_number,
-                                       infinite, -infinite, 1e-320, 1e200};
-    static const double bad_ratios[] = {-1e-9, 1.1, not_a_number, infinite, -1.};
-    static const std::pair<std::string, std::string> bad_entries[] = {
-        {"Moreau-Jean/Thta", "0.5"},
-        {"Moreau-Jean/Theta", "0.2"},
-        {"Moreau-Jean/Theta", "nan"},
-        {"Moreau-Jean/Theta", "much"},
-        {"Theta", "0.5"},
-        {"", ""},
-        {"/", "1"},
-        {"Newmark/Beta", "0.25"},
-        {"Moreau-Jean/Conditions", "x"},
-        {"Moreau-Jean/Restitution", "2"}};
-    const std::size_t n_entries = sizeof(bad_entries) / sizeof(bad_entries[0]);
-    switch (calls.below(9))
+    switch (calls.below(4))
     {
     case 0:
-      options.step = bad_steps[calls.below(8)];
+      options.step = steps[calls.below(8)];
       name = "StepperOptions::step";
       break;
     case 1:
-      options.restitution = bad_ratios[calls.below(5)];
+      options.restitution = ratios[calls.below(5)];
       name = "StepperOptions::restitution";
       break;
     case 2:
-      options.scheme = "Moreau-Jaen";
-      name = "did you mean 'Moreau-Jean'";
-      break;
-    case 3:
-    {
-      const auto &[path, value] = bad_entries[calls.below(n_entries)];
-      options.scheme = "Moreau-Jean";
-      options.scheme_entries[path] = value;
-      name = "'" + path + "'";
-      break;
-    }
-    case 4:
-      options.scheme_entries["Newmark/Beta"] = "0.25";
-      name = "Newmark/Beta";
-      break;
-    case 5:
-      options.scheme = "Newmark";
-      options.restitution = .5;
-      name = "StepperOptions::restitution";
-      break;
-    case 6:
-      options.solver.contact_tolerance = calls.below(2) == 0 ? calls.bad_number() : -1.;
-      name = "Contact tolerance";
-      break;
-    case 7:
-      (calls.below(2) == 0 ? options.solver.local_solver : options.solver.complementarity) = "best";
-      name = "'best'";
+      name = spoil_scheme(calls, options);
       break;
     default:
-    {
-      std::string *const names[] = {&options.solver.interface.form,
-                                    &options.solver.interface.preconditioner,
-                                    &options.solver.interface.coarse_space};
-      *names[calls.below(3)] = "any";
-      name = "'any'";
-    }
+      name = spoil_solver(calls, options.solver);
     }
     calls.refuse("options", name, [&] { taut::Stepper(system, options); });
   }
