@@ -23,7 +23,7 @@ namespace taut
 
   void BodyConstraints::add(const std::size_t constraint)
   {
-    for (const auto &[k, form] : constraints[constraint].terms)
+    for (const auto &[k, form, of] : constraints[constraint].terms)
     {
       if (entries[k].empty() || entries[k].back().constraint != constraint)
         entries[k].push_back({constraint, constraint >= constraints.n_fixed(), {}});

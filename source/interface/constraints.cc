@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
+#include <taut/interface/check_constraint.h>
 #include <taut/interface/constraints.h>
 
 #include <algorithm>
@@ -23,7 +25,32 @@ namespace taut
     for (const ConstraintData &constraint : constraints)
       if (constraint.place)
         constraint.place->set_course({});
+    const auto check = [&](const bool moving)
+    {
+      structure.communicator().agree(
+          [&]
+          {
+            for (const ConstraintData &constraint : constraints)
+              if ((constraint.place != nullptr) == moving)
+                check_constraint(constraint, structure);
+          });
+    };
+    check(false);
     arrange();
+    check(true);
+  }
+
+  /// Puts a constraint that moves where it is at time @p t.
+  void Constraints::place(const std::size_t i, const double t)
+  {
+    ConstraintData &constraint = constraints[i];
+    constraint.terms = constraint.place->terms(t);
+    constraint.gap = constraint.place->gap(t);
+    check_terms(constraint, constraint.terms, structure);
+    if (!std::isfinite(constraint.gap))
+      throw EntryError(constraint.origin,
+                       "constraint '" + constraint.name +
+                           "': its place says no finite gap at t = " + std::to_string(t) + " s");
   }
 
   void Constraints::arrange()
@@ -45,10 +72,7 @@ namespace taut
       if (const TurningDirection *const turning = constraints[i].direction.get())
         constraints[i].gap = turning->gap(turning->start);
       if (i >= first_with_place)
-      {
-        constraints[i].terms = constraints[i].place->terms(0.);
-        constraints[i].gap = constraints[i].place->gap(0.);
-      }
+        place(i, 0.);
       if (constraints[i].link == no_link)
         continue;
       row_index.resize(std::max(row_index.size(), constraints[i].link + 1), no_link);
@@ -72,7 +96,7 @@ namespace taut
   void Constraints::append(const std::size_t i)
   {
     const std::size_t first_size = sizes.size();
-    for (const auto &[k, form] : constraints[i].terms)
+    for (const auto &[k, form, of] : constraints[i].terms)
       for (std::size_t j = 0; j < form.index.size(); ++j)
       {
         const unsigned int body = static_cast<unsigned int>(k), dof = form.index[j],
@@ -108,10 +132,7 @@ namespace taut
   void Constraints::update(const double t)
   {
     for (std::size_t i = first_with_place; i < constraints.size(); ++i)
-    {
-      constraints[i].terms = constraints[i].place->terms(t);
-      constraints[i].gap = constraints[i].place->gap(t);
-    }
+      place(i, t);
     append_varying();
   }
 
@@ -233,6 +254,7 @@ namespace taut
                                           const BodyVectors &reference, const BodyVectors &U) const
   {
     const std::vector<Term> slope = constraints[i].place->rates(t);
+    check_terms(constraints[i], slope, structure);
     return evaluate(slope, reference) + evaluate(slope, U);
   }
 

@@ -12,7 +12,7 @@ namespace taut
         reach(solvers.structure().size()), widest(solvers.structure().size(), 0)
   {
     for (std::size_t i = 0; i < constraints.n_fixed(); ++i)
-      for (const auto &[k, form] : constraints[i].terms)
+      for (const auto &[k, form, of] : constraints[i].terms)
       {
         if (form.index.empty())
           continue;

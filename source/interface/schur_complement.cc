@@ -25,7 +25,7 @@ namespace taut
       double sum = 0.;
       const std::size_t n = std::min(n_samples, constraints.n_fixed());
       for (std::size_t s = 0; s < n; ++s)
-        for (const auto &[k, form] : constraints[s * constraints.n_fixed() / n].terms)
+        for (const auto &[k, form, of] : constraints[s * constraints.n_fixed() / n].terms)
         {
           solvers[k].column(form, column);
           sum += column.value.size();

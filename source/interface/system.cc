@@ -1,11 +1,24 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/interface/check_constraint.h>
 #include <taut/interface/system.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace taut
 {
+  namespace
+  {
+    void check_finite(const Structure &bodies, const std::size_t k, const Coordinates &x,
+                      const std::string &what)
+    {
+      if (!std::isfinite(x.x) || !std::isfinite(x.y) || !std::isfinite(x.z))
+        throw UserError("body '" + bodies[k].name() + "': " + what + " " + text_of(x) +
+                        " is not finite");
+    }
+  } // namespace
+
   Constraint::Constraint(const std::string &name, const bool unilateral, const Displacement &a,
                          const Displacement &b)
   {
@@ -34,6 +47,8 @@ namespace taut
 
   Constraint Constraint::unilateral(const std::string &name, std::shared_ptr<MovingPlace> place)
   {
+    if (!place)
+      throw UserError("constraint '" + name + "' moves, and has no place; hand one over");
     Constraint result(name, true, {}, {});
     result.data.place = std::move(place);
     return result;
@@ -94,6 +109,9 @@ namespace taut
     if (!data.unilateral)
       throw UserError("constraint '" + data.name +
                       "': a law is for a unilateral constraint; give this one a stiffness");
+    if (!value)
+      throw UserError("constraint '" + data.name +
+                      "': it has no law; hand one over, or none at all");
     data.stiffness = value->largest_stiffness();
     data.law = std::move(value);
     return *this;
@@ -115,6 +133,9 @@ namespace taut
   std::size_t System::add(const std::string &name, const unsigned int owner,
                           const Structure::Factory &make)
   {
+    if (owner >= load.size())
+      throw UserError("body '" + name + "': its owner is rank " + std::to_string(owner) +
+                      ", and there are " + std::to_string(load.size()) + ", counted from 0");
     index.push_back(bodies.add(name, owner, make));
     load[owner] += bodies.all_bodies().back().n_dofs;
     return index.size() - 1;
@@ -124,11 +145,19 @@ namespace taut
                                     const Coordinates &direction) const
   {
     Displacement result;
+    const std::size_t k = index_here(body);
     communicator().agree(
         [&]
         {
-          if (index[body] != Structure::elsewhere)
-            result.push_back({index[body], bodies[index[body]].displacement(place, direction)});
+          if (k == Structure::elsewhere)
+            return;
+          check_finite(bodies, k, place, "the place");
+          check_finite(bodies, k, direction, "the direction");
+          result.push_back({k, bodies[k].displacement(place, direction), &bodies[k]});
+          const std::string fault = fault_of(result, bodies);
+          if (!fault.empty())
+            throw UserError("the form that displacement() gives for " + text_of(place) + " " +
+                            fault);
         });
     return result;
   }
@@ -136,12 +165,13 @@ namespace taut
   LinkEnd System::link_end(const std::size_t body, const Coordinates &place) const
   {
     double position[] = {0., 0., 0.};
+    const std::size_t k = index_here(body);
     communicator().agree(
         [&]
         {
-          if (index[body] == Structure::elsewhere)
+          if (k == Structure::elsewhere)
             return;
-          const Coordinates own = bodies[index[body]].position(place);
+          const Coordinates own = bodies[k].position(place);
           for (unsigned int c = 0; c < 3; ++c)
             position[c] = own[c];
         });
@@ -159,14 +189,29 @@ namespace taut
 
   std::size_t System::add(const Constraint &constraint)
   {
-    list.push_back(constraint.constraint());
+    const ConstraintData &data = constraint.constraint();
+    communicator().agree([&] { check_constraint(data, bodies); });
+    if (!communicator().any(acts_here(data)))
+      throw UserError("constraint '" + data.name +
+                      "': it acts on no body, as its displacements are empty or zero; take the "
+                      "displacement() of a place that moves along the direction");
+    list.push_back(data);
     list.back().link = list.size() - 1;
     return list.size() - 1;
   }
 
   const Substructure *System::body(const std::size_t number) const
   {
-    return index[number] == Structure::elsewhere ? nullptr : &bodies[index[number]];
+    const std::size_t k = index_here(number);
+    return k == Structure::elsewhere ? nullptr : &bodies[k];
+  }
+
+  std::size_t System::index_here(const std::size_t body) const
+  {
+    if (body >= index.size())
+      throw UserError("there is no body number " + std::to_string(body) + "; the system has " +
+                      std::to_string(index.size()) + ", counted from 0");
+    return index[body];
   }
 
   Constraints System::constraints() const

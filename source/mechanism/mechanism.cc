@@ -11,8 +11,24 @@ extern "C" void dsyev_(const char *jobz, const char *uplo, const int *n, double 
 
 namespace taut
 {
+  namespace
+  {
+    /// The first member, if all of them are masses of the scene.
+    const Mass &first_of(const Scene &scene, const std::vector<std::size_t> &members)
+    {
+      if (members.empty())
+        throw UserError("a mechanism has no mass; name at least one");
+      for (const std::size_t m : members)
+        if (m >= scene.masses.size())
+          throw UserError("a mechanism has mass number " + std::to_string(m) +
+                          ", and the scene has " + std::to_string(scene.masses.size()) +
+                          ", counted from 0");
+      return scene.masses[members.front()];
+    }
+  } // namespace
+
   Mechanism::Mechanism(const Scene &scene, const std::vector<std::size_t> &members)
-      : Substructure(name_of(scene, members), scene.masses[members.front()].origin)
+      : Substructure(name_of(scene, members), first_of(scene, members).origin)
   {
     for (const std::size_t m : members)
       for (unsigned int motion = 0; motion < 4; ++motion)
@@ -43,7 +59,7 @@ namespace taut
 
   std::string Mechanism::name_of(const Scene &scene, const std::vector<std::size_t> &members)
   {
-    return scene.masses[members.front()].name + (members.size() > 1 ? " and others" : "");
+    return first_of(scene, members).name + (members.size() > 1 ? " and others" : "");
   }
 
   void Mechanism::add_springs(const Scene &scene)

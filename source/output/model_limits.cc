@@ -53,7 +53,7 @@ namespace taut
 
   void ModelLimits::Forms::add(const std::vector<Term> &terms)
   {
-    for (const auto &[k, form] : terms)
+    for (const auto &[k, form, of] : terms)
       for (std::size_t j = 0; j < form.index.size(); ++j)
         if (form.value[j] != 0.)
           entries.push_back({form.value[j], static_cast<unsigned int>(k), form.index[j]});

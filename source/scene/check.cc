@@ -305,14 +305,24 @@ namespace taut
     }
   } // namespace
 
+  void check_wires(const Scene &scene)
+  {
+    for (const Wire &wire : scene.wires)
+      check_wire(wire);
+    check_supports(scene);
+    for (const Load &load : scene.loads)
+      if (load.target.kind == Attachment::Kind::wire && load.kind != Load::Kind::distributed)
+        check_position(scene, load.target.index, load.target.position, load, "On",
+                       "load '" + load.name + "': ");
+  }
+
   void check(const Scene &scene, const double end_time)
   {
     if (scene.wires.empty() && scene.masses.empty() && scene.bodies.empty())
       throw EntryError("", "the scene is empty: name at least one wire or mass");
+    check_values(scene);
     check_names(scene);
-    for (const Wire &wire : scene.wires)
-      check_wire(wire);
-    check_supports(scene);
+    check_wires(scene);
     check_masses(scene);
     check_links(scene, end_time);
     for (const Load &load : scene.loads)

@@ -14,6 +14,7 @@
 #include <deal.II/numerics/data_out.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace taut
@@ -31,6 +32,7 @@ namespace taut
     {
       dealii::Vector<double> own(P.size());
       add_load(t, own);
+      body.check_size(own.size(), "load in time");
       body.condense(own, P);
     }
 
@@ -61,10 +63,10 @@ namespace taut
     }
     const unsigned int n = own_dofs.empty() ? handler.n_dofs() : own_dofs.size();
     forms.resize(n);
-    check_size(mass.m(), "mass matrix");
-    check_size(stiffness.m(), "stiffness matrix");
+    check_matrix(mass, "mass matrix");
+    check_matrix(stiffness, "stiffness matrix");
     if (!damping.empty())
-      check_size(damping.m(), "damping matrix");
+      check_matrix(damping, "damping matrix");
     if (load.size() != 0)
       check_size(load.size(), "load");
     if (!options.kinds.empty())
@@ -118,6 +120,30 @@ namespace taut
                       std::to_string(forms.size()) + " DoFs");
   }
 
+  /// Of the right size, and symmetric, which shows in y . A x = x . A y for two vectors that know
+  /// nothing of the matrix.
+  template <int dim>
+  void FEBody<dim>::check_matrix(const dealii::SparseMatrix<double> &A,
+                                 const std::string &what) const
+  {
+    check_size(A.empty() ? 0 : A.m(), what);
+    check_size(A.n(), what);
+    constexpr double rounding = 1e-8; // of what an assembly may leave, far below what matters
+    dealii::Vector<double> x(A.m()), y(A.m()), Ax(A.m()), Ay(A.m());
+    for (std::size_t i = 0; i < x.size(); ++i)
+    {
+      x[i] = std::sin(1. + i);
+      y[i] = std::cos(2. * i);
+    }
+    A.vmult(Ax, x);
+    A.vmult(Ay, y);
+    const double difference = std::fabs(y * Ax - x * Ay),
+                 size = y.l2_norm() * Ax.l2_norm() + x.l2_norm() * Ay.l2_norm();
+    if (difference > rounding * size)
+      throw UserError("body '" + name() + "': its " + what +
+                      " is not symmetric; a body has symmetric ones");
+  }
+
   template <int dim>
   std::vector<dealii::types::global_dof_index>
   FEBody<dim>::part_dofs(const std::vector<Cell> &cells,
@@ -150,7 +176,8 @@ namespace taut
   template <int dim>
   bool FEBody<dim>::has_dof(const dealii::types::global_dof_index dof) const
   {
-    return own_dofs.empty() || std::binary_search(own_dofs.begin(), own_dofs.end(), dof);
+    return own_dofs.empty() ? dof < forms.size()
+                            : std::binary_search(own_dofs.begin(), own_dofs.end(), dof);
   }
 
   template <int dim>
@@ -189,6 +216,8 @@ namespace taut
   template <int dim>
   void FEBody<dim>::add_load(std::function<void(double, dealii::Vector<double> &)> add)
   {
+    if (!add)
+      throw UserError("body '" + name() + "': a load in time has no function; hand one over");
     time_loads.push_back(std::make_unique<Load>(*this, std::move(add)));
   }
 
@@ -196,6 +225,9 @@ namespace taut
   void FEBody<dim>::add_constant_load(const dealii::Vector<double> &P)
   {
     check_size(P.size(), "load");
+    for (const double force : P)
+      if (!std::isfinite(force))
+        throw UserError("body '" + name() + "': its load is not finite");
     condense(P, constant_force);
   }
 
@@ -205,7 +237,7 @@ namespace taut
   {
     for (const auto &[dof, motion] : motions)
     {
-      const unsigned int own = index(dof);
+      const unsigned int own = has_dof(dof) ? index(dof) : forms.size();
       const auto found =
           std::lower_bound(constrained.begin(), constrained.end(), own,
                            [](const ConstrainedDof &c, const unsigned int i) { return c.dof < i; });
@@ -288,6 +320,8 @@ namespace taut
   template <int dim>
   LinearForm FEBody<dim>::displacement_of_dof(const dealii::types::global_dof_index dof) const
   {
+    if (!has_dof(dof))
+      throw UserError("body '" + name() + "' has no DoF " + std::to_string(dof));
     return forms[index(dof)];
   }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
 #include <taut/substructure/slender_body.h>
 #include <taut/substructure/structure.h>
 
@@ -15,7 +16,11 @@ namespace taut
         {
           if (owner != processes.rank())
             return;
-          substructures.push_back(make());
+          std::shared_ptr<Substructure> body = make ? make() : nullptr;
+          if (!body)
+            throw UserError("body '" + name + "': the function that makes it returns none");
+          body->check_consistency();
+          substructures.push_back(std::move(body));
           index = substructures.size() - 1;
           n_dofs = substructures.back()->n_dofs();
         });
@@ -66,7 +71,7 @@ namespace taut
   double magnitude(const std::vector<Term> &terms, const BodyVectors &U)
   {
     double sum = 0.;
-    for (const auto &[k, form] : terms)
+    for (const auto &[k, form, of] : terms)
       for (std::size_t j = 0; j < form.index.size(); ++j)
         sum += std::fabs(form.value[j] * U[k][form.index[j]]);
     return sum;

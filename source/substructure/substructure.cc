@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace taut
 {
@@ -27,6 +28,17 @@ namespace taut
         if (is_zero[i])
           result.push_back(i);
       return result;
+    }
+
+    [[noreturn]] void refuse(const Substructure &body, const std::string &message)
+    {
+      throw EntryError(body.origin(), "body '" + body.name() + "': " + message);
+    }
+
+    void check_load(const Substructure &body, const std::string &fault)
+    {
+      if (!fault.empty())
+        refuse(body, "a force on it " + fault);
     }
   } // namespace
 
@@ -71,8 +83,16 @@ namespace taut
     V.assign(n_dofs(), 0.);
   }
 
+  void Substructure::require_linear(const char *const function) const
+  {
+    if (!is_linear())
+      throw UserError("body '" + name() + "' says that it is not linear, and does not override " +
+                      function + "(); what Substructure has is for linear bodies");
+  }
+
   double Substructure::strain_energy(const std::vector<double> &U) const
   {
+    require_linear("strain_energy");
     std::vector<double> f(U.size(), 0.);
     K->vmult_add(.5, U.data(), f.data());
     return std::inner_product(U.begin(), U.end(), f.begin(), 0.);
@@ -81,6 +101,7 @@ namespace taut
   void Substructure::internal_force(const std::vector<double> &U, const std::vector<double> &,
                                     std::vector<double> &f) const
   {
+    require_linear("internal_force");
     f.assign(U.size(), 0.);
     K->vmult_add(1., U.data(), f.data());
   }
@@ -89,6 +110,7 @@ namespace taut
                                          const std::vector<double> &U1, double,
                                          std::vector<double> &f) const
   {
+    require_linear("mean_internal_force");
     f.assign(U0.size(), 0.);
     K->vmult_add(.5, U0.data(), f.data());
     K->vmult_add(.5, U1.data(), f.data());
@@ -97,6 +119,7 @@ namespace taut
   std::unique_ptr<SymmetricMatrix> Substructure::tangent(const std::vector<double> &, double,
                                                          bool) const
   {
+    require_linear("tangent");
     return K->clone();
   }
 
@@ -120,16 +143,101 @@ namespace taut
 
   void Substructure::add_force(const LinearForm &form, const double magnitude)
   {
+    check_load(*this, form.fault(constant_force.size()));
+    check_load(*this, std::isfinite(magnitude) ? "" : "has no finite magnitude");
     form.add_to(magnitude, constant_force);
   }
 
   void Substructure::add_force(LinearForm form, std::function<double(double)> magnitude)
   {
-    time_loads.push_back(std::make_unique<PointLoad>(std::move(form), std::move(magnitude)));
+    auto load = std::make_unique<PointLoad>(std::move(form), std::move(magnitude));
+    check_load(*this, load->fault(constant_force.size()));
+    time_loads.push_back(std::move(load));
+  }
+
+  /// Of what a derived class fills.
+  void Substructure::check_sizes() const
+  {
+    const std::pair<const char *, const SymmetricMatrix *> matrices[] = {
+        {"M", M.get()}, {"C", C.get()}, {"K", K.get()}};
+    for (const auto &[letter, matrix] : matrices)
+      if (!matrix)
+        refuse(*this, std::string("it has no matrix ") + letter + "; make one before finish()");
+    const std::size_t n = n_dofs();
+    if (n == 0)
+      refuse(*this, "it has no DoF; leave it out");
+    for (const auto &[letter, matrix] : matrices)
+      if (matrix->size() != n)
+        refuse(*this, std::string("its matrix ") + letter + " has " +
+                          std::to_string(matrix->size()) + " rows, and K has " + std::to_string(n));
+    if (constant_force.size() != n)
+      refuse(*this, "its constant force has " + std::to_string(constant_force.size()) +
+                        " entries, and it has " + std::to_string(n) + " DoFs");
+    if (kinds.empty() || *std::max_element(kinds.begin(), kinds.end()) > 1)
+      refuse(*this, "its kinds of DoFs are 0, a displacement, or 1, a rotation, and at least one");
+    for (const ConstrainedDof &constraint : constrained)
+      if (constraint.dof >= n)
+        refuse(*this, "it prescribes DoF " + std::to_string(constraint.dof) + ", and has " +
+                          std::to_string(n) + ", counted from 0");
+    for (const auto &load : time_loads)
+    {
+      if (!load)
+        refuse(*this, "one of its loads in time is nullptr; leave it out");
+      if (const auto *const point = dynamic_cast<const PointLoad *>(load.get()))
+        check_load(*this, point->fault(n));
+    }
+  }
+
+  void Substructure::check_numbers() const
+  {
+    bool finite = true;
+    for (const SymmetricMatrix *matrix : {M.get(), C.get(), K.get()})
+      matrix->visit([&](unsigned int, unsigned int, double value)
+                    { finite = finite && std::isfinite(value); });
+    for (const double force : constant_force)
+      finite = finite && std::isfinite(force);
+    if (!finite)
+      refuse(*this, "its mass, damping, stiffness or load is beyond the range "
+                    "of numbers; take less extreme values");
+    M->visit(
+        [&](const unsigned int i, const unsigned int j, const double value)
+        {
+          if (i == j && value < 0.)
+            refuse(*this, "the mass of DoF " + std::to_string(i) +
+                              " is negative; take a positive one, or zero");
+        });
+  }
+
+  void Substructure::check_consistency() const
+  {
+    if (!is_finished)
+      refuse(*this, "it is not finished; call finish() at the end of its constructor");
+    const NullSpace motions = null_space();
+    const std::size_t n = n_dofs();
+    std::vector<char> is_fixing(n, 0);
+    if (motions.fixing_dofs.size() != motions.vectors.size())
+      refuse(*this, "its null space has " + std::to_string(motions.vectors.size()) +
+                        " vectors and " + std::to_string(motions.fixing_dofs.size()) +
+                        " DoFs that fix them; give as many");
+    for (std::size_t v = 0; v < motions.vectors.size(); ++v)
+    {
+      const std::vector<double> &R = motions.vectors[v];
+      if (R.size() != n)
+        refuse(*this, "a vector of its null space has " + std::to_string(R.size()) +
+                          " entries, and it has " + std::to_string(n) + " DoFs");
+      if (!std::all_of(R.begin(), R.end(), [](const double x) { return std::isfinite(x); }))
+        refuse(*this, "a vector of its null space has an entry that is no finite number");
+      const unsigned int dof = motions.fixing_dofs[v];
+      if (dof >= n || is_fixing[dof])
+        refuse(*this, "DoF " + std::to_string(dof) +
+                          " cannot fix its null space: it has no such DoF, or it is named twice");
+      is_fixing[dof] = 1;
+    }
   }
 
   void Substructure::finish()
   {
+    check_sizes();
     std::sort(constrained.begin(), constrained.end(),
               [](const auto &p, const auto &q) { return p.dof < q.dof; });
     for (std::size_t i = 0; i < constrained.size(); ++i)
@@ -140,17 +248,9 @@ namespace taut
       moving_constraints = moving_constraints || constrained[i].motion;
     }
 
-    bool finite = true;
-    for (const SymmetricMatrix *matrix : {M.get(), C.get(), K.get()})
-      matrix->visit([&](unsigned int, unsigned int, double value)
-                    { finite = finite && std::isfinite(value); });
-    for (const double force : constant_force)
-      finite = finite && std::isfinite(force);
-    if (!finite)
-      throw EntryError(origin(), "body '" + name() +
-                                     "': its mass, damping, stiffness or load is beyond the range "
-                                     "of numbers; take less extreme values");
+    check_numbers();
     for (SymmetricMatrix *matrix : {M.get(), C.get(), K.get()})
       matrix->find_repetitions();
+    is_finished = true;
   }
 } // namespace taut

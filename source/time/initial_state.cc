@@ -35,6 +35,39 @@ namespace taut
       result.state.link_springs.resize(constraints.size());
     }
 
+    /// Of what a body says at t = 0: its size, and numbers that are finite.
+    void check_vector(const Substructure &body, const std::vector<double> &x, const char *what)
+    {
+      if (x.size() != body.n_dofs())
+        throw EntryError(body.origin(), "body '" + body.name() + "': " + what + " has " +
+                                            std::to_string(x.size()) + " entries, and it has " +
+                                            std::to_string(body.n_dofs()) + " DoFs");
+      for (std::size_t i = 0; i < x.size(); ++i)
+        if (!std::isfinite(x[i]))
+          throw EntryError(body.origin(), "body '" + body.name() + "': " + what +
+                                              " is no finite number at DoF " + std::to_string(i));
+    }
+
+    void check_bodies(const Structure &structure)
+    {
+      structure.communicator().agree(
+          [&]
+          {
+            std::vector<double> P;
+            for (std::size_t k = 0; k < structure.size(); ++k)
+            {
+              structure[k].external_force(0., P);
+              check_vector(structure[k], P, "its external force at t = 0");
+              for (const ConstrainedDof &constraint : structure[k].constraints())
+                if (!std::isfinite(constraint.at(0.)))
+                  throw EntryError(structure[k].origin(), "body '" + structure[k].name() +
+                                                              "': the motion of DoF " +
+                                                              std::to_string(constraint.dof) +
+                                                              " is no finite number at t = 0");
+            }
+          });
+    }
+
     /// Gaps, and the springs of the links with their forces.
     void set_rows(Constraints &constraints, const Start start, InitialState &result)
     {
@@ -130,6 +163,7 @@ namespace taut
   {
     InitialState result;
     State &state = result.state;
+    check_bodies(structure);
     constraints.update(0.);
     state.U = state.V = state.A = state.dU = state.V_old = state.KU = state.balance =
         structure.zero();
@@ -148,7 +182,11 @@ namespace taut
           [&]
           {
             for (std::size_t k = 0; k < structure.size(); ++k)
+            {
               structure[k].initial_state(state.U[k], state.V[k]);
+              check_vector(structure[k], state.U[k], "its displacement at the start");
+              check_vector(structure[k], state.V[k], "its velocity at the start");
+            }
           });
     result.linearised = structure.linearise(result.reference.displacement);
     if (start == Start::equilibrium)

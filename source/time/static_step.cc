@@ -85,7 +85,7 @@ namespace taut
       size.push_back(largest(structure[k], from[k]));
     std::vector<double> motion_size(constraints.size(), 0.);
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      for (const auto &[k, form] : constraints[i].terms)
+      for (const auto &[k, form, of] : constraints[i].terms)
         for (std::size_t j = 0; j < form.index.size(); ++j)
           motion_size[i] += std::fabs(form.value[j]) * size[k][structure[k].kind(form.index[j])];
     processes.sum(motion_size);

@@ -162,7 +162,7 @@ namespace taut
       }
     MatrixEntries G;
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      for (const auto &[k, form] : constraints[i].terms)
+      for (const auto &[k, form, of] : constraints[i].terms)
         for (std::size_t v = 0; v < modes[k].vectors.size(); ++v)
           G.add(first_of_body[k] + v, i, form.dot(modes[k].vectors[v]));
     gather(processes, G);

@@ -1,13 +1,72 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
+#include <taut/interface/check_constraint.h>
 #include <taut/time/choose_scheme.h>
+#include <taut/time/named_scheme.h>
 #include <taut/time/stepper.h>
 
+#include <cmath>
 #include <limits>
+#include <sstream>
 
 namespace taut
 {
+  namespace
+  {
+    std::string text(const double value)
+    {
+      std::ostringstream out;
+      out << value;
+      return out.str();
+    }
+
+    /// The system, if there is something to step and the options are possible.
+    const System &checked(const System &system, const StepperOptions &options)
+    {
+      if (system.n_bodies() == 0)
+        throw UserError("the system of a Stepper has no body; add one");
+      // A step whose square is beyond the range of numbers has no coefficients.
+      const double inverse_square = 1. / (options.step * options.step);
+      if (!(options.step > 0.) || !std::isfinite(inverse_square) || !(inverse_square > 0.))
+        throw UserError("StepperOptions::step is " + text(options.step) +
+                        " s; take a positive number");
+      if (!(options.restitution >= 0.) || !(options.restitution <= 1.))
+        throw UserError("StepperOptions::restitution is " + text(options.restitution) +
+                        "; take a number from 0 to 1");
+      if (options.scheme == "automatic" && !options.scheme_entries.empty())
+        throw UserError("StepperOptions::scheme_entries has '" +
+                        options.scheme_entries.begin()->first +
+                        "', and the scheme 'automatic' sets its entries itself; name a scheme");
+      if (options.scheme != "automatic" && options.restitution != 0.)
+        throw UserError("StepperOptions::restitution is for the scheme 'automatic'; set the entry "
+                        "'Moreau-Jean/Restitution' of the scheme 'Moreau-Jean'");
+      if (options.scheme != "automatic")
+        make_named_scheme(options.scheme, options.scheme_entries)->coefficients(options.step);
+      check_solver_names(options.solver);
+      return system;
+    }
+
+    void check_form(const Displacement &form, const System &system, const Structure &structure)
+    {
+      system.communicator().agree(
+          [&]
+          {
+            for (const Term &term : form)
+              if (term.substructure >= structure.size())
+                throw UserError("a displacement acts on body number " +
+                                std::to_string(term.substructure) +
+                                " of this rank, and the Stepper has " +
+                                std::to_string(structure.size()) + ", counted from 0");
+            const std::string fault = fault_of(form, system.structure());
+            if (!fault.empty())
+              throw UserError("a displacement " + fault);
+          });
+    }
+  } // namespace
+
   Stepper::Stepper(const System &system, const StepperOptions &options)
-      : system(system), structure(system.structure()), constraints(system.constraints(structure)),
+      : system(checked(system, options)), n_constraints(system.n_constraints()),
+        structure(system.structure()), constraints(system.constraints(structure)),
         start(find_initial_state(structure, constraints, options.solver, options.start)),
         contact_measures(structure, constraints, start.reference, start.state)
   {
@@ -34,7 +93,7 @@ namespace taut
     }
     else
     {
-      integrator = make_integrator(options.scheme, options.scheme_entries);
+      integrator = make_named_scheme(options.scheme, options.scheme_entries);
       scheme_description = integrator->description();
       check_mass(*integrator, structure, options.step);
       if (!options.allow_unsuitable_scheme)
@@ -65,18 +124,28 @@ namespace taut
     return stepper->n_steps_done() == 0 ? start.certificate : stepper->certificate();
   }
 
+  std::size_t Stepper::row(const std::size_t constraint) const
+  {
+    if (constraint >= n_constraints)
+      throw UserError("the Stepper knows no constraint number " + std::to_string(constraint) +
+                      "; the system had " + std::to_string(n_constraints) +
+                      ", counted from 0, when it was made. Make a Stepper after the last one");
+    return constraints.index_of_link(constraint);
+  }
+
   double Stepper::multiplier(const std::size_t constraint) const
   {
-    return state().multiplier[constraints.index_of_link(constraint)];
+    return state().multiplier[row(constraint)];
   }
 
   double Stepper::gap(const std::size_t constraint) const
   {
-    return state().geometric_gap[constraints.index_of_link(constraint)];
+    return state().geometric_gap[row(constraint)];
   }
 
   double Stepper::displacement(const Displacement &form) const
   {
+    check_form(form, system, structure);
     double value = evaluate(form, reference().displacement) + evaluate(form, state().U);
     system.communicator().sum(&value, 1);
     return value;
@@ -84,6 +153,7 @@ namespace taut
 
   double Stepper::velocity(const Displacement &form) const
   {
+    check_form(form, system, structure);
     double value = evaluate(form, state().V);
     system.communicator().sum(&value, 1);
     return value;
@@ -91,6 +161,11 @@ namespace taut
 
   std::vector<double> Stepper::displacement(const std::size_t body) const
   {
-    return taut::displacement(reference(), state(), system.index_here(body));
+    const std::size_t k = system.index_here(body);
+    if (body >= structure.all_bodies().size())
+      throw UserError("the Stepper has no body number " + std::to_string(body) +
+                      "; it was added after the Stepper was made");
+    return k == Structure::elsewhere ? std::vector<double>()
+                                     : taut::displacement(reference(), state(), k);
   }
 } // namespace taut

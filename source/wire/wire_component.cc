@@ -127,8 +127,6 @@ namespace taut
                                           std::vector<PointMass> point_masses,
                                           std::vector<Load> loads, const Coordinates &gravity)
   {
-    if (!wire.has(motion))
-      throw EntryError(wire.origin, "wire '" + wire.name + "' lacks the motion that is asked for");
     Scene scene;
     scene.gravity = gravity;
     scene.wires = {wire};
@@ -141,6 +139,10 @@ namespace taut
       mass.wire = 0;
     for (Load &load : scene.loads)
       load.target = {Attachment::Kind::wire, 0, load.target.position};
+    check_values(scene);
+    check_wires(scene);
+    if (!wire.has(motion))
+      throw EntryError(wire.origin, "wire '" + wire.name + "' lacks the motion that is asked for");
     return std::make_unique<WireComponent>(scene, 0, motion);
   }
 

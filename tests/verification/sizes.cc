@@ -117,7 +117,7 @@ TEST(Sizes, largest_forces_of_rows_are_those_of_a_loop)
     constraints.add_forces(N, P);
     for (std::size_t r = 0; r < constraints.size(); ++r)
     {
-      for (const auto &[k, form] : constraints[r].terms)
+      for (const auto &[k, form, of] : constraints[r].terms)
       {
         for (std::size_t j = 0; j < form.index.size(); ++j)
         {

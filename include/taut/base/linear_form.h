@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace taut
@@ -18,6 +19,21 @@ namespace taut
     {
       index.push_back(i);
       value.push_back(v);
+    }
+
+    /// What makes it no form on vectors of @p n entries, as a part of a message; empty: nothing.
+    std::string fault(const std::size_t n) const
+    {
+      if (index.size() != value.size())
+        return "has " + std::to_string(index.size()) + " indices and " +
+               std::to_string(value.size()) + " values";
+      for (std::size_t k = 0; k < index.size(); ++k)
+        if (index[k] >= n)
+          return "acts on DoF " + std::to_string(index[k]) + ", and there are " +
+                 std::to_string(n) + ", counted from 0";
+        else if (!std::isfinite(value[k]))
+          return "has a value that is no finite number, at DoF " + std::to_string(index[k]);
+      return "";
     }
 
     /// Scalar product with a full vector.

@@ -90,7 +90,8 @@ namespace taut
   class Constraints
   {
   public:
-    /// @p structure is kept by reference.
+    /// @p structure is kept by reference. Called by all ranks together; throws EntryError, which
+    /// names the constraint, for one that does not fit, see check_constraint().
     Constraints(const Structure &structure, std::vector<ConstraintData> constraints);
 
     std::size_t size() const { return constraints.size(); }
@@ -103,7 +104,7 @@ namespace taut
     void set_conserving(const std::vector<char> &conserving);
 
     /// Puts the moving constraints where they are at time t [s]. Throws UserError when one leaves
-    /// its wire.
+    /// its wire, or its place gives a form or a gap that does not fit.
     void update(double t);
 
     /// Before a step to time @p end [s] from @p start, where the bodies have displacements
@@ -201,6 +202,7 @@ namespace taut
     std::vector<char> acts_on(std::vector<unsigned int> (Substructure::*dofs)() const) const;
     void append(std::size_t i);
     void append_varying();
+    void place(std::size_t i, double t);
 
     const Structure &structure;
     std::vector<ConstraintData> constraints;

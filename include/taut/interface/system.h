@@ -28,7 +28,8 @@ namespace taut
     static Constraint bilateral(const std::string &name, const Displacement &a,
                                 const Displacement &b = {});
 
-    /// One whose displacement and gap @p place gives anew at each time.
+    /// One whose displacement and gap @p place gives anew at each time. Throws UserError for
+    /// nullptr.
     static Constraint unilateral(const std::string &name, std::shared_ptr<MovingPlace> place);
 
     /**
@@ -50,15 +51,19 @@ namespace taut
     static Constraint rod(const std::string &name, const LinkEnd &a, const LinkEnd &b,
                           double length);
 
+    // What does not fit is a UserError at once where a function says so, and otherwise of
+    // System::add().
+
     /// D at U = 0, N = 0 [m]. Throws UserError for ropes, props and rods, whose length says it.
     Constraint &gap(double value);
 
-    /// Of a spring in series, rigid without it, and of a damper beside the spring [N/m; N s/m].
+    /// Of a spring in series, rigid without it, and of a damper beside the spring [N/m; N s/m]: the
+    /// first positive, the second not negative.
     Constraint &stiffness(double value);
     Constraint &damping(double value);
 
     /// The law of that spring instead of a stiffness, D = a - b + gap + u with N = f(u). Throws
-    /// UserError if the constraint is bilateral.
+    /// UserError for nullptr, or if the constraint is bilateral.
     Constraint &law(std::shared_ptr<const ForceLaw> value);
 
     const ConstraintData &constraint() const { return data; }
@@ -83,12 +88,14 @@ namespace taut
 
     /// Adds the body that @p make returns on its owner, the rank with the fewest DoFs so far unless
     /// one is named; other ranks do not call it. Returns the number of the body, the same on all
-    /// ranks. Called by all ranks together; throws on all of them what @p make throws.
+    /// ranks. Called by all ranks together; throws on all of them what @p make throws, and
+    /// UserError for a rank that there is not, no body, or one that is not consistent.
     std::size_t add(const std::string &name, const Structure::Factory &make);
     std::size_t add(const std::string &name, unsigned int owner, const Structure::Factory &make);
 
     /// The displacement of a place of a body along a direction, see Substructure::displacement().
-    /// Called by all ranks together; throws on all of them if the place is not on the body.
+    /// Called by all ranks together; throws UserError on all of them if there is no such body, or
+    /// the place is not on it.
     Displacement displacement(std::size_t body, const Coordinates &place,
                               const Coordinates &direction) const;
 
@@ -100,15 +107,18 @@ namespace taut
     LinkEnd link_end(std::size_t body, const Coordinates &place, const Coordinates &position) const;
 
     /// Adds a constraint and returns its number among them. A Stepper knows those that were there
-    /// when it was made.
+    /// when it was made. Called by all ranks together; throws UserError, which names the
+    /// constraint, for numbers that are not possible and forms that are not on bodies of this
+    /// system.
     std::size_t add(const Constraint &constraint);
 
     std::size_t n_bodies() const { return index.size(); }
     std::size_t n_constraints() const { return list.size(); }
 
     /// A body if it is on this rank, otherwise nullptr; and its index among those of this rank.
+    /// Throws UserError for a number that no body has.
     const Substructure *body(std::size_t number) const;
-    std::size_t index_here(std::size_t body) const { return index[body]; }
+    std::size_t index_here(std::size_t body) const;
 
     const Communicator &communicator() const { return bodies.communicator(); }
     const Structure &structure() const { return bodies; }

@@ -46,6 +46,9 @@ namespace taut
 
     const std::string &formula() const { return text; }
 
+    /// The number of a constant, 0 of other formulas.
+    double constant_part() const { return parser ? 0. : constant; }
+
     /// True for a formula that is a number equal to zero.
     bool is_zero() const { return !parser && constant == 0.; }
 

@@ -329,11 +329,17 @@ namespace taut
   };
 
   /**
-   * Checks what a generator cannot express in types: positive masses and lengths, attachments
-   * inside their wires, motions that exist, a contact that stays on its wire until @p end_time [s].
-   * Throws UserError.
+   * Checks what a generator cannot express in types: numbers that are finite and of the right sign,
+   * indices of items that exist, positive masses and lengths, attachments inside their wires,
+   * motions that exist, a contact that stays on its wire until @p end_time [s]. Throws UserError.
    */
   void check(const Scene &scene, double end_time);
+
+  /// The part of it about single values: numbers and indices, and bodies and laws that are there.
+  void check_values(const Scene &scene);
+
+  /// The part of it about wires, their supports, point masses and loads.
+  void check_wires(const Scene &scene);
 
   /**
    * Node positions [m] of a wire's grid: sorted, 0 and length included, every support, point mass

@@ -72,8 +72,9 @@ namespace taut
     /**
      * @p dof_handler and a mapping are kept by reference; matrices, constraints and load [N] are
      * copied in the form that is needed. Constraints are those of the whole DoFHandler in any case.
-     * An empty damping matrix is none. Throws UserError for matrices or a load of another size, and
-     * for a constraint that both depends on DoFs and is inhomogeneous.
+     * An empty damping matrix is none. Throws UserError for matrices or a load of another size, for
+     * a matrix that is not symmetric, and for a constraint that both depends on DoFs and is
+     * inhomogeneous.
      */
     FEBody(const std::string &name, const dealii::DoFHandler<dim> &dof_handler,
            const dealii::SparseMatrix<double> &mass, const dealii::SparseMatrix<double> &damping,
@@ -84,7 +85,8 @@ namespace taut
     /// Adds a load that changes in time: @p add adds it at t [s] to P [N], one entry a DoF.
     void add_load(std::function<void(double t, dealii::Vector<double> &P)> add);
 
-    /// Adds a load that does not change, one entry a DoF [N].
+    /// Adds a load that does not change, one entry a DoF [N]. Throws UserError for one of another
+    /// size, or one that is not finite.
     void add_constant_load(const dealii::Vector<double> &P);
 
     /// Gives DoFs that constraints prescribe motions u(t) [m]. AffineConstraints::close() lets
@@ -101,7 +103,7 @@ namespace taut
     LinearForm displacement(const Coordinates &place, const Coordinates &direction) const override;
 
     /// A place of the boundary or inside: of DoF @p dof alone, condensed where it depends on
-    /// others.
+    /// others. Throws UserError for a DoF that the body does not have.
     LinearForm displacement_of_dof(dealii::types::global_dof_index dof) const;
 
     /// All DoFs of the DoFHandler, those that depend on others too, from the displacement that a
@@ -136,6 +138,7 @@ namespace taut
     std::vector<std::vector<double>> candidates(const Options &options) const;
     void find_null_space(const Options &options);
     void check_size(std::size_t size, const std::string &what) const;
+    void check_matrix(const dealii::SparseMatrix<double> &A, const std::string &what) const;
 
     const dealii::DoFHandler<dim> &handler;
     const dealii::Mapping<dim> &mapping;

@@ -17,6 +17,10 @@ namespace taut
   {
     std::size_t substructure = 0;
     LinearForm form;
+
+    /// That substructure, as System::displacement() fills it in: a form on another system is then
+    /// known as one. It is compared only; nullptr: not known.
+    const Substructure *body = nullptr;
   };
 
   /// One vector of DoFs for each substructure.
@@ -41,7 +45,8 @@ namespace taut
 
     /// Adds the substructure that @p make returns on the rank @p owner. Called by all ranks
     /// together; returns its index on the owner, and `elsewhere` on the others. Throws on all ranks
-    /// what @p make throws.
+    /// what @p make throws, and UserError for no body or one that is not consistent, see
+    /// Substructure::check_consistency().
     std::size_t add(const std::string &name, unsigned int owner, const Factory &make);
 
     const Communicator &communicator() const { return processes; }

@@ -82,7 +82,15 @@ namespace taut
     /// True if it is not the same at all times.
     bool external_force_varies() const { return !time_loads.empty(); }
 
-    /// Adds a force along @p form, of its magnitude or of magnitude(t) [N].
+    /**
+     * Throws UserError unless finish() was called and null_space() fits the DoFs: vectors of finite
+     * numbers, one entry a DoF, and as many fixing DoFs, different from each other.
+     * Structure::add() calls it.
+     */
+    void check_consistency() const;
+
+    /// Adds a force along @p form, of its magnitude or of magnitude(t) [N]. Throws UserError for a
+    /// form that does not fit, no magnitude, or one that is not finite.
     void add_force(const LinearForm &form, double magnitude);
     void add_force(LinearForm form, std::function<double(double)> magnitude);
 
@@ -146,7 +154,8 @@ namespace taut
     virtual NullSpace null_space() const { return {}; }
 
     /// True if the internal force is f(0) + K U. If it is not, or if f(0) is not zero, the
-    /// functions that follow are the body's own.
+    /// functions that follow are the body's own: those of this class are of K U alone, and throw
+    /// UserError for a body that is not linear. check_body() compares them with each other.
     virtual bool is_linear() const { return true; }
 
     /// Energy of the internal force, zero at U = 0 or at another state of the body's choice [J].
@@ -196,8 +205,9 @@ namespace taut
 
   protected:
     /// Sorts the constraints, notes whether one moves, and closes the matrices. Called at the end
-    /// of a constructor. Throws EntryError if the numbers of the scene are so extreme that a matrix
-    /// or a force is not finite.
+    /// of a constructor. Throws EntryError if matrices, forces, kinds and constraints do not fit
+    /// each other, if a mass is negative, or if the numbers of the scene are so extreme that a
+    /// matrix or a force is not finite.
     void finish();
 
     std::unique_ptr<SymmetricMatrix> M, C, K;          ///< of one size and kind
@@ -207,8 +217,12 @@ namespace taut
     std::vector<ConstrainedDof> constrained;           ///< a DoF once
 
   private:
+    void check_sizes() const;
+    void check_numbers() const;
+    void require_linear(const char *function) const;
+
     std::string body_name, body_origin;
-    bool moving_constraints = false;
+    bool moving_constraints = false, is_finished = false;
   };
 
   /// P += magnitude(t) * shape.
@@ -220,6 +234,12 @@ namespace taut
     {
     }
     void add(double t, std::vector<double> &P) const override { shape.add_to(magnitude(t), P); }
+
+    /// What makes it no load on @p n_dofs DoFs, as a part of a message; empty: nothing.
+    std::string fault(std::size_t n_dofs) const
+    {
+      return magnitude ? shape.fault(n_dofs) : "has no magnitude in time";
+    }
 
   private:
     LinearForm shape;

@@ -25,10 +25,11 @@ namespace taut
     Start start = Start::equilibrium;
 
     /// "automatic" chooses by the constraints that act as rigid; otherwise the name of a registered
-    /// scheme, with values of its entries by path ("Moreau-Jean/Theta").
+    /// scheme, with values of its entries by path ("Moreau-Jean/Theta"), which "automatic" sets
+    /// itself.
     std::string scheme = "automatic";
     std::map<std::string, std::string> scheme_entries = {};
-    double restitution = 0.; ///< Newton's, with "automatic" [1]
+    double restitution = 0.; ///< Newton's, with "automatic" alone, 0 to 1 [1]
     bool allow_unsuitable_scheme = false;
 
     SolverParameters solver = {};
@@ -47,8 +48,9 @@ namespace taut
   {
   public:
     /// @p system is kept by reference. Finds the start, linearises there the bodies that ask for it
-    /// (see SlenderBody::linearised()) and chooses the scheme. Throws UserError if
-    /// there is no equilibrium, or if a scheme is known to fail on a constraint.
+    /// (see SlenderBody::linearised()) and chooses the scheme. Throws UserError for options that
+    /// are not possible, if there is no equilibrium, or if a scheme is known to fail on a
+    /// constraint.
     explicit Stepper(const System &system, const StepperOptions &options = StepperOptions());
 
     /// One step. Throws UserError, naming time and constraint, if its certificate misses the
@@ -65,6 +67,9 @@ namespace taut
     /// What the contacts did so far.
     const ContactMeasures &measures() const { return contact_measures; }
 
+    // Of all functions below, a body or a constraint that the system did not have when the Stepper
+    // was made, and a form that is not on its bodies, is a UserError.
+
     /// Multiplier of a constraint [N], and its gap between the bodies, negative where the spring of
     /// the constraint is compressed [m].
     double multiplier(std::size_t constraint) const;
@@ -74,7 +79,8 @@ namespace taut
     double displacement(const Displacement &form) const;
     double velocity(const Displacement &form) const;
 
-    /// Displacement of a body of this rank from the undeformed system, one entry a DoF [m, rad].
+    /// Displacement of a body from the undeformed system, one entry a DoF [m, rad]; empty on ranks
+    /// that do not have it.
     std::vector<double> displacement(std::size_t body) const;
 
     /// Solves of Newton's method so far, for bodies that are not linear; otherwise 0.
@@ -85,8 +91,10 @@ namespace taut
 
   private:
     const TimeIntegrator &choose(const StepperOptions &options);
+    std::size_t row(std::size_t constraint) const;
 
     const System &system;
+    const std::size_t n_constraints; ///< of the system when this was made
     Structure structure; ///< its bodies, those linear that linearised() takes the place of
     Constraints constraints;
     std::unique_ptr<TimeIntegrator> integrator;

@@ -102,7 +102,7 @@ namespace taut
   };
   /// A wire as a body of its own, by one of its motions, with what acts on it: supports, point
   /// masses and loads count for it whatever wire they name. Throws EntryError for a wire without
-  /// that motion.
+  /// that motion, and for values that a scene cannot have, see check_values() and check_wires().
   std::unique_ptr<Substructure>
   make_wire(const Wire &wire, WireMotion motion = WireMotion::transverse,
             std::vector<Support> supports = {}, std::vector<PointMass> point_masses = {},

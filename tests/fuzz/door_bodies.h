@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Bodies of an author with exact results, and what an author may do wrong with one.
+#ifndef taut_tests_door_bodies_h
+#define taut_tests_door_bodies_h
+
+#include <taut/base/exceptions.h>
+#include <taut/substructure/substructure.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace door
+{
+  constexpr double gravity = 9.81, not_a_number = std::numeric_limits<double>::quiet_NaN(),
+                   infinite = std::numeric_limits<double>::infinity();
+
+  /// What is wrong with a body: at once, as soon as a place is asked for, or at the start.
+  enum class Defect
+  {
+    none,
+    no_stiffness,
+    no_damping,
+    not_finished,
+    no_dofs,
+    other_size_of_M,
+    other_size_of_C,
+    short_force,
+    no_kinds,
+    unknown_kind,
+    negative_mass,
+    mass_not_finite,
+    stiffness_infinite,
+    force_not_finite,
+    prescribes_too_far,
+    prescribes_twice,
+    no_load,
+    load_too_far,
+    load_without_magnitude,
+    short_null_space,
+    null_space_not_finite,
+    no_fixing_dof,
+    fixing_dof_too_far,
+    fixing_dof_twice,
+    ragged_form, // from here on of places
+    form_too_far,
+    form_not_finite,
+    short_start, // from here on of the start
+    start_not_finite,
+    load_not_finite,
+    resized_load,
+    motion_not_finite,
+    not_linear
+  };
+  constexpr int first_of_places = static_cast<int>(Defect::ragged_form),
+                first_of_starts = static_cast<int>(Defect::short_start),
+                n_defects = static_cast<int>(Defect::not_linear) + 1;
+
+  class ResizedLoad : public taut::TimeLoad
+  {
+  public:
+    void add(double, std::vector<double> &P) const override { P.resize(P.size() + 3); }
+  };
+
+  /**
+   * Masses on a vertical chain: spring i is above mass i, the first one hangs from the ground, and
+   * with a first spring of zero the chain floats. DoF i is the displacement of mass i upwards; a
+   * place is {i, 0, 0}.
+   */
+  class Chain : public taut::Substructure
+  {
+  public:
+    Chain(const std::string &name, const std::vector<double> &masses,
+          const std::vector<double> &springs, const Defect defect = Defect::none)
+        : Substructure(name), defect(defect), floats(springs[0] == 0.)
+    {
+      const unsigned int n = masses.size();
+      for (auto *matrix : {&M, &C, &K})
+        *matrix = std::make_unique<taut::CoordinateMatrix>(n);
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        M->add(i, i, masses[i]);
+        K->add(i, i, springs[i]);
+        if (i > 0)
+        {
+          K->add(i - 1, i - 1, springs[i]);
+          K->add(i, i - 1, -springs[i]);
+        }
+        constant_force.push_back(-gravity * masses[i]);
+      }
+      spoil(n);
+      if (defect != Defect::not_finished)
+        finish();
+    }
+
+    taut::LinearForm displacement(const taut::Coordinates &place,
+                                  const taut::Coordinates &direction) const override
+    {
+      if (!(place.x >= 0.) || !(place.x < n_dofs()))
+        throw taut::UserError("body '" + name() + "' has no such mass");
+      taut::LinearForm form;
+      form.add(static_cast<unsigned int>(place.x), direction.y);
+      if (defect == Defect::ragged_form)
+        form.index.push_back(0);
+      if (defect == Defect::form_too_far)
+        form.index[0] = n_dofs();
+      if (defect == Defect::form_not_finite)
+        form.value[0] = not_a_number;
+      return form;
+    }
+
+    NullSpace null_space() const override
+    {
+      NullSpace result;
+      if (floats || is_of_null_space())
+        result = {{std::vector<double>(n_dofs(), 1.)}, {0}};
+      if (defect == Defect::short_null_space)
+        result.vectors[0].pop_back();
+      if (defect == Defect::null_space_not_finite)
+        result.vectors[0][0] = infinite;
+      if (defect == Defect::no_fixing_dof)
+        result.fixing_dofs.clear();
+      if (defect == Defect::fixing_dof_too_far)
+        result.fixing_dofs[0] = n_dofs();
+      if (defect == Defect::fixing_dof_twice)
+        result = {{result.vectors[0], result.vectors[0]}, {0, 0}};
+      return result;
+    }
+
+    void initial_state(std::vector<double> &U, std::vector<double> &V) const override
+    {
+      Substructure::initial_state(U, V);
+      if (defect == Defect::short_start)
+        U.pop_back();
+      if (defect == Defect::start_not_finite)
+        V[0] = not_a_number;
+    }
+
+    bool is_linear() const override { return defect != Defect::not_linear; }
+
+  private:
+    bool is_of_null_space() const
+    {
+      return defect >= Defect::short_null_space && defect <= Defect::fixing_dof_twice;
+    }
+
+    void spoil_sizes(const unsigned int n)
+    {
+      if (defect == Defect::no_stiffness)
+        K.reset();
+      if (defect == Defect::no_damping)
+        C.reset();
+      if (defect == Defect::other_size_of_M)
+        M = std::make_unique<taut::CoordinateMatrix>(n + 1);
+      if (defect == Defect::other_size_of_C)
+        C = std::make_unique<taut::CoordinateMatrix>(n - 1);
+      if (defect == Defect::short_force)
+        constant_force.pop_back();
+      if (defect == Defect::no_kinds)
+        kinds.clear();
+      if (defect == Defect::unknown_kind)
+        kinds = {7};
+      if (defect == Defect::no_dofs)
+      {
+        for (auto *matrix : {&M, &C, &K})
+          *matrix = std::make_unique<taut::CoordinateMatrix>(0);
+        constant_force.clear();
+      }
+    }
+
+    void spoil(const unsigned int n)
+    {
+      spoil_sizes(n);
+      if (defect == Defect::negative_mass)
+        M->add(0, 0, -1e9);
+      if (defect == Defect::mass_not_finite)
+        M->add(0, 0, not_a_number);
+      if (defect == Defect::stiffness_infinite)
+        K->add(0, 0, infinite);
+      if (defect == Defect::force_not_finite)
+        constant_force[0] = not_a_number;
+      if (defect == Defect::prescribes_too_far)
+        constrained = {{n, {}}};
+      if (defect == Defect::prescribes_twice)
+        constrained = {{0, {}}, {0, {}}};
+      if (defect == Defect::motion_not_finite)
+        constrained = {{0, [](double) { return not_a_number; }}};
+      if (defect == Defect::no_load)
+        time_loads.push_back(nullptr);
+      if (defect == Defect::resized_load)
+        time_loads.push_back(std::make_unique<ResizedLoad>());
+      taut::LinearForm form;
+      form.add(defect == Defect::load_too_far ? n + 1000000 : 0, 1.);
+      std::function<double(double)> magnitude = [](double) { return not_a_number; };
+      if (defect == Defect::load_without_magnitude)
+        magnitude = nullptr;
+      if (defect == Defect::load_too_far || defect == Defect::load_without_magnitude ||
+          defect == Defect::load_not_finite)
+        time_loads.push_back(std::make_unique<taut::PointLoad>(form, magnitude));
+    }
+
+    const Defect defect;
+    const bool floats;
+  };
+
+  /// A mass that moves along x, y and z, under its weight.
+  class Bob : public taut::Substructure
+  {
+  public:
+    Bob(const std::string &name, const double mass) : Substructure(name)
+    {
+      for (auto *matrix : {&M, &C, &K})
+        *matrix = std::make_unique<taut::CoordinateMatrix>(3);
+      for (const unsigned int i : {0, 1, 2})
+        M->add(i, i, mass);
+      constant_force = {0., -gravity * mass, 0.};
+      finish();
+    }
+    taut::LinearForm displacement(const taut::Coordinates &,
+                                  const taut::Coordinates &direction) const override
+    {
+      taut::LinearForm form;
+      for (const unsigned int i : {0, 1, 2})
+        form.add(i, direction[i]);
+      return form;
+    }
+    NullSpace null_space() const override
+    {
+      return {{{1., 0., 0.}, {0., 1., 0.}, {0., 0., 1.}}, {0, 1, 2}};
+    }
+  };
+} // namespace door
+
+#endif

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: check_body() finds nothing in a body whose energy, forces and tangents belong together,
+// and names the function of each that do not. Source: a chain of springs with a cubic law, whose
+// functions are derivatives of its energy by hand; mistakes of a thousandth in each of them.
+#include <taut/base/exceptions.h>
+#include <taut/cable/cable.h>
+#include <taut/mechanism/rigid_body.h>
+#include <taut/substructure/check_body.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace
+{
+  using Vector = std::vector<double>;
+
+  constexpr double k = 100., cubic = 3e3, viscosity = 7.; ///< [N/m, N/m^3, N s/m]
+
+  /// What of the functions below is too large by a thousandth.
+  enum class Mistake
+  {
+    none,
+    energy,
+    force,
+    tangent,
+    damping,
+    mean_force,
+    work,
+    mean_tangent,
+    null_space
+  };
+
+  /// Masses in a row, with a spring of force k e + cubic e^3 and a damper in front of each but the
+  /// first.
+  class Row : public taut::Substructure
+  {
+  public:
+    Row(const unsigned int n, const Mistake mistake, const bool linear = false)
+        : Substructure("row"), mistake(mistake), linear(linear)
+    {
+      auto make = [n] { return std::make_unique<taut::CoordinateMatrix>(n); };
+      M = make();
+      C = make();
+      for (unsigned int i = 0; i < n; ++i)
+        M->add(i, i, 1.);
+      K = make();
+      K->add(1., *matrix(Vector(n, 0.), 1., 0.));
+      constant_force.assign(n, 0.);
+      finish();
+    }
+    bool is_linear() const override { return linear; }
+    NullSpace null_space() const override
+    {
+      NullSpace result{{Vector(n_dofs(), 1.)}, {0}};
+      if (mistake == Mistake::null_space)
+        result.vectors[0][1] *= wrong;
+      return result;
+    }
+    double strain_energy(const Vector &U) const override
+    {
+      double sum = 0.;
+      for (std::size_t i = 1; i < U.size(); ++i)
+        sum += energy(U[i] - U[i - 1]);
+      return sum * (mistake == Mistake::energy ? wrong : 1.);
+    }
+    void internal_force(const Vector &U, const Vector &V, Vector &f) const override
+    {
+      f.assign(U.size(), 0.);
+      for (std::size_t i = 1; i < U.size(); ++i)
+        add(i,
+            force(U[i] - U[i - 1]) * (mistake == Mistake::force && i == 2 ? wrong : 1.) +
+                (V.empty() ? 0. : viscosity_here() * (V[i] - V[i - 1])),
+            f);
+    }
+    void mean_internal_force(const Vector &U0, const Vector &U1, const double step,
+                             Vector &f) const override
+    {
+      f.assign(U0.size(), 0.);
+      for (std::size_t i = 1; i < U0.size(); ++i)
+      {
+        const double a = U0[i] - U0[i - 1], b = U1[i] - U1[i - 1],
+                     mean = .5 * k * (a + b) + .25 * cubic_here() * (a + b) * (a * a + b * b),
+                     // The force in the middle does another work.
+            middle = force(.5 * (a + b));
+        add(i,
+            (mistake == Mistake::work ? middle : mean) *
+                    (mistake == Mistake::mean_force ? wrong : 1.) +
+                viscosity_here() * (b - a) / step,
+            f);
+      }
+    }
+    std::unique_ptr<taut::SymmetricMatrix> tangent(const Vector &U, const double rate,
+                                                   bool) const override
+    {
+      return matrix(U, mistake == Mistake::tangent ? wrong : 1.,
+                    mistake == Mistake::damping ? wrong * rate : rate);
+    }
+    std::unique_ptr<taut::SymmetricMatrix> mean_tangent(const Vector &U0, const Vector &,
+                                                        const double rate, bool) const override
+    {
+      return matrix(U0, mistake == Mistake::mean_tangent ? wrong : 1., rate);
+    }
+
+  private:
+    static constexpr double wrong = 1.001;
+
+    double cubic_here() const { return linear ? 0. : cubic; }
+    double viscosity_here() const { return linear ? 0. : viscosity; }
+    double energy(const double e) const
+    {
+      return .5 * k * e * e + .25 * cubic_here() * e * e * e * e;
+    }
+    double force(const double e) const { return k * e + cubic_here() * e * e * e; }
+
+    static void add(const std::size_t i, const double tension, Vector &f)
+    {
+      f[i] += tension;
+      f[i - 1] -= tension;
+    }
+
+    std::unique_ptr<taut::SymmetricMatrix> matrix(const Vector &U, const double factor,
+                                                  const double rate) const
+    {
+      auto A = std::make_unique<taut::CoordinateMatrix>(U.size());
+      for (unsigned int i = 1; i < U.size(); ++i)
+      {
+        const double e = U[i] - U[i - 1],
+                     slope = factor * (k + 3. * cubic_here() * e * e) + rate * viscosity_here();
+        A->add(i, i, slope);
+        A->add(i - 1, i - 1, slope);
+        A->add(i, i - 1, -slope);
+      }
+      return A;
+    }
+
+    const Mistake mistake;
+    const bool linear;
+  };
+
+  Vector some_displacement(const std::size_t n, const double size)
+  {
+    Vector U(n);
+    for (std::size_t i = 0; i < n; ++i)
+      U[i] = size * std::sin(1. + 1.7 * i);
+    return U;
+  }
+
+  std::string text_of(const std::vector<std::string> &lines)
+  {
+    std::string result;
+    for (const std::string &line : lines)
+      result += line + "\n";
+    return result;
+  }
+} // namespace
+
+TEST(CheckBody, finds_each_mistake)
+{
+  const std::map<Mistake, std::string> names = {
+      {Mistake::none, ""},
+      {Mistake::energy, "internal_force() at DoF"},
+      {Mistake::force, "internal_force() at DoF"},
+      {Mistake::tangent, "tangent() at DoFs"},
+      {Mistake::damping, "tangent() at DoFs"},
+      {Mistake::mean_force, "mean_internal_force() from U to U"},
+      {Mistake::work, "work of mean_internal_force()"},
+      {Mistake::mean_tangent, "mean_tangent() at DoFs"}};
+  for (const auto &[mistake, name] : names)
+  {
+    const Row row(5, mistake);
+    const std::string found = text_of(taut::check_body(row, some_displacement(5, .2), .1));
+    if (name.empty())
+      EXPECT_EQ(found, "");
+    else
+      EXPECT_NE(found.find("body 'row': " + name), std::string::npos) << found;
+  }
+}
+
+TEST(CheckBody, reports_the_place_and_both_values)
+{
+  const Row row(5, Mistake::force);
+  const std::vector<std::string> found = taut::check_body(row, some_displacement(5, .2), .1);
+  ASSERT_FALSE(found.empty());
+  Vector f, sound;
+  const Vector U = some_displacement(5, .2);
+  row.internal_force(U, {}, f);
+  Row(5, Mistake::none).internal_force(U, {}, sound);
+  double said = 0., expected = 0.;
+  unsigned int dof = 0;
+  ASSERT_EQ(std::sscanf(found[0].c_str(),
+                        "body 'row': internal_force() at DoF %u, of strain_energy(): %lf, and by "
+                        "differences %lf",
+                        &dof, &said, &expected),
+            3)
+      << found[0];
+  EXPECT_TRUE(dof == 1 || dof == 2) << dof;
+  EXPECT_NEAR(said, f[dof], 1e-8 * std::fabs(f[dof]));
+  EXPECT_NEAR(expected, sound[dof], 1e-7 * std::fabs(f[dof]));
+}
+
+TEST(CheckBody, linear_bodies_and_their_null_space)
+{
+  const Vector U = some_displacement(4, 3.);
+  EXPECT_EQ(text_of(taut::check_body(Row(4, Mistake::none, true), U)), "");
+  const std::string found = text_of(taut::check_body(Row(4, Mistake::null_space, true), U));
+  EXPECT_NE(found.find("null_space()"), std::string::npos) << found;
+}
+
+TEST(CheckBody, bodies_of_the_library_are_sound)
+{
+  for (const taut::CableElement element : {taut::CableElement::ancf, taut::CableElement::bar})
+  {
+    taut::CableData data;
+    data.name = "cable";
+    data.to = {6., 0., 0.};
+    data.length = 6.2;
+    data.section = {1e5, element == taut::CableElement::ancf ? 2. : 0., 1., 30.};
+    data.gravity = {0., -9.81, 0.};
+    data.n_elements = 5;
+    data.element = element;
+    const taut::Cable cable(data);
+    EXPECT_EQ(text_of(taut::check_body(cable, some_displacement(cable.n_dofs(), .01), .1)), "");
+  }
+  taut::RigidBodyData data;
+  data.name = "bar";
+  data.mass = 3.;
+  data.moments = {1., 1.5, 2.};
+  data.gravity = {0., -9.81, 0.};
+  const taut::RigidBody bar(data);
+  EXPECT_EQ(text_of(taut::check_body(bar, some_displacement(bar.n_dofs(), .1))), "");
+}
+
+TEST(CheckBody, needs_what_fits)
+{
+  const Row row(3, Mistake::none);
+  EXPECT_THROW(taut::check_body(row, Vector(2, 0.)), taut::UserError);
+  EXPECT_THROW(taut::check_body(row, Vector(3, 0.), -1.), taut::UserError);
+}
