@@ -4,6 +4,8 @@
 #include <taut/solid/contact_constraints.h>
 #include <taut/solid/rigid_obstacle.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 
@@ -141,6 +143,8 @@ namespace taut
                          geometry.slave = surface_of(scene, contact.slave);
                          geometry.constraints = constraints_of(scene, contact, geometry.slave);
                          condense(geometry.slave, geometry.constraints);
+                         for (const Coordinates &x : geometry.slave.points)
+                           geometry.size = std::max(geometry.size, norm(x));
                          for (SurfaceConstraint &constraint : geometry.constraints)
                            constraint.gap += contact.gap;
                          return geometry;
@@ -153,13 +157,15 @@ namespace taut
     for (std::size_t c = 0; c < scene.contacts.size(); ++c)
     {
       const SurfaceContact &contact = scene.contacts[c];
-      for (const SurfaceConstraint &constraint : contact_geometry(scene, c).constraints)
+      const ContactGeometry geometry = contact_geometry(scene, c);
+      for (const SurfaceConstraint &constraint : geometry.constraints)
       {
         ConstraintData data{contact.name + " node " + std::to_string(constraint.node),
                             contact.origin};
         data.contact = c;
         data.unilateral = true;
         data.gap = constraint.gap;
+        data.gap_size = geometry.size + std::fabs(contact.gap);
         if (contact.compliance > 0.)
           data.stiffness = constraint.area / contact.compliance;
         append(bodies, contact.slave.body, constraint.slave, data.terms);

@@ -48,13 +48,11 @@ namespace taut
           return std::nullopt;
         const FacePoint p = master.at(found->face, found->reference);
         const Coordinates d = x - p.position;
-        const double size = master.box(found->face).diagonal();
-        Coordinates normal = p.normal(); // out of the master
-        const double across = norm(add_scaled(d, -dot(d, normal), normal));
+        const double size = master.box(found->face).diagonal(),
+                     across = norm(add_scaled(d, -dot(d, p.normal()), p.normal()));
         if (found->on_open_border && across > beside * (found->distance + size))
           return std::nullopt;
-        if (found->on_border && found->distance > no_distance * size)
-          normal = scaled((dot(d, normal) < 0. ? -1. : 1.) / norm(d), d);
+        const Coordinates normal = normal_at(*found, p, d);
         SurfaceConstraint c;
         c.node = node;
         c.point = x;
@@ -69,6 +67,23 @@ namespace taut
       }
 
     private:
+      /// The normal of a constraint, out of the master: that of the face, or at an edge or a corner
+      /// of it the direction @p d to the node.
+      Coordinates normal_at(const ClosestPoint &found, const FacePoint &p,
+                            const Coordinates &d) const
+      {
+        const Coordinates normal = p.normal();
+        if (!found.on_border || found.distance <= no_distance * master.box(found.face).diagonal())
+          return normal;
+        return scaled((dot(d, normal) < 0. ? -1. : 1.) / norm(d), d);
+      }
+
+      /// Whether the node faces what is across a normal out of the master.
+      bool faces(const unsigned int node, const Coordinates &normal) const
+      {
+        return areas.largest_cosine(node, scaled(-1., normal)) >= facing;
+      }
+
       /// Of the faces that the node faces, and has not penetrated by more than an element.
       std::optional<ClosestPoint> closest(const unsigned int node, const Coordinates &x) const
       {
@@ -88,7 +103,8 @@ namespace taut
           const FacePoint p = master.at(face, found.reference);
           const bool is_deep = dot(x - p.position, p.area) < 0. &&
                                found.distance > std::max(own_size, master.box(face).diagonal());
-          if (!is_deep && areas.largest_cosine(node, scaled(-1., p.normal())) >= facing)
+          if (!is_deep && faces(node, p.normal()) &&
+              faces(node, normal_at(found, p, x - p.position)))
             best = found;
           return true;
         };

@@ -15,6 +15,7 @@ namespace taut
   {
     ContactSurface slave;
     std::vector<SurfaceConstraint> constraints;
+    double size = 0.; ///< largest distance of a node of the slave body from the origin [m]
   };
 
   /// Of contact number @p contact of the scene, from the reference positions; the same on all
