@@ -37,6 +37,20 @@ namespace taut
       {
       }
 
+      /// Sets what part of the faces at its node has nodes without a constraint: the area of the
+      /// node counts them as a whole.
+      void find_overhang(const std::vector<char> &is_constrained, SurfaceConstraint &c) const
+      {
+        for (const std::size_t face : areas.faces_along(c.node, c.normal))
+        {
+          const std::vector<unsigned int> &nodes = slave.nodes(face);
+          double n_free = 0.;
+          for (const unsigned int node : nodes)
+            n_free += !is_constrained[node];
+          c.uncovered = std::max(c.uncovered, n_free / nodes.size());
+        }
+      }
+
       /// The constraint of a node; none if it does not face the master.
       std::optional<SurfaceConstraint> constraint(const unsigned int node) const
       {
@@ -152,6 +166,11 @@ namespace taut
           c->area *= thickness;
           constraints.push_back(std::move(*c));
         }
+      std::vector<char> is_constrained(slave.points.size(), 0);
+      for (const SurfaceConstraint &c : constraints)
+        is_constrained[c.node] = 1;
+      for (SurfaceConstraint &c : constraints)
+        projection.find_overhang(is_constrained, c);
       if (constraints.empty())
         complain_about_search(slaves, masters, distance);
       return constraints;

@@ -52,7 +52,7 @@ namespace taut
                                                 const SolidMesh<dim> &cells) const;
 
     unsigned int dimension = 2, degree = 1;
-    double thickness = 1.;
+    double thickness = 1., largest_turn = .5;
     MeshEntries mesh;
 
   private:

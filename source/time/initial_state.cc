@@ -42,8 +42,8 @@ namespace taut
     /// Gaps of rigid unilateral constraints that are negative by rounding of their terms become 0,
     /// as they are from then on: the reference has what is missing.
     void close_rounded_gaps(const Structure &structure, const Constraints &constraints,
-                            const std::vector<double> &motion,
-                            const std::vector<Coordinates> &ends, InitialState &result)
+                            const std::vector<double> &motion, const std::vector<Coordinates> &ends,
+                            InitialState &result)
     {
       State &state = result.state;
       std::vector<double> sum(constraints.size()), size(constraints.size());

@@ -65,8 +65,8 @@ namespace taut
     /// The law of N over the compression of the spring, of unilateral constraints; null: linear.
     /// The stiffness is then its largest one.
     std::shared_ptr<const ForceLaw> law = {};
-    double damping = 0.;                     ///< [N s/m, N m s/rad]
-    double gap = 0.;                         ///< D at U = 0, N = 0 [m, rad]
+    double damping = 0.;  ///< [N s/m, N m s/rad]
+    double gap = 0.;      ///< D at U = 0, N = 0 [m, rad]
     double gap_size = 0.; ///< of the terms that the gap is a sum of: what it rounds with [m, rad]
     std::vector<Term> terms = {};            ///< B_i: D = terms . U + gap + N / stiffness
     std::shared_ptr<MovingPlace> place = {}; ///< of a constraint that moves; sets terms and gap
