@@ -29,7 +29,7 @@ namespace taut
     constexpr std::size_t most_lines = 2000; ///< of a body
     const Coordinates axes[] = {{1.}, {0., 1.}, {0., 0., 1.}};
 
-    std::string text_of(const Coordinates &p)
+    std::string place_text(const Coordinates &p)
     {
       std::ostringstream out;
       out.precision(4);
@@ -256,7 +256,7 @@ namespace taut
     {
       const Turning &body = bodies[w.item];
       out << "solid '" << body.name << "' turns by " << w.value << " rad at "
-          << taut::text_of(body.places[w.place]) << ", t = " << w.time
+          << place_text(body.places[w.place]) << ", t = " << w.time
           << " s: the equations are those of small turns, up to " << w.limit
           << " rad. Check loads and supports, or take a rigid body";
       return out.str();
@@ -265,7 +265,7 @@ namespace taut
     const bool is_left_out = kind == search;
     const SurfaceConstraint &c =
         is_left_out ? contact.left_out[w.place] : contact.geometry.constraints[w.place];
-    const std::string at = taut::text_of(c.point);
+    const std::string at = place_text(c.point);
     out << "contact '" << contact.name << "' ";
     if (kind == sliding)
       out << "slides by " << w.value << " of its elements, " << w.value * contact.elements[w.place]

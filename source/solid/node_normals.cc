@@ -58,6 +58,12 @@ namespace taut
         for (const Coordinates &b : at_node[node])
           if (const double angle = std::atan2(norm(cross(a, b)), dot(a, b)); angle < corner)
             result[node] = std::max(result[node], angle);
-    return result;
+    // Where vertices stand back behind the middles of faces, only those carry.
+    std::vector<double> of_faces = result;
+    for (const std::vector<unsigned int> &face : surface.faces)
+      for (const unsigned int a : face)
+        for (const unsigned int b : face)
+          of_faces[a] = std::max(of_faces[a], result[b]);
+    return of_faces;
   }
 } // namespace taut
