@@ -22,7 +22,8 @@ namespace taut
       LinearForm form = body.displacement(at.place, direction);
       if (form.index.empty())
         throw UserError("body '" + body.name() +
-                        "' has no motion there along the direction; change the direction");
+                        "' has no motion there along the direction; change the direction, or "
+                        "instead of a ball joint take joints along those that it has");
       return form;
     }
 

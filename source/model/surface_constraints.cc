@@ -6,6 +6,7 @@
 #include <taut/substructure/slender_body.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 
@@ -60,8 +61,8 @@ namespace taut
       line.dim = 2;
     }
 
-    std::vector<SurfaceConstraint> constraints_of(const Scene &scene, const SurfaceContact &contact,
-                                                  ContactSurface slave)
+    std::vector<SurfaceConstraint> constraints_of(const SurfaceContact &contact,
+                                                  ContactSurface slave, ContactSurface master)
     {
       const double reach = contact.search_distance;
       if (contact.obstacle.shape != ObstacleSetting::Shape::none)
@@ -70,7 +71,6 @@ namespace taut
         return obstacle_constraints(slave, *obstacle, slave.thickness,
                                     reach > 0. ? reach : std::numeric_limits<double>::infinity());
       }
-      ContactSurface master = surface_of(scene, contact.master);
       if (slave.dim == 1 || master.dim == 1)
         lay_into_plane(contact, slave, master);
       if (master.dim != slave.dim)
@@ -140,6 +140,26 @@ namespace taut
                            small);
     }
 
+    /// The distance that an automatic search has left out is a mean along a face: it may be less
+    /// than the search distance by this factor.
+    constexpr double part_of_search = .5;
+
+    /// Of the box around all faces of surfaces [m].
+    double diagonal(const std::vector<const ContactSurface *> &surfaces)
+    {
+      constexpr double infinity = std::numeric_limits<double>::infinity();
+      Coordinates lower{infinity, infinity, infinity}, upper{-infinity, -infinity, -infinity};
+      for (const ContactSurface *const surface : surfaces)
+        for (const std::vector<unsigned int> &face : surface->faces)
+          for (const unsigned int node : face)
+          {
+            const Coordinates &x = surface->points[node];
+            lower = {std::min(lower.x, x.x), std::min(lower.y, x.y), std::min(lower.z, x.z)};
+            upper = {std::max(upper.x, x.x), std::max(upper.y, x.y), std::max(upper.z, x.z)};
+          }
+      return norm(upper - lower);
+    }
+
     /// Gives the areas of hanging nodes to the nodes that they depend on, as their forces go.
     void condense(const ContactSurface &slave, std::vector<SurfaceConstraint> &constraints)
     {
@@ -195,12 +215,62 @@ namespace taut
                        {
                          ContactGeometry geometry;
                          geometry.slave = surface_of(scene, contact.slave);
-                         geometry.constraints = constraints_of(scene, contact, geometry.slave);
+                         if (contact.obstacle.shape == ObstacleSetting::Shape::none)
+                           geometry.master = surface_of(scene, contact.master);
+                         geometry.constraints =
+                             constraints_of(contact, geometry.slave, geometry.master);
                          condense(geometry.slave, geometry.constraints);
+                         for (const Coordinates &x : geometry.slave.points)
+                           geometry.size = std::max(geometry.size, norm(x));
                          for (SurfaceConstraint &constraint : geometry.constraints)
                            constraint.gap += contact.gap;
                          return geometry;
                        });
+  }
+
+  std::vector<SurfaceConstraint> left_out_constraints(const Scene &scene, const std::size_t number,
+                                                      const ContactGeometry &geometry)
+  {
+    SurfaceContact contact = scene.contacts[number];
+    if (contact.search_distance > 0. || geometry.master.points.empty() || geometry.slave.dim == 1 ||
+        geometry.master.dim == 1)
+      return {};
+    // From one end of both surfaces to the other.
+    const double reach = diagonal({&geometry.slave, &geometry.master}),
+                 searched = std::min(diagonal({&geometry.slave}), diagonal({&geometry.master}));
+    contact.search_distance = reach;
+    std::vector<char> is_known(geometry.slave.points.size(), 0);
+    for (const SurfaceConstraint &constraint : geometry.constraints)
+      is_known[constraint.node] = 1;
+    for (const ContactSurface::HangingNode &hanging : geometry.slave.hanging)
+      is_known[hanging.node] = 1;
+    std::vector<SurfaceConstraint> result;
+    for (SurfaceConstraint &far : constraints_of(contact, geometry.slave, geometry.master))
+      if (!is_known[far.node] && far.gap > part_of_search * searched)
+      {
+        far.gap += contact.gap;
+        result.push_back(std::move(far));
+      }
+    return result;
+  }
+
+  void choose_slaves(Scene &scene)
+  {
+    const auto n_overhanging = [](const ContactGeometry &geometry)
+    {
+      return std::count_if(geometry.constraints.begin(), geometry.constraints.end(),
+                           [](const SurfaceConstraint &c) { return c.uncovered > 0.; });
+    };
+    for (std::size_t c = 0; c < scene.contacts.size(); ++c)
+    {
+      SurfaceContact &contact = scene.contacts[c];
+      if (!contact.chooses_slave)
+        continue;
+      const auto n = n_overhanging(contact_geometry(scene, c));
+      std::swap(contact.slave, contact.master);
+      if (n_overhanging(contact_geometry(scene, c)) >= n)
+        std::swap(contact.slave, contact.master);
+    }
   }
 
   std::vector<ConstraintData> surface_constraints(const Scene &scene, const SceneBodies &bodies)
@@ -209,15 +279,16 @@ namespace taut
     for (std::size_t c = 0; c < scene.contacts.size(); ++c)
     {
       const SurfaceContact &contact = scene.contacts[c];
-      const std::vector<SurfaceConstraint> rows = contact_geometry(scene, c).constraints;
-      check_large_motions(scene, bodies, contact, rows);
-      for (const SurfaceConstraint &constraint : rows)
+      const ContactGeometry geometry = contact_geometry(scene, c);
+      check_large_motions(scene, bodies, contact, geometry.constraints);
+      for (const SurfaceConstraint &constraint : geometry.constraints)
       {
         ConstraintData data{contact.name + " node " + std::to_string(constraint.node),
                             contact.origin};
         data.contact = c;
         data.unilateral = true;
         data.gap = constraint.gap;
+        data.gap_size = geometry.size + std::fabs(contact.gap);
         if (contact.compliance > 0.)
           data.stiffness = constraint.area / contact.compliance;
         append(bodies, contact.slave.body, constraint.slave, data.terms);

@@ -51,26 +51,9 @@ namespace taut
     }
   } // namespace
 
-  void ModelLimits::Forms::add(const std::vector<Term> &terms)
-  {
-    for (const auto &[k, form, of] : terms)
-      for (std::size_t j = 0; j < form.index.size(); ++j)
-        if (form.value[j] != 0.)
-          entries.push_back({form.value[j], static_cast<unsigned int>(k), form.index[j]});
-    ends.push_back(entries.size());
-  }
-
-  void ModelLimits::Forms::evaluate(const BodyVectors &U, double *const result) const
-  {
-    std::size_t e = 0;
-    for (std::size_t i = 0; i < ends.size(); ++i)
-      for (; e < ends[i]; ++e)
-        result[i] += entries[e].value * U[entries[e].body][entries[e].dof];
-  }
-
   ModelLimits::ModelLimits(const Scene &scene, const SceneBodies &structure,
                            const double filter_frequency, const double step, const long interval)
-      : interval(std::max(1L, interval))
+      : interval(std::max(1L, interval)), solids(scene, structure)
   {
     add_slopes(scene, structure);
     add_cables(scene, structure);
@@ -86,8 +69,9 @@ namespace taut
       const Wire &wire = scene.wires[w];
       if (wire.transverse == TransverseKind::none)
         continue;
-      Line line{"wire '" + wire.name + "'",           "", forms.ends.size(),          0,
-                thinned(grid(scene, w), most_slopes), {}, wire.has_lateral ? 2u : 1u, {}};
+      Line line{
+          "wire '" + wire.name + "'", "", forms.size(), 0, thinned(grid(scene, w), most_slopes), {},
+          wire.has_lateral ? 2u : 1u, {}};
       line.n = line.positions.size();
       for (unsigned int d = 0; d < line.n_directions; ++d)
         for (const double s : line.positions)
@@ -125,7 +109,7 @@ namespace taut
         nodes.push_back(known[0] * e / known[1]);
       Line line;
       line.name = "linearised cable '" + scene.bodies[i].name + "'";
-      line.first = forms.ends.size();
+      line.first = forms.size();
       line.positions = thinned(nodes, most_slopes);
       line.n_directions = 3;
       line.turns_from_reference = known[2] > 0.;
@@ -181,7 +165,7 @@ namespace taut
           continue;
         Line line{"wire '" + lower.name + "'",
                   "wire '" + upper.name + "'",
-                  forms.ends.size(),
+                  forms.size(),
                   0,
                   {},
                   {},
@@ -276,11 +260,14 @@ namespace taut
 
   void ModelLimits::record(const StepView &step)
   {
-    if (n_calls++ % interval != 0 || lines.empty())
+    if (n_calls++ % interval != 0)
+      return;
+    solids.record(step);
+    if (lines.empty())
       return;
     if (at_reference.empty())
     {
-      at_reference.assign(forms.ends.size(), 0.);
+      at_reference.assign(forms.size(), 0.);
       forms.evaluate(step.reference.displacement, at_reference.data());
       take_chords_at_reference(step.structure.communicator());
     }
@@ -313,6 +300,7 @@ namespace taut
     for (Extreme *extreme : {&slope, &distance})
       archive & extreme->excess & extreme->value & extreme->limit & extreme->position &
           extreme->time & extreme->line;
+    solids.store(archive);
   }
 
   void ModelLimits::save(OutputArchive &archive)
@@ -348,6 +336,8 @@ namespace taut
                              " s: it passes through it, for no contact between them is part of "
                              "the model. Check loads and the distance"),
                         distance.value, distance.limit, "m", distance.time});
+    const std::vector<ModelWarning> of_solids = solids.warnings();
+    result.insert(result.end(), of_solids.begin(), of_solids.end());
     return result;
   }
 

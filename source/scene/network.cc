@@ -5,6 +5,7 @@
 
 #include <taut/base/exceptions.h>
 #include <taut/base/nearest_name.h>
+#include <taut/scene/contact_surface.h>
 #include <taut/scene/entries.h>
 
 #include <algorithm>
@@ -44,23 +45,41 @@ namespace taut
 
   namespace
   {
-    /// A joint along each of x, y, z that one of its ends moves along.
+    /// Whether an end is at a body in the plane, which shows as much by its surface.
+    bool is_in_plane(const Scene &scene, const Attachment &end)
+    {
+      if (end.kind != Attachment::Kind::body)
+        return false;
+      const CustomBody &body = scene.bodies[end.index];
+      try
+      {
+        return body.type->surface({body.name, body.origin, scene.gravity}, {}).dim == 2;
+      }
+      catch (const UserError &) // no surface, or none yet: the body itself says what is wrong
+      {
+        return false;
+      }
+    }
+
+    /// A joint along each of x, y, z that one of its ends moves along. Across its plane a body
+    /// stands, and the joint holds the other end to the ground.
     void add_ball_joint(const Link &all, Scene &scene)
     {
       const std::pair<const char *, Coordinates> axes[] = {
           {" x", {1., 0., 0.}}, {" y", {0., 1., 0.}}, {" z", {0., 0., 1.}}};
       for (const auto &[name, axis] : axes)
-        if (can_move(scene, all.from, false, axis) || can_move(scene, all.to, false, axis))
-        {
-          scene.links.push_back(all);
-          scene.links.back().name += name;
-          scene.links.back().direction = axis;
-        }
+      {
+        Link link = all;
+        link.name += name;
+        link.direction = axis;
+        for (Attachment *const end : {&link.from, &link.to})
+          if (axis.z != 0. && is_in_plane(scene, *end))
+            *end = Attachment();
+        if (can_move(scene, link.from, false, axis) || can_move(scene, link.to, false, axis))
+          scene.links.push_back(link);
+      }
     }
-  } // namespace
 
-  namespace
-  {
     /// What a link that turns cannot be, and what no other link has.
     void check_turns(const Network::LinkItem &item, const Link &link, const bool is_ball_joint,
                      const std::string &title)

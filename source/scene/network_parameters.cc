@@ -156,7 +156,8 @@ namespace taut
     prm.add_parameter(
         "Type", type,
         "'joint': holds its ends together. 'ball joint': does so along x, y and z, as joints "
-        "named '<name> x' and so on. 'stop': pushes them apart. 'dropper': pulls "
+        "named '<name> x' and so on; what is at a body in the plane stays in that plane. 'stop': "
+        "pushes them apart. 'dropper': pulls "
         "them together. 'sliding contact': a stop whose second end moves on a wire or a cable",
         Selection("joint|ball joint|stop|dropper|sliding contact"));
     prm.add_parameter(

@@ -112,7 +112,16 @@ namespace taut
                       "How far a pressure brings the surfaces into each other; 0: rigid [m/Pa]",
                       Patterns::Double(0.));
     prm.add_parameter("Search distance", search_distance,
-                      "Sides farther apart than this do not touch; 0: automatic [m]",
+                      "Sides farther apart than this do not touch; 0: automatic, the diagonal of "
+                      "the smaller side [m]",
+                      Patterns::Double(0.));
+    prm.add_parameter("Choose slave", chooses_slave,
+                      "Slave and master of a mortar contact change places if the slave overhangs "
+                      "the master at fewer faces then");
+    prm.add_parameter("Largest sliding", largest_sliding,
+                      "A run ends when a closed contact slides by more of its elements: forces act "
+                      "where the undeformed surfaces meet. It is warned of from 0.5 on; a plane as "
+                      "the obstacle has no limit [1]",
                       Patterns::Double(0.));
   }
 
@@ -165,6 +174,12 @@ namespace taut
       contact.gap = item.gap;
       contact.compliance = item.compliance;
       contact.search_distance = item.search_distance;
+      contact.largest_sliding = item.largest_sliding;
+      contact.chooses_slave = item.chooses_slave;
+      if (item.chooses_slave &&
+          (obstacle.shape != Shape::none || contact.method != SurfaceMethod::mortar))
+        throw EntryError(section + "Choose slave",
+                         "only sides of a mortar contact change places; set it to false");
       for (const SurfaceContact &other : result)
         if (have_same_sides(other, contact))
           throw EntryError(

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace taut
 {
@@ -44,11 +45,15 @@ namespace taut
       std::vector<std::pair<double, std::size_t>> shell;
       std::size_t n_seen = 0;
       double inner = -1., outer = std::max(first_radius, bg::distance(x, tree.bounds()));
+      // A face as far away as the shell ends must not be lost to rounding of the corners of its
+      // box: no other shell would have it.
+      constexpr double rounding = 8. * std::numeric_limits<double>::epsilon();
+      const double size = bg::distance(x, Point<dim>());
       while (n_seen < tree.size())
       {
         shell.clear();
-        for (auto it = tree.qbegin(bg::index::intersects(box_around(x, outer))); it != tree.qend();
-             ++it)
+        const auto box = box_around(x, outer + rounding * (outer + size));
+        for (auto it = tree.qbegin(bg::index::intersects(box)); it != tree.qend(); ++it)
           if (const double d = bg::distance(x, it->first); d > inner && d <= outer)
             shell.push_back({d, it->second});
         std::sort(shell.begin(), shell.end());

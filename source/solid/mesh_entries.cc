@@ -96,6 +96,12 @@ namespace taut
         "Of the generator, in m, with colons between them: e.g. '4, 2 : 0, 0 : 2, 1'. "
         "A rectangle has the boundary ids 2d (left or lower) and 2d + 1 across axis d; so has a "
         "plate, with 4 for its hole, and 5 and 6 across z");
+    prm.add_parameter(
+        "Curved boundaries", curved,
+        "Of a mesh from a file, which is straight between its nodes: shapes by ids of the boundary "
+        "that new nodes and those of degree 2 lie on. 'id: sphere, x, y, z; id: cylinder, x, y, z, "
+        "dx, dy, dz' with the centre, or a point and the direction of the axis; in the plane 'id: "
+        "circle, x, y' [m]");
     prm.add_parameter("Refinements", refinements, "Each halves all cells in each direction",
                       Patterns::Integer(0, 12));
     prm.add_parameter("Local refinements", local_refinements,
@@ -128,6 +134,7 @@ namespace taut
         by[d] = shift[d];
       dealii::GridTools::shift(by, *cells);
     }
+    curve(*cells, section);
     refine(*cells, section);
     return cells;
   }

@@ -4,6 +4,7 @@
 #include <taut/base/exceptions.h>
 #include <taut/solid/contact_constraints.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -15,6 +16,9 @@ namespace taut
     /// Integral of a polynomial of degree 2 over the hull, over the covered length, below which
     /// multipliers become linear: at holes. It is 1/6 on a straight edge without any.
     constexpr double small_integral = .02;
+
+    /// Part of an edge below which what is not covered is rounding of the places of nodes.
+    constexpr double covered = 1e-6;
 
     using Small = std::array<double, 3>;
 
@@ -30,6 +34,7 @@ namespace taut
     struct Cover
     {
       std::vector<CoverPoint> points;
+      double uncovered = 1.;       ///< part of the reference edge
       double begin = 0., end = 1.; ///< hull on the reference edge
     };
 
@@ -44,6 +49,7 @@ namespace taut
       result.end = segments.back().end;
       for (const MortarSegment &s : segments)
       {
+        result.uncovered -= s.end - s.begin;
         for (const auto &[t, weight] : gauss_points())
         {
           const double at = s.begin + t * (s.end - s.begin);
@@ -161,6 +167,8 @@ namespace taut
         {
           const double weight = p.weight * psi[i];
           MortarRow &row = rows[nodes[i]];
+          if (cover.uncovered > covered)
+            row.uncovered = std::max(row.uncovered, cover.uncovered);
           row.area += weight;
           row.gap += weight * dot(p.master.position - p.slave.position, normal);
           row.point = add_scaled(row.point, weight, p.slave.position);

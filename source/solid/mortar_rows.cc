@@ -84,6 +84,7 @@ namespace taut
     MortarRow &from = rows[gone], &to = rows[kept];
     to.area += from.area;
     to.gap += from.gap;
+    to.uncovered = std::max(to.uncovered, from.uncovered);
     to.point = add_scaled(to.point, 1., from.point);
     to.normal = add_scaled(to.normal, 1., from.normal);
     to.slave.add(from.slave);
@@ -155,6 +156,7 @@ namespace taut
       c.node = node;
       c.area = row.area * thickness;
       c.gap = row.gap / row.area;
+      c.uncovered = row.uncovered;
       c.point = scaled(1. / row.area, row.point);
       c.normal = normalised(row.normal);
       c.slave = weights(row.slave, row.area);

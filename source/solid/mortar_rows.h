@@ -26,6 +26,7 @@ namespace taut
   struct MortarRow
   {
     double area = 0., gap = 0.; ///< [m], [m^2]
+    double uncovered = 0.;      ///< see SurfaceConstraint
     Coordinates point, normal;
     NodeVectors slave, master;
   };

@@ -67,6 +67,17 @@ namespace taut
     return largest;
   }
 
+  std::vector<std::size_t> NodalAreas::faces_along(const unsigned int node,
+                                                   const Coordinates &direction) const
+  {
+    const double largest = largest_cosine(node, direction);
+    std::vector<std::size_t> result;
+    for (const NodeOfFace &f : faces(node))
+      if (dot(normals.at(f.face, f.local), direction) >= part_of_largest * largest)
+        result.push_back(f.face);
+    return result;
+  }
+
   double NodalAreas::area(const unsigned int node, const Coordinates &direction) const
   {
     const double largest = largest_cosine(node, direction);

@@ -37,6 +37,9 @@ namespace taut
     /// Of all faces of a node, how closely the best faces the @p direction: the largest cosine.
     double largest_cosine(unsigned int node, const Coordinates &direction) const;
 
+    /// The faces that area() counts.
+    std::vector<std::size_t> faces_along(unsigned int node, const Coordinates &direction) const;
+
     /// Integral [m, m^2] over those faces of a node whose cosine to @p direction is at least half
     /// of the largest. Throws UserError if a face is so distorted that it is not positive.
     double area(unsigned int node, const Coordinates &direction) const;

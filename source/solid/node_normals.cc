@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "node_normals.h"
+#include <taut/solid/contact_constraints.h>
+
+#include <algorithm>
+#include <cmath>
 
 namespace taut
 {
@@ -37,5 +41,29 @@ namespace taut
           p = geometry.at(f, centre(geometry.form(f)));
         normals[f].push_back(p.normal());
       }
+  }
+
+  std::vector<double> kinks_at_nodes(const ContactSurface &surface)
+  {
+    constexpr double corner = .5;
+    const SurfaceGeometry geometry(surface);
+    const NodeNormals normals(geometry);
+    std::vector<std::vector<Coordinates>> at_node(surface.points.size());
+    for (std::size_t f = 0; f < geometry.n_faces(); ++f)
+      for (unsigned int i = 0; i < geometry.nodes(f).size(); ++i)
+        at_node[geometry.nodes(f)[i]].push_back(normals.at(f, i));
+    std::vector<double> result(surface.points.size(), 0.);
+    for (std::size_t node = 0; node < result.size(); ++node)
+      for (const Coordinates &a : at_node[node])
+        for (const Coordinates &b : at_node[node])
+          if (const double angle = std::atan2(norm(cross(a, b)), dot(a, b)); angle < corner)
+            result[node] = std::max(result[node], angle);
+    // Where vertices stand back behind the middles of faces, only those carry.
+    std::vector<double> of_faces = result;
+    for (const std::vector<unsigned int> &face : surface.faces)
+      for (const unsigned int a : face)
+        for (const unsigned int b : face)
+          of_faces[a] = std::max(of_faces[a], result[b]);
+    return of_faces;
   }
 } // namespace taut

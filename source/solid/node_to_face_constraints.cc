@@ -37,6 +37,20 @@ namespace taut
       {
       }
 
+      /// Sets what part of the faces at its node has nodes without a constraint: the area of the
+      /// node counts them as a whole.
+      void find_overhang(const std::vector<char> &is_constrained, SurfaceConstraint &c) const
+      {
+        for (const std::size_t face : areas.faces_along(c.node, c.normal))
+        {
+          const std::vector<unsigned int> &nodes = slave.nodes(face);
+          double n_free = 0.;
+          for (const unsigned int node : nodes)
+            n_free += !is_constrained[node];
+          c.uncovered = std::max(c.uncovered, n_free / nodes.size());
+        }
+      }
+
       /// The constraint of a node; none if it does not face the master.
       std::optional<SurfaceConstraint> constraint(const unsigned int node) const
       {
@@ -48,13 +62,11 @@ namespace taut
           return std::nullopt;
         const FacePoint p = master.at(found->face, found->reference);
         const Coordinates d = x - p.position;
-        const double size = master.box(found->face).diagonal();
-        Coordinates normal = p.normal(); // out of the master
-        const double across = norm(add_scaled(d, -dot(d, normal), normal));
+        const double size = master.box(found->face).diagonal(),
+                     across = norm(add_scaled(d, -dot(d, p.normal()), p.normal()));
         if (found->on_open_border && across > beside * (found->distance + size))
           return std::nullopt;
-        if (found->on_border && found->distance > no_distance * size)
-          normal = scaled((dot(d, normal) < 0. ? -1. : 1.) / norm(d), d);
+        const Coordinates normal = normal_at(*found, p, d);
         SurfaceConstraint c;
         c.node = node;
         c.point = x;
@@ -69,6 +81,23 @@ namespace taut
       }
 
     private:
+      /// The normal of a constraint, out of the master: that of the face, or at an edge or a corner
+      /// of it the direction @p d to the node.
+      Coordinates normal_at(const ClosestPoint &found, const FacePoint &p,
+                            const Coordinates &d) const
+      {
+        const Coordinates normal = p.normal();
+        if (!found.on_border || found.distance <= no_distance * master.box(found.face).diagonal())
+          return normal;
+        return scaled((dot(d, normal) < 0. ? -1. : 1.) / norm(d), d);
+      }
+
+      /// Whether the node faces what is across a normal out of the master.
+      bool faces(const unsigned int node, const Coordinates &normal) const
+      {
+        return areas.largest_cosine(node, scaled(-1., normal)) >= facing;
+      }
+
       /// Of the faces that the node faces, and has not penetrated by more than an element.
       std::optional<ClosestPoint> closest(const unsigned int node, const Coordinates &x) const
       {
@@ -88,7 +117,8 @@ namespace taut
           const FacePoint p = master.at(face, found.reference);
           const bool is_deep = dot(x - p.position, p.area) < 0. &&
                                found.distance > std::max(own_size, master.box(face).diagonal());
-          if (!is_deep && areas.largest_cosine(node, scaled(-1., p.normal())) >= facing)
+          if (!is_deep && faces(node, p.normal()) &&
+              faces(node, normal_at(found, p, x - p.position)))
             best = found;
           return true;
         };
@@ -136,6 +166,11 @@ namespace taut
           c->area *= thickness;
           constraints.push_back(std::move(*c));
         }
+      std::vector<char> is_constrained(slave.points.size(), 0);
+      for (const SurfaceConstraint &c : constraints)
+        is_constrained[c.node] = 1;
+      for (SurfaceConstraint &c : constraints)
+        projection.find_overhang(is_constrained, c);
       if (constraints.empty())
         complain_about_search(slaves, masters, distance);
       return constraints;

@@ -158,6 +158,10 @@ namespace taut
     prm.add_parameter("Pressure", pressure,
                       "On parts of the boundary, against their normal: 'id: formula; id: ...' "
                       "[Pa]");
+    prm.add_parameter("Largest turn", largest_turn,
+                      "A run ends when a part of the boundary turns by more: the equations are "
+                      "those of small turns. It is warned of from 0.1 rad on [rad]",
+                      Patterns::Double(std::numeric_limits<double>::min()));
     prm.add_parameter("Initial velocity", initial_velocity,
                       "Of all points, with Start = given: 'x, y' or 'x, y, z' [m/s]");
   }

@@ -33,10 +33,12 @@ namespace taut
     template <int dim>
     void read(dealii::Triangulation<dim> &cells, const std::string &section) const;
     template <int dim>
+    void curve(dealii::Triangulation<dim> &cells, const std::string &section) const;
+    template <int dim>
     void refine(dealii::Triangulation<dim> &cells, const std::string &section) const;
 
     std::string file, generator = "subdivided_hyper_rectangle", arguments = "4, 4 : 0, 0 : 1, 1",
-                      where;
+                      where, curved;
     unsigned int refinements = 0, local_refinements = 0;
     std::vector<double> shift;
   };
@@ -52,7 +54,7 @@ namespace taut
                                                 const SolidMesh<dim> &cells) const;
 
     unsigned int dimension = 2, degree = 1;
-    double thickness = 1.;
+    double thickness = 1., largest_turn = .5;
     MeshEntries mesh;
 
   private:

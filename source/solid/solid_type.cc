@@ -81,6 +81,8 @@ namespace taut
         return about_entry(setting.origin, [&] { return solid(setting.origin).make(setting); });
       }
 
+      double largest_turn() const override { return entries.largest_turn; }
+
       std::shared_ptr<const DivisibleBody> division(const BodySetting &setting) const override
       {
         return about_entry(setting.origin, [&] { return solid(setting.origin).division(setting); });

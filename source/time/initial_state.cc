@@ -68,8 +68,52 @@ namespace taut
           });
     }
 
+    /// Part of the terms of a gap that it may start below zero by, and be zero: some thousand
+    /// roundings of their sum, far less than an atom on any machine.
+    constexpr double rounding_of_start = 1e-12;
+
+    /// Gaps of rigid unilateral constraints that are negative by rounding of their terms become 0,
+    /// as they are from then on: the reference has what is missing.
+    void close_rounded_gaps(const Structure &structure, const Constraints &constraints,
+                            const std::vector<double> &motion, const std::vector<Coordinates> &ends,
+                            InitialState &result)
+    {
+      State &state = result.state;
+      std::vector<double> sum(constraints.size()), size(constraints.size());
+      constraints.share_of_motions(state.U, sum, size);
+      structure.communicator().sum(size);
+      for (std::size_t i = 0; i < constraints.size(); ++i)
+      {
+        const ConstraintData &constraint = constraints[i];
+        size[i] += std::fabs(constraint.gap) + constraint.gap_size;
+        if (constraint.direction)
+          size[i] += norm(ends[i - constraints.n_fixed()]);
+        if (!constraint.unilateral || !(state.gap[i] < 0.) ||
+            !(-state.gap[i] <= rounding_of_start * size[i]))
+          continue;
+        if (result.reference.gap.empty())
+          for (std::size_t j = 0; j < constraints.size(); ++j)
+            result.reference.gap.push_back(constraints[j].gap);
+        state.geometric_gap[i] -= state.gap[i];
+        state.gap[i] = 0.;
+        result.reference.gap[i] = state.geometric_gap[i] - motion[i];
+      }
+    }
+
+    [[noreturn]] void complain_about_penetration(const Constraints &constraints,
+                                                 const std::size_t i, const double gap)
+    {
+      std::ostringstream message;
+      message << "link '" << constraints[i].name << "' starts with a gap of " << gap
+              << (constraints[i].rotational ? " rad" : " m")
+              << ": a rigid unilateral link starts open or just touching. Change its Gap or the "
+                 "start.";
+      throw EntryError(constraints.origin(i), message.str());
+    }
+
     /// Gaps, and the springs of the links with their forces.
-    void set_rows(Constraints &constraints, const Start start, InitialState &result)
+    void set_rows(const Structure &structure, Constraints &constraints, const Start start,
+                  InitialState &result)
     {
       State &state = result.state;
       constraints.turn_to(result.reference.displacement, state.U);
@@ -117,15 +161,14 @@ namespace taut
               constraints.origin(i),
               message_of_meeting(constraint.name, 0.,
                                  constraints.ends(i, result.reference.displacement, state.U)));
-        if (start != Start::equilibrium && state.gap[i] < 0. && constraint.unilateral)
-          throw EntryError(constraints.origin(i),
-                           "link '" + constraint.name + "' starts with a gap of " +
-                               std::to_string(state.gap[i]) +
-                               ": a rigid unilateral link starts open or just "
-                               "touching. Change its Gap or the start.");
       }
       if (start == Start::equilibrium)
         result.reference.gap = state.geometric_gap;
+      else
+        close_rounded_gaps(structure, constraints, motion, ends, result);
+      for (std::size_t i = 0; i < constraints.size(); ++i)
+        if (start != Start::equilibrium && state.gap[i] < 0. && constraints[i].unilateral)
+          complain_about_penetration(constraints, i, state.gap[i]);
     }
     /// Part of the terms of a gap, or of the distance of the ends, up to which a joint counts as
     /// closed: numbers that are written with five digits.
@@ -213,7 +256,7 @@ namespace taut
             }
           }
         });
-    set_rows(constraints, start, result);
+    set_rows(structure, constraints, start, result);
     if (start != Start::equilibrium)
       check_joints(structure, constraints, result);
     return result;

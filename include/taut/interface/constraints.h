@@ -69,7 +69,8 @@ namespace taut
     /// True if a mean force over a step works as much as its spring stores, closing and opening
     /// included; see ContactResolution.
     bool conserving = false;
-    double gap = 0.;                         ///< D at U = 0, N = 0 [m, rad]
+    double gap = 0.;      ///< D at U = 0, N = 0 [m, rad]
+    double gap_size = 0.; ///< of the terms that the gap is a sum of: what it rounds with [m, rad]
     std::vector<Term> terms = {};            ///< B_i: D = terms . U + gap + N / stiffness
     std::shared_ptr<MovingPlace> place = {}; ///< of a constraint that moves; sets terms and gap
     bool moving = false;                     ///< has a place

@@ -10,17 +10,28 @@
 
 namespace taut
 {
-  /// The slave surface of a contact of a scene, and its constraints.
+  /// The surfaces of a contact of a scene, and its constraints.
   struct ContactGeometry
   {
     ContactSurface slave;
+    ContactSurface master; ///< without points against an obstacle
     std::vector<SurfaceConstraint> constraints;
+    double size = 0.; ///< largest distance of a node of the slave body from the origin [m]
   };
 
   /// Of contact number @p contact of the scene, from the reference positions; the same on all
   /// ranks. Throws EntryError on the section of the contact, with what mortar_constraints() and the
   /// others throw.
   ContactGeometry contact_geometry(const Scene &scene, std::size_t contact);
+
+  /// What an automatic search distance left out: constraints of the other nodes that face the
+  /// master, however far it is; none if the distance is given or the master is an obstacle.
+  std::vector<SurfaceConstraint> left_out_constraints(const Scene &scene, std::size_t contact,
+                                                      const ContactGeometry &geometry);
+
+  /// Exchanges the sides of contacts that choose their slave, where the slave overhangs the master
+  /// at fewer nodes then. Throws EntryError, as contact_geometry() does.
+  void choose_slaves(Scene &scene);
 
   /// The constraints of all contacts of a scene, one contact after the other, with the forms of the
   /// bodies of this rank. Throws EntryError, too, if a body that moves by large amounts touches

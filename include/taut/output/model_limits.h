@@ -2,7 +2,10 @@
 #ifndef taut_model_limits_h
 #define taut_model_limits_h
 
+#include <taut/output/linear_forms.h>
+#include <taut/output/model_warning.h>
 #include <taut/output/observer.h>
+#include <taut/output/solid_limits.h>
 
 #include <iosfwd>
 #include <string>
@@ -10,16 +13,6 @@
 
 namespace taut
 {
-  /// Something that a run went beyond and the model does not hold for.
-  struct ModelWarning
-  {
-    std::string kind; ///< an identifier: "slope", "distance", "speed", "filter"
-    std::string message;
-    double value = 0., limit = 0.; ///< both in `unit`
-    std::string unit;
-    double time = 0.; ///< of the value [s]
-  };
-
   /**
    * Watches over what the equations take for granted: small slopes, wires that stay on their side
    * of each other, contacts slower than the waves, steps that resolve the filter of the statistics.
@@ -43,12 +36,16 @@ namespace taut
     ModelLimits(const Scene &scene, const SceneBodies &structure, double filter_frequency,
                 double step, long interval);
 
-    /// Each step, the start first. Called by all ranks together.
+    /// Each step, the start first. Called by all ranks together. Throws what
+    /// SolidLimits::record() throws.
     void record(const StepView &step);
 
     /// For checkpoints: the worst so far.
     void save(OutputArchive &archive);
     void load(InputArchive &archive);
+
+    /// What solids and contacts leave out from the start, a line each.
+    void print_start(std::ostream &out) const { solids.print_start(out); }
 
     /// At most one of each kind.
     std::vector<ModelWarning> warnings() const;
@@ -57,20 +54,6 @@ namespace taut
     void print(std::ostream &out) const;
 
   private:
-    /// Linear forms on the displacements of this rank, one after the other.
-    struct Forms
-    {
-      struct Entry
-      {
-        double value;
-        unsigned int body, dof;
-      };
-      std::vector<Entry> entries;
-      std::vector<std::size_t> ends;
-      void add(const std::vector<Term> &terms);
-      void evaluate(const BodyVectors &U, double *result) const;
-    };
-
     /// Samples along a wire or a cable, or along the place where one wire is above another.
     struct Line
     {
@@ -105,11 +88,12 @@ namespace taut
     void compare_filter(const Scene &scene, double frequency, double step);
 
     long interval, n_calls = 0;
-    Forms forms;
+    LinearForms forms;
     std::vector<Line> lines;
     std::vector<double> at_reference, values;
     Extreme slope, distance;
     std::vector<ModelWarning> constant; ///< known before the first step
+    SolidLimits solids;
   };
 } // namespace taut
 

@@ -60,6 +60,10 @@ namespace taut
     virtual ContactSurface surface(const BodySetting &setting,
                                    const std::vector<unsigned int> &boundaries) const;
 
+    /// The turn of a part of its surface that ends a run, for bodies whose equations are those of
+    /// small turns [rad]; 0: the turns of its surface are not watched.
+    virtual double largest_turn() const { return 0.; }
+
     /// How the body can be cut; none: it stays whole. Called on all ranks, with the same result.
     /// Throws EntryError.
     virtual std::shared_ptr<const DivisibleBody> division(const BodySetting &) const

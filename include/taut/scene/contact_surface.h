@@ -75,6 +75,8 @@ namespace taut
     Coordinates point;              ///< where on the slave surface it acts, on the average [m]
     Coordinates normal;             ///< unit vector from the slave towards the master
     unsigned int node = 0;          ///< of the slave surface: whose multiplier it is
+    double uncovered = 0.; ///< largest part of a slave face at it that lacks a master; 0: none, or
+                           ///< all of the face
   };
 } // namespace taut
 

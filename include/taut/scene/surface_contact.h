@@ -64,6 +64,8 @@ namespace taut
     double gap = 0.;             ///< added to that of the shapes [m]
     double compliance = 0.;      ///< closing of the gap by a pressure [m/Pa]
     double search_distance = 0.; ///< farther sides do not touch; 0: automatic [m]
+    double largest_sliding = 2.; ///< that a run goes on with [elements]
+    bool chooses_slave = false;  ///< the sides change places if that avoids an overhang
   };
 
   /// The contacts of a parameter file: `Contacts` lists them, each has a section `Contact <name>`.
@@ -82,8 +84,9 @@ namespace taut
       void declare(dealii::ParameterHandler &prm);
       std::string slave, master, obstacle = "none", method = "mortar", height = "0";
       std::vector<double> point = {0., 0.}, direction = {0., 1.};
-      double radius = 1., gap = 0., compliance = 0., search_distance = 0., height_change = 1e-3;
-      bool encloses_body = false;
+      double radius = 1., gap = 0., compliance = 0., search_distance = 0., height_change = 1e-3,
+             largest_sliding = 2.;
+      bool encloses_body = false, chooses_slave = false;
     };
     NamedItems<Item> items{"", "Contacts", "Contact",
                            "contacts between boundaries of bodies and obstacles"};

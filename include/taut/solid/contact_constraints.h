@@ -87,6 +87,10 @@ namespace taut
   std::vector<SurfaceConstraint>
   node_to_face_constraints(const ContactSurface &slave, const ContactSurface &master,
                            double search_distance = automatic_search_distance);
+
+  /// Of each node of a surface in the plane or in space, the largest angle between normals of faces
+  /// at a node of its own faces; angles of 0.5 rad and more are corners and do not count [rad].
+  std::vector<double> kinks_at_nodes(const ContactSurface &surface);
 } // namespace taut
 
 #endif

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_solid_limits_h
+#define taut_solid_limits_h
+
+#include <taut/model/surface_constraints.h>
+#include <taut/output/linear_forms.h>
+#include <taut/output/model_warning.h>
+#include <taut/output/observer.h>
+
+#include <array>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace taut
+{
+  /**
+   * Watches over what the equations of solids and their contacts take for granted. Of each kind the
+   * worst case of a run is kept.
+   *
+   * - "turn": a line between two nodes of the surface of a body turns by less than 0.1 rad. A turn
+   *   of that stretches what is stiff by 0.5 %.
+   * - "sliding": at a closed contact the sides slide by less than half of an element, the shorter
+   *   of both. A plane as the obstacle does not care.
+   * - "overhang": where a contact is closed, the master covers the faces of the slave as a whole.
+   * - "nodes on faces": nodes of the slave that carry are at nodes of the master.
+   * - "facets": sides of degree 2 that carry have no kinks of a few degrees.
+   * - "search": nodes that an automatic search distance left out stay open.
+   */
+  class SolidLimits
+  {
+  public:
+    /// Called by all ranks together.
+    SolidLimits(const Scene &scene, const SceneBodies &structure);
+
+    /// Called by all ranks together. Throws EntryError for a body that turns, or a contact that
+    /// slides, by more than its entry allows.
+    void record(const StepView &step);
+
+    /// How many nodes the search left out.
+    void print_start(std::ostream &out) const;
+
+    /// At most one of each kind.
+    std::vector<ModelWarning> warnings() const;
+
+    /// For checkpoints: the worst so far.
+    template <typename Archive>
+    void store(Archive &archive)
+    {
+      for (Worst &w : worst)
+        archive &w.excess &w.value &w.limit &w.time &w.item &w.place;
+    }
+
+  private:
+    enum Kind
+    {
+      turn,
+      sliding,
+      overhang,
+      nodes_on_faces,
+      facets,
+      search,
+      n_kinds
+    };
+
+    /// The worst of a kind so far.
+    struct Worst
+    {
+      double excess = 0.; ///< value over limit
+      double value = 0., limit = 0., time = 0.;
+      std::size_t item = 0, place = 0; ///< body or contact, line or constraint of it
+    };
+
+    /// Lines between nodes of a body's surface; three forms each.
+    struct Turning
+    {
+      std::string name, origin;
+      double largest; ///< [rad]
+      std::size_t first;
+      std::vector<Coordinates> places, chords; ///< [m]
+    };
+
+    /// A contact; three forms for each constraint if it can slide, then one for each left out.
+    struct Sliding
+    {
+      std::string name, origin;
+      double largest; ///< [elements]
+      bool can_slide, is_mortar;
+      std::size_t contact, first, first_left_out;
+      ContactGeometry geometry;
+      std::vector<double> elements; ///< of each constraint [m]
+      std::vector<double> kinks;    ///< of each constraint [rad]
+      std::vector<char> between;    ///< of each constraint: on a master's face, not at its node
+      std::vector<SurfaceConstraint> left_out;
+    };
+
+    void add_body(const Scene &scene, const SceneBodies &structure, std::size_t body);
+    void add_contact(const Scene &scene, const SceneBodies &structure, std::size_t contact);
+    void describe(const Scene &scene, Sliding &contact) const;
+    void record_turns(double time);
+    void record_contacts(const StepView &step);
+    void keep(Kind kind, double value, double limit, double time, std::size_t item,
+              std::size_t place);
+    std::string text_of(Kind kind) const;
+
+    std::vector<Turning> bodies;
+    std::vector<Sliding> contacts;
+    LinearForms forms;
+    std::vector<double> values;
+    std::array<Worst, n_kinds> worst;
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
+#include <taut/output/solid_limits.h>
+#include <taut/solid/contact_constraints.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <ostream>
+#include <sstream>
+
+namespace taut
+{
+  namespace
+  {
+    /// Turn from which on one is warned [rad]: slope^2 / 2 = 0.5 % of stretch is neglected.
+    constexpr double small_turn = .1;
+
+    /// Sliding from which on one is warned, in elements: then another element is the nearest.
+    constexpr double small_sliding = .5;
+
+    /// Kink of sides of degree 2 from which on they are facets: as much as those have that follow
+    /// an arc of 0.8 rad [rad].
+    constexpr double small_kink = .03;
+
+    /// Part of the weights of a master by which a node is beside a node of it.
+    constexpr double at_node = 1e-6;
+
+    constexpr std::size_t most_lines = 2000; ///< of a body
+    const Coordinates axes[] = {{1.}, {0., 1.}, {0., 0., 1.}};
+
+    std::string place_text(const Coordinates &p)
+    {
+      std::ostringstream out;
+      out.precision(4);
+      out << '(' << p.x << ", " << p.y << ", " << p.z << ')';
+      return out.str();
+    }
+
+    /// Of each node of a surface, the longest line between two neighbours in the list of nodes of a
+    /// face there [m].
+    std::vector<double> element_lengths(const ContactSurface &surface)
+    {
+      std::vector<double> result(surface.points.size(), 0.);
+      for (const std::vector<unsigned int> &face : surface.faces)
+      {
+        const double length = norm(surface.points[face[1]] - surface.points[face[0]]);
+        for (const unsigned int node : face)
+          result[node] = std::max(result[node], length * (face.size() == 9 ? 2. : 1.));
+      }
+      return result;
+    }
+  } // namespace
+
+  SolidLimits::SolidLimits(const Scene &scene, const SceneBodies &structure)
+  {
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+      if (scene.bodies[i].type->largest_turn() > 0.)
+        add_body(scene, structure, i);
+    for (std::size_t c = 0; c < scene.contacts.size(); ++c)
+      add_contact(scene, structure, c);
+  }
+
+  namespace
+  {
+    /// A motion of a node as far as its body is on this rank.
+    void append(const SceneBodies &structure, const std::size_t body, const unsigned int node,
+                const Coordinates &direction, std::vector<Term> &terms)
+    {
+      if (const std::size_t k = structure.index_at_node(body, node); k != Structure::elsewhere)
+        terms.push_back({k, structure[k].node_displacement(node, direction)});
+    }
+  } // namespace
+
+  void SolidLimits::add_body(const Scene &scene, const SceneBodies &structure,
+                             const std::size_t body)
+  {
+    const CustomBody &b = scene.bodies[body];
+    const ContactSurface surface = b.type->surface({b.name, b.origin, scene.gravity}, {});
+    Turning turning{b.name, b.origin, b.type->largest_turn(), forms.size(), {}, {}};
+    const std::size_t n = surface.faces.size() * (surface.faces.front().size() - 1),
+                      stride = (n + most_lines - 1) / most_lines;
+    for (std::size_t f = 0; f < surface.faces.size(); f += std::max<std::size_t>(stride, 1))
+      for (std::size_t i = 0; i + 1 < surface.faces[f].size(); ++i)
+      {
+        const unsigned int from = surface.faces[f][i], to = surface.faces[f][i + 1];
+        turning.chords.push_back(surface.points[to] - surface.points[from]);
+        turning.places.push_back(add_scaled(surface.points[from], .5, turning.chords.back()));
+        for (const Coordinates &axis : axes)
+        {
+          std::vector<Term> terms;
+          append(structure, body, to, axis, terms);
+          append(structure, body, from, add_scaled({}, -1., axis), terms);
+          forms.add(terms);
+        }
+      }
+    bodies.push_back(std::move(turning));
+  }
+
+  /// Elements, kinks, and what is between nodes of the master.
+  void SolidLimits::describe(const Scene &scene, Sliding &contact) const
+  {
+    const ContactGeometry &geometry = contact.geometry;
+    const bool has_master = !geometry.master.points.empty(),
+               has_faces = geometry.slave.dim > 1 && (!has_master || geometry.master.dim > 1);
+    const std::vector<double> slave = element_lengths(geometry.slave),
+                              master = element_lengths(geometry.master);
+    std::vector<double> slave_kinks, master_kinks;
+    if (has_faces && geometry.slave.degree == 2)
+      slave_kinks = kinks_at_nodes(geometry.slave);
+    if (has_faces && has_master && geometry.master.degree == 2)
+      master_kinks = kinks_at_nodes(geometry.master);
+    contact.is_mortar = scene.contacts[contact.contact].method == SurfaceMethod::mortar;
+    for (const SurfaceConstraint &c : geometry.constraints)
+    {
+      double element = slave[c.node], kink = slave_kinks.empty() ? 0. : slave_kinks[c.node],
+             largest = 0.;
+      for (const NodeWeight &w : c.master)
+      {
+        element = std::min(element, master[w.node]);
+        if (!master_kinks.empty())
+          kink = std::max(kink, master_kinks[w.node]);
+        largest = std::max(largest, norm(w.weight));
+      }
+      contact.elements.push_back(element);
+      contact.kinks.push_back(kink);
+      contact.between.push_back(has_master && has_faces && !contact.is_mortar &&
+                                largest < 1. - at_node);
+    }
+  }
+
+  void SolidLimits::add_contact(const Scene &scene, const SceneBodies &structure,
+                                const std::size_t number)
+  {
+    const SurfaceContact &given = scene.contacts[number];
+    Sliding contact;
+    contact.name = given.name;
+    contact.origin = given.origin;
+    contact.largest = given.largest_sliding;
+    contact.contact = number;
+    contact.geometry = contact_geometry(scene, number);
+    contact.left_out = left_out_constraints(scene, number, contact.geometry);
+    // A cable moves far by itself, and its contacts with it.
+    contact.can_slide =
+        given.obstacle.shape != ObstacleSetting::Shape::plane && contact.geometry.slave.dim > 1;
+    contact.first = forms.size();
+    describe(scene, contact);
+    // Along the normal the weights are those of displacements, whatever the direction of these.
+    const auto add = [&](const SurfaceConstraint &c, const Coordinates *const axis)
+    {
+      std::vector<Term> terms;
+      const auto direction = [&](const Coordinates &weight)
+      { return axis ? add_scaled({}, dot(weight, c.normal), *axis) : weight; };
+      for (const NodeWeight &w : c.slave)
+        append(structure, given.slave.body, w.node, direction(w.weight), terms);
+      for (const NodeWeight &w : c.master)
+        append(structure, given.master.body, w.node, direction(w.weight), terms);
+      forms.add(terms);
+    };
+    for (const SurfaceConstraint &c : contact.geometry.constraints)
+      for (unsigned int d = 0; d < (contact.can_slide ? 3u : 0u); ++d)
+        add(c, &axes[d]);
+    contact.first_left_out = forms.size();
+    for (const SurfaceConstraint &c : contact.left_out)
+      add(c, nullptr);
+    contacts.push_back(std::move(contact));
+  }
+
+  void SolidLimits::keep(const Kind kind, const double value, const double limit, const double time,
+                         const std::size_t item, const std::size_t place)
+  {
+    if (value / limit > worst[kind].excess)
+      worst[kind] = {value / limit, value, limit, time, item, place};
+  }
+
+  void SolidLimits::record(const StepView &step)
+  {
+    if (bodies.empty() && contacts.empty())
+      return;
+    values.assign(forms.size(), 0.);
+    forms.evaluate(step.reference.displacement, values.data());
+    forms.evaluate(step.state.U, values.data());
+    step.structure.communicator().sum(values);
+    record_turns(step.state.time);
+    record_contacts(step);
+    const Worst &t = worst[turn], &s = worst[sliding];
+    if (t.excess > 1. && t.value > bodies[t.item].largest)
+      throw EntryError(bodies[t.item].origin + "/Largest turn", text_of(turn));
+    if (s.excess > 1. && s.value > contacts[s.item].largest)
+      throw EntryError(contacts[s.item].origin + "/Largest sliding", text_of(sliding));
+  }
+
+  void SolidLimits::record_turns(const double time)
+  {
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+      for (std::size_t i = 0; i < bodies[b].chords.size(); ++i)
+      {
+        const double *const u = values.data() + bodies[b].first + 3 * i;
+        const Coordinates change{u[0], u[1], u[2]}, &chord = bodies[b].chords[i];
+        const double square = dot(chord, chord), along = dot(change, chord) / square;
+        const double across = norm(add_scaled(change, -along, chord)) / std::sqrt(square);
+        // One that points back has turned by more than a right angle.
+        keep(turn, along > -1. ? across : std::atan2(across, 1. + along), small_turn, time, b, i);
+      }
+  }
+
+  void SolidLimits::record_contacts(const StepView &step)
+  {
+    const double time = step.state.time;
+    for (std::size_t k = 0; k < contacts.size(); ++k)
+    {
+      const Sliding &contact = contacts[k];
+      const std::vector<SurfaceConstraint> &all = contact.geometry.constraints;
+      std::size_t row = 0;
+      while (step.constraints[row].contact != contact.contact)
+        ++row;
+      for (std::size_t i = 0; i < all.size(); ++i, ++row)
+      {
+        if (!(step.state.multiplier[row] > 0.))
+          continue;
+        if (contact.can_slide)
+        {
+          const double *const u = values.data() + contact.first + 3 * i;
+          const Coordinates motion{u[0], u[1], u[2]};
+          const Coordinates along = add_scaled(motion, -dot(motion, all[i].normal), all[i].normal);
+          keep(sliding, norm(along) / contact.elements[i], small_sliding, time, k, i);
+        }
+        keep(facets, contact.kinks[i], small_kink, time, k, i);
+        // Any of these is one too much.
+        constexpr double none = std::numeric_limits<double>::min();
+        if (all[i].uncovered > worst[overhang].value)
+          worst[overhang] = {2., all[i].uncovered, 0., time, k, i};
+        if (contact.between[i] && worst[nodes_on_faces].excess < none)
+          worst[nodes_on_faces] = {2., 1., 0., time, k, i};
+      }
+      for (std::size_t i = 0; i < contact.left_out.size(); ++i)
+        keep(search, -values[contact.first_left_out + i], contact.left_out[i].gap, time, k, i);
+    }
+  }
+
+  void SolidLimits::print_start(std::ostream &out) const
+  {
+    for (const Sliding &contact : contacts)
+      if (!contact.left_out.empty())
+        out << "  contact '" << contact.name << "': " << contact.left_out.size()
+            << " nodes of the slave face the master from beyond the automatic search distance and "
+               "take no part; Search distance changes that\n";
+  }
+
+  std::string SolidLimits::text_of(const Kind kind) const
+  {
+    const Worst &w = worst[kind];
+    std::ostringstream out;
+    out.precision(4);
+    if (kind == turn)
+    {
+      const Turning &body = bodies[w.item];
+      out << "solid '" << body.name << "' turns by " << w.value << " rad at "
+          << place_text(body.places[w.place]) << ", t = " << w.time
+          << " s: the equations are those of small turns, up to " << w.limit
+          << " rad. Check loads and supports, or take a rigid body";
+      return out.str();
+    }
+    const Sliding &contact = contacts[w.item];
+    const bool is_left_out = kind == search;
+    const SurfaceConstraint &c =
+        is_left_out ? contact.left_out[w.place] : contact.geometry.constraints[w.place];
+    const std::string at = place_text(c.point);
+    out << "contact '" << contact.name << "' ";
+    if (kind == sliding)
+      out << "slides by " << w.value << " of its elements, " << w.value * contact.elements[w.place]
+          << " m, at " << at << ", t = " << w.time
+          << " s: its forces act where the undeformed surfaces meet, up to " << w.limit
+          << " of an element. Check loads and supports";
+    else if (kind == overhang)
+      out << "acts at " << at << ", where the slave overhangs the master by " << 100. * w.value
+          << " % of a face: pressures of single nodes there alternate, resultants do not. "
+          << (contact.is_mortar && contact.geometry.slave.dim == 2
+                  ? "Exchange Slave and Master, or set Choose slave = true"
+                  : "Exchange Slave and Master, or end the boundary of the slave where the master "
+                    "ends");
+    else if (kind == nodes_on_faces)
+      out << "carries at " << at
+          << ", between nodes of the master: nodes on faces do not pass a uniform pressure, and "
+             "pressures of single nodes are off by some ten per cent, resultants are not. "
+          << (contact.geometry.slave.dim == 2 ? "Take Method = mortar"
+                                              : "Let the meshes match, or average over nodes");
+    else if (kind == facets)
+      out << "acts at " << at << ", where faces of degree 2 have a kink of " << w.value
+          << " rad: they do not follow a curve, and pressures alternate. Name the curve in Curved "
+             "boundaries of the mesh, or take Degree = 1";
+    else
+      out << "does not act at " << at << ", which comes " << w.value << " m nearer to the master, "
+          << w.limit << " m away, t = " << w.time
+          << " s: it passes through it, beyond the automatic search distance. Give a Search "
+             "distance of more than "
+          << w.limit << " m";
+    return out.str();
+  }
+
+  std::vector<ModelWarning> SolidLimits::warnings() const
+  {
+    const char *const names[] = {"turn",           "sliding", "overhang",
+                                 "nodes on faces", "facets",  "search"};
+    const char *const units[] = {"rad", "elements", "1", "1", "rad", "m"};
+    std::vector<ModelWarning> result;
+    for (const Kind kind : {turn, sliding, overhang, nodes_on_faces, facets, search})
+      if (const Worst &w = worst[kind]; w.excess > 1.)
+        result.push_back({names[kind], text_of(kind), w.value, w.limit, units[kind], w.time});
+    return result;
+  }
+} // namespace taut

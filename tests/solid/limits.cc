@@ -1,0 +1,367 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: contacts start as they touch, and solids and contacts that leave what the equations hold
+// for are warned of and end. Source: given displacements, places and circles of the scenes, by
+// hand; the same scene without rounding, or by other entries.
+#include "verification/run.h"
+
+#include <taut/base/exceptions.h>
+#include <taut/model/surface_constraints.h>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace
+{
+  using verification::Overrides;
+
+  struct Ran
+  {
+    std::vector<double> forces; ///< of all constraints, in the last step
+    std::vector<double> peaks;  ///< of all constraints, the largest so far
+    std::vector<taut::SurfaceConstraint> constraints;
+    std::vector<std::string> warnings; ///< kinds
+    std::string log, error;
+  };
+
+  Ran run(const std::string &text, const Overrides &overrides = {})
+  {
+    Ran result;
+    try
+    {
+      verification::Session session(text, overrides);
+      try
+      {
+        session.run(
+            [&](const taut::StepView &view)
+            {
+              result.forces = view.state.multiplier;
+              result.peaks.resize(result.forces.size(), 0.);
+              for (std::size_t i = 0; i < result.peaks.size(); ++i)
+                result.peaks[i] = std::fmax(result.peaks[i], result.forces[i]);
+              if (result.constraints.empty() && !view.scene.contacts.empty())
+                result.constraints = taut::contact_geometry(view.scene, 0).constraints;
+            });
+      }
+      catch (const taut::UserError &e)
+      {
+        result.error = e.what();
+      }
+      result.log = session.log();
+      if (std::ifstream file(session.folder() + "/statistics.json"); file)
+      {
+        const nlohmann::json all = nlohmann::json::parse(file);
+        for (const auto &warning : all.at("warnings"))
+          result.warnings.push_back(warning.at("kind"));
+      }
+    }
+    catch (const taut::UserError &e)
+    {
+      result.error = e.what();
+    }
+    return result;
+  }
+
+  bool has(const std::string &text, const std::string &part)
+  {
+    return text.find(part) != std::string::npos;
+  }
+
+  std::string body(const std::string &name, const std::string &cells, const std::string &more = "")
+  {
+    return "subsection Body " + name +
+           "\nset Type = solid\nset Young's modulus = 1e9\nset Poisson's ratio = 0\n"
+           "set Density = 2000\n" +
+           more + "\nsubsection Mesh\n" + cells + "\nend\nend\n";
+  }
+
+  std::string box(const std::string &name, const std::string &arguments, const std::string &more)
+  {
+    return body(name, "set Arguments = " + arguments, more);
+  }
+
+  std::string scene(const std::string &start, const std::string &bodies, const std::string &rest)
+  {
+    return "set Generator = network\nset Gravity = 0, 0\nset Start = " + start + "\n" + bodies +
+           rest;
+  }
+
+  std::string contact(const std::string &slave, const std::string &master,
+                      const std::string &more = "")
+  {
+    return "set Contacts = pair\nsubsection Contact pair\nset Slave = " + slave +
+           "\nset Master = " + master + "\n" + more + "\nend\n";
+  }
+
+  const std::string at_rest = "subsection Time\nset End = 0\nend\n",
+                    steps = "subsection Time\nset Step = 1e-5\nset End = 2e-4\nend\n";
+
+  /// A block from y = 0 to @p top below one from @p bottom on, pressed down.
+  std::string stack(const std::string &top, const std::string &bottom)
+  {
+    return scene("given",
+                 "set Bodies = lower, upper\n" +
+                     box("lower", "4, 3 : 0, 0 : 1, " + top, "set Fixed boundaries = 2") +
+                     box("upper", "3, 3 : 0, " + bottom + " : 1, 0.6", "set Traction = 3: 0, -1e5"),
+                 contact("upper: 2", "lower: 3") + steps);
+  }
+} // namespace
+
+// Claim: a gap that starts at -5.6e-17 m, 0.3 less 0.1 + 0.2, is one of 0 m, without a force of its
+// own in steps of 10 us. Expected: the forces from a gap of 0 m.
+TEST(SolidLimits, a_gap_that_rounds_starts_closed)
+{
+  const Ran rounded = run(stack("0.30000000000000004", "0.3")), exact = run(stack("0.3", "0.3"));
+  ASSERT_EQ(rounded.error, "");
+  ASSERT_EQ(exact.error, "");
+  ASSERT_EQ(rounded.peaks.size(), exact.peaks.size());
+  double largest = 0.;
+  for (const double force : exact.peaks)
+    largest = std::fmax(largest, force);
+  EXPECT_GT(largest, 1e3);
+  for (std::size_t i = 0; i < exact.peaks.size(); ++i)
+    EXPECT_NEAR(rounded.peaks[i], exact.peaks[i], 1e-9 * largest);
+  const std::string deep = run(stack("0.3000001", "0.3")).error;
+  EXPECT_TRUE(has(deep, "starts with a gap of -1e-07 m")) << deep;
+}
+
+// Claim: two whole discs, and balls, meet by nodes on faces. Expected: of each node the distance to
+// the other circle, but for the heights of its facets, and a normal that is that of the circle, but
+// for half of a facet's angle.
+TEST(SolidLimits, whole_discs_and_balls_take_nodes_to_faces)
+{
+  for (const bool is_ball : {false, true})
+  {
+    const std::string cells = "set Generator = hyper_ball\nset Refinements = 2\nset Arguments = ",
+                      dim = is_ball ? "set Dimension = 3\n" : "", z = is_ball ? ", 0" : "";
+    const Ran found = run(scene(
+        "given",
+        "set Bodies = lower, upper\n" +
+            body("lower", cells + "0, 0" + z + " : 1", dim + "set Displacement = 0: 0, 0" + z) +
+            body("upper", cells + "0, 2" + z + " : 1", dim),
+        contact("upper", "lower", "set Method = nodes to faces") + at_rest));
+    ASSERT_EQ(found.error, "");
+    ASSERT_GE(found.constraints.size(), 5u);
+    const double facet = 2. * M_PI / 16., sagitta = 1. - std::cos(.5 * facet);
+    for (const taut::SurfaceConstraint &c : found.constraints)
+    {
+      const double r = norm(c.point);
+      EXPECT_GT(c.area, 0.);
+      EXPECT_GE(c.gap, r - 1. - 1e-12);
+      EXPECT_LE(c.gap, r - 1. + 2. * sagitta);
+      EXPECT_GT(-dot(c.normal, c.point) / r, std::cos(facet));
+    }
+  }
+}
+
+// Claim: a ball joint at a solid in the plane is joints along x and y, and holds the cable in that
+// plane. Expected: the forces of the two joints, and none across.
+TEST(SolidLimits, a_ball_joint_holds_a_cable_to_a_solid_in_the_plane)
+{
+  const auto text = [](const std::string &links)
+  {
+    return scene("equilibrium",
+                 "set Bodies = block, rope\n" +
+                     box("block", "2, 2 : 0, 0 : 1, 1", "set Fixed boundaries = 0") +
+                     "subsection Body rope\nset Type = cable\nset From = 1, 1\nset To = 4, 1\n"
+                     "set Unstressed length = 3.2\nset Axial stiffness = 1e5\n"
+                     "set Mass per length = 1\nset Elements = 8\nset Held ends = to\nend\n",
+                 "subsection Network\n" + links + "end\n" + at_rest);
+  };
+  const std::string ends = "\nset From = block @ 1, 1\nset To = rope @ 0, 0\n";
+  const Overrides gravity = {"Gravity=0, -9.81"};
+  const Ran ball =
+      run(text("set Links = pin\nsubsection Link pin\nset Type = ball joint" + ends + "end\n"),
+          gravity);
+  const Ran joints = run(text("set Links = a, b\nsubsection Link a\nset Direction = 1, 0" + ends +
+                              "end\nsubsection Link b\nset Direction = 0, 1" + ends + "end\n"),
+                         gravity);
+  ASSERT_EQ(ball.error, "");
+  ASSERT_EQ(joints.error, "");
+  ASSERT_EQ(ball.forces.size(), 3u);
+  ASSERT_EQ(joints.forces.size(), 2u);
+  EXPECT_GT(std::fabs(joints.forces[0]), 10.);
+  for (unsigned int d = 0; d < 2; ++d)
+    EXPECT_NEAR(ball.forces[d], joints.forces[d], 1e-9 * std::fabs(joints.forces[0]));
+  EXPECT_NEAR(ball.forces[2], 0., 1e-9);
+}
+
+// Claim: a block that its boundary turns by a rad is warned of from 0.1 rad on, and ends from 0.5
+// on unless that is allowed. Expected: the angle of the given displacement.
+TEST(SolidLimits, a_block_that_turns_far_is_refused)
+{
+  const auto turned = [](const std::string &a, const Overrides &more = {})
+  {
+    return run(scene("equilibrium",
+                     "set Bodies = block\n" + box("block", "3, 3 : 0, 0 : 1, 1",
+                                                  "set Displacement = 0: -y*" + a + ", x*" + a +
+                                                      "; 1: -y*" + a + ", x*" + a),
+                     at_rest),
+               more);
+  };
+  EXPECT_FALSE(has(turned("0.099").log, "Warning"));
+  EXPECT_TRUE(has(turned("0.101").log, "Warning: solid 'block' turns by 0.101 rad"));
+  EXPECT_EQ(turned("0.499").error, "");
+  const Ran far = turned("0.501");
+  EXPECT_TRUE(has(far.error, "Body block/Largest turn")) << far.error;
+  EXPECT_TRUE(has(far.error, "turns by 0.501 rad")) << far.error;
+  EXPECT_EQ(turned("0.501", {"Body block/Largest turn=1"}).error, "");
+}
+
+// Claim: a block that slides on another is warned of from half of an element on, and ends from two
+// on. Expected: elements of 0.25 m, the sides held at a given motion.
+TEST(SolidLimits, a_block_that_slides_far_is_refused)
+{
+  const auto moved = [](const std::string &by, const Overrides &more = {})
+  {
+    return run(
+        scene("equilibrium",
+              "set Bodies = lower, upper\n" +
+                  box("lower", "8, 2 : 0, 0 : 2, 0.5", "set Fixed boundaries = 2") +
+                  box("upper", "2, 2 : 0.5, 0.5 : 1, 1", "set Displacement = 3: " + by + ", -1e-4"),
+              contact("upper: 2", "lower: 3") + at_rest),
+        more);
+  };
+  EXPECT_FALSE(has(moved("0.12").log, "Warning"));
+  EXPECT_TRUE(has(moved("0.13").log, "Warning: contact 'pair' slides by 0.52 of its elements, "
+                                     "0.13 m"))
+      << moved("0.13").log;
+  EXPECT_EQ(moved("0.49").error, "");
+  const Ran far = moved("0.51");
+  EXPECT_TRUE(has(far.error, "Contact pair/Largest sliding")) << far.error;
+  EXPECT_EQ(moved("0.51", {"Contact pair/Largest sliding=3"}).error, "");
+}
+
+// Claim: a slave that overhangs is named, and the sides change places if asked. Expected: elements
+// of 1/3 m below a master that ends at 0.5 m.
+TEST(SolidLimits, a_slave_that_overhangs_is_named)
+{
+  const auto pressed = [](const std::string &more)
+  {
+    return run(
+        scene("equilibrium",
+              "set Bodies = wide, narrow\n" +
+                  box("wide", "3, 3 : 0, 0 : 1, 0.3", "set Fixed boundaries = 2") +
+                  box("narrow", "2, 2 : 0, 0.3 : 0.5, 0.6", "set Displacement = 3: 0, -1e-4"),
+              contact("wide: 3", "narrow: 2", more) + at_rest));
+  };
+  const Ran named = pressed("");
+  EXPECT_TRUE(has(named.log, "Warning: contact 'pair' acts at")) << named.log;
+  EXPECT_TRUE(has(named.log, "overhangs the master by 50 % of a face")) << named.log;
+  EXPECT_TRUE(has(named.log, "Choose slave = true"));
+  const Ran chosen = pressed("set Choose slave = true");
+  ASSERT_EQ(chosen.error, "");
+  EXPECT_FALSE(has(chosen.log, "Warning")) << chosen.log;
+  EXPECT_EQ(chosen.forces.size(), 3u); // the nodes of the narrow one
+  EXPECT_TRUE(has(pressed("set Choose slave = true\nset Method = nodes to faces").error,
+                  "Contact pair/Choose slave"));
+}
+
+// Claim: nodes on faces whose meshes do not match are named, those that match are not, in the log
+// and in statistics.json.
+TEST(SolidLimits, nodes_between_nodes_of_the_master_are_named)
+{
+  for (const char *const n : {"2", "3"})
+  {
+    const Ran found = run(scene("equilibrium",
+                                "set Bodies = lower, upper\n" +
+                                    box("lower", "2, 2, 2 : 0, 0, 0 : 1, 1, 1",
+                                        "set Dimension = 3\nset Fixed boundaries = 4") +
+                                    box("upper", std::string(n) + ", 2, 2 : 0, 0, 1 : 1, 1, 2",
+                                        "set Dimension = 3\nset Displacement = 5: 0, 0, -1e-4"),
+                                contact("upper: 4", "lower: 5", "set Method = nodes to faces") +
+                                    "subsection Time\nset Step = 0.1\nset End = 0.1\nend\n"));
+    ASSERT_EQ(found.error, "");
+    const bool is_named = has(found.log, "between nodes of the master");
+    EXPECT_EQ(is_named, n[0] == '3') << found.log;
+    EXPECT_EQ(is_named,
+              std::count(found.warnings.begin(), found.warnings.end(), "nodes on faces") == 1)
+        << found.log;
+  }
+}
+
+namespace
+{
+  /// A quarter of a ring between the radii 1 and 2 in 4 x 2 straight cells; boundary 7 is its inner
+  /// side, 8 its outer one, and 6 its two ends.
+  struct QuarterRing
+  {
+    const std::filesystem::path path =
+        std::filesystem::temp_directory_path() / ("taut_ring_" + std::to_string(getpid()) + ".msh");
+
+    QuarterRing()
+    {
+      std::ofstream file(path);
+      file.precision(16);
+      file << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n15\n";
+      for (int j = 0; j < 3; ++j)
+        for (int i = 0; i < 5; ++i)
+          file << 1 + i + 5 * j << ' ' << (1. + .5 * j) * std::cos(M_PI / 8. * i) << ' '
+               << (1. + .5 * j) * std::sin(M_PI / 8. * i) << " 0\n";
+      file << "$EndNodes\n$Elements\n20\n";
+      int n = 0;
+      const auto line = [&](const int id, const int a, const int b)
+      { file << ++n << " 1 2 " << id << ' ' << id << ' ' << a << ' ' << b << '\n'; };
+      for (int i = 0; i < 4; ++i)
+      {
+        line(7, 1 + i, 2 + i);
+        line(8, 11 + i, 12 + i);
+      }
+      for (int j = 0; j < 2; ++j)
+      {
+        line(6, 1 + 5 * j, 6 + 5 * j);
+        line(6, 5 + 5 * j, 10 + 5 * j);
+      }
+      for (int j = 0; j < 2; ++j)
+        for (int i = 0; i < 4; ++i)
+          file << ++n << " 3 2 0 0 " << 1 + i + 5 * j << ' ' << 6 + i + 5 * j << ' '
+               << 7 + i + 5 * j << ' ' << 2 + i + 5 * j << '\n';
+      file << "$EndElements\n";
+    }
+    ~QuarterRing() { std::filesystem::remove(path); }
+  };
+} // namespace
+
+// Claim: a mesh from a file follows a circle that an entry names, and facets are named. Expected:
+// middles of sides at the radius 1, or nearer by the height of a chord.
+TEST(SolidLimits, a_mesh_from_a_file_follows_a_circle)
+{
+  const QuarterRing ring;
+  const auto pressed = [&](const std::string &curve)
+  {
+    return run(scene("equilibrium",
+                     "set Bodies = ring\n" +
+                         body("ring", "set File = " + ring.path.string() + "\n" + curve,
+                              "set Degree = 2\nset Symmetry boundaries = 6\nset Displacement = 8: "
+                              "-1e-4*x, -1e-4*y"),
+                     "set Contacts = pin\nsubsection Contact pin\nset Slave = ring: 7\n"
+                     "set Obstacle = cylinder\nset Point = 0, 0\nset Direction = 0, 0, 1\n"
+                     "set Radius = 0.99995\nend\n" +
+                         at_rest));
+  };
+  const double chord = std::cos(M_PI / 16.);
+  for (const bool follows : {false, true})
+  {
+    const Ran found =
+        pressed(follows ? "set Curved boundaries = 7: circle, 0, 0" : "set Shift = 0, 0");
+    // Middles of straight sides are in the obstacle, where a run at rest pushes them out.
+    ASSERT_EQ(found.error, "");
+    ASSERT_EQ(found.constraints.size(), 9u);
+    double least = 2.;
+    for (const taut::SurfaceConstraint &c : found.constraints)
+      least = std::fmin(least, norm(c.point));
+    EXPECT_NEAR(least, follows ? 1. : chord, 1e-12);
+    EXPECT_EQ(has(found.log, "have a kink of"), !follows) << found.log;
+  }
+  EXPECT_TRUE(has(pressed("set Curved boundaries = 7: circle, 0.1, 0").error, "on no one radius"));
+  EXPECT_TRUE(has(pressed("set Curved boundaries = 9: circle, 0, 0").error, "no boundary 9"));
+  EXPECT_TRUE(has(pressed("set Curved boundaries = 7: sphere, 0, 0").error, "id: circle, x, y"));
+}
