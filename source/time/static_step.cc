@@ -23,6 +23,10 @@ namespace taut
     /// whatever their direction.
     constexpr double rounding_of_motions = 1e-3;
 
+    /// Residuals up to this need no second look. It is far below any contact tolerance in use, and
+    /// above what a gap that is summed from its largest terms rounds with.
+    constexpr double conspicuous = 1e-10;
+
     /// |x| over size; 0 if x is.
     double relative(const double x, const double size)
     {
@@ -148,6 +152,59 @@ namespace taut
     return state;
   }
 
+  std::vector<double> StaticStep::motion_terms(const BodyVectors &U) const
+  {
+    std::vector<double> size(constraints.size(), 0.);
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      size[i] = magnitude(constraints[i].terms, U);
+    processes.sum(size);
+    return size;
+  }
+
+  /// sum_j |K_ij| |U_j| / K_ii: a displacement rounds with those that its equation ties it to, as
+  /// the slope of a beam that is moved without bending does [m, rad].
+  BodyVectors StaticStep::terms_of(const BodyVectors &U) const
+  {
+    BodyVectors terms = structure.zero();
+    std::vector<double> diagonal;
+    for (std::size_t k = 0; k < U.size(); ++k)
+    {
+      diagonal.assign(U[k].size(), 0.);
+      bodies().stiffness(k).visit(
+          [&](const unsigned int i, const unsigned int j, const double value)
+          {
+            terms[k][i] += std::fabs(value * U[k][j]);
+            if (i == j)
+              diagonal[i] = value;
+            else
+              terms[k][j] += std::fabs(value * U[k][i]);
+          });
+      for (std::size_t i = 0; i < U[k].size(); ++i)
+        terms[k][i] = diagonal[i] > 0. ? terms[k][i] / diagonal[i] : std::fabs(U[k][i]);
+    }
+    return terms;
+  }
+
+  /**
+   * Residual of the conditions of the constraints, with the gaps of the displacements. An entry of
+   * F is a sum over the bodies, whose terms may cancel, as the slopes on both sides of a cut in a
+   * straight wire do: a gap rounds with the motions of its ends, too.
+   */
+  ComplementarityResidual StaticStep::residual_of_gaps(const StaticState &state)
+  {
+    MixedComplementaritySolution certified = solution;
+    certified.gap = state.gap;
+    const ComplementarityOperator &F = system.interface().matrix();
+    const ComplementarityResidual found = residual(problem, F, certified);
+    if (found.max <= conspicuous)
+      return found;
+    MixedComplementarityProblem with_motions = problem;
+    const std::vector<double> size = motion_terms(terms_of(state.displacement));
+    for (std::size_t i = 0; i < size.size(); ++i)
+      with_motions.gap_scale[i] += size[i];
+    return residual(with_motions, F, certified);
+  }
+
   /// What gaps and loads of the null space lack. Returns the largest gap of the closed
   /// constraints over the motions that it is summed from, or load over the forces.
   double StaticStep::find_remainder(const StaticState &state,
@@ -158,10 +215,7 @@ namespace taut
     constraints.add_forces(state.multiplier, forces);
     system.set_modes(forces, remainder);
     remainder.free_gap = state.gap;
-    std::vector<double> size(n, 0.);
-    for (std::size_t i = 0; i < n; ++i)
-      size[i] = magnitude(constraints[i].terms, state.displacement);
-    processes.sum(size);
+    const std::vector<double> size = motion_terms(state.displacement);
     double largest = 0.;
     for (std::size_t i = 0; i < n; ++i)
       if (solution.closed[i])
@@ -249,10 +303,7 @@ namespace taut
     Certificate found = certificate;
     if (constraints.size() > 0)
     {
-      MixedComplementaritySolution certified = solution;
-      certified.gap = state.gap;
-      const ComplementarityResidual result =
-          residual(problem, system.interface().matrix(), certified);
+      const ComplementarityResidual result = residual_of_gaps(state);
       found.complementarity = result.max;
       found.worst_constraint =
           std::max_element(result.rows.begin(), result.rows.end()) - result.rows.begin();

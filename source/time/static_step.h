@@ -46,6 +46,11 @@ namespace taut
     double find_remainder(const StaticState &state, MixedComplementarityProblem &remainder) const;
     void refine(StaticState &state);
 
+    /// Of each constraint, the sum of the sizes of the motions that its gap is made of [m, rad].
+    std::vector<double> motion_terms(const BodyVectors &U) const;
+    BodyVectors terms_of(const BodyVectors &U) const;
+    ComplementarityResidual residual_of_gaps(const StaticState &state);
+
     const Structure &structure;
     const Constraints &constraints;
     const SofterBodies &soft;
