@@ -62,15 +62,15 @@ TEST(StepControl, the_error_falls_with_the_tolerance)
 namespace
 {
   /// End and number of steps of an adaptive run, and its log.
-  struct Run
+  struct AdaptiveRun
   {
     double end = 0., time = 0.;
     long n_steps = 0;
   };
-  Run adaptive_run(const std::string &scene, const std::string &tolerance,
-                   const Overrides &more = {})
+  AdaptiveRun adaptive_run(const std::string &scene, const std::string &tolerance,
+                           const Overrides &more = {})
   {
-    Run result;
+    AdaptiveRun result;
     Overrides overrides = {adaptive, "Time.Adaptive step.Tolerance=" + tolerance};
     overrides.insert(overrides.end(), more.begin(), more.end());
     run_scene(scene, overrides,
@@ -112,7 +112,7 @@ TEST(StepControl, impacts_are_met_as_exactly_as_the_tolerance_asks)
   double before = 1.;
   for (const std::string tolerance : {"1e-4", "1e-6", "1e-8", "1e-10"})
   {
-    const Run run = adaptive_run(ball(""), tolerance, {"Time.Adaptive step.Halvings=34"});
+    const AdaptiveRun run = adaptive_run(ball(""), tolerance, {"Time.Adaptive step.Halvings=34"});
     const double error = std::fabs(run.end - exact_ball(0.));
     figure("ball on a rigid stop, adaptive, tolerance " + tolerance + ", error", error, "m");
     figure("ball on a rigid stop, adaptive, tolerance " + tolerance + ", steps", run.n_steps);
@@ -133,7 +133,8 @@ TEST(StepControl, elastic_stops_shorten_steps_too)
     double before = 1.;
     for (const std::string tolerance : {"1e-4", "1e-6"})
     {
-      const Run run = adaptive_run(ball("  set Stiffness = " + number(k) + "\n"), tolerance);
+      const AdaptiveRun run =
+          adaptive_run(ball("  set Stiffness = " + number(k) + "\n"), tolerance);
       const double error = std::fabs(run.end - exact_ball(contact));
       figure("ball on a stop of " + number(k) + " N/m, adaptive, tolerance " + tolerance +
                  ", error",
@@ -161,7 +162,7 @@ TEST(StepControl, a_short_load_on_a_calm_mass_is_not_missed)
   double before = 1.;
   for (const std::string tolerance : {"1e-3", "1e-5"})
   {
-    const Run run = adaptive_run(scene, tolerance);
+    const AdaptiveRun run = adaptive_run(scene, tolerance);
     figure("pulse on a calm mass, adaptive, tolerance " + tolerance + ", error over the motion",
            std::fabs(run.end - exact) / exact);
     EXPECT_NEAR(run.end, exact, .01 * exact) << tolerance;
@@ -188,7 +189,7 @@ TEST(StepControl, the_largest_step_is_an_entry)
 // the first step.
 TEST(StepControl, the_impact_of_a_bar_converges)
 {
-  double before = 0.;
+  double before = 4.;
   for (const std::string tolerance : {"1e-4", "1e-5"})
   {
     double impulse = 0., last = 0.;
@@ -206,8 +207,7 @@ TEST(StepControl, the_impact_of_a_bar_converges)
     figure("bar on a wall, adaptive, tolerance " + tolerance + ", steps", n_steps);
     EXPECT_NEAR(last, 1.5, 1e-12);
     EXPECT_NEAR(impulse, 200., 4.);
-    if (before > 0.)
-      EXPECT_LT(std::fabs(impulse - 200.), before);
+    EXPECT_LT(std::fabs(impulse - 200.), before);
     before = std::fabs(impulse - 200.);
   }
 }
