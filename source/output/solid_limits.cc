@@ -255,10 +255,10 @@ namespace taut
     if (kind == turn)
     {
       const Turning &body = bodies[w.item];
-      out << "solid '" << body.name << "' turns by " << w.value << " rad at "
+      out << "a line on the boundary of '" << body.name << "' turns by " << w.value << " rad at "
           << place_text(body.places[w.place]) << ", t = " << w.time
           << " s: the equations are those of small turns, up to " << w.limit
-          << " rad. Check loads and supports, or take a rigid body";
+          << " rad. Check loads and supports; a body that moves far as a whole may be a rigid body";
       return out.str();
     }
     const Sliding &contact = contacts[w.item];

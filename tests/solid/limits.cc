@@ -208,7 +208,8 @@ TEST(SolidLimits, a_block_that_turns_far_is_refused)
                more);
   };
   EXPECT_FALSE(has(turned("0.099").log, "Warning"));
-  EXPECT_TRUE(has(turned("0.101").log, "Warning: solid 'block' turns by 0.101 rad"));
+  EXPECT_TRUE(
+      has(turned("0.101").log, "Warning: a line on the boundary of 'block' turns by 0.101 rad"));
   EXPECT_EQ(turned("0.499").error, "");
   const Ran far = turned("0.501");
   EXPECT_TRUE(has(far.error, "Body block/Largest turn")) << far.error;
