@@ -242,9 +242,10 @@ namespace taut
   {
     for (const Sliding &contact : contacts)
       if (!contact.left_out.empty())
-        out << "  contact '" << contact.name << "': " << contact.left_out.size()
-            << " nodes of the slave face the master from beyond the automatic search distance and "
-               "take no part; Search distance changes that\n";
+        out << "  contact '" << contact.name
+            << "': nodes of the slave that face the master from beyond the automatic search "
+               "distance and take no part: "
+            << contact.left_out.size() << "; a Search distance takes them in\n";
   }
 
   std::string SolidLimits::text_of(const Kind kind) const

@@ -366,3 +366,30 @@ TEST(SolidLimits, a_mesh_from_a_file_follows_a_circle)
   EXPECT_TRUE(has(pressed("set Curved boundaries = 9: circle, 0, 0").error, "no boundary 9"));
   EXPECT_TRUE(has(pressed("set Curved boundaries = 7: sphere, 0, 0").error, "id: circle, x, y"));
 }
+
+// Claim: nodes that an automatic search distance leaves out are counted, and named if they pass
+// through the master. Expected: one node of a slanting side, 3 m above a master of 1 m, that is
+// moved by 2.9 or 3.2 m.
+TEST(SolidLimits, nodes_beyond_the_search_distance_are_counted)
+{
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("taut_slant_" + std::to_string(getpid()) + ".msh");
+  std::ofstream(path) << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n"
+                         "1 0 0.1 0\n2 1 3 0\n3 0.5 4 0\n4 -0.5 1 0\n$EndNodes\n$Elements\n2\n"
+                         "1 1 2 5 1 1 2\n2 3 2 1 1 1 2 3 4\n$EndElements\n";
+  for (const std::string by : {"2.9", "3.2"})
+  {
+    const Ran found = run(scene(
+        "equilibrium",
+        "set Bodies = lower, slant\n" +
+            box("lower", "2, 2 : 0, -1 : 1, 0", "set Fixed boundaries = 2") +
+            body("slant", "set File = " + path.string(),
+                 "set Largest turn = 100\nset Displacement = 5: 0, -x*" + by + "; 0: 0, -x*" + by),
+        contact("slant: 5", "lower: 3", "set Method = nodes to faces") + at_rest));
+    EXPECT_EQ(found.error, "");
+    EXPECT_TRUE(has(found.log, "search distance and take no part: 1;")) << found.log;
+    EXPECT_EQ(has(found.log, "comes 3.2 m nearer to the master, 3 m away"), by == "3.2")
+        << found.log;
+  }
+  std::filesystem::remove(path);
+}
