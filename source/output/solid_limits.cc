@@ -275,7 +275,7 @@ namespace taut
           << " of an element. Check loads and supports";
     else if (kind == overhang)
       out << "acts at " << at << ", where the slave overhangs the master by " << 100. * w.value
-          << " % of a face: pressures of single nodes there alternate, resultants do not. "
+          << " % of a face: pressures of single nodes there may alternate, resultants do not. "
           << (contact.is_mortar && contact.geometry.slave.dim == 2
                   ? "Exchange Slave and Master, or set Choose slave = true"
                   : "Exchange Slave and Master, or end the boundary of the slave where the master "
