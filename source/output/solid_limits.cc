@@ -238,11 +238,11 @@ namespace taut
     }
   }
 
-  void SolidLimits::print_start(std::ostream &out) const
+  void SolidLimits::print_left_out(std::ostream &out) const
   {
     for (const Sliding &contact : contacts)
       if (!contact.left_out.empty())
-        out << "  contact '" << contact.name
+        out << "Contact '" << contact.name
             << "': nodes of the slave that face the master from beyond the automatic search "
                "distance and take no part: "
             << contact.left_out.size() << "; a Search distance takes them in\n";
