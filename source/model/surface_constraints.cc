@@ -254,7 +254,7 @@ namespace taut
     return result;
   }
 
-  void choose_slaves(Scene &scene)
+  Scene choose_slaves(Scene scene)
   {
     const auto n_overhanging = [](const ContactGeometry &geometry)
     {
@@ -271,6 +271,7 @@ namespace taut
       if (n_overhanging(contact_geometry(scene, c)) >= n)
         std::swap(contact.slave, contact.master);
     }
+    return scene;
   }
 
   std::vector<ConstraintData> surface_constraints(const Scene &scene, const SceneBodies &bodies)

@@ -343,6 +343,7 @@ namespace taut
 
   void ModelLimits::print(std::ostream &out) const
   {
+    solids.print_left_out(out);
     for (const ModelWarning &warning : warnings())
       out << "Warning: " << warning.message << '\n';
   }

@@ -238,13 +238,14 @@ namespace taut
     }
   }
 
-  void SolidLimits::print_start(std::ostream &out) const
+  void SolidLimits::print_left_out(std::ostream &out) const
   {
     for (const Sliding &contact : contacts)
       if (!contact.left_out.empty())
-        out << "  contact '" << contact.name << "': " << contact.left_out.size()
-            << " nodes of the slave face the master from beyond the automatic search distance and "
-               "take no part; Search distance changes that\n";
+        out << "Contact '" << contact.name
+            << "': nodes of the slave that face the master from beyond the automatic search "
+               "distance and take no part: "
+            << contact.left_out.size() << "; a Search distance takes them in\n";
   }
 
   std::string SolidLimits::text_of(const Kind kind) const
@@ -255,10 +256,10 @@ namespace taut
     if (kind == turn)
     {
       const Turning &body = bodies[w.item];
-      out << "solid '" << body.name << "' turns by " << w.value << " rad at "
+      out << "a line on the boundary of '" << body.name << "' turns by " << w.value << " rad at "
           << place_text(body.places[w.place]) << ", t = " << w.time
           << " s: the equations are those of small turns, up to " << w.limit
-          << " rad. Check loads and supports, or take a rigid body";
+          << " rad. Check loads and supports; a body that moves far as a whole may be a rigid body";
       return out.str();
     }
     const Sliding &contact = contacts[w.item];
@@ -274,7 +275,7 @@ namespace taut
           << " of an element. Check loads and supports";
     else if (kind == overhang)
       out << "acts at " << at << ", where the slave overhangs the master by " << 100. * w.value
-          << " % of a face: pressures of single nodes there alternate, resultants do not. "
+          << " % of a face: pressures of single nodes there may alternate, resultants do not. "
           << (contact.is_mortar && contact.geometry.slave.dim == 2
                   ? "Exchange Slave and Master, or set Choose slave = true"
                   : "Exchange Slave and Master, or end the boundary of the slave where the master "

@@ -10,7 +10,6 @@
 #include <taut/model/form_finding.h>
 #include <taut/model/scene_constraints.h>
 #include <taut/model/shared_parts.h>
-#include <taut/model/surface_constraints.h>
 #include <taut/output/contact_tables.h>
 #include <taut/output/fields.h>
 #include <taut/output/impact_watch.h>
@@ -37,9 +36,7 @@ namespace taut
     {
       if (shared)
         shared->begin();
-      Scene given = parameters.scene();
-      choose_slaves(given);
-      Scene scene = find_lengths(std::move(given), parameters.solver, shared);
+      Scene scene = find_lengths(choose_slaves(parameters.scene()), parameters.solver, shared);
       if (parameters.chooses_contact_mass())
         redistribute_contact_mass(scene, parameters.solver, parameters.step);
       return scene;
@@ -113,7 +110,6 @@ namespace taut
     limits = std::make_unique<ModelLimits>(
         model, bodies, integrator ? parameters.statistics.filter_frequency : 0., parameters.step,
         integrator ? std::clamp(n_steps() / 100, 1L, 50L) : 1L);
-    limits->print_start(log);
     Fields fields(parameters.output.folder, model, bodies, parameters.output.field_interval,
                   parameters.output.subdivisions);
     ObserverList observers(processes);

@@ -29,9 +29,9 @@ namespace taut
   std::vector<SurfaceConstraint> left_out_constraints(const Scene &scene, std::size_t contact,
                                                       const ContactGeometry &geometry);
 
-  /// Exchanges the sides of contacts that choose their slave, where the slave overhangs the master
-  /// at fewer nodes then. Throws EntryError, as contact_geometry() does.
-  void choose_slaves(Scene &scene);
+  /// The scene with the sides of contacts exchanged that choose their slave, where the slave
+  /// overhangs the master at fewer nodes then. Throws EntryError, as contact_geometry() does.
+  Scene choose_slaves(Scene scene);
 
   /// The constraints of all contacts of a scene, one contact after the other, with the forms of the
   /// bodies of this rank. Throws EntryError, too, if a body that moves by large amounts touches

@@ -44,13 +44,10 @@ namespace taut
     void save(OutputArchive &archive);
     void load(InputArchive &archive);
 
-    /// What solids and contacts leave out from the start, a line each.
-    void print_start(std::ostream &out) const { solids.print_start(out); }
-
     /// At most one of each kind.
     std::vector<ModelWarning> warnings() const;
 
-    /// A line each.
+    /// A line each, and what the searches of contacts left out.
     void print(std::ostream &out) const;
 
   private:

@@ -38,7 +38,7 @@ namespace taut
     void record(const StepView &step);
 
     /// How many nodes the search left out.
-    void print_start(std::ostream &out) const;
+    void print_left_out(std::ostream &out) const;
 
     /// At most one of each kind.
     std::vector<ModelWarning> warnings() const;

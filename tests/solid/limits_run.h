@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_solid_limits_run_h
+#define taut_solid_limits_run_h
+
+#include "verification/run.h"
+
+#include <taut/base/exceptions.h>
+#include <taut/model/surface_constraints.h>
+
+#include <nlohmann/json.hpp>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace solid_limits
+{
+  using verification::Overrides;
+
+  struct Ran
+  {
+    std::vector<double> forces; ///< of all constraints, in the last step
+    std::vector<double> peaks;  ///< of all constraints, the largest so far
+    std::vector<taut::SurfaceConstraint> constraints;
+    std::vector<std::string> warnings; ///< kinds
+    std::string log, error;
+  };
+
+  inline Ran run(const std::string &text, const Overrides &overrides = {})
+  {
+    Ran result;
+    try
+    {
+      verification::Session session(text, overrides);
+      try
+      {
+        session.run(
+            [&](const taut::StepView &view)
+            {
+              result.forces = view.state.multiplier;
+              result.peaks.resize(result.forces.size(), 0.);
+              for (std::size_t i = 0; i < result.peaks.size(); ++i)
+                result.peaks[i] = std::fmax(result.peaks[i], result.forces[i]);
+              if (result.constraints.empty() && !view.scene.contacts.empty())
+                result.constraints = taut::contact_geometry(view.scene, 0).constraints;
+            });
+      }
+      catch (const taut::UserError &e)
+      {
+        result.error = e.what();
+      }
+      result.log = session.log();
+      if (std::ifstream file(session.folder() + "/statistics.json"); file)
+      {
+        const nlohmann::json all = nlohmann::json::parse(file);
+        for (const auto &warning : all.at("warnings"))
+          result.warnings.push_back(warning.at("kind"));
+      }
+    }
+    catch (const taut::UserError &e)
+    {
+      result.error = e.what();
+    }
+    return result;
+  }
+
+  inline bool has(const std::string &text, const std::string &part)
+  {
+    return text.find(part) != std::string::npos;
+  }
+
+  inline std::string body(const std::string &name, const std::string &cells,
+                          const std::string &more = "")
+  {
+    return "subsection Body " + name +
+           "\nset Type = solid\nset Young's modulus = 1e9\nset Poisson's ratio = 0\n"
+           "set Density = 2000\n" +
+           more + "\nsubsection Mesh\n" + cells + "\nend\nend\n";
+  }
+
+  inline std::string box(const std::string &name, const std::string &arguments,
+                         const std::string &more)
+  {
+    return body(name, "set Arguments = " + arguments, more);
+  }
+
+  inline std::string scene(const std::string &start, const std::string &bodies,
+                           const std::string &rest)
+  {
+    return "set Generator = network\nset Gravity = 0, 0\nset Start = " + start + "\n" + bodies +
+           rest;
+  }
+
+  inline std::string contact(const std::string &slave, const std::string &master,
+                             const std::string &more = "")
+  {
+    return "set Contacts = pair\nsubsection Contact pair\nset Slave = " + slave +
+           "\nset Master = " + master + "\n" + more + "\nend\n";
+  }
+
+  const std::string at_rest = "subsection Time\nset End = 0\nend\n",
+                    steps = "subsection Time\nset Step = 1e-5\nset End = 2e-4\nend\n";
+
+  /// A block from y = 0 to @p top below one from @p bottom on, pressed down.
+  inline std::string stack(const std::string &top, const std::string &bottom)
+  {
+    return scene("given",
+                 "set Bodies = lower, upper\n" +
+                     box("lower", "4, 3 : 0, 0 : 1, " + top, "set Fixed boundaries = 2") +
+                     box("upper", "3, 3 : 0, " + bottom + " : 1, 0.6", "set Traction = 3: 0, -1e5"),
+                 contact("upper: 2", "lower: 3") + steps);
+  }
+} // namespace solid_limits
+
+#endif
