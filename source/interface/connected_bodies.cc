@@ -6,7 +6,8 @@
 
 namespace taut
 {
-  ConnectedBodies::ConnectedBodies(const Structure &structure, const Constraints &constraints)
+  ConnectedBodies::ConnectedBodies(const Structure &structure, const Constraints &constraints,
+                                   const std::function<bool(std::size_t)> &connects)
   {
     MatrixEntries acts_on;
     const auto add = [&](const std::size_t i, const std::vector<Term> &terms)
@@ -35,7 +36,7 @@ namespace taut
     for (std::size_t e = 0; e < acts_on.size(); ++e)
       if (std::size_t &other = first[acts_on.row[e]]; other == none)
         other = acts_on.column[e];
-      else
+      else if (!connects || connects(acts_on.row[e]))
         root[find(acts_on.column[e])] = find(other);
 
     std::vector<std::size_t> group(root.size(), none);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "link_flexibilities.h"
 
+#include <taut/interface/connected_bodies.h>
 #include <taut/time/contact_resolution.h>
 #include <taut/time/matrix_norms.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -146,8 +146,16 @@ namespace taut
         : structure(structure), constraints(constraints), of(of),
           in_step(structure, constraints, parameters, step),
           at_once(structure, constraints, parameters, short_step * step),
-          mass(total_masses(structure)), closed(joins(structure, constraints, false, no_link))
+          wholes(structure, constraints,
+                 [&](const std::size_t i)
+                 { return !constraints[i].unilateral && std::isinf(constraints[i].stiffness); }),
+          closed(joins(structure, constraints, false, no_link))
     {
+      const std::vector<double> of_bodies = total_masses(structure);
+      mass.assign(wholes.n_groups(), 0.);
+      for (std::size_t k = 0; k < structure.size(); ++k)
+        mass[wholes.of_body(k)] += of_bodies[k];
+      structure.communicator().sum(mass);
     }
 
     void judge_rigid(const std::vector<char> &without_mass)
@@ -230,21 +238,24 @@ namespace taut
       double share = 0.;
       for (const Term &term : constraints[i].terms)
       {
-        const double own =
-            structure[term.substructure].is_lumped()
-                ? at_once.of_body(term) / flexibility
-                : std::pow(part_of_translation(structure, term), 2) /
-                      (flexibility * at_once.mass_factor() * mass[term.substructure]);
+        const double own = structure[term.substructure].is_lumped()
+                               ? at_once.of_body(term) / flexibility
+                               : std::pow(part_of_translation(structure, term), 2) /
+                                     (flexibility * at_once.mass_factor() *
+                                      mass[wholes.of_body(term.substructure)]);
         share = std::max(share, own);
       }
       of[i].share = std::min(1., structure.communicator().max(share));
     }
 
-    /// Of elements, those of all constraints that push them to the same side together.
+    /// Of elements, those of all constraints that push them to the same side together. Bodies that
+    /// rigid bilateral constraints join are one: a wire is whole, cut in parts or not.
     void find_shares(const std::vector<std::size_t> &rows)
     {
-      std::vector<double> column;
-      std::vector<std::array<double, 2>> of_body(structure.size(), {0., 0.});
+      std::vector<double> column, of_whole(2 * wholes.n_groups(), 0.);
+      const auto side = [&](const Term &term) {
+        return 2 * wholes.of_body(term.substructure) + (part_of_translation(structure, term) < 0.);
+      };
       for (const std::size_t i : rows)
       {
         at_once.column(i, closed, column);
@@ -255,17 +266,16 @@ namespace taut
         for (const Term &term : constraints[i].terms)
         {
           const double part = part_of_translation(structure, term);
-          of_body[term.substructure][part < 0.] +=
-              part * part / (flexibility * mass[term.substructure]);
+          of_whole[side(term)] += part * part / (flexibility * mass[side(term) / 2]);
         }
       }
+      structure.communicator().sum(of_whole);
       for (const std::size_t i : rows)
       {
         double share = of[i].share;
         for (const Term &term : constraints[i].terms)
           if (!structure[term.substructure].is_lumped())
-            share = std::max(share,
-                             of_body[term.substructure][part_of_translation(structure, term) < 0.]);
+            share = std::max(share, of_whole[side(term)]);
         of[i].share = std::min(1., structure.communicator().max(share));
       }
     }
@@ -274,7 +284,8 @@ namespace taut
     const Constraints &constraints;
     std::vector<Row> &of;
     LinkFlexibilities in_step, at_once;
-    const std::vector<double> mass;
+    const ConnectedBodies wholes; ///< what rigid bilateral constraints join
+    std::vector<double> mass;     ///< of these [kg]
     const std::vector<std::size_t> closed;
   };
 

@@ -142,7 +142,7 @@ TEST(Schemes, automatic_follows_from_links_bodies_and_step)
   const std::string spring = "  set Stiffness = 1e5\n", impacts = "does not resolve the impacts";
   expect_choice(falling_masses(spring), {"Time.Step=1e-4", soon}, smooth, compliant);
   expect_choice(falling_masses(spring), {"Time.Step=2e-3", soon}, rigid, impacts);
-  expect_choice(falling_masses(spring), {"Time.Step=4e-2", soon}, rigid, stiffer);
+  expect_choice(falling_masses(spring), {"Time.Step=4e-2"}, rigid, stiffer);
   expect_choice(falling_masses(spring), {"Time.Step=1e-4", "Time.Step control=adaptive", soon},
                 rigid, impacts);
 }
@@ -216,7 +216,8 @@ TEST(Schemes, automatic_is_nearer_to_the_wave_equation)
   EXPECT_LT(bar_error(1., exact), 1e-9) << "by name, where waves cross an element a step";
 }
 
-// The mass stays on a rigid floor, and on a stiff one it rebounds to where it fell from. BDF2 lets
+// The mass stays on a rigid floor. On a stiff one it rebounds: two equal masses on a spring of
+// 1 rad/s have rates 4 and -4 m/s then, and the lower one is at 4 sin t - 5 t^2. BDF2 lets
 // it rebound by more or less as the step is, and generalised-alpha and Newmark let it jump higher
 // than it was: a run that ends in an error, which is allowed here.
 TEST(Schemes, automatic_leaves_a_mass_on_a_rigid_floor)
@@ -236,6 +237,8 @@ TEST(Schemes, automatic_leaves_a_mass_on_a_rigid_floor)
     return largest;
   };
   const std::string stiff = "  set Stiffness = 1e9\n";
+  constexpr double highest_at = .37206; // 4 cos t = 10 t
+  const double exact = 4. * std::sin(highest_at) - 5. * highest_at * highest_at;
   double lowest = 1., highest = 0.;
   for (const std::string step : {"3.3e-3", "1.1e-3", "3.3e-4"})
   {
@@ -245,7 +248,7 @@ TEST(Schemes, automatic_leaves_a_mass_on_a_rigid_floor)
     highest = std::max(highest, bdf2);
     figure("mass on a floor of 1e9 N/m, automatic, rebound, step " + step + " s", 1e3 * height,
            "mm");
-    EXPECT_NEAR(height, .8, .02) << step;
+    EXPECT_NEAR(height, exact, 2e-3) << step;
   }
   EXPECT_GT(highest, .05) << lowest;
   for (const std::string scheme : {"generalised-alpha", "Newmark"})

@@ -4,6 +4,7 @@
 
 #include <taut/interface/constraints.h>
 
+#include <functional>
 #include <vector>
 
 namespace taut
@@ -13,8 +14,10 @@ namespace taut
   class ConnectedBodies
   {
   public:
-    /// With the constraints where they are now. Called by all ranks together.
-    ConnectedBodies(const Structure &structure, const Constraints &constraints);
+    /// With the constraints where they are now. @p connects: those by their numbers that do; empty:
+    /// all of them. Called by all ranks together.
+    ConnectedBodies(const Structure &structure, const Constraints &constraints,
+                    const std::function<bool(std::size_t)> &connects = {});
 
     /// Number of groups of all ranks, the same on all of them.
     std::size_t n_groups() const { return n; }
