@@ -104,6 +104,8 @@ namespace taut
           const StepControl &steps = control;
           archive << steps << next_checkpoint;
           measures->save(archive);
+          if (accuracy)
+            accuracy->save(archive);
           limits->save(archive);
         });
     State state = stepper.state();
@@ -146,6 +148,8 @@ namespace taut
                 stepper.load(archive, std::move(state));
                 archive >> control >> next_checkpoint;
                 measures->load(archive);
+                if (accuracy)
+                  accuracy->load(archive);
                 limits->load(archive);
               });
     coefficients = stepper.scheme();

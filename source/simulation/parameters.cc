@@ -115,6 +115,15 @@ namespace taut
     prm.add_parameter("End", end_time, "0: the start only, e.g. a static equilibrium [s]",
                       not_negative());
     step_parameters.declare_parameters(prm);
+    prm.add_parameter(
+        "Check steps", check_steps,
+        "At the end of a run, whether its steps are short enough: it is made again with four times "
+        "the step, and if both differ by more than 2 % in a place or an impulse or 5 % in an "
+        "energy, with a quarter and perhaps a sixteenth of it. The log has the error, and a "
+        "warning "
+        "the step that is needed. 'automatic': where the Scheme is 'automatic', too, and these "
+        "runs take less than about half a second",
+        Selection("automatic|yes|no"));
     prm.add_parameter("Allow unsuitable scheme", allow_unsuitable_scheme,
                       "Run a scheme although it is known to fail with the links of the scene");
     prm.add_parameter(

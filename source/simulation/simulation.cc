@@ -84,6 +84,8 @@ namespace taut
     if (time_stepper && links.size() > 0)
       log << "Interface operator: " << time_stepper->interface_description() << '\n';
 
+    if (integrator)
+      prepare_step_check(*integrator);
     stop_before_start();
     BodyVectors at_start = reference.displacement;
     for (std::size_t k = 0; k < at_start.size(); ++k)
@@ -174,6 +176,7 @@ namespace taut
     try
     {
       advance(stepper, observers);
+      check_steps();
     }
     catch (...)
     {
@@ -203,6 +206,8 @@ namespace taut
         });
     figures.print(log);
     log << measures->report();
+    if (accuracy)
+      log << accuracy->report();
     slack.print(log);
     impacts.print(log);
     limits->print(log);
@@ -291,6 +296,8 @@ namespace taut
       coefficients = stepper.scheme();
       measures->record(stepper.state(), coefficients, stepper.certificate());
       seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+      if (accuracy)
+        accuracy->record(stepper.state());
       show(observers, stepper.state(), stepper.certificate());
       save_checkpoint(stepper, control, observers);
     }
@@ -298,6 +305,40 @@ namespace taut
       stop_signal = 0; // it came too late to matter
     if (control.n_repeated() > 0)
       log << control.n_repeated() << " steps were repeated with a shorter one\n";
+  }
+
+  void Simulation::prepare_step_check(const TimeIntegrator &integrator)
+  {
+    if (parameters.check_steps == "no" || n_steps() == 0)
+      return;
+    RunInSteps run = {bodies,
+                      links,
+                      parameters.solver,
+                      integrator,
+                      parameters.step_parameters,
+                      parameters.step,
+                      n_steps(),
+                      longest_steps,
+                      reference,
+                      start,
+                      model.start == Start::equilibrium};
+    if (parameters.check_steps == "yes" ||
+        (parameters.scheme == "automatic" && StepAccuracy::is_affordable(run)))
+      accuracy = std::make_unique<StepAccuracy>(std::move(run));
+  }
+
+  void Simulation::check_steps()
+  {
+    if (!accuracy || stop_signal != 0)
+      return;
+    accuracy->measure(
+        [&]
+        {
+          const int asked = stop_asked ? stop_asked() : 0;
+          stop_signal = static_cast<int>(processes.max(asked));
+          return stop_signal != 0;
+        });
+    stop_signal = 0; // it came too late to matter
   }
 
   /// The steps that fit into the time of the run: what was checked up to its end stays true.

@@ -32,6 +32,9 @@ namespace taut
     for (const ContactMeasures::Warning &warning : measures->warnings())
       warnings.push_back(
           {warning.kind, warning.message, warning.value, warning.limit, "1", warning.time});
+    if (accuracy && accuracy->is_too_long())
+      warnings.push_back({"step", accuracy->warning(), accuracy->error()->over_bounds(), 1., "1",
+                          accuracy->error()->time});
     return {parameters.file_name(),
             parameters.generator_name,
             scheme,

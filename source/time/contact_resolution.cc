@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "link_flexibilities.h"
 
+#include <taut/base/exceptions.h>
 #include <taut/interface/connected_bodies.h>
 #include <taut/time/contact_resolution.h>
 #include <taut/time/matrix_norms.h>
@@ -325,7 +326,18 @@ namespace taut
     {
       if (place > 0)
       {
-        constraints.update(until * place / n_places);
+        // Where a contact leaves its body, the run says so when it comes there.
+        bool has_left = false;
+        try
+        {
+          constraints.update(until * place / n_places);
+        }
+        catch (const UserError &)
+        {
+          has_left = true;
+        }
+        if (structure.communicator().any(has_left))
+          break;
         search.update_moving();
       }
       for (const std::size_t i : moving)

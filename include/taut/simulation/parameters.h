@@ -104,6 +104,7 @@ namespace taut
     double step = 1e-3, end_time = 6.912;
     std::string mass_redistribution = "automatic";
     bool allow_unsuitable_scheme = false;
+    std::string check_steps = "automatic"; ///< or "yes", "no"
     bool allow_energy_gain = false;
     StepParameters step_parameters;
 

@@ -8,6 +8,7 @@
 #include <taut/output/reactions.h>
 #include <taut/output/statistics.h>
 #include <taut/simulation/parameters.h>
+#include <taut/time/step_accuracy.h>
 #include <taut/time/time_stepper.h>
 
 #include <functional>
@@ -91,6 +92,8 @@ namespace taut
     void stop_before_start();
     void print_cost(const TimeStepper &stepper, double until, double all) const;
     void advance(TimeStepper &stepper, const ObserverList &observers);
+    void prepare_step_check(const TimeIntegrator &integrator);
+    void check_steps();
     void find_checkpoint();
     void check_origin(const Checkpoint &checkpoint) const;
     void save_checkpoint(TimeStepper &stepper, StepControl &control, const ObserverList &observers);
@@ -123,6 +126,7 @@ namespace taut
     std::unique_ptr<TimeIntegrator> chosen_integrator;
     std::vector<double> longest_steps; ///< of links with dampers [s]
     std::unique_ptr<ContactMeasures> measures;
+    std::unique_ptr<StepAccuracy> accuracy;  ///< of runs whose steps are checked
     StepCoefficients coefficients;           ///< of the last step
     std::string scheme;                      ///< with its parameters
     std::vector<std::string> unused_entries; ///< of other schemes, with their values

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_step_accuracy_h
+#define taut_step_accuracy_h
+
+#include <taut/time/motion_record.h>
+#include <taut/time/step_control.h>
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace taut
+{
+  /// A run from its start to its end: what makes it again with other steps. References are kept.
+  struct RunInSteps
+  {
+    const Structure &structure;
+    Constraints &constraints;
+    const SolverParameters &solver;
+    const TimeIntegrator &integrator;
+    const StepParameters &control;
+    double step;                       ///< [s]
+    long n_steps;                      ///< of this length
+    std::vector<double> longest_steps; ///< of closed constraints, see StepControl [s]
+    const Reference &reference;
+    const State &start;
+    bool at_rest; ///< the start is an equilibrium
+  };
+
+  /**
+   * Whether the steps of a run are short enough. Use it at the end of a run whose cost allows to
+   * make it again.
+   *
+   * The run is compared with one of four times the step, which costs a quarter: where both agree
+   * within the bounds of MotionDifference, the run has a third of their difference as its error,
+   * or less. Otherwise it is compared with a quarter of the step, and close to the bounds with a
+   * sixteenth (L. F. Richardson's extrapolation, 1911, with an order from one to two). Adaptive
+   * steps are compared with an eighth of the tolerance and a quarter of Step.
+   */
+  class StepAccuracy
+  {
+  public:
+    explicit StepAccuracy(RunInSteps run);
+
+    /// True if other runs cost less than about half a second.
+    static bool is_affordable(const RunInSteps &run);
+
+    /// An accepted step of the run itself.
+    void record(const State &state) { own.record(state); }
+
+    /// Makes the other runs. @p stop is asked after each of their steps; true gives up. Called by
+    /// all ranks together.
+    void measure(const std::function<bool()> &stop);
+
+    /// The errors of the run, relative to its largest values; empty: they are not known.
+    const std::optional<MotionDifference> &error() const { return found; }
+
+    /// True if an error is beyond its bound.
+    bool is_too_long() const { return too_long; }
+
+    /// What is off by how much, and the step or tolerance that the run needs.
+    std::string warning() const;
+
+    /// One line for the log, and the warning if there is one.
+    std::string report() const;
+
+    void save(OutputArchive &archive) { own.save(archive); }
+    void load(InputArchive &archive) { own.load(archive); }
+
+  private:
+    std::optional<MotionDifference> compare(double factor, const std::function<bool()> &stop);
+    double shortened(double over_bounds) const;
+
+    const RunInSteps run;
+    const ConnectedBodies groups;
+    const std::vector<std::vector<double>> courses; ///< of moving constraints at the start
+    const std::size_t n_samples;
+    const double interval; ///< of samples [s]
+    MotionRecord own;
+    std::optional<MotionDifference> found;
+    bool too_long = false;
+    double order = 1.;  ///< in the step
+    std::string reason; ///< why the error is not known
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/archive.h>
+#include <taut/base/dot.h>
+#include <taut/substructure/constrained_body.h>
+#include <taut/time/motion_record.h>
+
+#include <boost/serialization/array.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace taut
+{
+  namespace
+  {
+    /// Part of the displacements of a group below which its motion is rounding.
+    constexpr double rounding_of_places = 1e-9;
+
+    /// Impulses below this part of the largest momentum are nothing.
+    constexpr double least_impulse = 1e-3;
+
+    /// Part of a step by which its end may miss a sample.
+    constexpr double rounding_of_times = 1e-6;
+
+    /// The larger one; not-a-number if one is.
+    double worse(const double a, const double b)
+    {
+      return a > b || a != a ? a : b;
+    }
+
+    double ratio(const double a, const double b)
+    {
+      return a == 0. ? 0. : a / b;
+    }
+  } // namespace
+
+  double MotionDifference::over_bounds() const
+  {
+    return worse(worse(place / place_bound, impulse / impulse_bound), energy / energy_bound);
+  }
+
+  bool MotionDifference::is_place() const
+  {
+    return !(place / place_bound < over_bounds());
+  }
+
+  bool MotionDifference::is_impulse() const
+  {
+    return !is_place() && !(impulse / impulse_bound < over_bounds());
+  }
+
+  MotionRecord::MotionRecord(const Structure &structure, const Constraints &constraints,
+                             const ConnectedBodies &groups, const Reference &reference,
+                             const State &start, const double interval, const std::size_t n)
+      : structure(structure), constraints(constraints), groups(groups), reference(reference),
+        begin(start.time), interval(interval), n(n), impulse(constraints.size(), 0.),
+        multiplier(start.multiplier)
+  {
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      const Substructure &body = structure[k];
+      std::vector<unsigned int> inner; // multipliers of conditions inside a body
+      if (dynamic_cast<const ConstrainedBody *>(&body))
+        inner = body.dofs_without_mass();
+      for (unsigned int i = 0; i < body.n_dofs(); ++i)
+        if (body.kind(i) == 0 && std::find(inner.begin(), inner.end(), i) == inner.end())
+        {
+          dofs.push_back({k, i, groups.of_body(k)});
+          start_of_dofs.push_back(start.U[k][i]);
+        }
+      body.external_force(start.time, work);
+      start_load.push_back(reference.force[k]);
+      for (std::size_t i = 0; i < work.size(); ++i)
+        start_load[k][i] -= work[i];
+    }
+    energies.push_back(energies_of(start));
+  }
+
+  void MotionRecord::add_impulses(const State &state)
+  {
+    for (std::size_t i = 0; i < impulse.size(); ++i)
+    {
+      const bool is_mean = !state.is_mean.empty() && state.is_mean[i];
+      const double N = state.multiplier[i];
+      impulse[i] += (is_mean ? N : .5 * (N + multiplier[i])) * state.last_step;
+      multiplier[i] = N;
+    }
+  }
+
+  /// Places at a part of the last step.
+  void MotionRecord::add_places(const State &state, const double part)
+  {
+    const double left = 1. - part, h = state.last_step;
+    std::vector<double> &sample = places.emplace_back();
+    sample.reserve(dofs.size());
+    for (std::size_t j = 0; j < dofs.size(); ++j)
+    {
+      const auto &[k, i, group] = dofs[j];
+      // The Hermite cubic about the end of the step.
+      sample.push_back(state.U[k][i] - start_of_dofs[j] -
+                       left * left * (1. + 2. * part) * state.dU[k][i] +
+                       part * left * h * (left * state.V_old[k][i] - part * state.V[k][i]));
+    }
+  }
+
+  /// Kinetic energy; strain energy less the work of the loads of the start, and springs of links.
+  MotionRecord::Energies MotionRecord::energies_of(const State &state)
+  {
+    Energies result(groups.n_groups(), {0., 0.});
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      const Substructure &body = structure[k];
+      std::array<double, 2> &energy = result[groups.of_body(k)];
+      work.assign(body.n_dofs(), 0.);
+      body.mass().vmult_add(.5, state.V[k].data(), work.data());
+      energy[0] += dot(state.V[k], work);
+      energy[1] += dot(state.U[k], start_load[k]);
+      if (body.is_linear())
+        energy[1] += .5 * dot(state.U[k], state.KU[k]);
+      else
+        energy[1] += body.strain_energy(displacement(reference, state, k)) -
+                     dot(state.U[k], reference.force[k]);
+    }
+    if (structure.communicator().is_root())
+      for (std::size_t i = 0; i < constraints.size(); ++i)
+        if (!std::isinf(constraints[i].stiffness))
+          result[groups.of_constraint(i)][1] +=
+              constraints[i].stored_energy(state.link_springs[i].u);
+    return result;
+  }
+
+  void MotionRecord::record(const State &state)
+  {
+    const std::vector<double> before = impulse;
+    add_impulses(state);
+    const double early = rounding_of_times * state.last_step;
+    if (places.size() == n || time_of(places.size()) > state.time + early)
+      return;
+    const Energies at_end = energies_of(state);
+    while (places.size() < n && time_of(places.size()) <= state.time + early)
+    {
+      const double until_end = state.time - time_of(places.size()),
+                   part = until_end > early ? 1. - until_end / state.last_step : 1.;
+      add_places(state, part);
+      impulses.push_back(impulse);
+      for (std::size_t i = 0; i < impulse.size(); ++i)
+        impulses.back()[i] -= (1. - part) * (impulse[i] - before[i]);
+      energies.push_back(at_end);
+    }
+  }
+
+  /// Largest values of the groups, on all ranks.
+  struct MotionRecord::Sizes
+  {
+    std::vector<double> place, impulse, energy;
+    std::vector<double> late;       ///< by which an impact may be early or late [s]
+    std::vector<Energies> energies; ///< of the samples, of all ranks
+  };
+
+  MotionRecord::Sizes MotionRecord::sizes() const
+  {
+    const std::size_t n_groups = groups.n_groups();
+    std::vector<double> place(n_groups, 0.), whole(n_groups, 0.), speed(n_groups, 0.),
+        kinetic(n_groups, 0.);
+    for (std::size_t s = 0; s < n_samples(); ++s)
+      for (std::size_t j = 0; j < dofs.size(); ++j)
+      {
+        const auto &[k, i, g] = dofs[j];
+        const double u = places[s][j], last = s > 0 ? places[s - 1][j] : 0.;
+        place[g] = std::max(place[g], std::fabs(u));
+        whole[g] =
+            std::max(whole[g], std::fabs(u + start_of_dofs[j] + reference.displacement[k][i]));
+        speed[g] = std::max(speed[g], std::fabs(u - last) / interval);
+      }
+    Sizes result;
+    result.impulse.assign(n_groups, 0.);
+    result.energies = energies;
+    for (Energies &of_groups : result.energies)
+      for (std::array<double, 2> &energy : of_groups)
+        structure.communicator().sum(energy.data(), 2);
+    for (std::size_t g = 0; g < n_groups; ++g)
+    {
+      const Communicator &all = structure.communicator();
+      const double largest = all.max(place[g]), fastest = all.max(speed[g]);
+      result.place.push_back(largest > rounding_of_places * all.max(whole[g]) ? largest : 0.);
+      double least = result.energies[0][g][1], most = least;
+      for (const Energies &sample : result.energies)
+      {
+        kinetic[g] = std::max(kinetic[g], sample[g][0]);
+        least = std::min(least, sample[g][1]);
+        most = std::max(most, sample[g][1]);
+      }
+      result.energy.push_back(std::max(kinetic[g], most - least));
+      result.late.push_back(ratio(MotionDifference::place_bound * largest, fastest));
+      // 2 T / v of bodies with speeds up to v is at most their momentum.
+      result.impulse[g] = least_impulse * ratio(2. * kinetic[g], fastest);
+    }
+    for (const std::vector<double> &sample : impulses)
+      for (std::size_t i = 0; i < sample.size(); ++i)
+      {
+        double &size = result.impulse[groups.of_constraint(i)];
+        size = std::max(size, std::fabs(sample[i]));
+      }
+    return result;
+  }
+
+  void MotionRecord::compare_places(const MotionRecord &other, const Sizes &size,
+                                    MotionDifference &result) const
+  {
+    double largest = 0., body = 0., time = 0.;
+    for (std::size_t s = 0; s < std::min(n_samples(), other.n_samples()); ++s)
+      for (std::size_t j = 0; j < dofs.size(); ++j)
+      {
+        const double of_group = size.place[dofs[j].group],
+                     d = of_group > 0. ? std::fabs(places[s][j] - other.places[s][j]) / of_group
+                                       : 0.;
+        if (!(d > largest) && d == d)
+          continue;
+        largest = d;
+        body = static_cast<double>(structure.number(dofs[j].body));
+        time = time_of(s);
+      }
+    const Communicator &all = structure.communicator();
+    result.place = all.max(largest);
+    const bool is_here = !(largest < result.place);
+    result.body = static_cast<std::size_t>(std::max(0., all.max(is_here ? body : -1.)));
+    result.time = all.max(is_here ? time : 0.);
+  }
+
+  namespace
+  {
+    /// How far @p x is from the range of @p value of the samples next to @p s and within @p late
+    /// [s] of it.
+    template <typename Value>
+    double distance(const double x, const std::size_t s, const std::size_t n, const double window,
+                    const Value &value)
+    {
+      const double reach = std::max(1., std::floor(window));
+      const std::size_t w = static_cast<std::size_t>(std::min<double>(reach, n)),
+                        first = s > w ? s - w : 0, last = std::min(s + w, n - 1);
+      double least = value(first), most = least;
+      for (std::size_t j = first + 1; j <= last && (x < least || x > most); ++j)
+      {
+        least = std::min(least, value(j));
+        most = std::max(most, value(j));
+      }
+      return x >= least && x <= most ? 0. : std::max(x - most, least - x);
+    }
+  } // namespace
+
+  void MotionRecord::compare_impulses(const MotionRecord &other, const Sizes &size,
+                                      MotionDifference &result) const
+  {
+    const std::size_t n_both = std::min(n_samples(), other.n_samples());
+    for (std::size_t s = 0; s < n_both; ++s)
+      for (std::size_t i = 0; i < impulse.size(); ++i)
+      {
+        const std::size_t g = groups.of_constraint(i);
+        const double d = ratio(distance(impulses[s][i], s, n_both, size.late[g] / interval,
+                                        [&](const std::size_t j) { return other.impulses[j][i]; }),
+                               size.impulse[g]);
+        if (!(d > result.impulse) && d == d)
+          continue;
+        result.impulse = d;
+        result.row = i;
+      }
+  }
+
+  void MotionRecord::compare_energies(const MotionRecord &other, const Sizes &size,
+                                      MotionDifference &result) const
+  {
+    const Sizes own = sizes();
+    const std::size_t n_both = std::min(own.energies.size(), size.energies.size());
+    const auto change = [](const Sizes &of, const std::size_t s, const std::size_t g)
+    {
+      return of.energies[s][g][0] + of.energies[s][g][1] - of.energies[0][g][0] -
+             of.energies[0][g][1];
+    };
+    for (std::size_t g = 0; g < groups.n_groups(); ++g)
+      for (std::size_t s = 0; s < n_both && size.place[g] > 0.; ++s)
+        result.energy =
+            worse(ratio(distance(change(own, s, g), s, n_both, size.late[g] / interval,
+                                 [&](const std::size_t j) { return change(size, j, g); }),
+                        size.energy[g]),
+                  result.energy);
+    (void)other;
+  }
+
+  MotionDifference MotionRecord::difference(const MotionRecord &other) const
+  {
+    const Sizes size = other.sizes();
+    MotionDifference result;
+    compare_places(other, size, result);
+    compare_impulses(other, size, result);
+    compare_energies(other, size, result);
+    return result;
+  }
+
+  template <typename Archive>
+  void MotionRecord::store(Archive &archive)
+  {
+    archive &impulse &multiplier &places &impulses &energies;
+  }
+
+  void MotionRecord::save(OutputArchive &archive)
+  {
+    store(archive);
+  }
+
+  void MotionRecord::load(InputArchive &archive)
+  {
+    store(archive);
+  }
+} // namespace taut

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/archive.h>
+#include <taut/base/exceptions.h>
+#include <taut/time/step_accuracy.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+namespace taut
+{
+  namespace
+  {
+    /// Samples of a run.
+    constexpr long most_samples = 1000;
+
+    /// Steps below which a quarter of them says nothing.
+    constexpr long least_steps = 64;
+
+    /// Other runs have this many times the step, or as many steps in one.
+    constexpr double ratio_of_steps = 4.;
+
+    /// Tolerance of adaptive steps for steps that are so many times shorter: local errors fall with
+    /// the third power of a step, errors of a run with the second.
+    constexpr double power_of_tolerance = 1.5;
+
+    /// Differences to a quarter of the step, over the bounds, from which errors of first order may
+    /// be above and below them.
+    constexpr double surely_good = .75, surely_bad = 1.25;
+
+    /// Part of the bounds that the needed step aims at, and a difference to a sixteenth may have.
+    constexpr double aim = .8, good = .95;
+
+    /// Products of DoFs and steps, of which a second has about a hundred millions. A step costs as
+    /// much as some DoFs, and bodies that are not linear are solved several times.
+    constexpr double most_work = 2e6, work_of_step = 100., work_of_newton = 8.;
+
+    bool keeps_state(const Substructure &body)
+    {
+      return archived([&](OutputArchive &archive) { body.save(archive); }) !=
+             archived([](OutputArchive &) {});
+    }
+
+    std::size_t samples_of(const RunInSteps &run)
+    {
+      const long stride = (run.n_steps + most_samples - 1) / most_samples;
+      return static_cast<std::size_t>(run.n_steps / std::max(1L, stride));
+    }
+
+    double interval_of(const RunInSteps &run)
+    {
+      return run.step * std::max(1L, (run.n_steps + most_samples - 1) / most_samples);
+    }
+
+    std::string percent(const double part)
+    {
+      std::ostringstream out;
+      out.precision(2);
+      out << 100. * part << " %";
+      return out.str();
+    }
+  } // namespace
+
+  StepAccuracy::StepAccuracy(RunInSteps from)
+      : run(std::move(from)), groups(run.structure, run.constraints),
+        courses(run.constraints.courses()), n_samples(samples_of(run)), interval(interval_of(run)),
+        own(run.structure, run.constraints, groups, run.reference, run.start, interval, n_samples)
+  {
+  }
+
+  bool StepAccuracy::is_affordable(const RunInSteps &run)
+  {
+    double n_dofs = 0., n_nonlinear = 0.;
+    for (const Structure::Body &body : run.structure.all_bodies())
+      n_dofs += static_cast<double>(body.n_dofs);
+    for (std::size_t k = 0; k < run.structure.size(); ++k)
+      n_nonlinear += !run.structure[k].is_linear();
+    run.structure.communicator().sum(&n_nonlinear, 1);
+    const bool iterates = n_nonlinear > 0. || run.constraints.has_turning();
+    return static_cast<double>(run.n_steps) *
+               (work_of_step + n_dofs + static_cast<double>(run.constraints.size())) *
+               (iterates ? work_of_newton : 1.) <=
+           most_work;
+  }
+
+  /// The difference to a run with steps that are so many times as long; nothing if there is none.
+  std::optional<MotionDifference> StepAccuracy::compare(const double factor,
+                                                        const std::function<bool()> &stop)
+  {
+    const double step = run.step * factor;
+    StepParameters control = run.control;
+    control.tolerance = std::min(1., control.tolerance * std::pow(factor, power_of_tolerance));
+    control.largest *= factor;
+    const long n = static_cast<long>(std::floor(run.n_steps / factor * (1. + 1e-12)));
+    try
+    {
+      run.constraints.set_courses(courses);
+      TimeStepper stepper(run.structure, run.constraints, run.solver, run.integrator, step,
+                          run.reference, run.start, run.at_rest);
+      StepControl steps(control, step, n, !stepper.is_linear(), run.longest_steps);
+      MotionRecord other(run.structure, run.constraints, groups, run.reference, run.start, interval,
+                         n_samples);
+      while (!steps.is_finished())
+      {
+        steps.advance(stepper);
+        other.record(stepper.state());
+        if (stop())
+        {
+          reason = "the run was ended";
+          return std::nullopt;
+        }
+      }
+      return own.difference(other);
+    }
+    catch (const UserError &e)
+    {
+      std::ostringstream out;
+      out << "a run with a step of " << step << " s ended: " << e.what();
+      reason = out.str();
+      return std::nullopt;
+    }
+  }
+
+  void StepAccuracy::measure(const std::function<bool()> &stop)
+  {
+    bool has_state = false;
+    for (std::size_t k = 0; k < run.structure.size(); ++k)
+      has_state = has_state || keeps_state(run.structure[k]);
+    if (run.structure.communicator().any(has_state))
+    {
+      reason = "a body keeps a state of its own";
+      return;
+    }
+    std::optional<MotionDifference> coarse;
+    if (!run.control.adaptive() && run.n_steps >= least_steps)
+      coarse = compare(ratio_of_steps, stop);
+    if (coarse && coarse->over_bounds() <= 1.)
+    {
+      found = coarse;
+      for (double *const e : {&found->place, &found->impulse, &found->energy})
+        *e /= ratio_of_steps - 1.;
+      return;
+    }
+    found = compare(1. / ratio_of_steps, stop);
+    if (!found)
+      return;
+    double over = found->over_bounds();
+    if (coarse)
+      order = std::clamp(std::log(coarse->over_bounds() / over) / std::log(ratio_of_steps), 1., 2.);
+    too_long = !(over <= surely_bad);
+    if (too_long || over <= surely_good)
+      return;
+    const auto finest = compare(1. / (ratio_of_steps * ratio_of_steps), stop);
+    if (finest)
+      found = finest;
+    too_long = !(found->over_bounds() <= good);
+  }
+
+  /// Part of the step with which an error falls to its bound.
+  double StepAccuracy::shortened(const double over_bounds) const
+  {
+    return std::min(.5, std::pow(aim / over_bounds, 1. / order));
+  }
+
+  std::string StepAccuracy::warning() const
+  {
+    if (!too_long)
+      return "";
+    const double part = std::isfinite(found->over_bounds()) ? shortened(found->over_bounds()) : .1;
+    const std::string body = "'" + run.structure.all_bodies()[found->body].name + "'";
+    std::ostringstream out;
+    out.precision(2);
+    out << "the step is too long: ";
+    if (found->is_place())
+      out << "the place of " << body << " is off by " << percent(found->place)
+          << " of the largest displacement at t = " << found->time << " s";
+    else if (found->is_impulse())
+      out << "the impulse of '" << run.constraints[found->row].name << "' is off by "
+          << percent(found->impulse) << " of the largest";
+    else
+      out << "the energy of what is connected with " << body << " is off by "
+          << percent(found->energy) << " of the largest";
+    if (run.control.adaptive())
+      out << ". Take a Tolerance of about "
+          << run.control.tolerance * std::pow(part, power_of_tolerance);
+    else
+      out << ". Take a step of about " << run.step * part << " s";
+    return out.str();
+  }
+
+  std::string StepAccuracy::report() const
+  {
+    if (!found)
+      return "Steps: the error is not known, as " + reason + '\n';
+    std::string text = "Steps: error of places " + percent(found->place) + ", of impulses " +
+                       percent(found->impulse) + ", of energies " + percent(found->energy) +
+                       " of the largest, from runs with other steps\n";
+    if (too_long)
+      text += "  Warning: " + warning() + '\n';
+    return text;
+  }
+} // namespace taut

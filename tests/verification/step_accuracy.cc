@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: a run says by how much its steps are too long, and which step it needs. Source: the phase
+// of a mass on a spring, the parabola of a ball on a rigid floor.
+#include "run.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <sstream>
+#include <string>
+
+using namespace verification;
+
+namespace
+{
+  /// A mass of 1 kg on a spring of (2 pi)^2 N/m that starts at 1 m/s: sin(2 pi t) / (2 pi).
+  const std::string oscillator =
+      "set Generator = network\nset Gravity = 0, 0\nset Start = given\nsubsection Network\n"
+      " set Masses = bob\n set Springs = spring\n subsection Mass bob\n  set Position = 0, 0\n"
+      "  set Motions = y\n  set Mass = 1\n  set Initial velocity = 0, 1, 0\n end\n"
+      " subsection Spring spring\n  set From = ground\n  set To = bob\n"
+      "  set Stiffness = 39.4784176043574\n end\nend\nsubsection Time\n set End = 5\nend\n";
+
+  /// A ball that falls 1 m onto a rigid floor and rebounds with its whole velocity.
+  const std::string ball =
+      "set Generator = network\nset Gravity = 0, -10\nset Start = given\nsubsection Network\n"
+      " set Masses = ball\n set Links = floor\n subsection Mass ball\n  set Position = 0, 1\n"
+      "  set Motions = y\n  set Mass = 1\n end\n subsection Link floor\n  set Type = stop\n"
+      "  set From = ground\n  set To = ball\n  set Direction = 0, 1\n  set Gap = 1\n end\nend\n"
+      "subsection Time\n set End = 1.7\n subsection Moreau-Jean\n  set Restitution = 1\n "
+      "end\nend\n";
+
+  double exact_oscillator(const double t)
+  {
+    const double w = 2. * std::acos(-1.);
+    return std::sin(w * t) / w;
+  }
+
+  double exact_ball(double t)
+  {
+    const double fall = std::sqrt(.2);
+    t -= 2. * fall * std::round(t / (2. * fall));
+    return -5. * t * t;
+  }
+
+  struct Checked
+  {
+    double error = 0.;     ///< largest of the place, over the largest displacement
+    double reported = -1.; ///< by the log; -1: nothing is
+    double needed = 0.;    ///< step that a warning names [s]
+    std::string log;
+  };
+
+  double number_after(const std::string &text, const std::string &mark)
+  {
+    const std::size_t at = text.find(mark);
+    return at == std::string::npos ? -1. : std::stod(text.substr(at + mark.size()));
+  }
+
+  Checked run(const std::string &scene, const std::function<double(double)> &exact,
+              const Overrides &overrides)
+  {
+    Checked result;
+    double largest = 0.;
+    Session session(scene, overrides);
+    session.run(
+        [&](const taut::StepView &view)
+        {
+          const double u = exact(view.state.time),
+                       U = view.reference.displacement[0][0] + view.state.U[0][0];
+          largest = std::max(largest, std::fabs(u));
+          result.error = std::max(result.error, std::fabs(U - u));
+        });
+    result.error /= largest;
+    result.log = session.log();
+    result.reported = .01 * number_after(result.log, "Steps: error of places ");
+    result.needed = number_after(result.log, "Take a step of about ");
+    return result;
+  }
+} // namespace
+
+TEST(StepAccuracy, the_phase_of_an_oscillator_is_off)
+{
+  const Checked coarse = run(oscillator, exact_oscillator, {"Time.Step=0.05"});
+  figure("oscillator at 20 steps a period, error that the log has over the exact one",
+         coarse.reported / coarse.error);
+  EXPECT_GT(coarse.error, .1);
+  EXPECT_NEAR(coarse.reported, coarse.error, .1 * coarse.error);
+  EXPECT_NE(coarse.log.find("the place of 'bob'"), std::string::npos) << coarse.log;
+  ASSERT_GT(coarse.needed, 0.);
+  const Checked needed = run(oscillator, exact_oscillator, {"Time.Step=" + number(coarse.needed)});
+  figure("the same with the step that the warning names, error", needed.error);
+  EXPECT_EQ(needed.needed, -1.) << needed.log;
+  EXPECT_LT(needed.error, .02);
+  EXPECT_GT(needed.error, .01) << "asks for more than is needed";
+}
+
+TEST(StepAccuracy, an_impact_comes_early_or_late)
+{
+  for (const std::string step : {"0.02", "0.013", "0.0041", "0.001"})
+  {
+    const Checked found = run(ball, exact_ball, {"Time.Step=" + step});
+    figure("ball, step " + step + " s, error", found.error);
+    figure("ball, step " + step + " s, error that the log has", found.reported);
+    EXPECT_EQ(found.needed > 0., found.error > .02) << found.log;
+    if (found.needed > 0.)
+    {
+      EXPECT_NEAR(found.reported, found.error, .3 * found.error) << step;
+    }
+    else
+    {
+      EXPECT_LT(found.error, 3. * found.reported + 1e-3);
+    }
+  }
+}
+
+TEST(StepAccuracy, adaptive_steps_ask_for_a_tolerance)
+{
+  const Checked loose =
+      run(oscillator, exact_oscillator,
+          {"Time.Step=0.01", "Time.Step control=adaptive", "Time.Adaptive step.Tolerance=1e-2"});
+  EXPECT_GT(loose.error, .02);
+  const double tolerance = number_after(loose.log, "Take a Tolerance of about ");
+  ASSERT_GT(tolerance, 0.) << loose.log;
+  const Checked tight = run(oscillator, exact_oscillator,
+                            {"Time.Step=0.01", "Time.Step control=adaptive",
+                             "Time.Adaptive step.Tolerance=" + number(tolerance)});
+  EXPECT_LT(tight.error, .02);
+  EXPECT_EQ(tight.log.find("Take a Tolerance"), std::string::npos) << tight.log;
+}
+
+TEST(StepAccuracy, runs_that_cost_much_are_checked_if_asked_for)
+{
+  const Overrides many = {"Time.Step=1e-4"};
+  EXPECT_EQ(run(oscillator, exact_oscillator, many).log.find("Steps: "), std::string::npos);
+  const Checked asked =
+      run(oscillator, exact_oscillator, {"Time.Step=1e-4", "Time.Check steps=yes"});
+  EXPECT_GE(asked.reported, asked.error);
+  EXPECT_EQ(run(oscillator, exact_oscillator, {"Time.Step=0.05", "Time.Check steps=no"}).reported,
+            -.01);
+  const Checked named =
+      run(oscillator, exact_oscillator, {"Time.Step=0.05", "Time.Scheme=backward Euler"});
+  EXPECT_EQ(named.reported, -.01) << "what was named is not judged unless asked for";
+}
