@@ -343,6 +343,7 @@ namespace taut
         // D = -n . (u_to - u_from) + gap + N / stiffness = 0 under the tension
         link.gap =
             form.length[i] - dot(between[i], link.direction) - link.elongation(form.tension[i]);
+        link.unstressed_length = form.length[i] - link.elongation(form.tension[i]);
         add_mass(link, scene);
         ++i;
       }

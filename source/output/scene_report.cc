@@ -245,7 +245,7 @@ namespace taut
       links.add(l.name, kinds[static_cast<int>(l.kind)], text(scene, l.from, places.from[i]),
                 text(scene, l.to, places.to[i]),
                 l.turns ? "turns" : direction(l.rotational, l.direction), stiffness.str(), l.gap,
-                l.turns ? l.unstressed_length : l.length, l.speed);
+                l.unstressed_length, l.speed);
     }
     links.print("Links", out);
 

@@ -270,7 +270,7 @@ namespace taut
         }
         else
         {
-          link.length = dropper_lengths[i];
+          link.length = link.unstressed_length = dropper_lengths[i];
           link.gap = dropper_lengths[i] - encumbrance;
         }
         scene.links.push_back(link);

@@ -4,6 +4,7 @@
 
 #include <taut/base/exceptions.h>
 #include <taut/scene/entries.h>
+#include <taut/scene/shared_places.h>
 
 #include <algorithm>
 #include <cmath>
@@ -47,7 +48,8 @@ namespace taut
 
     std::vector<double> sorted = dropper_positions;
     std::sort(sorted.begin(), sorted.end());
-    const double same = 1e-12 * n_spans * span_length;
+    const double same = std::min(same_place(contact.wire("contact", 0., length)),
+                                 same_place(messenger.wire("messenger", 0., length)));
     for (std::size_t i = 0; i < sorted.size(); ++i)
     {
       if (!(sorted[i] > 0. && sorted[i] < span_length))

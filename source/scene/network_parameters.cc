@@ -74,8 +74,11 @@ namespace taut
         "(diagonal), or 'reduced' (with linear elements, half of Theta or Newmark, and "
         "step = element / wave speed it carries waves exactly)",
         Selection("consistent|lumped|reduced"));
-    prm.add_parameter("Element size", element_size, "Largest length of an element [m]",
-                      not_negative());
+    prm.add_parameter(
+        "Element size", element_size,
+        "Largest length of an element; supports, masses, links and point loads closer "
+        "than 1e-6 of it stand at one place [m]",
+        not_negative());
     prm.add_parameter("Mass damping", mass_damping, "Rayleigh damping, times M [1/s]",
                       not_negative());
     prm.add_parameter("Stiffness damping", stiffness_damping, "Rayleigh damping, times K [s]",
@@ -230,10 +233,12 @@ namespace taut
 
   void Network::LoadItem::declare(dealii::ParameterHandler &prm)
   {
-    prm.add_parameter("Type", type,
-                      "'point': at a mass or a point of a wire. 'distributed': along a wire. "
-                      "'moving': travels on a wire from its position with Speed",
-                      Selection("point|distributed|moving"));
+    prm.add_parameter(
+        "Type", type,
+        "'point': at a mass or a point of a wire. 'distributed': along a wire, at least "
+        "a sixty-fourth of an element wide, or a fifth if it moves. "
+        "'moving': travels on a wire from its position with Speed",
+        Selection("point|distributed|moving"));
     prm.add_parameter("On", on,
                       "A mass, 'wire @ position' or 'body @ x, y, z'; of a distributed load the "
                       "position is not used");

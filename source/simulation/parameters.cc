@@ -5,6 +5,7 @@
 #include <taut/base/exceptions.h>
 #include <taut/base/nearest_name.h>
 #include <taut/scene/entries.h>
+#include <taut/scene/shared_places.h>
 #include <taut/simulation/parameters.h>
 #include <taut/simulation/shared_libraries.h>
 #include <taut/simulation/stored_study.h>
@@ -386,6 +387,7 @@ namespace taut
         scene.probes.push_back(probe);
       }
     }
+    share_places(scene);
     check(scene, end_time);
     statistics.check_window(scene, end_time);
     return scene;

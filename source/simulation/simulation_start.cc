@@ -224,9 +224,9 @@ namespace taut
     }
     if (model.links.empty())
       return;
-    CsvFile file(
-        parameters.output.folder + "/start.csv",
-        {"link", "x [m]", "y [m]", "z [m]", "force [N or N m]", "gap [m or rad]", "length [m]"});
+    CsvFile file(parameters.output.folder + "/start.csv",
+                 {"link", "x [m]", "y [m]", "z [m]", "force [N or N m]", "gap [m or rad]",
+                  "length [m]", "stretched length [m]"});
     for (std::size_t i = 0; i < links.size(); ++i)
     {
       if (!links[i].is_link())
@@ -234,8 +234,14 @@ namespace taut
       const Link &link = model.links[links[i].link];
       const Coordinates &at = link.to.kind == Attachment::Kind::ground ? places.from[links[i].link]
                                                                        : places.to[links[i].link];
+      // Droppers are longer under their force, the others shorter.
+      const double elongation = link.elongation(start.multiplier[i]),
+                   stretched = link.unstressed_length > 0.
+                                   ? link.unstressed_length +
+                                         (link.kind == LinkKind::dropper ? elongation : -elongation)
+                                   : 0.;
       file << links[i].name << at.x << at.y << at.z << start.multiplier[i] << start.geometric_gap[i]
-           << (link.length > 0. ? link.length : 0.);
+           << link.unstressed_length << stretched;
       file.end_line();
     }
     file.close();

@@ -2,6 +2,7 @@
 #include "wire_discretisation.h"
 
 #include <taut/base/exceptions.h>
+#include <taut/scene/shared_places.h>
 #include <taut/wire/fe_cubic_hermite.h>
 
 #include <deal.II/fe/fe_q.h>
@@ -140,6 +141,7 @@ namespace taut
     for (Load &load : scene.loads)
       load.target = {Attachment::Kind::wire, 0, load.target.position};
     check_values(scene);
+    share_places(scene);
     check_wires(scene);
     if (!wire.has(motion))
       throw EntryError(wire.origin, "wire '" + wire.name + "' lacks the motion that is asked for");

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // What acts on a wire: supports, point masses, loads.
-#include <taut/wire/wire_component.h>
-
-#include <deal.II/base/quadrature_lib.h>
+#include "distributed_load.h"
 
 #include <algorithm>
 #include <cmath>
@@ -67,44 +65,6 @@ namespace taut
     return dot(direction, rotational ? rotation_axis : axis);
   }
 
-  /// A force per length f(s, t), integrated with the rule of the element at each call.
-  class WireComponent::DistributedLoad : public TimeLoad
-  {
-  public:
-    struct QuadraturePoint
-    {
-      double s;
-      LinearForm shape; ///< weighted
-    };
-
-    DistributedLoad(const WireComponent &wire, const double factor, const Expression &magnitude)
-        : magnitude(magnitude)
-    {
-      const dealii::QGauss<1> rule(4);
-      for (std::size_t e = 0; e + 1 < wire.nodes.size(); ++e)
-        for (unsigned int q = 0; q < rule.size(); ++q)
-        {
-          const double h = wire.nodes[e + 1] - wire.nodes[e];
-          QuadraturePoint point;
-          point.s = wire.nodes[e] + h * rule.point(q)[0];
-          wire.value_at(point.s, point.shape);
-          for (double &v : point.shape.value)
-            v *= factor * h * rule.weight(q);
-          points.push_back(std::move(point));
-        }
-    }
-
-    void add(const double t, std::vector<double> &P) const override
-    {
-      for (const QuadraturePoint &point : points)
-        point.shape.add_to(magnitude(point.s, t), P);
-    }
-
-  private:
-    Expression magnitude;
-    std::vector<QuadraturePoint> points;
-  };
-
   /// A point force that travels; it acts while it is on the wire.
   class WireComponent::MovingLoad : public TimeLoad
   {
@@ -136,8 +96,12 @@ namespace taut
   void WireComponent::add_loads(const Scene &scene, const std::size_t wire, const double gravity)
   {
     if (scene.wires[wire].weight && gravity != 0.)
-      DistributedLoad(*this, scene.wires[wire].mass_per_length * gravity, Expression(1.))
+    {
+      Load load;
+      load.magnitude = Expression(1.);
+      DistributedLoad(*this, scene.wires[wire].mass_per_length * gravity, load)
           .add(0., constant_force);
+    }
 
     for (const Load &load : scene.loads)
     {
@@ -154,7 +118,7 @@ namespace taut
       {
         std::unique_ptr<TimeLoad> force;
         if (load.kind == Load::Kind::distributed)
-          force = std::make_unique<DistributedLoad>(*this, factor, load.magnitude);
+          force = std::make_unique<DistributedLoad>(*this, factor, load);
         else
         {
           LinearForm shape;

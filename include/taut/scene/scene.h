@@ -240,7 +240,7 @@ namespace taut
 
     /// The direction is that from end to end at each time, and `direction` counts for nothing.
     bool turns = false;
-    double unstressed_length = 0.; ///< of a link that turns; 0: as `gap` says [m]
+    double unstressed_length = 0.; ///< once known; of a link that turns, 0: as `gap` says [m]
 
     double speed = 0.; ///< of the `to` end along its wire [m/s]
 

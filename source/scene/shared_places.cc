@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/scene/shared_places.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace taut
+{
+  double same_place(const Wire &wire)
+  {
+    constexpr double part_of_element = 1e-6;
+    return part_of_element * std::min(wire.element_size, wire.length());
+  }
+
+  namespace
+  {
+    /// The places inside each wire that are nodes of its grid.
+    std::vector<std::vector<double *>> places_of_nodes(Scene &scene)
+    {
+      std::vector<std::vector<double *>> places(scene.wires.size());
+      const auto add_place = [&](const std::size_t wire, double &s)
+      {
+        if (wire < places.size() && s >= 0. && s <= scene.wires[wire].length())
+          places[wire].push_back(&s);
+      };
+      const auto add = [&](Attachment &end)
+      {
+        if (end.kind == Attachment::Kind::wire)
+          add_place(end.index, end.position);
+      };
+      for (Support &support : scene.supports)
+        for (double &s : support.positions)
+          add_place(support.wire, s);
+      for (PointMass &mass : scene.point_masses)
+        for (double &s : mass.positions)
+          add_place(mass.wire, s);
+      for (Link &link : scene.links)
+      {
+        add(link.from);
+        if (!link.moving())
+          add(link.to);
+      }
+      for (Load &load : scene.loads)
+        if (load.kind == Load::Kind::point)
+          add(load.target);
+      return places;
+    }
+  } // namespace
+
+  void share_places(Scene &scene)
+  {
+    std::vector<std::vector<double *>> places = places_of_nodes(scene);
+    for (std::size_t w = 0; w < places.size(); ++w)
+    {
+      const double length = scene.wires[w].length(), same = same_place(scene.wires[w]);
+      const auto move = [&](double &s, const double to)
+      {
+        // The grid takes what differs by rounding for one node as it is.
+        const double distance = std::fabs(s - to), rounding = 1e-12 * length;
+        if (distance <= same && distance > rounding)
+          s = to;
+        return distance <= same;
+      };
+      std::sort(places[w].begin(), places[w].end(),
+                [](const double *p, const double *q) { return *p < *q; });
+      double first = 0.;
+      for (double *const s : places[w])
+        if (!move(*s, length) && !move(*s, first))
+          first = *s;
+    }
+  }
+} // namespace taut

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "distributed_load.h"
+
+#include <taut/base/exceptions.h>
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <algorithm>
+#include <limits>
+#include <regex>
+#include <sstream>
+#include <utility>
+
+namespace taut
+{
+  /// Throws EntryError for stretches of a load that are narrower than what is seen at once of it
+  /// wherever it is. Those at the ends of the wire's piece may come in or leave.
+  class WireComponent::DistributedLoad::WidthCheck
+  {
+  public:
+    WidthCheck(const DistributedLoad &load, const double t) : load(load), t(t) {}
+
+    void add(const Element &element, const ElementLoad &on)
+    {
+      if (!on.begins && !was_on)
+        finish();
+      if (size == 0.)
+      {
+        first = element.begin;
+        is_at_end = on.begins && &element == &load.elements.front();
+      }
+      size += on.size * element.length;
+      largest = std::max(largest, on.largest);
+      if (on.is_cubic)
+        shortest = std::min(shortest, element.length);
+      is_fine |= element.n_pieces > 1;
+      last = element.begin + element.length;
+      was_on = on.ends;
+    }
+
+    /// A stretch ends.
+    void finish()
+    {
+      const double width = largest > 0. ? size / largest : 0.,
+                   least = LoadIntegral::seen_at_once * shortest;
+      if (!is_at_end && !is_fine && size > 0. && shortest < no_element && width < least)
+      {
+        std::ostringstream out;
+        out.precision(4);
+        out << "load '" << load.name << "' is " << width << " m wide between s = " << first
+            << " and " << last << " m at t = " << t << " s. One that changes with time has to be "
+            << least << " m wide, a fifth of an element: take a smaller Element size, a wider "
+            << "load, or a load of type 'moving', which acts at a point";
+        throw EntryError(load.origin, out.str());
+      }
+      size = largest = 0.;
+      shortest = no_element;
+      is_fine = false;
+    }
+
+    /// The wire's piece ends.
+    void end()
+    {
+      if (!was_on)
+        finish();
+    }
+
+  private:
+    static constexpr double no_element = std::numeric_limits<double>::infinity();
+
+    const DistributedLoad &load;
+    double t, size = 0., largest = 0., shortest = no_element, first = 0., last = 0.;
+    bool is_at_end = false, is_fine = false, was_on = false;
+  };
+
+  WireComponent::DistributedLoad::DistributedLoad(const WireComponent &wire, const double factor,
+                                                  const Load &load)
+      : magnitude(load.magnitude), integral(magnitude), name(load.name), origin(load.origin),
+        wire_length(wire.wire_length),
+        is_uniform(!std::regex_search(magnitude.formula(), std::regex("\\bs\\b")))
+  {
+    const dealii::QGauss<1> rule(ElementLoad::n_points);
+    const bool stands = !magnitude.depends_on_time();
+    elements.resize(wire.nodes.size() - 1);
+    for (std::size_t e = 0; e < elements.size(); ++e)
+    {
+      Element &element = elements[e];
+      const double h = wire.nodes[e + 1] - wire.nodes[e];
+      element.begin = wire.nodes[e];
+      element.length = h;
+      element.n_pieces = stands ? LoadIntegral::fine_pieces : 1;
+      for (unsigned int q = 0; q < rule.size(); ++q)
+      {
+        element.places[q] = wire.nodes[e] + h * rule.point(q)[0];
+        wire.evaluate(element.places[q], load.rotational, element.shapes[q]);
+        for (double &v : element.shapes[q].value)
+          v *= factor * h * rule.weight(q);
+      }
+    }
+    if (!is_uniform && !stands)
+      find_standing_details();
+  }
+
+  void WireComponent::DistributedLoad::find_standing_details()
+  {
+    for (const double t : {0., .0137, .173, 1.31})
+      try
+      {
+        TypicalLoad typical(magnitude, wire_length, t);
+        for (Element &element : elements)
+        {
+          if (element.n_pieces > 1)
+            continue;
+          const ElementLoad fine = integral.over(element.begin, element.length, element.places, t,
+                                                 LoadIntegral::fine_pieces, typical);
+          if (!fine.is_resolved)
+            break; // as the run says, if it comes to this time
+          if (!fine.is_cubic)
+            continue;
+          const ElementLoad at_once =
+              integral.over(element.begin, element.length, element.places, t, 1, typical);
+          if (!at_once.is_cubic || fine.width() < LoadIntegral::seen_at_once)
+            element.n_pieces = LoadIntegral::fine_pieces;
+        }
+      }
+      catch (const UserError &)
+      {
+        // A time at which the formula has no value may be one that the run never comes to.
+      }
+  }
+
+  ElementLoad WireComponent::DistributedLoad::over(const Element &element, const double t,
+                                                   TypicalLoad &typical) const
+  {
+    const ElementLoad result =
+        integral.over(element.begin, element.length, element.places, t, element.n_pieces, typical);
+    if (result.is_resolved)
+      return result;
+    std::ostringstream out;
+    out.precision(4);
+    out << "load '" << name << "' cannot be integrated to " << LoadIntegral::tolerance
+        << " at t = " << t
+        << " s: near s = " << element.begin + element.length * result.narrowest_at
+        << " m it jumps or oscillates within " << element.length * result.narrowest
+        << " m, over and over. Give a load that is smooth between jumps";
+    throw EntryError(origin, out.str());
+  }
+
+  void WireComponent::DistributedLoad::add(const double t, std::vector<double> &P) const
+  {
+    if (is_uniform)
+    {
+      for (const Element &element : elements)
+        for (unsigned int q = 0; q < ElementLoad::n_points; ++q)
+          element.shapes[q].add_to(magnitude(element.places[q], t), P);
+      return;
+    }
+    WidthCheck check(*this, t);
+    TypicalLoad typical(magnitude, wire_length, t);
+    for (const Element &element : elements)
+    {
+      const ElementLoad on = over(element, t, typical);
+      for (unsigned int q = 0; q < ElementLoad::n_points; ++q)
+        element.shapes[q].add_to(on.values[q], P);
+      if (magnitude.depends_on_time())
+        check.add(element, on);
+    }
+    check.end();
+  }
+} // namespace taut

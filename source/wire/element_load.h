@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_element_load_h
+#define taut_element_load_h
+
+#include <taut/scene/expression.h>
+
+#include <array>
+
+namespace taut
+{
+  /**
+   * A load over one element as values at its four Gauss points: those of the load, where the rule
+   * of these points gives its sum and first moment, otherwise those of the cubic with the moments
+   * of the load against all cubics.
+   */
+  struct ElementLoad
+  {
+    static constexpr unsigned int n_points = 4;
+    using Values = std::array<double, n_points>;
+
+    Values values = {};
+    bool is_cubic = false;   ///< not the load's own values
+    double size = 0.;        ///< integral of its absolute value, of an element of length 1
+    double largest = 0.;     ///< absolute value
+    bool begins = false;     ///< it is not zero at the first end
+    bool ends = false;       ///< nor at the last one
+    bool is_resolved = true; ///< sum and first moment are within the tolerance
+    double narrowest = 1.;   ///< length of the smallest piece that was looked at
+    double narrowest_at = 0.;
+
+    /// Of a block as high and as large.
+    double width() const { return largest > 0. ? size / largest : 0.; }
+  };
+
+  /**
+   * A mean of the absolute value of a load along a wire, from below, at one time: a quarter of what
+   * a quarter of the wire has at least, by a few values. Found when it is asked for.
+   */
+  class TypicalLoad
+  {
+  public:
+    TypicalLoad(const Expression &magnitude, const double wire_length, const double t)
+        : magnitude(magnitude), wire_length(wire_length), t(t)
+    {
+    }
+    double operator()();
+
+  private:
+    const Expression &magnitude;
+    double wire_length, t, value = -1.;
+  };
+
+  /**
+   * Integrates a force per length q(s, t) over elements. An element is looked at in pieces, each
+   * with the Gauss rule of four points and a rule of nine that has these among them; pieces on
+   * which the two differ are bisected. Nothing is allocated.
+   */
+  class LoadIntegral
+  {
+  public:
+    /// Error of sum and first moment over the integral of |q|.
+    static constexpr double tolerance = 1e-6;
+
+    /// With one piece to begin with, a detail of a fifth of an element is seen wherever it is; with
+    /// the fine ones that of a sixty-fourth.
+    static constexpr unsigned int fine_pieces = 12;
+    static constexpr double seen_at_once = 1. / 5., seen_by_fine_pieces = 1. / 64.;
+
+    explicit LoadIntegral(const Expression &magnitude) : magnitude(magnitude) {}
+
+    /// Over the element from @p begin, of length @p h, with the Gauss points @p places [m].
+    ElementLoad over(double begin, double h, const std::array<double, 4> &places, double t,
+                     unsigned int n_pieces, TypicalLoad &typical) const;
+
+  private:
+    struct Piece;
+    struct Sums;
+    void look(double begin, double h, double t, Piece &piece) const;
+    void refine(double begin, double h, double t, const Piece &piece, Sums &sums) const;
+
+    Expression magnitude;
+  };
+} // namespace taut
+
+#endif

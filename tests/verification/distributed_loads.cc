@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: sum and first moment of a load along a wire are those of its formula to 1e-6 of the
+// integral of its absolute value, also of loads narrower than an element, with jumps, and of pulses
+// that move; where four Gauss points an element give as much, the forces are theirs to the bit.
+// Sources: closed forms of the integrals of blocks and waves; the Gauss rule, computed here.
+#include "run.h"
+
+#include <taut/base/dot.h>
+#include <taut/base/exceptions.h>
+#include <taut/wire/wire_component.h>
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace verification;
+
+namespace
+{
+  constexpr double length = 21., element = .7, bound = 1e-6;
+
+  taut::Wire wire_of(const std::string &kind)
+  {
+    taut::Wire wire;
+    wire.name = "wire";
+    wire.b = {length, 0.};
+    wire.mass_per_length = 1.;
+    wire.tension = 500.;
+    wire.element_size = element;
+    wire.weight = false;
+    wire.transverse = kind == "beam" ? taut::TransverseKind::beam : taut::TransverseKind::string;
+    wire.bending_stiffness = kind == "beam" ? 200. : 0.;
+    wire.degree = kind == "beam" ? 1 : kind.back() - '0';
+    // The shapes of a translation and of a rotation about the first end.
+    using taut::Expression;
+    wire.transverse_start = {Expression(1.),
+                             Expression("s", "start", Expression::Variables::position)};
+    return wire;
+  }
+
+  const std::vector<std::string> kinds = {"string 1", "string 2", "string 4", "beam"};
+
+  /// A wire under one load, and the work of the load on its rigid motions.
+  struct LoadedWire
+  {
+    std::unique_ptr<taut::Substructure> body;
+    std::vector<double> translation, rotation, P;
+
+    LoadedWire(const std::string &kind, const std::string &formula, const bool is_moment = false)
+    {
+      taut::Load load;
+      load.name = "load";
+      load.kind = taut::Load::Kind::distributed;
+      load.magnitude = taut::Expression(formula, "load");
+      load.rotational = is_moment;
+      if (is_moment)
+        load.direction = {0., 0., 1.};
+      body = taut::make_wire(wire_of(kind), taut::WireMotion::transverse, {}, {}, {load});
+      body->initial_state(translation, rotation);
+    }
+    double force(const double t = 0.) { return work(t, translation); }
+    double moment(const double t = 0.) { return work(t, rotation); }
+
+  private:
+    double work(const double t, const std::vector<double> &motion)
+    {
+      body->external_force(t, P);
+      return taut::dot(P, motion);
+    }
+  };
+
+  std::string block(const double force, const double middle, const double width)
+  {
+    return number(force / width) + "*(abs(s-" + number(middle) + ")<" + number(.5 * width) + ")";
+  }
+
+  std::string error_of(const std::string &kind, const std::string &formula,
+                       const std::vector<double> &times)
+  {
+    try
+    {
+      LoadedWire wire(kind, formula);
+      for (const double t : times)
+        wire.force(t);
+    }
+    catch (const taut::UserError &error)
+    {
+      return error.what();
+    }
+    return "";
+  }
+
+  /// The rule of four Gauss points on each element.
+  std::vector<double> by_gauss_points(const taut::Substructure &body, const taut::Wire &wire,
+                                      const taut::Expression &q, const double t)
+  {
+    taut::Scene scene;
+    scene.wires = {wire};
+    const std::vector<double> nodes = taut::grid(scene, 0);
+    const dealii::QGauss<1> rule(4);
+    std::vector<double> P(body.n_dofs(), 0.);
+    for (std::size_t e = 0; e + 1 < nodes.size(); ++e)
+      for (unsigned int k = 0; k < rule.size(); ++k)
+      {
+        const double h = nodes[e + 1] - nodes[e], s = nodes[e] + h * rule.point(k)[0];
+        taut::LinearForm shape = body.displacement({s, 0.}, {0., 1.});
+        for (double &v : shape.value)
+          v *= h * rule.weight(k);
+        shape.add_to(q(s, t), P);
+      }
+    return P;
+  }
+
+  void expect_force(const std::string &kind, const std::string &formula, const double force,
+                    const double moment, const double size, double &worst, const double t = 0.)
+  {
+    LoadedWire wire(kind, formula);
+    const double of_force = std::fabs(wire.force(t) - force) / size,
+                 of_moment = std::fabs(wire.moment(t) - moment) / (size * length);
+    worst = std::max({worst, of_force, of_moment});
+    EXPECT_LE(of_force, bound) << kind << ", " << formula << ", t = " << t;
+    EXPECT_LE(of_moment, bound) << kind << ", " << formula << ", t = " << t;
+  }
+} // namespace
+
+// 10 N on a fiftieth of an element, inside of elements and across a node, with all parts of its
+// width on either side; 10 N up beside 10 N down.
+TEST(DistributedLoads, narrow_ones_give_their_force_and_moment)
+{
+  double worst = 0.;
+  for (const std::string &kind : kinds)
+  {
+    const double width = element / 50.;
+    for (int k = -13; k <= 13; ++k)
+    {
+      const double middle = 10 * element + .05 * k * width;
+      expect_force(kind, block(10., middle, width), 10., 10. * middle, 10., worst);
+    }
+    for (int k = 0; k < 40; ++k)
+    {
+      const double middle = 3. + .137 * k;
+      expect_force(kind, block(10., middle, width), 10., 10. * middle, 10., worst);
+    }
+    for (const double apart : {.02, .1, .5, 3.})
+      expect_force(kind, block(10., 5., width) + "-" + block(10., 5. + apart, width), 0.,
+                   -10. * apart, 20., worst);
+    expect_force(kind, block(10., length - .5 * width, width), 10., 10. * (length - .5 * width),
+                 10., worst);
+    expect_force(kind, "3*(s>4)*(s<11.3)", 21.9, 21.9 * 7.65, 21.9, worst);
+    expect_force(kind, "4*sin(300*s)^2", 2. * length - std::sin(600. * length) / 300.,
+                 length * length - length * std::sin(600. * length) / 300. -
+                     (std::cos(600. * length) - 1.) / 180000.,
+                 2. * length, worst);
+  }
+  figure("narrow load, largest error of force and moment over the load", worst);
+}
+
+// The same, by the forces of the supports of a scene, whole and in parts.
+TEST(DistributedLoads, narrow_ones_are_carried_by_the_supports)
+{
+  const double width = element / 50.;
+  double worst = 0.;
+  for (const std::string components : {"string", "beam"})
+    for (const double middle : {7.0005, 7.0069, 6.9937, 3.3, 17.71})
+      for (const int parts : {1, 5})
+        run_scene("set Generator = network\nset Gravity = 0, 0\nsubsection Network\n"
+                  " set Wires = wire\n set Supports = ends\n set Loads = load\n"
+                  " subsection Wire wire\n  set To = 21, 0\n  set Components = " +
+                      components +
+                      "\n  set Mass per length = 1\n  set Tension = 500\n"
+                      "  set Bending stiffness = 200\n  set Element size = 0.7\n end\n"
+                      " subsection Support ends\n  set Wire = wire\n  set Positions = 0, 21\n end\n"
+                      " subsection Load load\n  set Type = distributed\n  set On = wire\n"
+                      "  set Magnitude = " +
+                      block(10., middle, width) +
+                      "\n end\nend\nsubsection Time\n set End = 0\nend\n",
+                  {"Partition/Number of substructures=" + std::to_string(parts)},
+                  [&](const taut::StepView &step)
+                  {
+                    const double first = -step.supports.at(0), last = -step.supports.at(1);
+                    worst = std::max({worst, std::fabs(first + last - 10.) / 10.,
+                                      std::fabs(last * length / middle - 10.) / 10.});
+                    EXPECT_NEAR(first + last, 10., 10. * bound) << components << " " << middle;
+                    EXPECT_NEAR(last * length, 10. * middle, 10. * bound * length);
+                  });
+  figure("narrow load, largest error of the supports' forces over the load", worst);
+}
+
+TEST(DistributedLoads, smooth_ones_are_those_of_four_gauss_points_to_the_bit)
+{
+  for (const std::string &kind : kinds)
+  {
+    for (const std::string formula :
+         {"7", "3*s", "10*sin(pi*s/21)", "2*cos(2*s)", "5+sin(3.5*s)", "exp(-((s-9)/2)^2)",
+          "12*sin(7*t)", "5*sin(6*t)*sin(s/3)", "cos(1.5*s-20*t)", "sin(2*s)/(s)"})
+      for (const double t : {0., .31, 2.7})
+      {
+        LoadedWire wire(kind, formula);
+        wire.force(t);
+        EXPECT_TRUE(wire.P == by_gauss_points(*wire.body, wire_of(kind),
+                                              taut::Expression(formula, "load"), t))
+            << kind << ", " << formula << ", t = " << t;
+      }
+    // A jump changes its own element.
+    const std::string jump = "sin(s/3)+(s>10.3)";
+    LoadedWire wire(kind, jump);
+    wire.force();
+    const std::vector<double> P =
+        by_gauss_points(*wire.body, wire_of(kind), taut::Expression(jump, "load"), 0.);
+    std::size_t n_changed = 0;
+    for (std::size_t i = 0; i < P.size(); ++i)
+      n_changed += wire.P[i] != P[i];
+    EXPECT_GE(n_changed, 1u) << kind;
+    EXPECT_LE(n_changed, 5u) << kind;
+  }
+}
+
+// 20 N on 0.2 m at 20 m/s: its force is constant, and that of its part on the wire at the ends.
+TEST(DistributedLoads, pulse_that_moves_keeps_its_force)
+{
+  double worst = 0.;
+  for (const std::string &kind : kinds)
+  {
+    LoadedWire wire(kind, "100*(abs(s-20*t)<0.1)");
+    for (int k = 0; k <= 2150; ++k)
+    {
+      const double t = 5e-4 * k, first = std::max(0., 20. * t - .1),
+                   last = std::min(length, 20. * t + .1), force = 100. * std::max(0., last - first),
+                   error =
+                       std::max(std::fabs(wire.force(t) - force),
+                                std::fabs(wire.moment(t) - .5 * force * (first + last)) / length);
+      worst = std::max(worst, error / 20.);
+      ASSERT_LE(error, 20. * bound) << kind << ", t = " << t;
+    }
+  }
+  figure("pulse that moves, largest error of force and moment over its force", worst);
+}
+
+// What stands may be as narrow as a load without time.
+TEST(DistributedLoads, narrow_one_that_swells_in_place)
+{
+  double worst = 0.;
+  for (const std::string &kind : kinds)
+    for (const double middle : {7.0005, 6.9937, 3.3, 17.71})
+      for (const double t : {.05, .2, .3, 4.})
+        expect_force(kind, "sin(5*t)*(" + block(10., middle, element / 50.) + ")",
+                     10. * std::sin(5. * t), 10. * std::sin(5. * t) * middle, 10., worst, t);
+  figure("narrow load that swells, largest error of force and moment over the load", worst);
+}
+
+TEST(DistributedLoads, what_cannot_be_integrated_is_refused)
+{
+  std::vector<double> times;
+  for (int k = 0; k < 100; ++k)
+    times.push_back(1e-2 * k);
+  for (const std::string &kind : kinds)
+  {
+    const std::string narrow = error_of(kind, "100*(abs(s-20*t-0.03)<0.01)", times);
+    EXPECT_NE(narrow.find("load 'load' is 0.02 m wide"), std::string::npos) << narrow;
+    EXPECT_NE(narrow.find("0.14 m wide, a fifth of an element"), std::string::npos) << narrow;
+    for (const std::string factor : {"", "(1+t)*"})
+    {
+      const std::string noise =
+          error_of(kind, factor + "(sin(1e9*s)*43758.5453-rint(sin(1e9*s)*43758.5453))", {.5});
+      EXPECT_NE(noise.find("load 'load' cannot be integrated to 1e-06"), std::string::npos)
+          << noise;
+    }
+    EXPECT_NE(error_of(kind, "rand(1)", {0.}).find("random"), std::string::npos);
+  }
+}
+
+// A moment m a length turns a wire by m L about any point, and pushes nowhere.
+TEST(DistributedLoads, moments_turn)
+{
+  LoadedWire wire("beam", "3*(s>2)*(s<9.25)", true);
+  EXPECT_NEAR(wire.force(), 0., 1e-9);
+  EXPECT_NEAR(wire.moment(), 3. * 7.25, 3. * 7.25 * bound);
+}
