@@ -74,7 +74,7 @@ namespace taut
     // joined to: that depends on the bodies.
     const SceneBodies structure(lighter);
     const Constraints constraints = scene_constraints(lighter, structure);
-    const ContactResolution resolution(structure, constraints, parameters, step);
+    const ContactResolution resolution(structure, constraints, parameters, step, step, 0.);
     for (std::size_t i = 0; i < constraints.size(); ++i)
       if (resolution.acts_as_rigid(i))
         return;

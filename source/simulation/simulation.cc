@@ -360,7 +360,7 @@ namespace taut
       log << "Mass redistribution: nodes of wires under " << links.names(massless)
           << " gave their mass to their neighbours\n";
     const ContactResolution resolution(bodies, links, parameters.solver, parameters.step,
-                                       parameters.step_parameters.adaptive(), parameters.end_time);
+                                       step, parameters.end_time);
     std::string name = parameters.scheme;
     std::map<std::string, std::string> entries;
     std::string reason;

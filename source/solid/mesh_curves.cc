@@ -106,8 +106,11 @@ namespace taut
             << " m away from there, on no one radius; check the place and the id";
         throw EntryError(entry, out.str());
       }
+      // Its edges in space have ids of their own, which a file does not give.
       const dealii::types::manifold_id id = curve.id;
-      cells.set_all_manifold_ids_on_boundary(curve.id, id);
+      for (const auto &face : cells.active_face_iterators())
+        if (face->at_boundary() && face->boundary_id() == curve.id)
+          face->set_all_manifold_ids(id);
       if constexpr (dim == 3)
         if (curve.has_axis)
         {

@@ -34,6 +34,22 @@ namespace taut
       return std::regex_replace(text, std::regex("^\\s+|\\s+$"), "");
     }
 
+    /// What to do about a mesh of gmsh that deal.II refuses; empty: its own reason says it. Types
+    /// of gmsh's elements to 7 and 15 are of first order.
+    std::string remedy(const std::string &reason)
+    {
+      std::smatch found;
+      if (!std::regex_search(reason, found, std::regex("Element Identifier <(\\d{1,3})>")))
+        return "";
+      const int type = std::stoi(found[1]);
+      if (type <= 7 || type == 15)
+        return "";
+      return "it has elements of second or higher order, gmsh's type " + std::to_string(type) +
+             ", and deal.II reads those of first order. Export it with Mesh.ElementOrder = 1; "
+             "Degree = 2 adds nodes on its sides, and on the curves that Mesh/Curved boundaries "
+             "names for quadrilaterals and hexahedra";
+    }
+
     /// Sine of the angle between the edges of a corner, or its like in space, below which a cell is
     /// flat there.
     constexpr double flat = 1e-8;
@@ -221,9 +237,10 @@ namespace taut
     }
     catch (const std::exception &e)
     {
+      const std::string why = reason(e), what_to_do = remedy(why);
       throw EntryError(section + "File", "deal.II reads no mesh of dimension " +
                                              std::to_string(dim) + " from '" + file +
-                                             "': " + reason(e));
+                                             "': " + (what_to_do.empty() ? why : what_to_do));
     }
     check_cells(cells, section + "File");
   }

@@ -292,8 +292,8 @@ namespace taut
 
   ContactResolution::ContactResolution(const Structure &structure, const Constraints &all,
                                        const SolverParameters &parameters, const double step,
-                                       const bool adaptive, const double until)
-      : adaptive(adaptive), of(all.size())
+                                       const double longest, const double until)
+      : adaptive(longest > step), of(all.size())
   {
     Constraints constraints = all; // moves along its way here
     const std::vector<char> without_mass = constraints.without_mass();

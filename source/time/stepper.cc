@@ -83,7 +83,7 @@ namespace taut
     allow_unsuitable_scheme = options.allow_unsuitable_scheme;
     contact_measures.set_scheme(options.scheme == "automatic", options.steps.adaptive());
     const ContactResolution resolution(structure, constraints, options.solver, options.step,
-                                       options.steps.adaptive(), options.end);
+                                       options.steps.longest(options.step), options.end);
     if (options.scheme == "automatic")
     {
       const SchemeChoice choice =

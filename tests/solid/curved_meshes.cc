@@ -84,3 +84,274 @@ TEST(SolidMeshes, a_mesh_from_a_file_follows_a_circle)
   EXPECT_TRUE(has(pressed("set Curved boundaries = 9: circle, 0, 0").error, "no boundary 9"));
   EXPECT_TRUE(has(pressed("set Curved boundaries = 7: sphere, 0, 0").error, "id: circle, x, y"));
 }
+
+namespace
+{
+  /// Elements of gmsh in a square or cube of 3 x 3 or 3 x 3 x 3 nodes.
+  struct Elements
+  {
+    std::string name;
+    int type, dim;
+    std::vector<int> nodes; ///< of one, counted from 1
+  };
+
+  const std::vector<Elements> higher_order = {
+      {"line of 3 nodes", 8, 2, {1, 3, 2}},
+      {"triangle of 6 nodes", 9, 2, {1, 3, 7, 2, 5, 4}},
+      {"quadrilateral of 9 nodes", 10, 2, {1, 3, 9, 7, 2, 6, 8, 4, 5}},
+      {"quadrilateral of 8 nodes", 16, 2, {1, 3, 9, 7, 2, 6, 8, 4}},
+      {"tetrahedron of 10 nodes", 11, 3, {1, 3, 7, 19, 2, 5, 4, 10, 13, 11}},
+      {"hexahedron of 20 nodes", 17, 3, {1,  3, 9,  7, 19, 21, 27, 25, 2,  4,
+                                         10, 6, 12, 8, 18, 16, 20, 22, 24, 26}},
+      {"hexahedron of 27 nodes", 12, 3, {1,  3,  9,  7,  19, 21, 27, 25, 2,  4,  10, 6,  12, 8,
+                                         18, 16, 20, 22, 24, 26, 5,  11, 13, 15, 17, 23, 14}}};
+
+  /// A file of one element in a format of gmsh.
+  struct OneElement
+  {
+    const std::filesystem::path path =
+        std::filesystem::temp_directory_path() / ("taut_one_" + std::to_string(getpid()) + ".msh");
+
+    OneElement(const Elements &e, const std::string &format)
+    {
+      const int n = e.dim == 3 ? 27 : 9, dim = e.type == 8 ? 1 : e.dim;
+      std::ofstream file(path);
+      file << "$MeshFormat\n" << format << " 0 8\n$EndMeshFormat\n";
+      std::string numbers, places, lines;
+      for (int i = 0; i < n; ++i)
+      {
+        const std::string number = std::to_string(i + 1);
+        numbers += number + "\n";
+        places += (format == "2.2" ? number + " " : "") + std::to_string(.5 * (i % 3)) + " " +
+                  std::to_string(.5 * (i / 3 % 3)) + " " + std::to_string(.5 * (i / 9)) + "\n";
+      }
+      for (const int node : e.nodes)
+        lines += " " + std::to_string(node);
+      if (format == "2.2")
+        file << "$Nodes\n"
+             << n << '\n'
+             << places << "$EndNodes\n$Elements\n1\n1 " << e.type << " 2 1 1" << lines;
+      else
+        file << "$Entities\n0 " << (dim == 1) << ' ' << (dim == 2) << ' ' << (dim == 3)
+             << "\n1 0 0 0 1 1 1 1 1 0\n$EndEntities\n$Nodes\n1 " << n << " 1 " << n << '\n'
+             << dim << " 1 0 " << n << '\n'
+             << numbers << places << "$EndNodes\n$Elements\n1 1 1 1\n"
+             << dim << " 1 " << e.type << " 1\n1" << lines;
+      file << "\n$EndElements\n";
+    }
+    ~OneElement() { std::filesystem::remove(path); }
+  };
+} // namespace
+
+// Claim: a mesh of second order, which deal.II does not read, is one error that says how to export
+// it and to name its curves.
+TEST(SolidMeshes, of_second_order_end_in_one_error)
+{
+  for (const Elements &e : higher_order)
+    for (const char *const format : {"2.2", "4.1"})
+    {
+      const OneElement mesh(e, format);
+      const std::string error =
+          run(scene("equilibrium",
+                    "set Bodies = block\n" +
+                        body("block", "set File = " + mesh.path.string(),
+                             "set Degree = 2\nset Dimension = " + std::to_string(e.dim)),
+                    at_rest))
+              .error;
+      for (const std::string &part :
+           {std::string("Body block/Mesh/File"), mesh.path.string(),
+            "gmsh's type " + std::to_string(e.type) + ",", std::string("Mesh.ElementOrder = 1"),
+            std::string("Curved boundaries")})
+        EXPECT_TRUE(has(error, part)) << e.name << ", format " << format << ": " << error;
+      EXPECT_FALSE(has(error, "\n")) << error;
+    }
+}
+
+namespace
+{
+  /// A block below y = sqrt(1 - x^2), x up to 0.6 m, of straight quadrilaterals, those below its
+  /// top 0.04 m wide: boundary 11 is x = 0, 12 y = 0, 14 the top.
+  struct RoundBlock
+  {
+    const std::filesystem::path path =
+        std::filesystem::temp_directory_path() / ("taut_top_" + std::to_string(getpid()) + ".msh");
+
+    RoundBlock()
+    {
+      std::vector<double> x = {0.}, part = {1.};
+      while (x.back() < .6 - 1e-9)
+        x.push_back(x.back() < .2 - 1e-9 ? x.back() + .04 : x.back() + .05);
+      for (double height = .04; part.back() > height; height = std::fmin(.1, 1.3 * height))
+        part.push_back(part.back() - height);
+      part.back() = 0.;
+      const std::size_t nx = x.size(), ny = part.size();
+      std::ofstream file(path);
+      file.precision(16);
+      file << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" << nx * ny << '\n';
+      for (std::size_t j = 0; j < ny; ++j)
+        for (std::size_t i = 0; i < nx; ++i)
+          file << 1 + i + nx * j << ' ' << x[i] << ' '
+               << part[ny - 1 - j] * std::sqrt(1. - x[i] * x[i]) << " 0\n";
+      file << "$EndNodes\n$Elements\n" << 2 * (nx - 1) + ny - 1 + (nx - 1) * (ny - 1) << '\n';
+      std::size_t n = 0;
+      const auto line = [&](const int id, const std::size_t a, const std::size_t b)
+      { file << ++n << " 1 2 " << id << ' ' << id << ' ' << 1 + a << ' ' << 1 + b << '\n'; };
+      for (std::size_t i = 0; i + 1 < nx; ++i)
+      {
+        line(12, i, i + 1);
+        line(14, i + nx * (ny - 1), i + 1 + nx * (ny - 1));
+      }
+      for (std::size_t j = 0; j + 1 < ny; ++j)
+        line(11, nx * j, nx * (j + 1));
+      for (std::size_t j = 0; j + 1 < ny; ++j)
+        for (std::size_t i = 0; i + 1 < nx; ++i)
+          file << ++n << " 3 2 0 0 " << 1 + i + nx * j << ' ' << 2 + i + nx * j << ' '
+               << 2 + i + nx * (j + 1) << ' ' << 1 + i + nx * (j + 1) << '\n';
+      file << "$EndElements\n";
+    }
+    ~RoundBlock() { std::filesystem::remove(path); }
+  };
+
+  /// Largest deviation of the pressures of nodes from Hertz' over the largest pressure, within 0.8
+  /// of the half-width, with the resultant of the contact.
+  double deviation_from_hertz(const Ran &found)
+  {
+    double force = 0.;
+    for (const double N : found.forces)
+      force += 2. * N;
+    const double modulus = 1e9, a = std::sqrt(4. * force / (M_PI * modulus)),
+                 p0 = std::sqrt(force * modulus / M_PI);
+    double largest = 0.;
+    int n = 0;
+    for (std::size_t i = 0; i < found.forces.size(); ++i)
+    {
+      const taut::SurfaceConstraint &c = found.constraints[i];
+      const double x = c.point.x;
+      if (x > .8 * a)
+        continue;
+      ++n;
+      const double p = found.forces[i] / c.area / std::sqrt(1. - x * x),
+                   exact = p0 * std::sqrt(1. - x * x / (a * a));
+      largest = std::fmax(largest, std::fabs(p - exact) / p0);
+    }
+    EXPECT_GE(n, 4);
+    return largest;
+  }
+} // namespace
+
+// Claim: pressures under a cylinder of degree 2 from a file do not alternate where its curve is
+// named, and facets are warned of where it is not. Expected: Hertz' pressures for the resultant.
+TEST(SolidMeshes, a_cylinder_from_a_file_is_pressed_as_by_hertz)
+{
+  const RoundBlock block;
+  const auto pressed = [&](const std::string &curve, const std::string &degree)
+  {
+    return run(scene("equilibrium",
+                     "set Bodies = cylinder\n" +
+                         body("cylinder", "set File = " + block.path.string() + "\n" + curve,
+                              "set Degree = " + degree + "\nset Symmetry boundaries = 11, 12"),
+                     "set Contacts = plate\nsubsection Contact plate\nset Slave = cylinder: 14\n"
+                     "set Obstacle = plane\nset Point = 0, 1\nset Direction = 0, -1\n"
+                     "set Gap = -0.04\nend\n" +
+                         at_rest));
+  };
+  const std::string named = "set Curved boundaries = 14: circle, 0, 0";
+  const Ran curved = pressed(named, "2"), facets = pressed("", "2"), straight = pressed("", "1");
+  for (const Ran *const found : {&curved, &facets, &straight})
+    ASSERT_EQ(found->error, "");
+  const double with = deviation_from_hertz(curved), without = deviation_from_hertz(facets),
+               linear = deviation_from_hertz(straight);
+  verification::figure("Hertz' cylinder from a file, named curve, deviation over p0", with);
+  verification::figure("Hertz' cylinder from a file, facets, deviation over p0", without);
+  verification::figure("Hertz' cylinder from a file, degree 1, deviation over p0", linear);
+  EXPECT_LT(with, .03);
+  EXPECT_GT(without, .1);
+  EXPECT_LT(linear, .03);
+  EXPECT_FALSE(has(curved.log, "have a kink of")) << curved.log;
+  EXPECT_TRUE(has(facets.log, "have a kink of")) << facets.log;
+  EXPECT_TRUE(has(facets.log, "Curved boundaries")) << facets.log;
+  EXPECT_FALSE(has(straight.log, "have a kink of")) << straight.log;
+}
+
+namespace
+{
+  /// A shell of 2 x 2 hexahedra between the radii 1 and 2, boundary 7 its inner side; of a sphere,
+  /// or of a cylinder about z.
+  struct Shell
+  {
+    const std::filesystem::path path = std::filesystem::temp_directory_path() /
+                                       ("taut_shell_" + std::to_string(getpid()) + ".msh");
+
+    explicit Shell(const bool is_sphere)
+    {
+      std::ofstream file(path);
+      file.precision(16);
+      file << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n18\n";
+      for (int k = 0; k < 2; ++k)
+        for (int j = 0; j < 3; ++j)
+          for (int i = 0; i < 3; ++i)
+          {
+            const double x = .4 * (i - 1), y = .4 * (j - 1), r = 1. + k,
+                         size = std::sqrt(1. + x * x + (is_sphere ? y * y : 0.));
+            // Right-handed: x, y and outwards.
+            file << 1 + i + 3 * j + 9 * k << ' ' << r * x / size << ' ';
+            if (is_sphere)
+              file << r * y / size << ' ' << r / size << '\n';
+            else
+              file << -r / size << ' ' << y << '\n';
+          }
+      file << "$EndNodes\n$Elements\n8\n";
+      for (int e = 0; e < 8; ++e)
+      {
+        const int a = 1 + e % 2 + 3 * (e / 2 % 2), square[] = {a, a + 1, a + 4, a + 3};
+        file << 1 + e << (e < 4 ? " 3 2 7 7" : " 5 2 0 0");
+        for (int k = 0; k < (e < 4 ? 1 : 2); ++k)
+          for (const int node : square)
+            file << ' ' << node + 9 * k;
+        file << '\n';
+      }
+      file << "$EndElements\n";
+    }
+    ~Shell() { std::filesystem::remove(path); }
+  };
+} // namespace
+
+// Claim: hexahedra follow spheres and cylinders that an entry names. Expected: all nodes of their
+// sides at the radius 1; without the entry those between corners are nearer.
+TEST(SolidMeshes, hexahedra_follow_a_sphere_and_a_cylinder)
+{
+  for (const bool is_sphere : {true, false})
+    for (const bool follows : {true, false})
+    {
+      const Shell shell(is_sphere);
+      const std::string curve = is_sphere ? "sphere, 0, 0, 0" : "cylinder, 0, 0, 5, 0, 0, 2";
+      const Ran found = run(scene(
+          "given",
+          "set Bodies = shell\n" +
+              body("shell",
+                   "set File = " + shell.path.string() +
+                       (follows ? "\nset Curved boundaries = 7: " + curve : ""),
+                   "set Degree = 2\nset Dimension = 3"),
+          "set Contacts = pin\nsubsection Contact pin\nset Slave = shell: 7\nset Obstacle = " +
+              std::string(is_sphere ? "sphere\n" : "cylinder\nset Direction = 0, 0, 1\n") +
+              "set Point = 0, 0, 0\nset Radius = 0.5\nend\n" + at_rest));
+      ASSERT_EQ(found.error, "");
+      ASSERT_EQ(found.constraints.size(), 25u);
+      double least = 2., largest = 0.;
+      for (const taut::SurfaceConstraint &c : found.constraints)
+      {
+        const double r = is_sphere ? norm(c.point) : std::hypot(c.point.x, c.point.y);
+        least = std::fmin(least, r);
+        largest = std::fmax(largest, r);
+      }
+      EXPECT_NEAR(largest, 1., 1e-12);
+      if (follows)
+      {
+        EXPECT_NEAR(least, 1., 1e-12) << curve;
+      }
+      else
+      {
+        EXPECT_LT(least, .99) << curve;
+      }
+    }
+}

@@ -33,13 +33,14 @@ namespace taut
   {
   public:
     /**
-     * For steps of @p step [s]. @p adaptive ones may be longer when they meet an impact, so that
-     * one that moves a body as a whole counts as not resolved. Moving constraints are judged along
-     * their way until @p until [s]. The arguments are not kept. Called by all ranks together.
+     * For steps of @p step [s]. Adaptive ones may be as long as @p longest [s] when they meet an
+     * impact, so that one that moves a body as a whole counts as not resolved, and moving
+     * constraints, which press all the time, are judged by these. They are judged along their way
+     * until @p until [s]. The arguments are not kept. Called by all ranks together.
      */
     ContactResolution(const Structure &structure, const Constraints &constraints,
-                      const SolverParameters &parameters, double step, bool adaptive = false,
-                      double until = 0.);
+                      const SolverParameters &parameters, double step, double longest,
+                      double until);
 
     bool acts_as_rigid(const std::size_t i) const { return of[i].ratio > 1.; }
     bool is_resolved(std::size_t i) const;
