@@ -307,40 +307,6 @@ namespace taut
       log << control.n_repeated() << " steps were repeated with a shorter one\n";
   }
 
-  void Simulation::prepare_step_check(const TimeIntegrator &integrator)
-  {
-    if (parameters.check_steps == "no" || n_steps() == 0)
-      return;
-    RunInSteps run = {bodies,
-                      links,
-                      parameters.solver,
-                      integrator,
-                      parameters.step_parameters,
-                      parameters.step,
-                      n_steps(),
-                      longest_steps,
-                      reference,
-                      start,
-                      model.start == Start::equilibrium};
-    if (parameters.check_steps == "yes" ||
-        (parameters.scheme == "automatic" && StepAccuracy::is_affordable(run)))
-      accuracy = std::make_unique<StepAccuracy>(std::move(run));
-  }
-
-  void Simulation::check_steps()
-  {
-    if (!accuracy || stop_signal != 0)
-      return;
-    accuracy->measure(
-        [&]
-        {
-          const int asked = stop_asked ? stop_asked() : 0;
-          stop_signal = static_cast<int>(processes.max(asked));
-          return stop_signal != 0;
-        });
-    stop_signal = 0; // it came too late to matter
-  }
-
   /// The steps that fit into the time of the run: what was checked up to its end stays true.
   long Simulation::n_steps() const
   {
@@ -359,8 +325,8 @@ namespace taut
     if (!massless.empty())
       log << "Mass redistribution: nodes of wires under " << links.names(massless)
           << " gave their mass to their neighbours\n";
-    const ContactResolution resolution(bodies, links, parameters.solver, parameters.step,
-                                       step, parameters.end_time);
+    const ContactResolution resolution(bodies, links, parameters.solver, parameters.step, step,
+                                       parameters.end_time);
     std::string name = parameters.scheme;
     std::map<std::string, std::string> entries;
     std::string reason;

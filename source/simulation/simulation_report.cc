@@ -5,6 +5,40 @@
 
 namespace taut
 {
+  void Simulation::prepare_step_check(const TimeIntegrator &integrator)
+  {
+    if (parameters.check_steps == "no" || n_steps() == 0)
+      return;
+    RunInSteps run = {bodies,
+                      links,
+                      parameters.solver,
+                      integrator,
+                      parameters.step_parameters,
+                      parameters.step,
+                      n_steps(),
+                      longest_steps,
+                      reference,
+                      start,
+                      model.start == Start::equilibrium};
+    if (parameters.check_steps == "yes" ||
+        (parameters.scheme == "automatic" && StepAccuracy::is_affordable(run)))
+      accuracy = std::make_unique<StepAccuracy>(std::move(run));
+  }
+
+  void Simulation::check_steps()
+  {
+    if (!accuracy || stop_signal != 0)
+      return;
+    accuracy->measure(
+        [&]
+        {
+          const int asked = stop_asked ? stop_asked() : 0;
+          stop_signal = static_cast<int>(processes.max(asked));
+          return stop_signal != 0;
+        });
+    stop_signal = 0; // it came too late to matter
+  }
+
   void Simulation::print_cost(const TimeStepper &stepper, const double until,
                               const double all) const
   {

@@ -202,6 +202,38 @@ namespace taut
       }
     }
 
+    /// The same from now until a time [s]; @p moved are the constraints of this search.
+    void judge_way(Constraints &moved, const std::vector<std::size_t> &rows, const double until)
+    {
+      for (int place = 0; place <= (until > 0. ? n_places : 0); ++place)
+      {
+        if (place > 0 && !move(moved, until * place / n_places))
+          return;
+        for (const std::size_t i : rows)
+          judge_moving(i);
+      }
+    }
+
+  private:
+    /// False where one leaves its body, of which the run says so when it comes there.
+    bool move(Constraints &moved, const double t)
+    {
+      bool has_left = false;
+      try
+      {
+        moved.update(t);
+      }
+      catch (const UserError &)
+      {
+        has_left = true;
+      }
+      if (structure.communicator().any(has_left))
+        return false;
+      in_step.update_moving();
+      at_once.update_moving();
+      return true;
+    }
+
     /// An elastic constraint that moves, where it is now.
     void judge_moving(const std::size_t i)
     {
@@ -212,13 +244,6 @@ namespace taut
       find_share(i, column[i]);
     }
 
-    void update_moving()
-    {
-      in_step.update_moving();
-      at_once.update_moving();
-    }
-
-  private:
     /// From |F_ij| <= sqrt(F_ii F_jj): the sum of the ratios of all.
     void judge_by_bounds(const std::vector<std::size_t> &rows)
     {
@@ -322,27 +347,10 @@ namespace taut
     search.judge_elastic(elastic);
     if (moving.empty())
       return;
-    for (int place = 0; place <= (until > 0. ? n_places : 0); ++place)
-    {
-      if (place > 0)
-      {
-        // Where a contact leaves its body, the run says so when it comes there.
-        bool has_left = false;
-        try
-        {
-          constraints.update(until * place / n_places);
-        }
-        catch (const UserError &)
-        {
-          has_left = true;
-        }
-        if (structure.communicator().any(has_left))
-          break;
-        search.update_moving();
-      }
-      for (const std::size_t i : moving)
-        search.judge_moving(i);
-    }
+    if (longest > step)
+      Search(structure, constraints, parameters, longest, of).judge_way(constraints, moving, until);
+    else
+      search.judge_way(constraints, moving, until);
   }
 
   bool ContactResolution::is_resolved(const std::size_t i) const
