@@ -8,6 +8,7 @@
 #include <taut/base/instruction_set.h>
 #include <taut/base/version.h>
 #include <taut/simulation/simulation.h>
+#include <taut/time/step_accuracy.h>
 
 #include <cmath>
 #include <ostream>

@@ -20,6 +20,7 @@
 #include <taut/scene/entries.h>
 #include <taut/simulation/simulation.h>
 #include <taut/time/choose_scheme.h>
+#include <taut/time/step_accuracy.h>
 
 #include <algorithm>
 #include <chrono>
@@ -60,6 +61,8 @@ namespace taut
     probe_rest.assign(probe_terms.size(), 0.);
     probe_values.assign(probe_terms.size(), 0.);
   }
+
+  Simulation::~Simulation() = default;
 
   void Simulation::run()
   {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/simulation/simulation.h>
+#include <taut/time/step_accuracy.h>
 
 #include <ostream>
 

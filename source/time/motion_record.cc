@@ -267,24 +267,22 @@ namespace taut
       }
   }
 
-  void MotionRecord::compare_energies(const MotionRecord &other, const Sizes &size,
-                                      MotionDifference &result) const
+  void MotionRecord::compare_energies(const Sizes &other, MotionDifference &result) const
   {
     const Sizes own = sizes();
-    const std::size_t n_both = std::min(own.energies.size(), size.energies.size());
+    const std::size_t n_both = std::min(own.energies.size(), other.energies.size());
     const auto change = [](const Sizes &of, const std::size_t s, const std::size_t g)
     {
-      return of.energies[s][g][0] + of.energies[s][g][1] - of.energies[0][g][0] -
-             of.energies[0][g][1];
+      const std::array<double, 2> &now = of.energies[s][g], &start = of.energies[0][g];
+      return now[0] + now[1] - start[0] - start[1];
     };
     for (std::size_t g = 0; g < groups.n_groups(); ++g)
-      for (std::size_t s = 0; s < n_both && size.place[g] > 0.; ++s)
+      for (std::size_t s = 0; s < n_both && other.place[g] > 0.; ++s)
         result.energy =
-            worse(ratio(distance(change(own, s, g), s, n_both, size.late[g] / interval,
-                                 [&](const std::size_t j) { return change(size, j, g); }),
-                        size.energy[g]),
+            worse(ratio(distance(change(own, s, g), s, n_both, other.late[g] / interval,
+                                 [&](const std::size_t j) { return change(other, j, g); }),
+                        other.energy[g]),
                   result.energy);
-    (void)other;
   }
 
   MotionDifference MotionRecord::difference(const MotionRecord &other) const
@@ -293,7 +291,7 @@ namespace taut
     MotionDifference result;
     compare_places(other, size, result);
     compare_impulses(other, size, result);
-    compare_energies(other, size, result);
+    compare_energies(size, result);
     return result;
   }
 

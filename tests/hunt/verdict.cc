@@ -22,9 +22,10 @@ namespace hunt
       std::string result;
       for (std::string line; std::getline(lines, line);)
       {
-        bool counts = line.find("Warning: ") != std::string::npos &&
-                      line.find("step") != std::string::npos &&
-                      line.find('\'') != std::string::npos;
+        bool counts =
+            line.find("Warning: ") != std::string::npos &&
+            (line.find("step") != std::string::npos || line.find("Step") != std::string::npos) &&
+            line.find('\'') != std::string::npos;
         for (const char *remark : remarks)
           counts = counts && line.find(remark) == std::string::npos;
         if (counts)

@@ -8,7 +8,6 @@
 #include <taut/output/reactions.h>
 #include <taut/output/statistics.h>
 #include <taut/simulation/parameters.h>
-#include <taut/time/step_accuracy.h>
 #include <taut/time/time_stepper.h>
 
 #include <functional>
@@ -19,6 +18,7 @@
 namespace taut
 {
   class ObserverList;
+  class StepAccuracy;
   class StepControl;
   struct Checkpoint;
   struct InitialState;
@@ -45,6 +45,7 @@ namespace taut
      */
     Simulation(const Parameters &parameters, std::ostream &log,
                const Communicator &processes = Communicator(), SharedParts *shared = nullptr);
+    ~Simulation();
 
     /// Adds an observer of the start and of each step, called after those that write the results;
     /// kept by reference.

@@ -18,8 +18,7 @@ namespace taut
   {
     double place = 0., impulse = 0., energy = 0.; ///< [1]
 
-    /// Within these a motion is as good as the other one. They are those of the hunt for silent
-    /// wrong answers, too.
+    /// Within these a motion is as good as the other one.
     static constexpr double place_bound = .02, impulse_bound = .02, energy_bound = .05;
 
     /// The largest of the three over its bound; not-a-number if one is.
@@ -77,8 +76,7 @@ namespace taut
                         MotionDifference &result) const;
     void compare_impulses(const MotionRecord &other, const Sizes &size,
                           MotionDifference &result) const;
-    void compare_energies(const MotionRecord &other, const Sizes &size,
-                          MotionDifference &result) const;
+    void compare_energies(const Sizes &other, MotionDifference &result) const;
 
     const Structure &structure;
     const Constraints &constraints;
