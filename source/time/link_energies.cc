@@ -86,9 +86,13 @@ namespace taut
       if (std::isinf(constraint.stiffness))
         return state.constraint_work[i];
       const State::LinkSpring &spring = state.link_springs[i];
-      return state.constraint_work[i] + constraint.stored_energy(spring.u) -
-             constraint.stored_energy(row.u) +
-             constraint.damping * spring.du * spring.du / state.last_step;
+      const double with_damper = state.constraint_work[i] + constraint.stored_energy(spring.u) -
+                                 constraint.stored_energy(row.u);
+      // A contact with a damper ends where its force is zero: what its spring has left the damper
+      // takes, and in part of a step that is as much as it is.
+      if (constraint.damping > 0. && !(row.multiplier > 0. && state.multiplier[i] > 0.))
+        return std::max(0., with_damper);
+      return with_damper + constraint.damping * spring.du * spring.du / state.last_step;
     }
     if (!(std::fabs(change) > row.noise))
       return 0.;

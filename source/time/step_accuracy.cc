@@ -25,11 +25,12 @@ namespace taut
     /// the third power of a step, errors of a run with the second.
     constexpr double power_of_tolerance = 1.5;
 
-    /// Differences to a quarter of the step, over the bounds, from which errors of first order may
-    /// be above and below them.
-    constexpr double surely_good = .75, surely_bad = 1.25;
+    /// Differences to a quarter of the step, over the bounds, below which an error is within them
+    /// and above which it is not, also where a quarter of the step is no better than the whole.
+    constexpr double surely_good = .4, surely_bad = 1.25;
 
-    /// Part of the bounds that the needed step aims at, and a difference to a sixteenth may have.
+    /// Part of the bounds that the needed step aims at, and that the difference to a sixteenth of
+    /// the step, with what it has more than that to a quarter, may have.
     constexpr double aim = .8, good = .95;
 
     /// Products of DoFs and steps, of which a second has about a hundred millions. A step costs as
@@ -145,7 +146,7 @@ namespace taut
     found = compare(1. / ratio_of_steps, stop);
     if (!found)
       return;
-    double over = found->over_bounds();
+    const double over = found->over_bounds();
     if (coarse)
       order = std::clamp(std::log(coarse->over_bounds() / over) / std::log(ratio_of_steps), 1., 2.);
     too_long = !(over <= surely_bad);
@@ -154,7 +155,8 @@ namespace taut
     const auto finest = compare(1. / (ratio_of_steps * ratio_of_steps), stop);
     if (finest)
       found = finest;
-    too_long = !(found->over_bounds() <= good);
+    const double now = found->over_bounds();
+    too_long = !(now + std::max(0., now - over) <= good);
   }
 
   /// Part of the step with which an error falls to its bound.
