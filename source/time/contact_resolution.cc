@@ -26,6 +26,9 @@ namespace taut
     /// Share from which an impact is more than waves: adaptive steps, too, then keep its energy.
     constexpr double large_share = .1;
 
+    /// Part of the critical damping from which nothing rebounds.
+    constexpr double no_rebound = .7;
+
     /// Steps a contact with a damper needs for a rebound that is right to a percent.
     constexpr double steps_of_a_damped_contact = 8.;
 
@@ -288,6 +291,8 @@ namespace taut
         const double flexibility = column[i] * at_once.mass_factor();
         of[i].contact_time =
             std::acos(-1.) / std::sqrt(constraints[i].stiffness * std::max(flexibility, 0.));
+        of[i].damping_ratio = .5 * constraints[i].damping *
+                              std::sqrt(std::max(flexibility, 0.) / constraints[i].stiffness);
         find_share(i, column[i]);
         for (const Term &term : constraints[i].terms)
         {
@@ -372,7 +377,8 @@ namespace taut
   {
     std::vector<char> result;
     for (const Row &row : of)
-      result.push_back(row.may_conserve && row.share > small_share);
+      result.push_back(row.may_conserve && row.share > small_share &&
+                       row.damping_ratio < no_rebound);
     return result;
   }
 

@@ -8,7 +8,6 @@
 #include <taut/output/reactions.h>
 #include <taut/output/statistics.h>
 #include <taut/simulation/parameters.h>
-#include <taut/time/time_stepper.h>
 
 #include <functional>
 #include <iosfwd>
@@ -20,6 +19,7 @@ namespace taut
   class ObserverList;
   class StepAccuracy;
   class StepControl;
+  class TimeStepper;
   struct Checkpoint;
   struct InitialState;
   struct ScenePlaces;

@@ -53,7 +53,9 @@ namespace taut
     double share(const std::size_t i) const { return of[i].share; }
 
     /// Fixed elastic constraints whose impacts move their bodies as a whole: their mean force has
-    /// to keep the energy of their springs, see ConstraintData::conserving.
+    /// to keep the energy of their springs, see ConstraintData::conserving. With 0.7 of the
+    /// critical damping or more there is none to keep; the spring of such a link is slow to come
+    /// back after a contact, and bodies may meet it on its way.
     std::vector<char> conserving() const;
 
     /// Of those with a damper, the longest step that resolves a contact [s]; infinite elsewhere.
@@ -64,7 +66,8 @@ namespace taut
     {
       double ratio = 0., share = 1.;
       bool unilateral = false, elastic = false, may_conserve = false, damped = false;
-      double contact_time = 0.; ///< of the constraint alone on its bodies [s]
+      double contact_time = 0.;  ///< of the constraint alone on its bodies [s]
+      double damping_ratio = 0.; ///< over the critical damping, likewise [1]
     };
     class Search;
     const bool adaptive;
