@@ -3,6 +3,7 @@
 #include "extended_run.h"
 
 #include "extended_complementarity.h"
+#include "extended_laws.h"
 #include "extended_model.h"
 #include "extended_projection.h"
 #include "extended_scheme.h"
@@ -36,6 +37,10 @@ namespace extremes
       void find_multipliers(const Vector &right_hand_side, const Number &t);
       Vector combine(const Number &a, const Vector &x, const Number &b, const Vector &y) const;
       void observe();
+      bool conserves(const std::size_t k) const
+      {
+        return is_mean[k] && !c.conserving.empty() && c.conserving[k];
+      }
 
       const Case c;
       const ExtendedModel &model;
@@ -238,7 +243,7 @@ namespace extremes
       std::vector<std::size_t> index;
       for (std::size_t k = 0; k < B.size(); ++k)
       {
-        if (!is_mean[k] || !(N[k] > 0))
+        if (!is_mean[k] || conserves(k) || !(N[k] > 0))
           continue;
         const taut::Link &link = scene.links[k];
         ProjectedContact contact;
@@ -270,14 +275,17 @@ namespace extremes
     }
 
     /// N, D and U of A U = P + B N. The mean force of an elastic contact counts the compression
-    /// that this has at the start of the step.
+    /// that this has at the start of the step; of one that conserves, all of its energy.
     void ExtendedRun::find_multipliers(const Vector &right_hand_side, const Number &t)
     {
       Vector past(B.size(), Number(0));
+      std::vector<std::optional<ConservingLaw>> laws(B.size());
       for (std::size_t k = 0; k < B.size(); ++k)
-        if (is_mean[k] && !scene.links[k].rigid() && D[k] < 0)
+        if (conserves(k))
+          laws[k].emplace(Number(scene.links[k].stiffness), -D[k]);
+        else if (is_mean[k] && !scene.links[k].rigid() && D[k] < 0)
           past[k] = D[k];
-      system.solve(right_hand_side, t, B, past, N, D, motion.U);
+      system.solve(right_hand_side, t, B, past, laws, N, D, motion.U);
     }
 
     void ExtendedRun::observe()
