@@ -36,6 +36,7 @@ namespace extremes
       void project(const Number &t);
       void find_multipliers(const Vector &right_hand_side, const Number &t);
       Vector combine(const Number &a, const Vector &x, const Number &b, const Vector &y) const;
+      Number elastic_terms(std::size_t i) const;
       void observe();
       bool conserves(const std::size_t k) const
       {
@@ -224,7 +225,12 @@ namespace extremes
     /// are in it, too, as the next step takes them off in their new place.
     void ExtendedRun::set_balance(const Vector &P)
     {
-      const Vector CV = C.times(motion.V), KU = K.times(motion.U);
+      const Vector CV = C.times(motion.V);
+      Vector KU = K.times(motion.U);
+      // Their roundings differ from step to step, so that what one gives the next does not take.
+      const std::size_t step = answer.steps.size();
+      for (std::size_t i = 0; as_double && i < r.size(); ++i)
+        KU[i] += last_place(i + step) * elastic_terms(i);
       for (std::size_t i = 0; i < r.size(); ++i)
         r[i] = P[i] - CV[i] - KU[i];
       for (std::size_t k = 0; k < B.size(); ++k)
@@ -288,6 +294,15 @@ namespace extremes
       system.solve(right_hand_side, t, B, past, laws, N, D, motion.U);
     }
 
+    /// sum_j |K_ij U_j|, which an elastic force rounds with.
+    Number ExtendedRun::elastic_terms(const std::size_t i) const
+    {
+      Number sum = 0;
+      for (std::size_t j = 0; j < model.n_dofs(); ++j)
+        sum += abs(K(i, j) * motion.U[j]);
+      return sum;
+    }
+
     void ExtendedRun::observe()
     {
       Observation o;
@@ -313,11 +328,8 @@ namespace extremes
       }
       for (std::size_t i = 0; i < model.n_dofs(); ++i)
       {
-        Number sum = 0;
-        for (std::size_t j = 0; j < model.n_dofs(); ++j)
-          sum += abs(K(i, j) * motion.U[j]);
         double &largest = model.is_rotation[i] ? answer.elastic_moment : answer.elastic_force;
-        largest = std::max(largest, static_cast<double>(sum));
+        largest = std::max(largest, static_cast<double>(elastic_terms(i)));
       }
     }
   } // namespace
