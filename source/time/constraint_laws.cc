@@ -20,7 +20,7 @@ namespace taut
     /// Part of the largest stiffness below which a law counts as this stiff when it is linearised.
     constexpr double least_slope = 1e-9;
 
-    /// The same of a conserving one: between far open and closed its slope is small but never wrong.
+    /// The same of a conserving one, whose slope between far open and closed is small, but right.
     constexpr double least_slope_of_conserving = 1e-40;
 
     /// Part of the compressions below which their difference says nothing of the slope of the mean.
