@@ -25,6 +25,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <ostream>
 #include <sstream>
 
@@ -328,15 +329,21 @@ namespace taut
     if (!massless.empty())
       log << "Mass redistribution: nodes of wires under " << links.names(massless)
           << " gave their mass to their neighbours\n";
-    const ContactResolution resolution(bodies, links, parameters.solver, parameters.step, step,
-                                       parameters.end_time);
+    // Made where it is needed only: its factors may be lost in rounding where the run's are not.
+    std::optional<ContactResolution> made;
+    const auto resolution = [&]() -> const ContactResolution &
+    {
+      if (!made)
+        made.emplace(bodies, links, parameters.solver, parameters.step, step, parameters.end_time);
+      return *made;
+    };
     std::string name = parameters.scheme;
     std::map<std::string, std::string> entries;
     std::string reason;
     if (name == "automatic")
     {
       const SchemeChoice choice =
-          choose_scheme(bodies, links, resolution, parameters.restitution());
+          choose_scheme(bodies, links, resolution(), parameters.restitution());
       name = choice.name;
       entries = choice.entries;
       reason = ", because " + choice.reason;
@@ -351,8 +358,8 @@ namespace taut
       check_scheme(integrator, bodies, links, resolution, parameters.solver, step);
     if (integrator.coefficients(step).velocity_projection)
     {
-      links.set_conserving(resolution.conserving());
-      longest_steps = resolution.longest_steps();
+      links.set_conserving(resolution().conserving());
+      longest_steps = resolution().longest_steps();
     }
     return integrator;
   }

@@ -169,7 +169,8 @@ namespace taut
   } // namespace
 
   void check_scheme(const TimeIntegrator &integrator, const Structure &structure,
-                    const Constraints &constraints, const ContactResolution &resolution,
+                    const Constraints &constraints,
+                    const std::function<const ContactResolution &()> &resolution,
                     const SolverParameters &parameters, const double step)
   {
     check_stability(integrator, structure, constraints, parameters, step);
@@ -202,7 +203,7 @@ namespace taut
                                           turning +
                                           "' turns. Take 'automatic' or 'backward Euler'" + anyway);
     std::size_t rigid = 0;
-    while (rigid < constraints.size() && !resolution.acts_as_rigid(rigid))
+    while (rigid < constraints.size() && !resolution().acts_as_rigid(rigid))
       ++rigid;
     if (rigid == constraints.size())
       return;

@@ -20,6 +20,9 @@ namespace taut
     /// Part of the largest stiffness below which a law counts as this stiff when it is linearised.
     constexpr double least_slope = 1e-9;
 
+    /// The same of a conserving one, whose slope between far open and closed is small, but right.
+    constexpr double least_slope_of_conserving = 1e-40;
+
     /// Part of the compressions below which their difference says nothing of the slope of the mean.
     constexpr double least_difference = 1e-5;
   } // namespace
@@ -74,7 +77,8 @@ namespace taut
     double of_law = at_end * law->stiffness(u);
     if (of_mean > 0.)
       of_law += of_mean * slope_of_mean(u);
-    return std::max(of_law, least_slope * law->largest_stiffness()) +
+    const double least = conserving ? least_slope_of_conserving : least_slope;
+    return std::max(of_law, least * law->largest_stiffness()) +
            (conserving && u < 0. ? 0. : damping);
   }
 
@@ -142,6 +146,21 @@ namespace taut
     return result;
   }
 
+  double ConstraintLaws::polished(const std::size_t i, const double u, const double L) const
+  {
+    constexpr int most = 100;
+    constexpr double rounding = 1e-15;
+    double result = u;
+    for (int iteration = 0; iteration < most; ++iteration)
+    {
+      const double change = lack(i, result, L);
+      result += change;
+      if (!(std::fabs(change) > rounding * std::fabs(result)))
+        break;
+    }
+    return result;
+  }
+
   void ConstraintLaws::linearise(const std::vector<double> &u, std::vector<double> &S,
                                  std::vector<double> &shift) const
   {
@@ -153,12 +172,15 @@ namespace taut
     }
   }
 
-  /// The largest that a law lacks, over the terms of its gap.
-  double ConstraintLaws::error(const Point &at, const MixedComplementarityProblem &problem,
-                               const ComplementarityOperator &F) const
+  /// The largest that a law lacks, over the terms of its gap; and of conserving ones, whose slope
+  /// may change by orders of magnitude, what they lack as a force.
+  ConstraintLaws::Error ConstraintLaws::error(const Point &at,
+                                              const MixedComplementarityProblem &problem,
+                                              const ComplementarityOperator &F) const
   {
     const std::vector<double> u = compressions(at.gap);
-    double largest = 0.;
+    Error result;
+    double &largest = result.gap;
     for (std::size_t r = 0; r < rows.size(); ++r)
     {
       const std::size_t i = rows[r].index;
@@ -168,8 +190,11 @@ namespace taut
                    relative = lacking == 0. ? 0. : lacking / terms;
       if (!(relative <= largest) && !std::isnan(largest))
         largest = relative;
+      if (rows[r].conserving && lacking > 0.)
+        result.force = std::max(result.force, std::fabs(at.multiplier[i] - rows[r].force(u[r])) *
+                                                  F.diagonal(i) / terms);
     }
-    return largest;
+    return result;
   }
 
   /// Derivative of the energy by s at the part s of the way.
@@ -218,7 +243,8 @@ namespace taut
       u.push_back(std::max(row.conserving ? -gap[row.index] : row.u0, row.open));
     Point last, now;
     const MixedComplementaritySolution *solution = nullptr;
-    double before = std::numeric_limits<double>::infinity();
+    Error before = {std::numeric_limits<double>::infinity(),
+                    std::numeric_limits<double>::infinity()};
     unsigned int iterations = 0;
     for (int iteration = 0; iteration < most_iterations; ++iteration)
     {
@@ -236,8 +262,10 @@ namespace taut
       for (std::size_t i = 0; i < constraints.size(); ++i)
         now.gap[i] -= S[i] * now.multiplier[i] + (has(i) ? shift[i] : 0.);
       const ComplementarityOperator &F = system.interface().matrix();
-      const double found = error(now, problem, F);
-      if (found <= converged || (found <= stagnated && found >= not_closer * before))
+      const Error found = error(now, problem, F);
+      if (found.gap <= converged ||
+          (found.gap <= stagnated && found.gap >= not_closer * before.gap &&
+           found.force >= not_closer * before.force))
         break;
       if (iteration > 0)
         shorten(last, now, S);

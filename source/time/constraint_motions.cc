@@ -118,6 +118,16 @@ namespace taut
     conditions.held_open[i] = !is_near && !(before.multiplier[i] > 0.);
   }
 
+  /// Of a conserving constraint. What is a small part of the motions that it is a difference of,
+  /// its force tells better.
+  double ConstraintMotions::compression(const std::size_t i, const double gap) const
+  {
+    constexpr double small = 1e-4;
+    return std::fabs(gap) > small * scale_of_step[i] || !(solved.multiplier[i] > 0.)
+               ? -gap
+               : laws.polished(i, -gap, solved.multiplier[i]);
+  }
+
   double ConstraintMotions::moving_gap(const std::size_t i) const
   {
     return constraints[i].gap + gap_correction[i] + position[i];
@@ -231,7 +241,7 @@ namespace taut
       const double known_a = c.a_V * spring.v + c.a_A * spring.a + c.a_dU * spring.du;
       const double own = elastic_mean(i) ? solved.multiplier[i] : balanced[i],
                    free_u = S[i] * own + link_history[i],
-                   u = conserves(i)                                   ? std::max(0., -gap)
+                   u = conserves(i) ? std::max(0., compression(i, gap))
                        : elastic_mean(i) && constraints[i].unilateral ? std::max(0., free_u)
                                                                       : free_u;
       spring.du = u - spring.u;

@@ -26,7 +26,8 @@ namespace taut
     const double damping = constraints[i].damping, theta = 1. - c.alpha_f;
     const State::LinkSpring &spring = before.link_springs[i];
     if (conserves(i))
-      laws.begin_conserving(i, -before.geometric_gap[i], 2. * damping / step);
+      laws.begin_conserving(i, spring.u > 0. ? spring.u : -before.geometric_gap[i],
+                            2. * damping / step);
     else if (elastic_mean(i))
       laws.begin_mean(i, spring.u, theta, damping / (theta * step));
     else

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <sstream>
 
 namespace taut
@@ -82,12 +83,19 @@ namespace taut
   {
     allow_unsuitable_scheme = options.allow_unsuitable_scheme;
     contact_measures.set_scheme(options.scheme == "automatic", options.steps.adaptive());
-    const ContactResolution resolution(structure, constraints, options.solver, options.step,
-                                       options.steps.longest(options.step), options.end);
+    // Made where it is needed only: its factors may be lost in rounding where the run's are not.
+    std::optional<ContactResolution> made;
+    const auto resolution = [&]() -> const ContactResolution &
+    {
+      if (!made)
+        made.emplace(structure, constraints, options.solver, options.step,
+                     options.steps.longest(options.step), options.end);
+      return *made;
+    };
     if (options.scheme == "automatic")
     {
       const SchemeChoice choice =
-          choose_scheme(structure, constraints, resolution, options.restitution);
+          choose_scheme(structure, constraints, resolution(), options.restitution);
       integrator = make_integrator(choice.name, choice.entries);
       scheme_description = integrator->description() + ", because " + choice.reason;
     }
@@ -102,8 +110,8 @@ namespace taut
     }
     if (integrator->coefficients(options.step).velocity_projection)
     {
-      constraints.set_conserving(resolution.conserving());
-      longest_steps = resolution.longest_steps();
+      constraints.set_conserving(resolution().conserving());
+      longest_steps = resolution().longest_steps();
     }
     return *integrator;
   }

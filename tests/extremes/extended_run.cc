@@ -3,6 +3,7 @@
 #include "extended_run.h"
 
 #include "extended_complementarity.h"
+#include "extended_laws.h"
 #include "extended_model.h"
 #include "extended_projection.h"
 #include "extended_scheme.h"
@@ -35,7 +36,12 @@ namespace extremes
       void project(const Number &t);
       void find_multipliers(const Vector &right_hand_side, const Number &t);
       Vector combine(const Number &a, const Vector &x, const Number &b, const Vector &y) const;
+      Number elastic_terms(std::size_t i) const;
       void observe();
+      bool conserves(const std::size_t k) const
+      {
+        return is_mean[k] && !c.conserving.empty() && c.conserving[k];
+      }
 
       const Case c;
       const ExtendedModel &model;
@@ -219,7 +225,12 @@ namespace extremes
     /// are in it, too, as the next step takes them off in their new place.
     void ExtendedRun::set_balance(const Vector &P)
     {
-      const Vector CV = C.times(motion.V), KU = K.times(motion.U);
+      const Vector CV = C.times(motion.V);
+      Vector KU = K.times(motion.U);
+      // Their roundings differ from step to step, so that what one gives the next does not take.
+      const std::size_t step = answer.steps.size();
+      for (std::size_t i = 0; as_double && i < r.size(); ++i)
+        KU[i] += last_place(i + step) * elastic_terms(i);
       for (std::size_t i = 0; i < r.size(); ++i)
         r[i] = P[i] - CV[i] - KU[i];
       for (std::size_t k = 0; k < B.size(); ++k)
@@ -238,7 +249,7 @@ namespace extremes
       std::vector<std::size_t> index;
       for (std::size_t k = 0; k < B.size(); ++k)
       {
-        if (!is_mean[k] || !(N[k] > 0))
+        if (!is_mean[k] || conserves(k) || !(N[k] > 0))
           continue;
         const taut::Link &link = scene.links[k];
         ProjectedContact contact;
@@ -270,14 +281,26 @@ namespace extremes
     }
 
     /// N, D and U of A U = P + B N. The mean force of an elastic contact counts the compression
-    /// that this has at the start of the step.
+    /// that this has at the start of the step; of one that conserves, all of its energy.
     void ExtendedRun::find_multipliers(const Vector &right_hand_side, const Number &t)
     {
       Vector past(B.size(), Number(0));
+      std::vector<std::optional<ConservingLaw>> laws(B.size());
       for (std::size_t k = 0; k < B.size(); ++k)
-        if (is_mean[k] && !scene.links[k].rigid() && D[k] < 0)
+        if (conserves(k))
+          laws[k].emplace(Number(scene.links[k].stiffness), -D[k]);
+        else if (is_mean[k] && !scene.links[k].rigid() && D[k] < 0)
           past[k] = D[k];
-      system.solve(right_hand_side, t, B, past, N, D, motion.U);
+      system.solve(right_hand_side, t, B, past, laws, N, D, motion.U);
+    }
+
+    /// sum_j |K_ij U_j|, which an elastic force rounds with.
+    Number ExtendedRun::elastic_terms(const std::size_t i) const
+    {
+      Number sum = 0;
+      for (std::size_t j = 0; j < model.n_dofs(); ++j)
+        sum += abs(K(i, j) * motion.U[j]);
+      return sum;
     }
 
     void ExtendedRun::observe()
@@ -305,11 +328,8 @@ namespace extremes
       }
       for (std::size_t i = 0; i < model.n_dofs(); ++i)
       {
-        Number sum = 0;
-        for (std::size_t j = 0; j < model.n_dofs(); ++j)
-          sum += abs(K(i, j) * motion.U[j]);
         double &largest = model.is_rotation[i] ? answer.elastic_moment : answer.elastic_force;
-        largest = std::max(largest, static_cast<double>(sum));
+        largest = std::max(largest, static_cast<double>(elastic_terms(i)));
       }
     }
   } // namespace

@@ -19,8 +19,9 @@ namespace extremes
    * "contradictory".
    *
    * With @p as_double, the diagonals of M, C, K and F and the multipliers of each step are larger
-   * by one unit in the last place of a double, more or less: what a program does to a scene that
-   * adds up matrices and keeps contact forces in double precision.
+   * by one unit in the last place of a double, more or less, and elastic forces at the ends of
+   * steps by one of their terms: what a program does to a scene that adds up matrices and keeps
+   * forces in double precision.
    */
   Answer extended_answer(const Case &c, bool as_double = false);
 

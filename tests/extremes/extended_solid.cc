@@ -272,6 +272,7 @@ namespace extremes
     steps.scheme = c.scheme;
     steps.step = c.step;
     steps.n_steps = c.n_steps;
+    steps.conserving = c.conserving;
     steps.scene.start = c.start == "equilibrium"  ? taut::Start::equilibrium
                         : c.start == "undeformed" ? taut::Start::undeformed
                                                   : taut::Start::given;

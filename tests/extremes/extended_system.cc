@@ -76,7 +76,9 @@ namespace extremes
   }
 
   void ExtendedSystem::solve(const Vector &full_rhs, const Number &t, const std::vector<Form> &B,
-                             const Vector &past, Vector &N, Vector &D, Vector &result)
+                             const Vector &past,
+                             const std::vector<std::optional<ConservingLaw>> &laws, Vector &N,
+                             Vector &D, Vector &result)
   {
     const std::size_t n = free_dofs.size(), m = B.size();
     Vector held_U(model.n_dofs(), Number(0));
@@ -109,7 +111,7 @@ namespace extremes
           F(k, l) += constraints[k][i] * columns[l][i];
       motions_of_forces[k] = F(k, k);
       F(k, k) += shared_by * flexibilities[k];
-      if (!link.rigid())
+      if (!link.rigid() && !laws[k])
         F(k, k) += 1 / Number(link.stiffness);
       d[k] = Number(link.gap) + dot(B[k], held_U) + past[k];
       if (link.moving())
@@ -127,7 +129,7 @@ namespace extremes
       unilateral.push_back(scene.links[k].unilateral());
       closed.push_back(!unilateral[k] || N[k] > 0);
     }
-    N = principal_pivoting(F, d, unilateral, closed);
+    N = solve_with_laws(F, d, unilateral, closed, laws);
     if (as_double)
       for (std::size_t k = 0; k < m; ++k)
         N[k] *= 1 + last_place(k + 1);

@@ -2,7 +2,7 @@
 #ifndef taut_extremes_extended_system_h
 #define taut_extremes_extended_system_h
 
-#include "extended_model.h"
+#include "extended_laws.h"
 
 namespace extremes
 {
@@ -18,11 +18,12 @@ namespace extremes
 
     /**
      * N, D and U at time t with the forms @p B, under forces @p P. The condition of each constraint
-     * is on D + N / stiffness + @p past. N as given says which constraints may be closed. Throws
-     * std::runtime_error where there is no answer.
+     * is on D + N / stiffness + @p past, or its law if it has one in @p laws. N as given says which
+     * constraints may be closed. Throws std::runtime_error where there is no answer.
      */
     void solve(const Vector &P, const Number &t, const std::vector<Form> &B, const Vector &past,
-               Vector &N, Vector &D, Vector &U);
+               const std::vector<std::optional<ConservingLaw>> &laws, Vector &N, Vector &D,
+               Vector &U);
 
     /// Of the constraints with their bodies held; empty before A is known.
     const Vector &flexibility() const { return flexibilities; }

@@ -23,6 +23,10 @@ namespace extremes
     std::string local_solver = "block tridiagonal";
     std::string interface_operator = "assembled dense";
     std::string complementarity = "semismooth Newton";
+
+    /// Of each link, for the extended run: its mean force keeps the energy of its spring, see
+    /// taut::ConstraintData::conserving. The program decides it; empty: of none.
+    std::vector<char> conserving;
   };
 
   /// What is compared of a step, by unit: no metre is ever compared with a newton or a radian.
@@ -42,9 +46,10 @@ namespace extremes
   struct Answer
   {
     std::vector<Observation> steps;
-    std::string error;       ///< empty if there is an answer
-    std::string scheme;      ///< of the last step, if `automatic` chose it
-    double certificate = 0.; ///< largest of the run
+    std::string error;            ///< empty if there is an answer
+    std::string scheme;           ///< of the last step, if `automatic` chose it
+    std::vector<char> conserving; ///< of each link, or constraint of a contact, in the program
+    double certificate = 0.;      ///< largest of the run
 
     /// Of the extended run: largest |K||U|, and largest motion of a constraint under its own force,
     /// which the others take back.

@@ -54,6 +54,7 @@ namespace extremes
     double step = 1.; ///< [s]
     unsigned int n_steps = 3;
     std::string interface_operator = "assembled dense", complementarity = "semismooth Newton";
+    std::vector<char> conserving; ///< of each constraint, for the copy; as of a Case
   };
 
   /// The same case in other units.

@@ -25,6 +25,9 @@ namespace extremes
     /// Ids of the boundary: 10 + 2 axis at the lower end of an axis, 11 + 2 axis at the upper one.
     constexpr int first_boundary = 10;
 
+    /// Of turns and sliding: the arithmetic is tested here, not what the model is good for.
+    constexpr double no_limit = 1e300;
+
     /// A mesh in the format 2.2 of gmsh; materials 1 and 2 are left and right.
     class MeshFile
     {
@@ -134,9 +137,9 @@ namespace extremes
       std::ostringstream out;
       out.precision(std::numeric_limits<double>::max_digits10);
       out << "subsection Body " << name << "\nset Type = solid\nset Dimension = " << c.dim
-          << "\nset Materials = 1: " << c.E[0] << ", " << c.nu[0] << ", " << c.density[0]
-          << "; 2: " << c.E[1] << ", " << c.nu[1] << ", " << c.density[1]
-          << "\nset Plane state = " << (c.plane_stress ? "stress" : "strain")
+          << "\nset Largest turn = " << no_limit << "\nset Materials = 1: " << c.E[0] << ", "
+          << c.nu[0] << ", " << c.density[0] << "; 2: " << c.E[1] << ", " << c.nu[1] << ", "
+          << c.density[1] << "\nset Plane state = " << (c.plane_stress ? "stress" : "strain")
           << "\nset Thickness = " << c.thickness << "\nset Mass matrix = " << c.mass << '\n';
       const std::string zero = c.dim == 3 ? ", 0" : "";
       if (!is_upper)
@@ -174,7 +177,8 @@ namespace extremes
       else
         out << "set Master = lower: 13\nset Method = "
             << (c.touching == Touching::mortar ? "mortar" : "nodes to faces") << '\n';
-      out << "set Gap = " << c.gap << "\nset Compliance = " << c.compliance
+      out << "set Largest sliding = " << no_limit << "\nset Gap = " << c.gap
+          << "\nset Compliance = " << c.compliance
           << "\nend\nsubsection Time\nset Scheme = " << c.scheme
           << "\nset Allow unsuitable scheme = true\nset Allow energy gain = true\nset Step = "
           << c.step << "\nset End = " << c.n_steps * c.step
@@ -300,6 +304,9 @@ namespace extremes
       }
       answer.steps.push_back(observe(view, c.dim, n_nodes));
       answer.scheme = scheme_of(view.scheme);
+      answer.conserving.clear();
+      for (std::size_t k = 0; k < view.constraints.size(); ++k)
+        answer.conserving.push_back(view.constraints[k].conserving);
       answer.certificate = std::max(answer.certificate, view.certificate.max());
       answer.iterations = std::max(answer.iterations, view.certificate.iterations);
       answer.n_fallbacks += view.certificate.fallback;

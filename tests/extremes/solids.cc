@@ -190,6 +190,7 @@ namespace
     }
     check_rows(c, rows);
     ++summary.n_answers;
+    c.conserving = ours.conserving;
     if (c.scheme == "automatic")
     {
       c.scheme = ours.scheme;

@@ -6,6 +6,7 @@
 #include <taut/time/integrator.h>
 #include <taut/time/solver_parameters.h>
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -35,10 +36,12 @@ namespace taut
    * ring (StepCoefficients::ringing) at a unilateral constraint that acts as rigid, on
    * Time/Moreau-Jean/Conditions if gaps of a moving rigid constraint would drift, on Time/Mass
    * redistribution where conditions on velocities without damping meet a node without mass, on
-   * Time/Step if the scheme is not stable for the largest frequency of the system.
+   * Time/Step if the scheme is not stable for the largest frequency of the system. @p resolution is
+   * asked for if the forces of the scheme may ring.
    */
   void check_scheme(const TimeIntegrator &integrator, const Structure &structure,
-                    const Constraints &constraints, const ContactResolution &resolution,
+                    const Constraints &constraints,
+                    const std::function<const ContactResolution &()> &resolution,
                     const SolverParameters &parameters, double step);
 
   /// Throws an EntryError if a scheme projects velocities and a mass matrix has no inverse.

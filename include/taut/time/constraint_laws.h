@@ -70,6 +70,9 @@ namespace taut
     /// 0 for a constraint without a law.
     double lack(std::size_t i, double u, double L) const;
 
+    /// phi^-1(L) beside @p u, as exact as L is: @p u may be the small difference of large motions.
+    double polished(std::size_t i, double u, double L) const;
+
   private:
     /// phi of a constraint.
     struct Row
@@ -91,12 +94,16 @@ namespace taut
     {
       std::vector<double> gap, multiplier;
     };
+    struct Error
+    {
+      double gap = 0., force = 0.;
+    };
     void begin(std::size_t i, Row row, double low, double high);
     std::vector<double> compressions(const std::vector<double> &gap) const;
     void linearise(const std::vector<double> &u, std::vector<double> &S,
                    std::vector<double> &shift) const;
-    double error(const Point &at, const MixedComplementarityProblem &problem,
-                 const ComplementarityOperator &F) const;
+    Error error(const Point &at, const MixedComplementarityProblem &problem,
+                const ComplementarityOperator &F) const;
     double slope_of_energy(const Point &from, const Point &to, double s,
                            const std::vector<double> &S) const;
     void shorten(const Point &from, Point &to, const std::vector<double> &S) const;

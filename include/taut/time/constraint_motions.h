@@ -166,6 +166,7 @@ namespace taut
       return mean[i] && !c.velocity_projection && (c.velocity_level || !constraints[i].unilateral);
     }
     double spring_history(std::size_t i, const State &before) const;
+    double compression(std::size_t i, double gap) const;
     void begin_law(std::size_t i, const State &before);
     void set_multipliers(const MixedComplementaritySolution &solution, State &state);
     void share_convection(const State &state);
