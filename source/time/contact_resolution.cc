@@ -378,7 +378,7 @@ namespace taut
     std::vector<char> result;
     for (const Row &row : of)
       result.push_back(row.may_conserve && row.share > small_share &&
-                       row.damping_ratio < no_rebound);
+                       !(row.damping_ratio >= no_rebound && row.ratio <= resolved));
     return result;
   }
 

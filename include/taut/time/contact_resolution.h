@@ -54,8 +54,8 @@ namespace taut
 
     /// Fixed elastic constraints whose impacts move their bodies as a whole: their mean force has
     /// to keep the energy of their springs, see ConstraintData::conserving. With 0.7 of the
-    /// critical damping or more there is none to keep; the spring of such a link is slow to come
-    /// back after a contact, and bodies may meet it on its way.
+    /// critical damping or more, and steps that resolve it, there is none to keep; the spring of
+    /// such a link is slow to come back after a contact, and bodies may meet it on its way.
     std::vector<char> conserving() const;
 
     /// Of those with a damper, the longest step that resolves a contact [s]; infinite elsewhere.
