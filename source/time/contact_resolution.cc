@@ -26,8 +26,9 @@ namespace taut
     /// Share from which an impact is more than waves: adaptive steps, too, then keep its energy.
     constexpr double large_share = .1;
 
-    /// Part of the critical damping from which nothing rebounds.
-    constexpr double no_rebound = .7;
+    /// Part of the critical damping from which nothing rebounds, and steps of a contact without
+    /// damper that resolve it.
+    constexpr double no_rebound = .7, steps_of_a_contact = 12.;
 
     /// Steps a contact with a damper needs for a rebound that is right to a percent.
     constexpr double steps_of_a_damped_contact = 8.;
@@ -147,7 +148,7 @@ namespace taut
   public:
     Search(const Structure &structure, const Constraints &constraints,
            const SolverParameters &parameters, const double step, std::vector<Row> &of)
-        : structure(structure), constraints(constraints), of(of),
+        : structure(structure), constraints(constraints), of(of), step(step),
           in_step(structure, constraints, parameters, step),
           at_once(structure, constraints, parameters, short_step * step),
           wholes(structure, constraints,
@@ -291,8 +292,10 @@ namespace taut
         const double flexibility = column[i] * at_once.mass_factor();
         of[i].contact_time =
             std::acos(-1.) / std::sqrt(constraints[i].stiffness * std::max(flexibility, 0.));
-        of[i].damping_ratio = .5 * constraints[i].damping *
-                              std::sqrt(std::max(flexibility, 0.) / constraints[i].stiffness);
+        const double critical =
+            2. * std::sqrt(constraints[i].stiffness / std::max(flexibility, 0.));
+        of[i].comes_back_slowly = constraints[i].damping >= no_rebound * critical &&
+                                  of[i].contact_time >= steps_of_a_contact * step;
         find_share(i, column[i]);
         for (const Term &term : constraints[i].terms)
         {
@@ -314,6 +317,7 @@ namespace taut
     const Structure &structure;
     const Constraints &constraints;
     std::vector<Row> &of;
+    const double step; ///< [s]
     LinkFlexibilities in_step, at_once;
     const ConnectedBodies wholes; ///< what rigid bilateral constraints join
     std::vector<double> mass;     ///< of these [kg]
@@ -377,8 +381,7 @@ namespace taut
   {
     std::vector<char> result;
     for (const Row &row : of)
-      result.push_back(row.may_conserve && row.share > small_share &&
-                       !(row.damping_ratio >= no_rebound && row.ratio <= resolved));
+      result.push_back(row.may_conserve && row.share > small_share && !row.comes_back_slowly);
     return result;
   }
 

@@ -66,8 +66,8 @@ namespace taut
     {
       double ratio = 0., share = 1.;
       bool unilateral = false, elastic = false, may_conserve = false, damped = false;
-      double contact_time = 0.;  ///< of the constraint alone on its bodies [s]
-      double damping_ratio = 0.; ///< over the critical damping, likewise [1]
+      double contact_time = 0.;       ///< of the constraint alone on its bodies [s]
+      bool comes_back_slowly = false; ///< its spring, after a contact
     };
     class Search;
     const bool adaptive;
