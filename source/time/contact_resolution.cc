@@ -40,7 +40,8 @@ namespace taut
     /// still; below, something with mass stands behind it.
     constexpr double own_part = .5;
 
-    /// Constraints whose couplings are looked at entry by entry; of more, bounds are taken.
+    /// Constraints of connected bodies whose couplings are looked at entry by entry; of more,
+    /// bounds are taken.
     constexpr std::size_t most_columns = 1500;
 
     /// Places along the way of a moving constraint.
@@ -181,14 +182,37 @@ namespace taut
       }
     }
 
+    /// Those of bodies that nothing connects do not see each other.
     void judge_elastic(const std::vector<std::size_t> &rows)
     {
       find_shares(rows);
-      if (rows.size() > most_columns)
+      const ConnectedBodies connected(structure, constraints);
+      std::vector<std::vector<std::size_t>> of_group(connected.n_groups());
+      for (const std::size_t i : rows)
+        of_group[connected.of_constraint(i)].push_back(i);
+      for (const std::vector<std::size_t> &group : of_group)
+        if (group.size() > most_columns)
+          judge_by_bounds(group);
+        else
+          judge_together(group);
+    }
+
+    /// The same from now until a time [s]; @p moved are the constraints of this search.
+    void judge_way(Constraints &moved, const std::vector<std::size_t> &rows, const double until)
+    {
+      for (int place = 0; place <= (until > 0. ? n_places : 0); ++place)
       {
-        judge_by_bounds(rows);
-        return;
+        if (place > 0 && !move(moved, until * place / n_places))
+          return;
+        for (const std::size_t i : rows)
+          judge_moving(i);
       }
+    }
+
+  private:
+    /// By the entries of F.
+    void judge_together(const std::vector<std::size_t> &rows)
+    {
       std::vector<std::vector<double>> G(rows.size(), std::vector<double>(rows.size(), 0.));
       std::vector<double> column;
       for (std::size_t a = 0; a < rows.size(); ++a)
@@ -206,19 +230,6 @@ namespace taut
       }
     }
 
-    /// The same from now until a time [s]; @p moved are the constraints of this search.
-    void judge_way(Constraints &moved, const std::vector<std::size_t> &rows, const double until)
-    {
-      for (int place = 0; place <= (until > 0. ? n_places : 0); ++place)
-      {
-        if (place > 0 && !move(moved, until * place / n_places))
-          return;
-        for (const std::size_t i : rows)
-          judge_moving(i);
-      }
-    }
-
-  private:
     /// False where one leaves its body, of which the run says so when it comes there.
     bool move(Constraints &moved, const double t)
     {
