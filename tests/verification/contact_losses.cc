@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: what an elastic link without damper takes or gives is a warning from 1 % of the energy on,
+// with its name and the time of a contact in steps, and an error from 10 % on; contacts that take
+// and others that give are added; and a run that does what the message advises has no warning.
+// Sources: energy of a falling mass in flight, m v^2 / 2 + m g y, before and after each contact;
+// the time of a contact in closed form.
+#include "run.h"
+
+#include <taut/base/exceptions.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+using namespace verification;
+
+namespace
+{
+  constexpr double g = 9.81;
+
+  /// A mass of 1 kg that falls from a height onto a stop.
+  std::string falling_mass(const double height, const double stiffness, const double step,
+                           const double end, const std::string &scheme)
+  {
+    return "set Generator = network\nset Gravity = 0, -9.81\nset Start = given\n"
+           "subsection Network\n set Masses = mass\n set Links = stop\n"
+           " subsection Mass mass\n  set Position = 0, " +
+           number(height) +
+           "\n  set Motions = y\n  set Mass = 1\n end\n subsection Link stop\n  set Type = stop\n"
+           "  set From = ground\n  set To = mass\n  set Direction = 0, 1\n  set Gap = " +
+           number(height) + "\n  set Stiffness = " + number(stiffness) +
+           "\n end\nend\nsubsection Time\n set Step = " + number(step) +
+           "\n set End = " + number(end) + "\n set Scheme = " + scheme +
+           "\n set Allow unsuitable scheme = true\nend\n";
+  }
+
+  /// From touch to lift on a spring, the weight included [s].
+  double time_of_contact(const double height, const double stiffness)
+  {
+    const double w = std::sqrt(stiffness), v = std::sqrt(2. * g * height);
+    return 2. * (std::acos(-1.) - std::atan2(v / w, g / stiffness)) / w;
+  }
+
+  struct Fall
+  {
+    double taken = 0., given = 0.; ///< of the energy in flight, by contacts [J]
+    taut::ContactMeasures::Summary summary;
+    std::vector<taut::ContactMeasures::Warning> warnings; ///< of contact energy
+    std::string error, log;
+  };
+
+  Fall run(const std::string &text, const Overrides &overrides = {})
+  {
+    Fall fall;
+    Session session(text, overrides);
+    double flight = 0., before = 0.;
+    bool was_closed = false;
+    const auto end_flight = [&]
+    {
+      (flight < before ? fall.taken : fall.given) += std::fabs(flight - before);
+      before = flight;
+    };
+    try
+    {
+      session.run(
+          [&](const taut::StepView &view)
+          {
+            const bool is_closed = view.state.multiplier[0] > 0.;
+            const double v = view.state.V[0][0];
+            if (is_closed && !was_closed)
+              end_flight();
+            if (!is_closed)
+              flight = .5 * v * v + g * view.state.U[0][0];
+            was_closed = is_closed;
+            fall.summary = view.measures.summary();
+            fall.warnings.clear();
+            for (const auto &warning : view.measures.warnings())
+              if (warning.kind == "contact_energy")
+                fall.warnings.push_back(warning);
+          });
+      end_flight();
+    }
+    catch (const taut::UserError &e)
+    {
+      fall.error = e.what();
+      end_flight();
+    }
+    fall.log = session.log();
+    return fall;
+  }
+
+  bool has(const std::string &text, const std::string &part)
+  {
+    return text.find(part) != std::string::npos;
+  }
+
+  const std::string of_scheme = "Set 'Time/Scheme' to 'automatic', or take a smaller step",
+                    of_fixed = "Take a smaller Step, or 'Step control = adaptive'";
+} // namespace
+
+// A contact of 3 to 30 steps, by the height in one or another part of a step.
+TEST(ContactLosses, warn_from_one_percent_and_fail_from_ten)
+{
+  struct Case
+  {
+    double stiffness, height;
+    bool warns, fails, takes;
+  };
+  for (const Case &c : {Case{1e4, .05, false, false, false}, Case{2e5, .0494, false, false, false},
+                        Case{2e5, .045, true, false, true}, Case{4e5, .045, true, false, true},
+                        Case{8e5, .0494, true, false, true}, Case{8e5, .045, true, false, false},
+                        Case{8e5, .0483, true, true, true}, Case{3e6, .0472, true, true, false}})
+  {
+    const double fall_time = std::sqrt(2. * c.height / g);
+    const Fall fall = run(falling_mass(c.height, c.stiffness, 1e-3,
+                                       std::ceil(1.9e3 * fall_time) * 1e-3, "generalised-alpha"));
+    std::ostringstream of_case;
+    of_case << "drop of " << c.height << " m on " << c.stiffness << " N/m, generalised-alpha";
+    const std::string name = of_case.str();
+    const double change = (fall.taken + fall.given) / (g * c.height);
+    figure(name + ", change of energy", (fall.given - fall.taken) / (g * c.height));
+    figure(name + ", contact energy over the change",
+           fall.summary.contact_energy / (fall.taken + fall.given));
+    EXPECT_EQ(change > .01, c.warns) << name << change;
+    EXPECT_EQ(change > .1, c.fails) << name << change;
+    EXPECT_EQ(fall.taken > fall.given, c.takes) << name;
+    ASSERT_EQ(fall.warnings.size(), c.warns) << name << fall.log;
+    EXPECT_EQ(!fall.error.empty(), c.fails) << fall.error;
+    if (!c.warns)
+      continue;
+    EXPECT_NEAR(fall.summary.contact_energy, fall.taken + fall.given,
+                .15 * (fall.taken + fall.given))
+        << name;
+    // The steps in which it closes and opens count as a whole.
+    const double contact = time_of_contact(c.height, c.stiffness);
+    EXPECT_GE(fall.summary.contact_time, contact - 1e-9);
+    EXPECT_LE(fall.summary.contact_time, contact + 2e-3);
+    std::ostringstream time;
+    time.precision(3);
+    time << "its shortest contact lasts " << fall.summary.contact_time << " s, "
+         << std::lround(fall.summary.contact_time / 1e-3) << " steps";
+    for (const std::string &text : {fall.warnings[0].message, c.fails ? fall.error : fall.log})
+    {
+      EXPECT_TRUE(has(text, std::string("unilateral links ") + (c.takes ? "took" : "gave")))
+          << text;
+      EXPECT_TRUE(has(text, "most at 'stop'")) << text;
+      EXPECT_TRUE(has(text, time.str())) << text << time.str();
+      EXPECT_TRUE(has(text, of_scheme)) << text;
+    }
+    EXPECT_EQ(has(fall.error, "The motion is wrong"), c.fails) << fall.error;
+  }
+}
+
+TEST(ContactLosses, of_one_contact_and_gains_of_another_are_added)
+{
+  const Fall fall = run(falling_mass(.045, 4e5, 1e-3, .45, "generalised-alpha"));
+  const double all = fall.taken + fall.given;
+  figure("two contacts on 4e5 N/m, taken", fall.taken, "J");
+  figure("two contacts on 4e5 N/m, given", fall.given, "J");
+  EXPECT_GT(fall.taken, .2 * all);
+  EXPECT_GT(fall.given, .2 * all);
+  EXPECT_NEAR(fall.summary.contact_energy, all, .15 * all);
+}
+
+// Two contacts of 15 steps, each of which changes the energy by a percent.
+TEST(ContactLosses, after_automatic_the_advice_helps)
+{
+  const std::string text = falling_mass(.05, 5e4, 1e-3, .5, "automatic");
+  const Fall fall = run(text);
+  ASSERT_EQ(fall.warnings.size(), 1u) << fall.log;
+  EXPECT_EQ(fall.error, "");
+  EXPECT_TRUE(has(fall.warnings[0].message, of_fixed)) << fall.warnings[0].message;
+  EXPECT_FALSE(has(fall.warnings[0].message, "'Time/Scheme'")) << fall.warnings[0].message;
+  for (const Overrides &advice : {Overrides{"Time.Step=2.5e-4"}, {"Time.Step control=adaptive"}})
+  {
+    const Fall better = run(text, advice);
+    figure("drop on 5e4 N/m, " + advice[0] + ", contact energy over its scale",
+           better.summary.relative_energy);
+    EXPECT_TRUE(better.warnings.empty()) << better.log;
+    EXPECT_EQ(better.error, "");
+  }
+}
+
+TEST(ContactLosses, after_a_scheme_by_name_the_advice_helps)
+{
+  const std::string text = falling_mass(.0472, 3e6, 1e-3, .18, "generalised-alpha");
+  EXPECT_TRUE(has(run(text).error, of_scheme));
+  for (const Overrides &advice : {Overrides{"Time.Scheme=automatic"}, {"Time.Step=1e-5"}})
+  {
+    const Fall better = run(text, advice);
+    EXPECT_TRUE(better.warnings.empty()) << better.log;
+    EXPECT_EQ(better.error, "");
+  }
+}
