@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: a node at a rigid stop keeps its mass where a second wire is joined to it, or a mass by a
+// joint that is stiffer than its elements, and the motion is right.
+// Source: BDF2, which redistributes no mass, with a sixteenth of the step.
+#include "run.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace verification;
+
+namespace
+{
+  std::string bar(const std::string &name, const std::string &length, const std::string &mass,
+                  const std::string &stiffness)
+  {
+    return " subsection Wire " + name + "\n  set From = 0, 0\n  set To = 0, " + length +
+           "\n  set Components = bar\n  set Mass per length = " + mass +
+           "\n  set Axial stiffness = " + stiffness +
+           "\n  set Element size = 0.25\n  set Initial axial velocity = -1\n end\n";
+  }
+
+  /// A bar that falls on its end, with what the joint there holds.
+  std::string scene(const std::string &names, const std::string &sections, const std::string &joint)
+  {
+    return "set Generator = network\nset Gravity = 0, 0\nset Start = given\nsubsection Network\n" +
+           names + " set Links = floor" + (joint.empty() ? "" : ", joint") + "\n" +
+           bar("bar", "10", "1", "10000") + sections +
+           " subsection Link floor\n  set Type = stop\n  set From = ground\n  set To = bar @ 0\n"
+           "  set Direction = 0, 1\n  set Gap = 0.05\n end\n" +
+           (joint.empty() ? ""
+                          : " subsection Link joint\n  set Type = joint\n  set To = bar @ 0\n"
+                            "  set Direction = 0, 1\n" +
+                                joint + " end\n") +
+           "end\nsubsection Time\n set Step = 1e-3\n set End = 0.3\nend\n";
+  }
+
+  std::string with_wire(const std::string &mass, const std::string &stiffness)
+  {
+    return scene(" set Wires = bar, other\n", bar("other", "6", mass, stiffness),
+                 "  set From = other @ 0\n");
+  }
+
+  std::string with_mass(const double stiffness)
+  {
+    return scene(" set Wires = bar\n set Masses = block\n",
+                 " subsection Mass block\n  set Position = 0, 0\n  set Motions = y\n"
+                 "  set Mass = 5\n  set Initial velocity = 0, -1, 0\n end\n",
+                 "  set From = block\n  set Stiffness = " + number(stiffness) + "\n");
+  }
+
+  struct Motion
+  {
+    std::vector<double> places; ///< at the end, of four places along the bar [m]
+    double impulse = 0., lowest = 0.;
+    std::string log;
+  };
+  Motion run(const std::string &text, const Overrides &overrides)
+  {
+    Motion result;
+    Session session(text, overrides);
+    double last = 0.;
+    session.run(
+        [&](const taut::StepView &view)
+        {
+          result.impulse += view.state.multiplier[0] * (view.state.time - last);
+          last = view.state.time;
+          result.places.clear();
+          for (const double s : {0., 3., 6., 10.})
+            result.places.push_back(displacement(view, 0, s, {0., 1.}));
+          result.lowest = std::min(result.lowest, result.places[0]);
+        });
+    result.log = session.log();
+    return result;
+  }
+
+  /// Both runs within 2 % of the way there and back.
+  void compare(const std::string &name, const std::string &text, const double step)
+  {
+    const Motion chosen = run(text, {"Time.Step=" + number(step)}),
+                 fine = run(text, {"Time.Step=" + number(step / 16.), "Time.Scheme=BDF2"});
+    double off = 0., way = 0.;
+    for (std::size_t i = 0; i < fine.places.size(); ++i)
+    {
+      off = std::max(off, std::fabs(chosen.places[i] - fine.places[i]));
+      way = std::max(way, .05 + std::fabs(fine.places[i] + .05));
+    }
+    figure(name + ", error of the motion over its way", off / way);
+    figure(name + ", error of the impulse", std::fabs(chosen.impulse / fine.impulse - 1.));
+    EXPECT_EQ(chosen.log.find("gave their mass"), std::string::npos) << chosen.log;
+    EXPECT_EQ(fine.log.find("gave their mass"), std::string::npos) << fine.log;
+    EXPECT_NE(chosen.log.find("Scheme (automatic): Moreau-Jean"), std::string::npos) << chosen.log;
+    EXPECT_GE(chosen.lowest, -.05 - 1e-9);
+    EXPECT_LT(off, .02 * way) << name;
+    EXPECT_NEAR(chosen.impulse, fine.impulse, .02 * fine.impulse) << name;
+  }
+} // namespace
+
+// The test can fail: nothing is joined to the node.
+TEST(JoinedNodes, a_node_alone_gives_its_mass)
+{
+  const Motion motion = run(scene(" set Wires = bar\n", "", ""), {});
+  EXPECT_NE(motion.log.find("under 'floor' gave their mass"), std::string::npos) << motion.log;
+}
+
+TEST(JoinedNodes, with_a_second_wire_keep_their_mass)
+{
+  compare("bar with one of twice its mass", with_wire("2", "20000"), 1e-3);
+  compare("bar with one of its own mass, half as fast", with_wire("1", "2500"), 1e-3);
+}
+
+// 2.5 and 25 times as stiff as the element of the bar.
+TEST(JoinedNodes, with_a_stiff_joint_keep_their_mass)
+{
+  compare("bar with 5 kg on 1e5 N/m", with_mass(1e5), 1e-3);
+  compare("bar with 5 kg on 1e6 N/m", with_mass(1e6), 2.5e-4);
+}
