@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: adaptive steps follow the rebounds of a ball with a restitution of 1/2 until these are
+// slower than the tolerance tells apart, and then hold it; and they meet a given motion that jumps
+// or is shorter than a step. Sources: heights e^2n and times of a bouncing ball; the answer of a
+// mass on a spring whose other end jumps.
+#include "run.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace verification;
+
+namespace
+{
+  constexpr double g = 9.81;
+
+  Overrides adaptive(const std::string &tolerance)
+  {
+    return {"Time.Step control=adaptive", "Time.Adaptive step.Tolerance=" + tolerance};
+  }
+
+  const char *const ball =
+      "set Generator = network\nset Gravity = 0, -9.81\nset Start = given\nsubsection Network\n"
+      " set Masses = ball\n set Links = stop\n subsection Mass ball\n  set Position = 0, 1\n"
+      "  set Motions = y\n  set Mass = 1\n end\n subsection Link stop\n  set Type = stop\n"
+      "  set From = ground\n  set To = ball\n  set Direction = 0, 1\n  set Gap = 1\n end\nend\n"
+      "subsection Time\n set Step = 1e-3\n set End = 3\n"
+      " subsection Moreau-Jean\n  set Restitution = 0.5\n end\n"
+      " subsection Adaptive step\n  set Halvings = 34\n end\nend\n";
+
+  struct Bounces
+  {
+    std::vector<double> times, heights; ///< of impacts, of the flights after them [s], [m]
+    double lost = 0., step = 0.;        ///< velocity of the rebound that is not followed, its step
+    double held_since = 0., force = 0., gap = 0., end = 0.;
+    long n_steps = 0;
+    std::string log;
+  };
+  Bounces bounce(const std::string &tolerance)
+  {
+    Bounces found;
+    double velocity = 0., last = 0.;
+    bool was_closed = false;
+    Session session(ball, adaptive(tolerance));
+    session.run(
+        [&](const taut::StepView &view)
+        {
+          const taut::State &state = view.state;
+          const bool is_closed = state.multiplier[0] > 0.;
+          const double v = state.V[0][0], gap = 1. + state.U[0][0];
+          if (is_closed && !was_closed)
+            found.times.push_back(state.time);
+          if (is_closed && was_closed && velocity > 1e-9 && found.lost == 0.)
+          {
+            found.lost = velocity;
+            found.step = state.time - last;
+          }
+          if (!is_closed && was_closed)
+            found.heights.push_back(gap + .5 * v * v / g);
+          if (!is_closed)
+            found.held_since = state.time;
+          ++found.n_steps;
+          was_closed = is_closed;
+          velocity = v;
+          last = state.time;
+          found.force = state.multiplier[0];
+          found.gap = std::fabs(gap);
+        });
+    found.end = last;
+    found.log = session.log();
+    return found;
+  }
+} // namespace
+
+// The closed form has all impacts before 3 sqrt(2 h / g) = 1.3546 s.
+TEST(AdaptiveEvents, a_ball_that_bounces_ever_lower_comes_to_rest)
+{
+  std::size_t before = 0;
+  for (const std::string tolerance : {"1e-4", "1e-6", "1e-8"})
+  {
+    const Bounces found = bounce(tolerance);
+    const double epsilon = std::stod(tolerance), fall = std::sqrt(2. / g),
+                 slowest = std::sqrt(.5 * g * epsilon), flight = 2. * slowest / g;
+    double height_error = 0., time_error = 0., time = fall, height = 1.;
+    for (std::size_t n = 0; n < found.times.size(); ++n)
+    {
+      time_error = std::max(time_error, std::fabs(found.times[n] - time));
+      height *= .25;
+      time += 2. * fall * std::sqrt(height);
+      if (n < found.heights.size())
+        height_error = std::max(height_error, std::fabs(found.heights[n] - height));
+    }
+    const std::string name = "ball with e = 0.5, adaptive, tolerance " + tolerance;
+    figure(name + ", impacts", found.times.size());
+    figure(name + ", steps", found.n_steps);
+    figure(name + ", largest error of a height", height_error, "m");
+    figure(name + ", largest error of the time of an impact", time_error, "s");
+    figure(name + ", rebound that is not followed", found.lost, "m/s");
+    EXPECT_LT(height_error, 2. * epsilon);
+    EXPECT_LT(time_error, 1.5 * flight);
+    EXPECT_GT(found.lost, 0.);
+    EXPECT_LE(found.lost, .5 * g * found.step);
+    EXPECT_LE(found.lost, slowest);
+    EXPECT_LT(found.held_since, 3. * fall + 2. * flight);
+    EXPECT_GT(found.heights.size(), before) << "a smaller tolerance follows more of them";
+    EXPECT_NEAR(found.force, g, 1e-9 * g);
+    EXPECT_LT(found.gap, 1e-12);
+    EXPECT_NEAR(found.end, 3., 1e-12);
+    EXPECT_LT(found.n_steps, 1500) << "fixed steps: 3000";
+    EXPECT_EQ(found.log.find("Warning"), std::string::npos) << found.log;
+    before = found.heights.size();
+  }
+}
+
+namespace
+{
+  /// A mass of 1 kg on a rod of 100 N/m without mass to speak of, whose other end moves.
+  std::string shaken_mass(const std::string &motion)
+  {
+    return "set Generator = network\nset Gravity = 0, 0\nset Start = given\nsubsection Network\n"
+           " set Wires = rod\n set Supports = shaker\n set Masses = block\n set Links = joint\n"
+           " subsection Wire rod\n  set From = 0, 0\n  set To = 0, 1\n  set Components = bar\n"
+           "  set Mass per length = 1e-9\n  set Axial stiffness = 100\n  set Element size = 1\n"
+           "  set Degree = 1\n end\n subsection Support shaker\n  set Wire = rod\n"
+           "  set Positions = 0\n  set Motion = axial\n  set Displacement = " +
+           motion +
+           "\n end\n subsection Mass block\n  set Position = 0, 1\n  set Motions = y\n"
+           "  set Mass = 1\n end\n subsection Link joint\n  set Type = joint\n"
+           "  set From = rod @ 1\n  set To = block\n  set Direction = 0, 1\n end\nend\n"
+           "subsection Time\n set Step = 1e-3\n set End = 2\nend\n";
+  }
+
+  struct Shaken
+  {
+    double error = 0., largest = 0., longest_before = 0.; ///< [m], [m], [s]
+    long n_steps = 0;
+  };
+  /// @p exact is the motion from t = 1 s on.
+  Shaken shake(const std::string &motion, const double first, const Overrides &overrides,
+               const std::function<double(double)> &exact)
+  {
+    Shaken found;
+    double last = 0.;
+    run_scene(shaken_mass(motion), overrides,
+              [&](const taut::StepView &view)
+              {
+                const double t = view.state.time, y = displacement(view, 0, 1., {0., 1.});
+                if (t < 1.)
+                  found.longest_before = std::max(found.longest_before, t - last);
+                if (t > first)
+                  found.error = std::max(found.error, std::fabs(y - exact(t - 1.)));
+                found.largest = std::max(found.largest, std::fabs(y));
+                ++found.n_steps;
+                last = t;
+              });
+    return found;
+  }
+} // namespace
+
+TEST(AdaptiveEvents, a_given_motion_that_jumps_is_met)
+{
+  double before = 1.;
+  for (const std::string tolerance : {"1e-3", "1e-5"})
+  {
+    const Shaken found = shake("if(t >= 1.006, 0.01, 0)", 0., adaptive(tolerance),
+                               [](const double t)
+                               { return t > .006 ? .01 * (1. - std::cos(10. * (t - .006))) : 0.; });
+    figure("jump of a support, adaptive, tolerance " + tolerance + ", error over the motion",
+           found.error / .02);
+    figure("jump of a support, adaptive, tolerance " + tolerance + ", steps", found.n_steps);
+    EXPECT_NEAR(found.longest_before, 16e-3, 1e-9) << "it comes within a long step";
+    EXPECT_LT(found.error / .02, .02) << tolerance;
+    EXPECT_LT(found.error, .2 * before) << tolerance;
+    EXPECT_LT(found.n_steps, 600) << "fixed steps: 2000";
+    before = found.error;
+  }
+}
+
+// 4 ms, a quarter of the longest step; the mass takes 0.4 mm of it.
+TEST(AdaptiveEvents, a_short_given_motion_is_not_missed)
+{
+  const auto exact = [](const double t)
+  { return .01 * (std::cos(10. * (t - .004)) - std::cos(10. * t)); };
+  for (const std::string tolerance : {"1e-3", "1e-5", "1e-7"})
+  {
+    const Shaken found =
+        shake("if(t >= 1 && t < 1.004, 0.01, 0)", 1.005, adaptive(tolerance), exact);
+    figure("4 ms of a support, adaptive, tolerance " + tolerance + ", error over the motion",
+           found.error / 4e-4);
+    EXPECT_NEAR(found.longest_before, 16e-3, 1e-9);
+    EXPECT_LT(found.error / 4e-4, tolerance == "1e-7" ? 3e-3 : .03) << tolerance;
+    EXPECT_LT(found.n_steps, 1200);
+  }
+}
