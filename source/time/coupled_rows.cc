@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupled_rows.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace taut
+{
+  namespace
+  {
+    /// How far the largest eigenvalue is found, and in how many iterations.
+    constexpr double eigenvalue_tolerance = .01;
+    constexpr int most_iterations = 200;
+  } // namespace
+
+  double largest_eigenvalue(const std::vector<std::vector<double>> &G,
+                            const std::vector<std::size_t> &group)
+  {
+    std::vector<double> x(group.size(), 1.), y(group.size());
+    double above = std::numeric_limits<double>::infinity();
+    for (int iteration = 0; iteration < most_iterations; ++iteration)
+    {
+      double highest = 0., lowest = std::numeric_limits<double>::infinity(), largest = 0.;
+      for (std::size_t a = 0; a < group.size(); ++a)
+      {
+        y[a] = 0.;
+        for (std::size_t b = 0; b < group.size(); ++b)
+          y[a] += G[group[a]][group[b]] * x[b];
+        highest = std::max(highest, y[a] / x[a]);
+        lowest = std::min(lowest, y[a] / x[a]);
+        largest = std::max(largest, y[a]);
+      }
+      above = std::min(above, highest);
+      if (highest <= (1. + eigenvalue_tolerance) * lowest || !(largest > 0.))
+        break;
+      // The mean of both vectors converges where the matrix only swaps them.
+      for (std::size_t a = 0; a < group.size(); ++a)
+        x[a] = std::max(.5 * (x[a] + y[a] / largest), std::numeric_limits<double>::min());
+    }
+    return above;
+  }
+
+  std::vector<std::vector<std::size_t>> coupled_rows(const std::vector<std::vector<double>> &G)
+  {
+    std::vector<std::size_t> root(G.size());
+    std::iota(root.begin(), root.end(), 0);
+    const auto find = [&](std::size_t i)
+    {
+      while (root[i] != i)
+        i = root[i] = root[root[i]];
+      return i;
+    };
+    for (std::size_t a = 0; a < G.size(); ++a)
+      for (std::size_t b = 0; b < a; ++b)
+        if (G[a][b] > 0.)
+          root[find(a)] = find(b);
+    std::vector<std::vector<std::size_t>> of_root(G.size()), result;
+    for (std::size_t a = 0; a < G.size(); ++a)
+      of_root[find(a)].push_back(a);
+    for (std::vector<std::size_t> &group : of_root)
+      if (!group.empty())
+        result.push_back(std::move(group));
+    return result;
+  }
+} // namespace taut
