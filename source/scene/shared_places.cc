@@ -7,6 +7,13 @@
 
 namespace taut
 {
+  namespace
+  {
+    /// Part of a place that digits which were not written may change: a short element on purpose
+    /// is a larger part of it. And part of the length of a wire that is no element of any use.
+    constexpr double part_of_place = 1e-6, part_of_length = 1e-8;
+  } // namespace
+
   double same_place(const Wire &wire)
   {
     constexpr double part_of_element = 1e-6;
@@ -58,9 +65,11 @@ namespace taut
       {
         // The grid takes what differs by rounding for one node as it is.
         const double distance = std::fabs(s - to), rounding = 1e-12 * length;
-        if (distance <= same && distance > rounding)
+        const bool are_one =
+            distance <= std::min(same, std::max(part_of_place * to, part_of_length * length));
+        if (are_one && distance > rounding)
           s = to;
-        return distance <= same;
+        return are_one || distance <= rounding;
       };
       std::sort(places[w].begin(), places[w].end(),
                 [](const double *p, const double *q) { return *p < *q; });

@@ -30,8 +30,10 @@ namespace taut
     /// damper that resolve it.
     constexpr double no_rebound = .7, steps_of_a_contact = 12.;
 
-    /// Steps a contact with a damper needs for a rebound that is right to a percent.
-    constexpr double steps_of_a_damped_contact = 8.;
+    /// Steps that a contact with a damper needs for a rebound that is right to a percent: so many
+    /// in the time of one without damper, and more by so many times the part of the critical
+    /// damping, as less rebounds and a strong damper acts faster than the spring.
+    constexpr double steps_of_a_damped_contact = 8., more_by_damping = 32.;
 
     /// Part of the step that is short for everything: F then is that of the mass alone.
     constexpr double short_step = 1e-3;
@@ -248,8 +250,9 @@ namespace taut
             std::acos(-1.) / std::sqrt(constraints[i].stiffness * std::max(flexibility, 0.));
         const double critical =
             2. * std::sqrt(constraints[i].stiffness / std::max(flexibility, 0.));
-        of[i].comes_back_slowly = constraints[i].damping >= no_rebound * critical &&
-                                  of[i].contact_time >= steps_of_a_contact * step;
+        of[i].damping_ratio = constraints[i].damping / critical;
+        of[i].comes_back_slowly =
+            of[i].damping_ratio >= no_rebound && of[i].contact_time >= steps_of_a_contact * step;
         find_share(i, column[i]);
         for (const Term &term : constraints[i].terms)
         {
@@ -292,7 +295,6 @@ namespace taut
       const ConstraintData &constraint = constraints[i];
       of[i].unilateral = constraint.unilateral;
       of[i].elastic = !std::isinf(constraint.stiffness);
-      of[i].damped = constraint.damping > 0.;
       of[i].may_conserve = constraint.unilateral && of[i].elastic && !constraint.moving &&
                            !constraint.direction && !without_mass[i];
       if (constraint.unilateral && of[i].elastic)
@@ -343,8 +345,9 @@ namespace taut
   {
     std::vector<double> result;
     for (const Row &row : of)
-      result.push_back(row.may_conserve && row.share > small_share && row.damped
-                           ? row.contact_time / steps_of_a_damped_contact
+      result.push_back(row.may_conserve && row.share > small_share && row.damping_ratio > 0.
+                           ? row.contact_time /
+                                 (steps_of_a_damped_contact + more_by_damping * row.damping_ratio)
                            : std::numeric_limits<double>::infinity());
     return result;
   }

@@ -25,6 +25,10 @@ namespace taut
     /// the third power of a step, errors of a run with the second.
     constexpr double power_of_tolerance = 1.5;
 
+    /// Lengths of adaptive steps are powers of two: they may stay up to twice as long as a
+    /// tolerance asks for.
+    constexpr double rounding_of_lengths = .5;
+
     /// Differences to a quarter of the step, over the bounds, below which an error is within them
     /// and above which it is not, also where a quarter of the step is no better than the whole.
     constexpr double surely_good = .4, surely_bad = 1.25;
@@ -93,13 +97,16 @@ namespace taut
     StepParameters control = run.control;
     control.tolerance = std::min(1., control.tolerance * std::pow(factor, power_of_tolerance));
     control.largest *= factor;
+    std::vector<double> longest_steps = run.longest_steps;
+    for (double &longest : longest_steps)
+      longest *= factor;
     const long n = static_cast<long>(std::floor(run.n_steps / factor * (1. + 1e-12)));
     try
     {
       run.constraints.set_courses(courses);
       TimeStepper stepper(run.structure, run.constraints, run.solver, run.integrator, step,
                           run.reference, run.start, run.at_rest);
-      StepControl steps(control, step, n, !stepper.is_linear(), run.longest_steps);
+      StepControl steps(control, step, n, !stepper.is_linear(), longest_steps);
       MotionRecord other(run.structure, run.constraints, groups, run.reference, run.start, interval,
                          n_samples);
       while (!steps.is_finished())
@@ -116,6 +123,9 @@ namespace taut
     }
     catch (const UserError &e)
     {
+      // One without an entry may be that of this rank alone, and ends the run.
+      if (run.structure.communicator().size() > 1 && !dynamic_cast<const EntryError *>(&e))
+        throw;
       std::ostringstream out;
       out << "a run with a step of " << step << " s ended: " << e.what();
       reason = out.str();
@@ -185,7 +195,7 @@ namespace taut
           << percent(found->energy) << " of the largest";
     if (run.control.adaptive())
       out << ". Take a Tolerance of about "
-          << run.control.tolerance * std::pow(part, power_of_tolerance);
+          << run.control.tolerance * std::pow(rounding_of_lengths * part, power_of_tolerance);
     else
       out << ". Take a step of about " << run.step * part << " s";
     return out.str();

@@ -5,6 +5,7 @@
 #include <taut/time/time_stepper.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <sstream>
@@ -67,6 +68,9 @@ namespace taut
   double TimeStepper::local_error()
   {
     PerKind error = {0., 0.}, size = {0., 0.};
+    std::array<std::vector<double>, 2> squares; // of motions and impulses of elements
+    for (std::vector<double> &of_wholes : squares)
+      of_wholes.assign(wholes.n_groups(), 0.);
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       // Multipliers of conditions inside a body are no motions, and may be rounding.
@@ -80,10 +84,14 @@ namespace taut
         return largest(structure[k], x);
       };
       set_local_error(k);
-      for (std::vector<double> *const e : {&work_v, &work_a})
-        if (!structure[k].is_lumped() && masses[k] > 0.)
-          error[0] = std::max(error[0], mean_square(k, *e));
-        else
+      const std::size_t whole = wholes.of_body(k);
+      if (!structure[k].is_lumped() && mass_of_whole[whole] > 0.)
+      {
+        squares[0][whole] += square(k, work_v);
+        squares[1][whole] += square(k, work_a);
+      }
+      else
+        for (std::vector<double> *const e : {&work_v, &work_a})
         {
           const PerKind all = largest_motion(*e);
           for (int kind = 0; kind < 2; ++kind)
@@ -98,6 +106,13 @@ namespace taut
       for (int kind = 0; kind < 2; ++kind)
         size[kind] = std::max(size[kind], u[kind] + step * v[kind]);
     }
+    for (std::vector<double> &of_wholes : squares)
+    {
+      structure.communicator().sum(of_wholes);
+      for (std::size_t w = 0; w < of_wholes.size(); ++w)
+        if (of_wholes[w] > 0.)
+          error[0] = std::max(error[0], std::sqrt(of_wholes[w] / mass_of_whole[w]));
+    }
     double result = 0.;
     for (int kind = 0; kind < 2; ++kind)
     {
@@ -109,14 +124,13 @@ namespace taut
     return result;
   }
 
-  /// The root of the mean square of a motion of a body of elements, by mass [m].
-  double TimeStepper::mean_square(const std::size_t k, const std::vector<double> &x)
+  /// x . M x [kg m^2].
+  double TimeStepper::square(const std::size_t k, const std::vector<double> &x)
   {
     std::vector<double> &product = work_rows;
     product.assign(structure[k].n_dofs(), 0.);
     structure[k].mass().vmult_add(1., x.data(), product.data());
-    const double sum = std::inner_product(product.begin(), product.end(), x.begin(), 0.);
-    return std::sqrt(std::max(0., sum) / masses[k]);
+    return std::inner_product(product.begin(), product.end(), x.begin(), 0.);
   }
 
   void TimeStepper::check_moving_contacts()

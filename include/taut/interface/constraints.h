@@ -7,6 +7,7 @@
 #include <taut/substructure/structure.h>
 
 #include <array>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -79,6 +80,12 @@ namespace taut
     std::shared_ptr<const TurningDirection> direction = {};
 
     bool is_link() const { return link != no_link; }
+
+    /// True of a rigid joint that no scene names: it holds parts of one body together.
+    bool is_cut() const
+    {
+      return !is_link() && contact == no_contact && !unilateral && std::isinf(stiffness);
+    }
 
     /// Compression of the spring under a force, and the energy that it stores then; 0 of a rigid
     /// one [m, rad; J].

@@ -65,8 +65,9 @@ namespace taut
     struct Row
     {
       double ratio = 0., share = 1.;
-      bool unilateral = false, elastic = false, may_conserve = false, damped = false;
+      bool unilateral = false, elastic = false, may_conserve = false;
       double contact_time = 0.;       ///< of the constraint alone on its bodies [s]
+      double damping_ratio = 0.;      ///< damping over the critical one
       bool comes_back_slowly = false; ///< its spring, after a contact
     };
     class Search;

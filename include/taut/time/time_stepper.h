@@ -73,8 +73,9 @@ namespace taut
      * accelerations of schemes with mean forces are means, and dU = step V0 + step^2 A/2: its error
      * is step^3/12 of that derivative, step^2 (A - A0) / (6 (1 + last step / step)). What impulses
      * change of the velocities besides, dV, counts as step dV. Of a body of elements the error is
-     * the root of its mean square by mass, sqrt(e . M e / m); of masses and rigid bodies the
-     * largest, displacements and slopes each for themselves. Called by all ranks together.
+     * the root of its mean square by mass, sqrt(e . M e / m), whether it is cut in parts or not;
+     * of masses and rigid bodies the largest, displacements and slopes each for themselves. Called
+     * by all ranks together.
      */
     double local_error();
 
@@ -127,7 +128,7 @@ namespace taut
     double set_guess();
     void project_velocities();
     void set_local_error(std::size_t k);
-    double mean_square(std::size_t k, const std::vector<double> &x);
+    double square(std::size_t k, const std::vector<double> &x);
     void measure_energy();
     void measure_energy_at_ends();
     void add_kinetic_energies(const BodyVectors &V, std::vector<double> &of_groups);
@@ -176,10 +177,11 @@ namespace taut
     NonlinearBodies nonlinear;
     const ConnectedBodies groups;
     LoadSampling loads;
-    const std::vector<double> masses; ///< of the bodies, see total_masses() [kg]
-    bool tangents_are_kept = false;   ///< from step to step
-    bool bodies_are_linear = true;    ///< those of all ranks
-    bool supports_move = false;       ///< of a body of some rank
+    const ConnectedBodies wholes;            ///< what cuts have parted
+    const std::vector<double> mass_of_whole; ///< of the elements of each of them [kg]
+    bool tangents_are_kept = false;          ///< from step to step
+    bool bodies_are_linear = true;           ///< those of all ranks
+    bool supports_move = false;              ///< of a body of some rank
     BalanceCertificate balance;
     double own_balance = 0.; ///< of this rank
     StepCheck check;
