@@ -118,10 +118,9 @@ namespace taut
     step_parameters.declare_parameters(prm);
     prm.add_parameter(
         "Check steps", check_steps,
-        "At the end of a run, whether its steps are short enough: it is made again with four times "
-        "the step, and if both differ by more than 2 % in a place or an impulse or 5 % in an "
-        "energy, with a quarter and perhaps a sixteenth of it. The log has the error, and a "
-        "warning "
+        "At the end of a run, whether its steps are short enough: it is made again with 4.24 times "
+        "the step, and unless both agree well within 2 % of places and impulses and 5 % of "
+        "energies, with shorter ones. The log has the error, and a warning "
         "the step that is needed. 'automatic': where the Scheme is 'automatic', too, and these "
         "runs take less than about half a second",
         Selection("automatic|yes|no"));

@@ -33,7 +33,7 @@ namespace taut
     /// Steps that a contact with a damper needs for a rebound that is right to a percent: so many
     /// in the time of one without damper, and more by so many times the part of the critical
     /// damping, as less rebounds and a strong damper acts faster than the spring.
-    constexpr double steps_of_a_damped_contact = 8., more_by_damping = 32.;
+    constexpr double steps_of_a_damped_contact = 16., more_by_damping = 32.;
 
     /// Part of the step that is short for everything: F then is that of the mass alone.
     constexpr double short_step = 1e-3;

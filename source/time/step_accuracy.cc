@@ -15,11 +15,12 @@ namespace taut
     /// Samples of a run.
     constexpr long most_samples = 1000;
 
-    /// Steps below which a quarter of them says nothing.
+    /// Steps below which the longer ones say nothing.
     constexpr long least_steps = 64;
 
-    /// Other runs have this many times the step, or as many steps in one.
-    constexpr double ratio_of_steps = 4.;
+    /// Other runs have this many times the step, or as many steps in one: the third power of the
+    /// golden ratio, so that impacts do not come at the same part of a step in both.
+    constexpr double ratio_of_steps = 4.2360679774997896;
 
     /// Tolerance of adaptive steps for steps that are so many times shorter: local errors fall with
     /// the third power of a step, errors of a run with the second.
@@ -29,12 +30,13 @@ namespace taut
     /// tolerance asks for.
     constexpr double rounding_of_lengths = .5;
 
-    /// Differences to a quarter of the step, over the bounds, below which an error is within them
-    /// and above which it is not, also where a quarter of the step is no better than the whole.
-    constexpr double surely_good = .4, surely_bad = 1.25;
+    /// Differences to the longer steps, over the bounds, up to which an error is within them; to
+    /// the shorter ones, below which it is and above which it is not, also where these are no
+    /// better.
+    constexpr double agrees = .6, surely_good = .25, surely_bad = 1.25;
 
-    /// Part of the bounds that the needed step aims at, and that the difference to a sixteenth of
-    /// the step, with what it has more than that to a quarter, may have.
+    /// Part of the bounds that the needed step aims at, and that the difference to the shortest
+    /// steps, with what it has more than that to the next ones, may have.
     constexpr double aim = .8, good = .95;
 
     /// Products of DoFs and steps, of which a second has about a hundred millions. A step costs as
@@ -146,7 +148,7 @@ namespace taut
     std::optional<MotionDifference> coarse;
     if (!run.control.adaptive() && run.n_steps >= least_steps)
       coarse = compare(ratio_of_steps, stop);
-    if (coarse && coarse->over_bounds() <= 1.)
+    if (coarse && coarse->over_bounds() <= agrees)
     {
       found = coarse;
       for (double *const e : {&found->place, &found->impulse, &found->energy})

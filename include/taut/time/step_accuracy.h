@@ -32,11 +32,12 @@ namespace taut
    * Whether the steps of a run are short enough. Use it at the end of a run whose cost allows to
    * make it again.
    *
-   * The run is compared with one of four times the step, which costs a quarter: where both agree
-   * within the bounds of MotionDifference, the run has a third of their difference as its error,
-   * or less. Otherwise it is compared with a quarter of the step, and close to the bounds with a
-   * sixteenth (L. F. Richardson's extrapolation, 1911, with an order from one to two). Adaptive
-   * steps are compared with an eighth of the tolerance and a quarter of Step.
+   * The run is compared with one of 4.24 times the step, which costs a quarter: where both agree
+   * well within the bounds of MotionDifference, the run has a third of their difference as its
+   * error, or less. Otherwise it is compared with a step that is shorter by this factor, and close
+   * to the bounds with one that is shorter by its square (L. F. Richardson's extrapolation, 1911,
+   * with an order from one to two). Adaptive steps are compared with a ninth of the tolerance and
+   * 1/4.24 of Step.
    */
   class StepAccuracy
   {
