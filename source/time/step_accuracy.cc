@@ -91,18 +91,20 @@ namespace taut
            most_work;
   }
 
-  /// The difference to a run with steps that are so many times as long; nothing if there is none.
-  std::optional<MotionDifference> StepAccuracy::compare(const double factor,
+  /// The difference to a run to the same end with steps that are about so many times as long;
+  /// nothing if there is none.
+  std::optional<MotionDifference> StepAccuracy::compare(const double about,
                                                         const std::function<bool()> &stop)
   {
-    const double step = run.step * factor;
+    const long n = std::max(1L, std::lround(static_cast<double>(run.n_steps) / about));
+    const double factor = static_cast<double>(run.n_steps) / static_cast<double>(n),
+                 step = run.step * factor;
     StepParameters control = run.control;
     control.tolerance = std::min(1., control.tolerance * std::pow(factor, power_of_tolerance));
     control.largest *= factor;
     std::vector<double> longest_steps = run.longest_steps;
     for (double &longest : longest_steps)
       longest *= factor;
-    const long n = static_cast<long>(std::floor(run.n_steps / factor * (1. + 1e-12)));
     try
     {
       run.constraints.set_courses(courses);

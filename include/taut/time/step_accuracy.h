@@ -70,7 +70,7 @@ namespace taut
     void load(InputArchive &archive) { own.load(archive); }
 
   private:
-    std::optional<MotionDifference> compare(double factor, const std::function<bool()> &stop);
+    std::optional<MotionDifference> compare(double about, const std::function<bool()> &stop);
     double shortened(double over_bounds) const;
 
     const RunInSteps run;
