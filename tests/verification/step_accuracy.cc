@@ -93,7 +93,7 @@ TEST(StepAccuracy, the_phase_of_an_oscillator_is_off)
   figure("the same with the step that the warning names, error", needed.error);
   EXPECT_EQ(needed.needed, -1.) << needed.log;
   EXPECT_LT(needed.error, .02);
-  EXPECT_GT(needed.error, .01) << "asks for more than is needed";
+  EXPECT_GT(needed.error, .005) << "asks for more than is needed";
 }
 
 TEST(StepAccuracy, an_impact_comes_early_or_late)
