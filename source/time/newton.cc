@@ -70,23 +70,23 @@ namespace taut
           for (std::size_t k = 0; k < structure.size(); ++k)
             set_history(k);
         });
-    if (const std::vector<double> &old = constraint_motions.old_place(current); !old.empty())
+    if (const std::vector<double> &old = conditions.forces_at_previous_place(current); !old.empty())
       constraints.add_forces(old, right_hand_side);
   }
 
   /// The right-hand side becomes dU.
   void TimeStepper::find_increments()
   {
-    constraint_motions.set_problem(current, *system, right_hand_side, lift);
+    conditions.set_problem(current, *system, right_hand_side, lift);
     if (constraints.size() > 0 || system->has_modes())
     {
       const Certificate before = last;
-      constraint_motions.find_multipliers(*system, check, last, current);
+      conditions.find_multipliers(*system, check, last, current);
       last.iterations += before.iterations;
       last.fallback = last.fallback || before.fallback;
     }
-    system->find_increments(constraint_motions.applied().multiplier,
-                            constraint_motions.applied().mode_amplitude, right_hand_side);
+    system->find_increments(conditions.applied().multiplier, conditions.applied().mode_amplitude,
+                            right_hand_side);
   }
 
   /// The largest change of the increments of all ranks.
@@ -157,8 +157,8 @@ namespace taut
       const double change = std::max(
           set_guess(), turning.empty() ? 0.
                                        : turning.set_guess(right_hand_side, current,
-                                                           constraint_motions.applied().multiplier,
-                                                           constraint_motions.spring_histories()));
+                                                           conditions.applied().multiplier,
+                                                           conditions.springs().histories()));
       stagnant = change >= .5 * before ? stagnant + 1 : 0;
       if (change <= converged || (change <= stagnated && stagnant == most_stagnant))
       {

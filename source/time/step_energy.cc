@@ -25,7 +25,7 @@ namespace taut
   double TimeStepper::gain_of_spring(const std::size_t i) const
   {
     const ConstraintData &constraint = constraints[i];
-    if (!constraint_motions.mean_force(i))
+    if (!conditions.mean_force(i))
       return 0.;
     if (constraint.moving)
       return -current.constraint_work[i];
@@ -99,7 +99,7 @@ namespace taut
     structure.communicator().sum(gains);
     for (std::size_t i = constraints.n_fixed(); i < constraints.first_moving(); ++i)
       gains[groups.of_constraint(i)] +=
-          turning.surplus(i, current.multiplier[i], constraint_motions.increments()[i]);
+          turning.surplus(i, current.multiplier[i], conditions.gaps().increments()[i]);
     current.energy_gains = gains;
     last.energy_gain = std::accumulate(gains.begin(), gains.end(), 0.);
   }

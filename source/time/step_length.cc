@@ -41,7 +41,7 @@ namespace taut
     current = before;
     turning.follow(current);
     motion_size = before_step.motion;
-    constraint_motions.set_sizes(before_step.of_constraints);
+    conditions.gaps().set_sizes(before_step.of_gaps);
     constraints.set_courses(before_step.courses);
     if (projection && !before_step.rates.empty())
       projection->set_largest_rates(before_step.rates);
@@ -137,7 +137,7 @@ namespace taut
   {
     if (coefficients.mean_force || !coefficients.rings())
       return;
-    const std::vector<double> &S = constraint_motions.compliance();
+    const std::vector<double> &S = conditions.springs().compliance();
     ComplementarityOperator &F = system->interface().matrix();
     for (std::size_t i = constraints.first_moving(); i < constraints.size(); ++i)
       if (constraints[i].unilateral && S[i] > 0. && F.diagonal(i) > 2. * S[i] &&

@@ -27,10 +27,10 @@ namespace taut
       for (const ConstrainedDof &constraint : body.constraints())
         left[constraint.dof] = 0.;
     }
-    if (!constraint_motions.correct(current, *system, right_hand_side))
+    if (!conditions.correct(current, *system, right_hand_side))
       return false;
-    system->find_increments(constraint_motions.corrections().multiplier,
-                            constraint_motions.corrections().mode_amplitude, right_hand_side);
+    system->find_increments(conditions.corrections().multiplier,
+                            conditions.corrections().mode_amplitude, right_hand_side);
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       std::vector<double> &dU = right_hand_side[k];
@@ -44,7 +44,7 @@ namespace taut
         current.A[k][i] += c.acceleration * dU[i];
       }
     }
-    constraint_motions.add_correction(right_hand_side, current);
+    conditions.add_correction(right_hand_side, current);
     return true;
   }
 } // namespace taut

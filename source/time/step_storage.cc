@@ -7,7 +7,7 @@ namespace taut
   template <typename Archive>
   void TimeStepper::store(Archive &archive)
   {
-    archive &current &last &coefficients &constraint_motions;
+    archive &current &last &coefficients &conditions.gaps();
     archive &step &step_before &segment_start &n_in_segment &n_steps;
     for (double &size : motion_size)
       archive &size;

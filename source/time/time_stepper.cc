@@ -77,7 +77,7 @@ namespace taut
         segment_start(current.time),
         system(std::make_unique<StepSystem>(structure, constraints, this->parameters)),
         turning(at_time(constraints, current.time), reference_state),
-        constraint_motions(structure, constraints, turning, reference_state, current),
+        conditions(structure, constraints, turning, reference_state, current),
         nonlinear(structure, reference_state), groups(structure, constraints), loads(structure),
         wholes(structure, constraints,
                [&](const std::size_t i) { return constraints[i].is_cut(); }),
@@ -134,7 +134,7 @@ namespace taut
     }
     std::vector<double> N = current.multiplier;
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      if (constraint_motions.mean_force(i) && !(projection && constraints[i].moving))
+      if (conditions.mean_force(i) && !(projection && constraints[i].moving))
         N[i] = 0.;
     constraints.add_forces(N, current.balance);
     hold_quasi_static_dofs();
@@ -156,14 +156,14 @@ namespace taut
     turning.prepare(c);
     tangents_are_kept = false;
     nonlinear.begin(current, c, step);
-    constraint_motions.prepare(c, step);
-    system->prepare(c, constraint_motions.compliance());
+    conditions.prepare(c, step);
+    system->prepare(c, conditions.springs().compliance());
     if (c.velocity_projection)
     {
       if (!projection)
         projection = std::make_unique<VelocityProjection>(structure, constraints, parameters,
                                                           reference_state);
-      projection->prepare(c, step, constraint_motions.compliance(), system->interface().matrix());
+      projection->prepare(c, step, conditions.springs().compliance(), system->interface().matrix());
     }
     coefficients = c;
   }
@@ -172,7 +172,7 @@ namespace taut
   {
     ++n_steps;
     last = {};
-    before_step = {motion_size, constraint_motions.sizes(), constraints.courses(),
+    before_step = {motion_size, conditions.gaps().sizes(), constraints.courses(),
                    projection ? projection->largest_rates() : std::vector<double>()};
     const bool is_first = current.last_step == 0.;
     const StepCoefficients c = is_first && first_step_is_backward_euler ? backward_euler(step)
@@ -184,7 +184,7 @@ namespace taut
     const double start = current.time;
     current.time = segment_start + ++n_in_segment * step;
     check.set_time(current.time);
-    constraint_motions.begin_step(is_first);
+    conditions.begin_step(is_first);
     step_before = current.last_step;
     current.last_step = step;
     attempt(
@@ -211,14 +211,14 @@ namespace taut
     else
       iterate();
     accept_increments();
-    constraint_motions.update(current);
+    conditions.update(current);
     certify();
     structure.communicator().agree([&] { nonlinear.set_own_force(current); });
     if (!turning.empty())
     {
       turning.follow(current);
       if (c.velocity_projection)
-        constraint_motions.update_rates(current);
+        conditions.rates().update(current);
     }
     if (c.velocity_projection)
       project_velocities();
@@ -309,7 +309,10 @@ namespace taut
   void TimeStepper::project_velocities()
   {
     check.solve(
-        [&] { projection->project(constraint_motions, current, system->interface().matrix()); });
+        [&] {
+          projection->project(conditions, conditions.rates(), current,
+                              system->interface().matrix());
+        });
     if (!(projection->residual() <= last.complementarity))
     {
       last.complementarity = projection->residual();
@@ -325,7 +328,7 @@ namespace taut
     std::vector<double> &moving = work_rows;
     moving = current.multiplier;
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      if (!constraints[i].moving || !constraint_motions.mean_force(i))
+      if (!constraints[i].moving || !conditions.mean_force(i))
         moving[i] = 0.;
     constraints.add_forces(moving, current.balance);
     hold_quasi_static_dofs();
@@ -371,8 +374,8 @@ namespace taut
     structure.communicator().agree(
         [&]
         {
-          own_balance = balance.measure(coefficients, forces, constraint_motions.in_balance(),
-                                        constraint_motions.impulsive(), current, set_rows);
+          own_balance = balance.measure(coefficients, forces, conditions.in_balance(),
+                                        conditions.impulsive(), current, set_rows);
         });
     last.balance = structure.communicator().max(own_balance);
   }
@@ -397,8 +400,8 @@ namespace taut
   void TimeStepper::certify_rows()
   {
     last.complementarity =
-        constraint_motions.residual(current, system->interface().matrix(), last.worst_constraint);
-    last.drift = constraint_motions.drift(current);
+        conditions.residual(current, system->interface().matrix(), last.worst_constraint);
+    last.drift = conditions.drift(current);
     check.check_constraints(last);
   }
 } // namespace taut

@@ -100,26 +100,26 @@ namespace taut
 
   /// Sets the constraints that take part and their impulses. False if all their rates are as they
   /// shall be.
-  bool VelocityProjection::has_to_act(const ConstraintMotions &motions, const State &state)
+  bool VelocityProjection::has_to_act(const ContactConditions &conditions, const State &state)
   {
     bool acts = false;
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       takes_part[i] = 0;
-      p[i] = motions.mean_force(i) ? step * state.multiplier[i] : 0.;
+      p[i] = conditions.mean_force(i) ? step * state.multiplier[i] : 0.;
       const bool is_spring = !constraints[i].unilateral && !std::isinf(constraints[i].stiffness);
-      if (!motions.mean_force(i) || has_no_mass[i] || is_spring ||
+      if (!conditions.mean_force(i) || has_no_mass[i] || is_spring ||
           (constraints[i].unilateral && !(p[i] > 0.)) || !std::isfinite(relative_softening[i]))
         continue;
       takes_part[i] = 1;
-      if (motions.stays_closed(i, state))
+      if (conditions.remains_in_contact(i, state))
         continue;
-      acts =
-          acts || std::fabs(state.gap_rate[i]) >
-                      rounding_of_rates * (motions.velocity_sizes()[i] +
-                                           std::fabs(state.gap_rate[i] - motions.velocities()[i]));
+      acts = acts || std::fabs(state.gap_rate[i]) >
+                         rounding_of_rates *
+                             (conditions.rates().velocity_sizes()[i] +
+                              std::fabs(state.gap_rate[i] - conditions.rates().velocities()[i]));
       acts = acts || (c.restitution > 0. && constraints[i].unilateral &&
-                      motions.rates_before_step()[i] < 0.);
+                      conditions.rates().before_step()[i] < 0.);
     }
     return acts;
   }
@@ -164,25 +164,25 @@ namespace taut
     }
   }
 
-  void VelocityProjection::project(ConstraintMotions &motions, State &state,
-                                   ComplementarityOperator &F)
+  void VelocityProjection::project(const ContactConditions &conditions, GapRates &rates,
+                                   State &state, ComplementarityOperator &F)
   {
     found = 0.;
     std::fill(work_of_rows.begin(), work_of_rows.end(), 0.);
     if (!moving_elastic.empty())
-      find_flexibilities(moving_elastic, motions.compliance(), F);
+      find_flexibilities(moving_elastic, conditions.springs().compliance(), F);
     if (has_laws || !moving_elastic.empty())
     {
-      set_relative_softening(motions.compliance());
+      set_relative_softening(conditions.springs().compliance());
       if (is_set_up)
         set_softening();
     }
     if (some_quasi_static)
     {
       move_quasi_static(state);
-      motions.update_rates(state);
+      rates.update(state);
     }
-    if (!has_to_act(motions, state))
+    if (!has_to_act(conditions, state))
       return;
     if (some_with_constraints)
     {
@@ -194,14 +194,14 @@ namespace taut
       setup();
     else
       update_moving();
-    problem.gap_scale = motions.velocity_sizes();
+    problem.gap_scale = rates.velocity_sizes();
     set_problem(state);
-    solve(motions, state);
-    set_velocities(motions, state);
+    solve(conditions, state);
+    set_velocities(rates, state);
   }
 
   /// P - p.
-  void VelocityProjection::solve(const ConstraintMotions &motions, const State &state)
+  void VelocityProjection::solve(const ContactConditions &conditions, const State &state)
   {
     const auto impulses = [&]()
     {
@@ -213,10 +213,10 @@ namespace taut
     q = impulses();
     bool rebounds = false;
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      if (takes_part[i] && constraints[i].unilateral && motions.rates_before_step()[i] < 0. &&
+      if (takes_part[i] && constraints[i].unilateral && conditions.rates().before_step()[i] < 0. &&
           c.restitution > 0. && softening[i] == 0.)
       {
-        problem.free_gap[i] += c.restitution * motions.rates_before_step()[i];
+        problem.free_gap[i] += c.restitution * conditions.rates().before_step()[i];
         rebounds = true;
       }
     if (!rebounds)
@@ -224,7 +224,7 @@ namespace taut
     std::vector<double> difference = impulses();
     for (std::size_t i = 0; i < q.size(); ++i)
       difference[i] -= q[i];
-    const double s = largest_part(motions, state, q, difference);
+    const double s = largest_part(conditions, state, q, difference);
     for (std::size_t i = 0; i < q.size(); ++i)
       q[i] += s * difference[i];
   }
@@ -234,7 +234,7 @@ namespace taut
    * step do the work p . (D - D_0) / step + q . (D'* + D') / 2 with D' = D'* + f q, a convex
    * parabola in s that is not positive at s = 0.
    */
-  double VelocityProjection::largest_part(const ConstraintMotions &motions, const State &state,
+  double VelocityProjection::largest_part(const ContactConditions &conditions, const State &state,
                                           const std::vector<double> &plain,
                                           const std::vector<double> &rebounding)
   {
@@ -249,7 +249,7 @@ namespace taut
     const std::vector<double> of_plain = response(plain), of_rebounding = response(rebounding);
     double before = 0.;
     for (std::size_t i = 0; i < constraints.first_moving(); ++i)
-      before += p[i] * motions.increments()[i] / step;
+      before += p[i] * conditions.gaps().increments()[i] / step;
     const double a = .5 * dot(rebounding, of_rebounding),
                  b = dot(rebounding, state.gap_rate) + dot(rebounding, of_plain),
                  constant = before + dot(plain, state.gap_rate) + .5 * dot(plain, of_plain);
@@ -281,19 +281,19 @@ namespace taut
     }
   }
 
-  void VelocityProjection::set_velocities(ConstraintMotions &motions, State &state)
+  void VelocityProjection::set_velocities(GapRates &rates, State &state)
   {
     for (std::vector<double> &v : dV)
       std::fill(v.begin(), v.end(), 0.);
     constraints.add_forces(q, dV);
     solvers.solve(dV);
     change_velocities(state);
-    work_vector = motions.velocities();
-    motions.update_rates(state);
+    work_vector = rates.velocities();
+    rates.update(state);
     schur->matrix().apply(q, change);
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
-      work_of_rows[i] = .5 * q[i] * (work_vector[i] + motions.velocities()[i]);
+      work_of_rows[i] = .5 * q[i] * (work_vector[i] + rates.velocities()[i]);
       if (!takes_part[i])
         continue;
       const double expected = rate[i] + change[i] - softening[i] * q[i],

@@ -29,7 +29,7 @@ namespace taut
    *
    * The contact force so enters old and new with its own B, and gaps hold at the end of the step.
    * With mean forces, those of rigid constraints are impulses over the step instead, without a
-   * past, and their conditions may be on velocities after the step: see ConstraintMotions. With a
+   * past, and their conditions may be on velocities after the step: see ContactConditions. With a
    * velocity projection, those of elastic unilateral constraints are means, too, and the velocities
    * that a step ends with are corrected by impulses: see VelocityProjection.
    */

@@ -6,7 +6,7 @@
 #include <taut/interface/connected_bodies.h>
 #include <taut/time/balance_certificate.h>
 #include <taut/time/certificate.h>
-#include <taut/time/constraint_motions.h>
+#include <taut/time/contact_conditions.h>
 #include <taut/time/integrator.h>
 #include <taut/time/load_sampling.h>
 #include <taut/time/matrix_norms.h>
@@ -29,7 +29,7 @@ namespace taut
    *     moving constraints -> history P^_k -> contact-free predictor -> N -> U_k -> certificate
    *     -> velocities, with schemes that project them.
    *
-   * Everything is in increments, A dU = P^ + B N; ConstraintMotions says what the constraints ask
+   * Everything is in increments, A dU = P^ + B N; ContactConditions says what the constraints ask
    * for. Where a body is not linear, Newton's method does so again and again, with the
    * complementarity problem solved exactly each time (N. H. Josephy, 1979).
    */
@@ -164,7 +164,7 @@ namespace taut
     struct Sizes
     {
       PerKind motion;
-      ConstraintMotions::Sizes of_constraints;
+      GapTracker::Sizes of_gaps;
       std::vector<std::vector<double>> courses;
       std::vector<double> rates;
     };
@@ -173,7 +173,7 @@ namespace taut
     std::unique_ptr<StepSystem> system;
     InterfaceStatistics earlier_systems; ///< of those before
     TurningConstraints turning;
-    ConstraintMotions constraint_motions;
+    ContactConditions conditions;
     NonlinearBodies nonlinear;
     const ConnectedBodies groups;
     LoadSampling loads;

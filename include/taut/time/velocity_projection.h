@@ -4,7 +4,7 @@
 
 #include <taut/complementarity/solver.h>
 #include <taut/interface/schur_complement.h>
-#include <taut/time/constraint_motions.h>
+#include <taut/time/contact_conditions.h>
 #include <taut/time/solver_parameters.h>
 #include <taut/time/state.h>
 
@@ -41,11 +41,12 @@ namespace taut
 
     /**
      * Changes V, D' and multipliers of a state after the first part of a step, and takes the change
-     * of velocities' share of C V off its balance. @p F as in prepare(), with the moving
-     * constraints in their places. Throws what ComplementaritySolver does. Called by all ranks
-     * together.
+     * of velocities' share of C V off its balance; @p rates are those of the conditions. @p F as in
+     * prepare(), with the moving constraints in their places. Throws what ComplementaritySolver
+     * does. Called by all ranks together.
      */
-    void project(ConstraintMotions &motions, State &state, ComplementarityOperator &F);
+    void project(const ContactConditions &conditions, GapRates &rates, State &state,
+                 ComplementarityOperator &F);
 
     /// Of the last step: largest residual of a rate, recomputed from the velocities, and its
     /// constraint.
@@ -64,7 +65,7 @@ namespace taut
     const std::vector<double> &work() const { return work_of_rows; }
 
   private:
-    bool has_to_act(const ConstraintMotions &motions, const State &state);
+    bool has_to_act(const ContactConditions &conditions, const State &state);
     void find_flexibilities(const std::vector<std::size_t> &elastic, const std::vector<double> &S,
                             ComplementarityOperator &F);
     void find_mass_flexibilities(const std::vector<std::size_t> &elastic);
@@ -75,10 +76,10 @@ namespace taut
     void setup();
     void set_problem(const State &state);
     double kinetic_energy(const State &state);
-    void solve(const ConstraintMotions &motions, const State &state);
-    double largest_part(const ConstraintMotions &motions, const State &state,
+    void solve(const ContactConditions &conditions, const State &state);
+    double largest_part(const ContactConditions &conditions, const State &state,
                         const std::vector<double> &plain, const std::vector<double> &rebounding);
-    void set_velocities(ConstraintMotions &motions, State &state);
+    void set_velocities(GapRates &rates, State &state);
     void move_quasi_static(State &state);
     void change_velocities(State &state);
 

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The part of the certificate that is about the conditions of the constraints.
+#include <taut/time/contact_conditions.h>
+#include <taut/time/matrix_norms.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace taut
+{
+  namespace
+  {
+    /// Residuals up to this need no second look.
+    constexpr double conspicuous = 1e-10;
+
+    /// Columns of A^-1 end where they have decayed to 1e-18: what moves less than this part of the
+    /// constraints that move most is not known by its own terms.
+    constexpr double decayed = 1e-6;
+
+    /// Part of the motion of the bodies as a whole with which a constraint rounds.
+    constexpr double rest = 1e-3;
+  } // namespace
+
+  /// Gaps from the increments of the displacements, not from F N + d.
+  void ContactConditions::set_recomputed_gaps(const State &state)
+  {
+    recomputed.at.multiplier = solved.multiplier;
+    recomputed.at.mode_amplitude = solved.mode_amplitude;
+    recomputed.at.gap = state.gap;
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      if (link_springs.is_mean(i))
+      {
+        const double N = solved.multiplier[i], u = link_springs.compression(i, N);
+        recomputed.at.gap[i] = state.geometric_gap[i] + u + link_springs.lack(i, u, N);
+      }
+      else if (on_velocities(i))
+      {
+        const double rebound =
+            constraints[i].unilateral ? c.restitution * gap_rates.before_step()[i] : 0.;
+        recomputed.at.gap[i] = (1. - c.alpha_f) * step * (state.gap_rate[i] + rebound);
+      }
+  }
+
+  void ContactConditions::add_decayed_columns(const ComplementarityOperator &F)
+  {
+    PerKind most = {0., 0.};
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      most[constraints[i].rotational] = std::max(
+          most[constraints[i].rotational],
+          std::fabs(gap_tracker.increments()[i]) + F.diagonal(i) * std::fabs(solved.multiplier[i]));
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      problem.gap_scale[i] += decayed * most[constraints[i].rotational];
+  }
+
+  /// A constraint rounds with the motion of the bodies as a whole, too: the slopes of a beam that
+  /// falls without bending are nothing but rounding. |b . dU|^2 <= (b . A^-1 b) (dU . A dU).
+  void ContactConditions::add_inertial_terms(const State &state, const ComplementarityOperator &F)
+  {
+    double sum = 0.;
+    std::vector<double> product;
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      product.assign(state.dU[k].size(), 0.);
+      structure[k].mass().vmult_add(c.mass_factor(), state.dU[k].data(), product.data());
+      for (std::size_t i = 0; i < product.size(); ++i)
+        sum += state.dU[k][i] * product[i];
+    }
+    structure.communicator().sum(&sum, 1);
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      problem.gap_scale[i] +=
+          rest * std::sqrt(std::max(0., sum * (F.diagonal(i) - link_springs.compliance()[i])));
+  }
+
+  void ContactConditions::measure_residual(const ComplementarityOperator &F)
+  {
+    gap_terms(problem, F, solved.multiplier, recomputed.at.mode_amplitude, recomputed.terms);
+    multiplier_weights(problem, F, solved.multiplier, recomputed.terms, recomputed.weights);
+    taut::residual(problem, recomputed.at, recomputed.terms, recomputed.weights, recomputed.found);
+  }
+
+  double ContactConditions::residual(const State &state, const ComplementarityOperator &F,
+                                     std::size_t &worst)
+  {
+    if (constraints.size() == 0)
+      return 0.;
+    set_recomputed_gaps(state);
+    add_decayed_columns(F);
+    measure_residual(F);
+    if (!(recomputed.found.max <= conspicuous))
+    {
+      add_inertial_terms(state, F);
+      measure_residual(F);
+    }
+    double max = recomputed.found.max;
+    const std::vector<double> &rows = recomputed.found.rows;
+    worst = std::max_element(rows.begin(), rows.end()) - rows.begin();
+    // Carried gaps must not drift away from the displacements.
+    std::size_t strayed = 0;
+    const double stray = gap_tracker.largest_stray(state, strayed);
+    if (!(stray <= max) && !std::isnan(max))
+    {
+      max = stray;
+      worst = strayed;
+    }
+    return max;
+  }
+} // namespace taut

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/time/link_springs.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace taut
+{
+  LinkSprings::LinkSprings(const Constraints &constraints)
+      : constraints(constraints), laws(constraints), mean(constraints.size(), 0),
+        S(constraints.size(), 0.), history(constraints.size(), 0.)
+  {
+  }
+
+  void LinkSprings::prepare(const StepCoefficients &coefficients, const double tau,
+                            const std::vector<char> &is_mean)
+  {
+    c = coefficients;
+    step = tau;
+    mean = is_mean;
+    for (std::size_t i = 0; i < S.size(); ++i)
+      S[i] = 1. / (constraints[i].stiffness + c.velocity * constraints[i].damping);
+  }
+
+  double LinkSprings::begin(const std::size_t i, const State &before)
+  {
+    const ConstraintData &constraint = constraints[i];
+    const State::LinkSpring &spring = before.link_springs[i];
+    const double damping = constraint.damping, theta = 1. - c.alpha_f,
+                 known = c.v_V * spring.v + c.v_A * spring.a + c.v_dU * spring.du;
+    history[i] = 0.;
+    if (is_mean(i) && constraint.conserving)
+      laws.begin_conserving(i, spring.u > 0. ? spring.u : -before.geometric_gap[i],
+                            2. * damping / step);
+    else if (laws.has(i) && is_mean(i))
+      laws.begin_mean(i, spring.u, theta, damping / (theta * step));
+    else if (laws.has(i))
+      laws.begin_at_end(i, spring.u, c.velocity * damping, spring.u - known / c.velocity);
+    else if (is_mean(i))
+    {
+      const double rate = damping / step;
+      history[i] = -((1. - theta) * constraint.stiffness - rate) /
+                   (theta * constraint.stiffness + rate) * spring.u;
+    }
+    else if (damping > 0.)
+      history[i] = S[i] * damping * (c.velocity * spring.u - known);
+    return history[i];
+  }
+
+  const MixedComplementaritySolution &LinkSprings::solve(MixedComplementarityProblem &problem,
+                                                         StepSystem &system, const StepCheck &check,
+                                                         Certificate &certificate)
+  {
+    return laws.empty() ? system.find_multipliers(problem, check, certificate)
+                        : laws.solve(problem, system, check, certificate, S, history);
+  }
+
+  /// What is a small part of the motions that it is a difference of, its force tells better.
+  double LinkSprings::conserving_compression(const std::size_t i, const double gap, const double N,
+                                             const double scale) const
+  {
+    constexpr double small = 1e-4;
+    return std::fabs(gap) > small * scale || !(N > 0.) ? -gap : laws.polished(i, -gap, N);
+  }
+
+  double LinkSprings::accept(const std::size_t i, const double gap, const double N,
+                             const double scale, State &state) const
+  {
+    State::LinkSpring &spring = state.link_springs[i];
+    const double known_v = c.v_V * spring.v + c.v_A * spring.a + c.v_dU * spring.du,
+                 known_a = c.a_V * spring.v + c.a_A * spring.a + c.a_dU * spring.du;
+    double u = compression(i, N);
+    if (is_mean(i) && constraints[i].conserving)
+      u = std::max(0., conserving_compression(i, gap, N, scale));
+    else if (is_mean(i) && constraints[i].unilateral)
+      u = std::max(0., u);
+    spring.du = u - spring.u;
+    spring.u = u;
+    spring.v = c.velocity * spring.du + known_v;
+    spring.a = c.acceleration * spring.du + known_a;
+    const double D = gap + spring.u;
+    return constraints[i].law && !is_mean(i) ? D + laws.lack(i, u, N) : D;
+  }
+
+  void LinkSprings::correct(const std::size_t i, const double dN, State &state) const
+  {
+    State::LinkSpring &spring = state.link_springs[i];
+    const double du = S[i] * dN;
+    spring.u += du;
+    spring.du += du;
+    spring.v += c.velocity * du;
+    spring.a += c.acceleration * du;
+    state.gap[i] = state.geometric_gap[i] + spring.u;
+  }
+} // namespace taut
