@@ -43,7 +43,7 @@ namespace taut
     };
 
     /// As short as possible without loss.
-    std::string to_text(const double value)
+    std::string shortest_text(const double value)
     {
       char digits[32];
       return std::string(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
@@ -216,8 +216,9 @@ namespace taut
       if (parameter_list.refined)
         for (const std::string &value : parameter_list.values)
           least = std::min(least, std::stod(value));
-      values.push_back(parameter_list.refined ? to_text(std::ldexp(least, -static_cast<int>(level)))
-                                              : parameter_list.reference);
+      values.push_back(parameter_list.refined
+                           ? shortest_text(std::ldexp(least, -static_cast<int>(level)))
+                           : parameter_list.reference);
     }
     return values;
   }
@@ -269,7 +270,7 @@ namespace taut
     for (std::size_t i = 0; i < n; ++i)
     {
       const QuantityReference &reference = result.references[i];
-      log << "  " << study.quantities.names[i] << ": " << to_text(reference.quantity.value);
+      log << "  " << study.quantities.names[i] << ": " << shortest_text(reference.quantity.value);
       if (reference.is_exact)
         log << ", exact\n";
       else

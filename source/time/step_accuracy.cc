@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/archive.h>
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/time/step_accuracy.h>
 
 #include <algorithm>
@@ -62,10 +63,7 @@ namespace taut
 
     std::string percent(const double part)
     {
-      std::ostringstream out;
-      out.precision(2);
-      out << 100. * part << " %";
-      return out.str();
+      return to_text(std::setprecision(2), 100. * part, " %");
     }
   } // namespace
 
@@ -130,9 +128,7 @@ namespace taut
       // One without an entry may be that of this rank alone, and ends the run.
       if (run.structure.communicator().size() > 1 && !dynamic_cast<const EntryError *>(&e))
         throw;
-      std::ostringstream out;
-      out << "a run with a step of " << step << " s ended: " << e.what();
-      reason = out.str();
+      reason = to_text("a run with a step of ", step, " s ended: ", e.what());
       return std::nullopt;
     }
   }
