@@ -4,8 +4,8 @@
 // of items, which are in the order of the scene.
 #include <taut/base/version.h>
 #include <taut/base/write_file.h>
-#include <taut/output/csv_file.h>
 #include <taut/output/statistics.h>
+#include <taut/output/table_file.h>
 
 #include <nlohmann/json.hpp>
 
