@@ -305,9 +305,9 @@ namespace taut
     store(archive);
   }
 
-  std::vector<ModelWarning> ModelLimits::warnings() const
+  std::vector<Warning> ModelLimits::warnings() const
   {
-    std::vector<ModelWarning> result = constant;
+    std::vector<Warning> result = constant;
     if (slope.excess > 1.)
     {
       const Line &line = lines[slope.line];
@@ -330,7 +330,7 @@ namespace taut
                    " s: it passes through it, for no contact between them is part of "
                    "the model. Check loads and the distance"),
            distance.value, distance.limit, "m", distance.time});
-    const std::vector<ModelWarning> of_solids = solids.warnings();
+    const std::vector<Warning> of_solids = solids.warnings();
     result.insert(result.end(), of_solids.begin(), of_solids.end());
     return result;
   }
@@ -338,7 +338,7 @@ namespace taut
   void ModelLimits::print(std::ostream &out) const
   {
     solids.print_left_out(out);
-    for (const ModelWarning &warning : warnings())
+    for (const Warning &warning : warnings())
       out << "Warning: " << warning.message << '\n';
   }
 } // namespace taut

@@ -292,12 +292,12 @@ namespace taut
     return out.str();
   }
 
-  std::vector<ModelWarning> SolidLimits::warnings() const
+  std::vector<Warning> SolidLimits::warnings() const
   {
     const char *const names[] = {"turn",           "sliding", "overhang",
                                  "nodes on faces", "facets",  "search"};
     const char *const units[] = {"rad", "elements", "1", "1", "rad", "m"};
-    std::vector<ModelWarning> result;
+    std::vector<Warning> result;
     for (const Kind kind : {turn, sliding, overhang, nodes_on_faces, facets, search})
       if (const Worst &w = worst[kind]; w.excess > 1.)
         result.push_back({names[kind], text_of(kind), w.value, w.limit, units[kind], w.time});

@@ -324,13 +324,13 @@ namespace taut
     return s.relative_energy > wrong_energy ? constraints.origin(s.energy_constraint) : "";
   }
 
-  std::vector<ContactMeasures::Warning> ContactMeasures::warnings() const
+  std::vector<Warning> ContactMeasures::warnings() const
   {
     const Summary s = summary();
     std::vector<Warning> result;
     const auto add = [&](const std::string &kind, const double value, const double limit,
                          const double time, const auto &...parts) {
-      result.push_back({kind, to_text(std::setprecision(3), parts...), value, limit, time});
+      result.push_back({kind, to_text(std::setprecision(3), parts...), value, limit, "1", time});
     };
     if (s.relative_energy > suspicious_energy)
       add("contact_energy", s.relative_energy, suspicious_energy,
