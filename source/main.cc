@@ -198,7 +198,7 @@ namespace
     if (arguments.count("help"))
       std::cout
           << "taut: mechanical systems whose parts touch through unilateral contacts\n\n"
-          << "Usage: taut FILE.prm [options]    run a parameter file, .prm or .json\n"
+          << "Usage: taut FILE.prm [options]    run a parameter file\n"
           << "       taut                       write an annotated parameter file, taut.prm\n\n"
           << options.shown;
     else if (arguments.count("version"))

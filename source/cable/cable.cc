@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "end_frames.h"
-#include "text_of.h"
 
 #include <taut/base/about_entry.h>
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/cable/cable.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <sstream>
 
 namespace taut
 {
@@ -34,7 +33,7 @@ namespace taut
         throw EntryError(entry(data, "Held ends"),
                          "it holds the last end at To, but the straight cable of Start direction "
                          "ends " +
-                             text_of(off) + " m from there; set from or none, or another To");
+                             to_text(off) + " m from there; set from or none, or another To");
       for (const bool last : {false, true})
       {
         if (!data.clamped || !(last ? data.holds_to : data.holds_from))
@@ -43,8 +42,7 @@ namespace taut
         kept = add_scaled({}, 1. / norm(kept), kept);
         if (norm(kept - along) > same_start)
           throw EntryError(entry(data, "Clamped"),
-                           "it keeps the direction (" + text_of(kept.x) + ", " + text_of(kept.y) +
-                               ", " + text_of(kept.z) +
+                           "it keeps the direction (" + to_text(kept) +
                                ") of the shape at rest, which Start direction is not; set it to "
                                "false, or Start direction to that");
       }
@@ -252,8 +250,8 @@ namespace taut
   {
     const double length = data.length, same = 1e-12 * length;
     if (!(place.x >= -same && place.x <= length + same))
-      throw UserError("cable '" + name() + "' has no place " + text_of(place.x) +
-                      " m along its unstressed length, only 0 to " + text_of(length) + " m");
+      throw UserError("cable '" + name() + "' has no place " + to_text(place.x) +
+                      " m along its unstressed length, only 0 to " + to_text(length) + " m");
     return frames->turn(element.position(place.x, direction));
   }
 

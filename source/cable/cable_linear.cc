@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "end_frames.h"
-#include "text_of.h"
 
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/cable/cable.h>
 
 #include <algorithm>
@@ -107,7 +107,7 @@ namespace taut
         tension += .5 * (s > 0. ? 1. : -1.) / distance * element.position(s, chord).dot(f);
     const double across = tension * data.length / std::max(distance, tension * data.length / EA);
     if (!(tension > 0.) || !(across < EA))
-      refuse(origin(), "at rest the cable has a tension of " + text_of(tension) +
+      refuse(origin(), "at rest the cable has a tension of " + to_text(tension) +
                            " N along the line between its ends, and as a straight wire no "
                            "stiffness across it; take nonlinear, or a shorter cable");
     const Coordinates stretched = add_scaled({}, 1. / ((1. - across / EA) * distance), chord);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "text_of.h"
 
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/cable/cable.h>
 #include <taut/substructure/line_fields.h>
 
@@ -80,8 +80,8 @@ namespace taut
       strain = element.largest_strain(q);
     if (!(strain <= data.largest_strain))
       throw EntryError(entry_of(origin(), "Largest strain"),
-                       "at rest the cable is stretched by " + text_of(strain) + ", more than " +
-                           text_of(data.largest_strain) +
+                       "at rest the cable is stretched by " + to_text(strain) + ", more than " +
+                           to_text(data.largest_strain) +
                            "; make it longer or stiffer, or allow more");
     if (!is_linear() && data.element == CableElement::ancf)
       for (const bool last : {false, true})

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "parabola.h"
-#include "text_of.h"
 
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/cable/find_length.h>
 
 #include <boost/math/tools/toms748_solve.hpp>
@@ -23,7 +23,7 @@ namespace taut
       for (double width = 1e-4; at_low * at_high > 0.; width *= 4.)
       {
         if (width > .8)
-          throw UserError("no unstressed length near " + text_of(guess) + " m gives the " + name +
+          throw UserError("no unstressed length near " + to_text(guess) + " m gives the " + name +
                           "; give the length itself");
         low = guess * (1. - width);
         high = guess * (1. + width);
@@ -115,12 +115,12 @@ namespace taut
     if (beside > 1e-9 * size)
       throw UserError(
           "the cable hangs in the plane of its ends, weight and wind, and the place is " +
-          text_of(beside) + " m beside it; take a place in that plane");
+          to_text(beside) + " m beside it; take a place in that plane");
     if (!(t > 0. && t < 1.))
       throw UserError("the place is not between the ends of the cable, as seen along weight and "
                       "wind; take one that is");
     if (!(depth > 1e-12 * size))
-      throw UserError("the place is " + text_of(-depth) +
+      throw UserError("the place is " + to_text(-depth) +
                       " m above the straight line between the ends of the cable, which hangs below "
                       "it; take a lower place");
     const double of_middle = depth / (4. * t * (1. - t)),

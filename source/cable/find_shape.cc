@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "equilibrium_search.h"
 #include "parabola.h"
-#include "text_of.h"
 
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/cable/find_shape.h>
 
 #include <cmath>
@@ -49,7 +49,7 @@ namespace taut
                       "extreme values");
     throw UserError("no stable equilibrium of the cable was found: after " +
                     std::to_string(search.iterations()) + " iterations a force of " +
-                    text_of(search.residual()) +
+                    to_text(search.residual()) +
                     (search.is_balanced() ? " N is not balanced, which is good enough, but the "
                                             "least push would move the cable away"
                                           : " N is not balanced") +
@@ -78,7 +78,7 @@ namespace taut
     if (w == 0. && std::fabs(distance - length) <= exactly_taut * length)
       return {Parabola{chord, down, 0.}.positions(cable, from)};
     if (w == 0.)
-      throw UserError("a cable of " + text_of(length) + " m between ends " + text_of(distance) +
+      throw UserError("a cable of " + to_text(length) + " m between ends " + to_text(distance) +
                       " m apart has no shape of its own without weight or wind; make it shorter or "
                       "give it a load");
     const double of_slack = w * span * span / (8. * parabola(chord, down, length).depth);

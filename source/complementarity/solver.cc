@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/complementarity/solver.h>
 
 #include <cmath>
@@ -113,9 +114,8 @@ namespace taut
       if (solve_with_newton(problem, matrix))
         return;
     }
-    std::ostringstream text;
-    text << "the complementarity problem is not solved: its residual is " << missed
-         << ", more than " << options.tolerance << "; check the free gaps, or raise the tolerance";
-    throw NotSolved(text.str());
+    throw NotSolved(to_text("the complementarity problem is not solved: its residual is ", missed,
+                            ", more than ", options.tolerance,
+                            "; check the free gaps, or raise the tolerance"));
   }
 } // namespace taut

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/interface/check_constraint.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace taut
 {
@@ -13,13 +13,6 @@ namespace taut
     [[noreturn]] void refuse(const ConstraintData &constraint, const std::string &message)
     {
       throw EntryError(constraint.origin, "constraint '" + constraint.name + "': " + message);
-    }
-
-    std::string text(const double value)
-    {
-      std::ostringstream out;
-      out << value;
-      return out.str();
     }
 
     bool is_finite(const Coordinates &place)
@@ -31,18 +24,18 @@ namespace taut
     {
       const double stiffness = constraint.stiffness, damping = constraint.damping;
       if (!(stiffness > 0.))
-        refuse(constraint, "its stiffness is " + text(stiffness) +
+        refuse(constraint, "its stiffness is " + to_text(stiffness) +
                                " N/m; take a positive one, or none for a rigid constraint");
       if (constraint.law && stiffness != constraint.law->largest_stiffness())
-        refuse(constraint, "it has a law and a stiffness, " + text(stiffness) +
+        refuse(constraint, "it has a law and a stiffness, " + to_text(stiffness) +
                                " N/m; the law is that of the spring, so leave the stiffness out");
       if (constraint.law && std::isinf(stiffness))
         refuse(constraint, "the largest stiffness of its law is infinite; take a finite one");
       if (!(damping >= 0.) || std::isinf(damping))
-        refuse(constraint, "its damping is " + text(damping) +
+        refuse(constraint, "its damping is " + to_text(damping) +
                                " N s/m; take a finite one that is not negative");
       if (damping > 0. && std::isinf(stiffness))
-        refuse(constraint, "its damping, " + text(damping) +
+        refuse(constraint, "its damping, " + to_text(damping) +
                                " N s/m, is beside a spring, and it is rigid; give it a stiffness, "
                                "or no damping");
     }
@@ -95,11 +88,11 @@ namespace taut
   {
     check_spring(constraint);
     if (!std::isfinite(constraint.gap))
-      refuse(constraint, "its gap is " + text(constraint.gap) + " m; take a finite one");
+      refuse(constraint, "its gap is " + to_text(constraint.gap) + " m; take a finite one");
     if (const TurningDirection *const turning = constraint.direction.get())
     {
       if (!std::isfinite(turning->length))
-        refuse(constraint, "its length is " + text(turning->length) + " m; take a finite one");
+        refuse(constraint, "its length is " + to_text(turning->length) + " m; take a finite one");
       if (!is_finite(turning->first.position) || !is_finite(turning->start))
         refuse(constraint, "an end is at no finite place; give its position at U = 0");
     }

@@ -2,14 +2,12 @@
 #ifndef taut_conjugate_gradients_h
 #define taut_conjugate_gradients_h
 
-#include <functional>
+#include <taut/interface/constraint_operator.h>
+
 #include <vector>
 
 namespace taut
 {
-  /// y = A x of a symmetric operator.
-  using RowOperator = std::function<void(const std::vector<double> &x, std::vector<double> &y)>;
-
   /**
    * Preconditioned conjugate gradients of Belos for A x = b from x = 0, until the norm of the
    * residual that the recursion carries is below @p tolerance times that of b, or @p bound
@@ -17,7 +15,7 @@ namespace taut
    * the number of iterations. Each rank solves for itself: vectors over constraints are the same on
    * all.
    */
-  int conjugate_gradients(const RowOperator &A, const RowOperator &preconditioner,
+  int conjugate_gradients(const ConstraintOperator &A, ConstraintOperator &preconditioner,
                           const std::vector<double> &b, double tolerance, int bound,
                           std::vector<double> &x);
 } // namespace taut

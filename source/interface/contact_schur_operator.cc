@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/interface/contact_schur_operator.h>
+#include "natural_coarse_problem.h"
 
-#include <Epetra_MultiVector.h>
+#include <taut/interface/contact_schur_operator.h>
 
 #include <algorithm>
 
@@ -10,9 +10,8 @@ namespace taut
   ContactSchurOperator::ContactSchurOperator(const FactoredStructure &solvers,
                                              const BodyConstraints &body_constraints,
                                              const std::size_t n_constraints)
-      : solvers(solvers), body_constraints(body_constraints),
-        map(static_cast<int>(n_constraints), 0, communicator), compliance(n_constraints, 0.),
-        shift(n_constraints, 0.), active(n_constraints, 1)
+      : ConstraintOperator(n_constraints), solvers(solvers), body_constraints(body_constraints),
+        compliance(n_constraints, 0.), shift(n_constraints, 0.), active(n_constraints, 1)
   {
   }
 
@@ -62,10 +61,26 @@ namespace taut
       y[i] = active[i] ? share[i] + (compliance[i] + shift[i]) * x[i] : x[i];
   }
 
-  int ContactSchurOperator::Apply(const Epetra_MultiVector &X, Epetra_MultiVector &Y) const
+  void ContactSchurOperator::scaled_apply(const std::vector<double> &x,
+                                          std::vector<double> &y) const
   {
-    for (int v = 0; v < X.NumVectors(); ++v)
-      apply(X[v], Y[v]);
-    return 0;
+    const std::vector<double> &D = *scale;
+    scaled.resize(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i)
+      scaled[i] = active[i] ? D[i] * x[i] : x[i];
+    y.resize(x.size());
+    apply(scaled.data(), y.data());
+    for (std::size_t i = 0; i < x.size(); ++i)
+      y[i] = active[i] ? D[i] * y[i] : x[i];
+  }
+
+  void ContactSchurOperator::multiply(const std::vector<double> &x, std::vector<double> &y) const
+  {
+    if (!projector)
+      return scaled_apply(x, y);
+    projected = x;
+    projector->project(projected);
+    scaled_apply(projected, y);
+    projector->project_residual(y);
   }
 } // namespace taut

@@ -49,6 +49,30 @@ namespace taut
     }
   } // namespace
 
+  class MatrixFreeSchurComplement::Inverse : public ConstraintOperator
+  {
+  public:
+    Inverse(MatrixFreeSchurComplement &of, const NaturalCoarseProblem *projector)
+        : ConstraintOperator(of.constraints.size()), of(of), projector(projector)
+    {
+    }
+
+  private:
+    void multiply(const std::vector<double> &r, std::vector<double> &z) const override
+    {
+      if (!projector)
+        return of.scaled_precondition(r, z);
+      projected = r;
+      projector->project_residual(projected);
+      of.scaled_precondition(projected, z);
+      projector->project(z);
+    }
+
+    MatrixFreeSchurComplement &of;
+    const NaturalCoarseProblem *projector;
+    mutable std::vector<double> projected;
+  };
+
   MatrixFreeSchurComplement::MatrixFreeSchurComplement(const InterfaceParameters &parameters,
                                                        const FactoredStructure &solvers,
                                                        const Constraints &constraints)
@@ -62,6 +86,7 @@ namespace taut
     if (parameters.coarse_space != "rigid body modes" && parameters.coarse_space != "none")
       throw UserError("unknown coarse space '" + parameters.coarse_space +
                       "'; known are: rigid body modes, none. Correct the name");
+    F.set_scale(scale);
   }
 
   void MatrixFreeSchurComplement::set_tolerance(const double wanted)
@@ -221,17 +246,6 @@ namespace taut
       x[i] = active[i] ? x[i] / scale[i] : 0.;
   }
 
-  void MatrixFreeSchurComplement::scaled_apply(const std::vector<double> &x, std::vector<double> &y)
-  {
-    constraint_work.resize(x.size());
-    for (std::size_t i = 0; i < x.size(); ++i)
-      constraint_work[i] = active[i] ? scale[i] * x[i] : x[i];
-    y.resize(x.size());
-    F.apply(constraint_work.data(), y.data());
-    for (std::size_t i = 0; i < x.size(); ++i)
-      y[i] = active[i] ? scale[i] * y[i] : x[i];
-  }
-
   /// The preconditioner, balanced by the coarse space.
   void MatrixFreeSchurComplement::scaled_precondition(const std::vector<double> &r,
                                                       std::vector<double> &z)
@@ -300,7 +314,7 @@ namespace taut
         b[i] = scale[i] * rhs[i];
       coarse_problem.balance(load, x);
       is_solved = refine(&coarse_problem, b, x);
-      scaled_apply(x, image);
+      F.scaled_apply(x, image);
       for (std::size_t i = 0; i < constraints.size(); ++i)
         image[i] = b[i] - image[i];
       alpha = coarse_problem.amplitudes(image);
@@ -327,25 +341,12 @@ namespace taut
       if (null_space)
         null_space->project_residual(v);
     };
-    std::vector<double> projected;
-    const RowOperator matrix = [&](const std::vector<double> &in, std::vector<double> &out)
-    {
-      projected = in;
-      project(projected);
-      scaled_apply(projected, out);
-      project_residual(out);
-    };
-    const RowOperator inverse = [&](const std::vector<double> &in, std::vector<double> &out)
-    {
-      projected = in;
-      project_residual(projected);
-      scaled_precondition(projected, out);
-      project(out);
-    };
+    F.set_projector(null_space);
+    Inverse inverse(*this, null_space);
     std::vector<double> r, step, image, candidate = x;
     const auto residual = [&]
     {
-      scaled_apply(candidate, image);
+      F.scaled_apply(candidate, image);
       r.resize(b.size());
       for (std::size_t i = 0; i < b.size(); ++i)
         r[i] = b[i] - image[i];
@@ -359,7 +360,7 @@ namespace taut
     {
       const double reduction =
           std::min(.1, std::max(least_reduction, .3 * tolerance * size / largest(r)));
-      const int n = conjugate_gradients(matrix, inverse, r, reduction, bound, step);
+      const int n = conjugate_gradients(F, inverse, r, reduction, bound, step);
       counts.n_iterations += n;
       bound =
           std::max(n, least_bound); // a restart has less to reduce; what takes longer is rounding
@@ -373,6 +374,7 @@ namespace taut
       best = error;
       x = candidate;
     }
+    F.set_projector(nullptr);
     return std::isfinite(best) && best <= accepted_excess * tolerance * size;
   }
 } // namespace taut

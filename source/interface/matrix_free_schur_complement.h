@@ -36,6 +36,9 @@ namespace taut
     InterfaceStatistics statistics() const override;
 
   private:
+    /// The preconditioner of scaled constraints, as Belos applies it.
+    class Inverse;
+
     std::size_t size() const override { return constraints.size(); }
     double diagonal(std::size_t i) const override { return diagonal_entries[i]; }
     void apply(const std::vector<double> &x, std::vector<double> &y) const override;
@@ -59,7 +62,6 @@ namespace taut
     void add_compliance();
     void prepare(const std::vector<std::size_t> &set, double shift);
     void divide_by_scale(std::vector<double> &x) const;
-    void scaled_apply(const std::vector<double> &x, std::vector<double> &y);
     void scaled_precondition(const std::vector<double> &r, std::vector<double> &z);
     bool refine(const NaturalCoarseProblem *null_space, const std::vector<double> &b,
                 std::vector<double> &x);

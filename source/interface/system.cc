@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/interface/check_constraint.h>
 #include <taut/interface/system.h>
 
@@ -14,8 +15,8 @@ namespace taut
                       const std::string &what)
     {
       if (!std::isfinite(x.x) || !std::isfinite(x.y) || !std::isfinite(x.z))
-        throw UserError("body '" + bodies[k].name() + "': " + what + " " + text_of(x) +
-                        " is not finite");
+        throw UserError("body '" + bodies[k].name() + "': " + what +
+                        to_text(" (", x, ") m is not finite"));
     }
   } // namespace
 
@@ -60,8 +61,9 @@ namespace taut
     auto direction = std::make_shared<TurningDirection>(a, b, push);
     if (!(direction->length > 0.))
       throw UserError("constraint '" + name + "' turns, and its ends start at one place, " +
-                      text_of(a.position) + ": it has no direction. Move one of them, or take a " +
-                      "bilateral constraint along each axis");
+                      to_text('(', a.position, ") m") +
+                      ": it has no direction. Move one of them, or take a bilateral constraint "
+                      "along each axis");
     if (!(length > 0.))
       throw UserError("constraint '" + name + "' needs a positive length, not " +
                       std::to_string(length) + " m");
@@ -156,8 +158,8 @@ namespace taut
           result.push_back({k, bodies[k].displacement(place, direction), &bodies[k]});
           const std::string fault = fault_of(result, bodies);
           if (!fault.empty())
-            throw UserError("the form that displacement() gives for " + text_of(place) + " " +
-                            fault);
+            throw UserError("the form that displacement() gives for " +
+                            to_text('(', place, ") m ") + fault);
         });
     return result;
   }

@@ -66,11 +66,4 @@ namespace taut
     first = {first.x / size, first.y / size, first.z / size};
     return {first, cross(d, first)};
   }
-
-  std::string text_of(const Coordinates &place)
-  {
-    std::ostringstream out;
-    out << '(' << place.x << ", " << place.y << ", " << place.z << ") m";
-    return out.str();
-  }
 } // namespace taut

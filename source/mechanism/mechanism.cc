@@ -2,12 +2,11 @@
 #include <taut/base/exceptions.h>
 #include <taut/mechanism/mechanism.h>
 
+#include <deal.II/lac/lapack_templates.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-
-extern "C" void dsyev_(const char *jobz, const char *uplo, const int *n, double *a, const int *lda,
-                       double *w, double *work, const int *lwork, int *info);
 
 namespace taut
 {
@@ -156,7 +155,7 @@ namespace taut
         a[i * n + j] *= scale[i] * scale[j];
     const int lwork = work.size();
     int info = 0;
-    dsyev_("V", "L", &n, a.data(), &n, eigenvalues.data(), work.data(), &lwork, &info);
+    dealii::syev("V", "L", &n, a.data(), &n, eigenvalues.data(), work.data(), &lwork, &info);
     if (info != 0)
       throw std::runtime_error("LAPACK dsyev failed on the stiffness of " + name());
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/cable/cable.h>
 #include <taut/mechanism/rigid_body.h>
 #include <taut/model/check_joints.h>
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 namespace taut
 {
@@ -191,13 +191,6 @@ namespace taut
       return !a.origin.empty() && a.origin == b.origin && a.kind == LinkKind::joint &&
              b.kind == LinkKind::joint && is_same(a.from, b.from) && is_same(a.to, b.to);
     }
-
-    std::string text_of(const Coordinates &p)
-    {
-      std::ostringstream out;
-      out << p.x << ", " << p.y << ", " << p.z;
-      return out.str();
-    }
   } // namespace
 
   void check_ball_joints(const Scene &scene, const SceneBodies &bodies)
@@ -220,14 +213,13 @@ namespace taut
                                                               length_of(scene, bodies, link.to));
       if (std::isinf(least) || distance <= least)
         continue;
-      std::ostringstream message;
-      message << "link '" << link.name << "' is of a ball joint, whose places are " << distance
-              << " m apart before anything moves: From is at " << text_of(from) << ", To at "
-              << text_of(to) << ". Bring them together, to " << least << " m ("
-              << (are_points ? "a millionth of their distance from the origin"
-                             : "a thousandth of the shorter body")
-              << "), or take a joint along each direction";
-      throw EntryError(path(link.origin, "To"), message.str());
+      throw EntryError(path(link.origin, "To"),
+                       to_text("link '", link.name, "' is of a ball joint, whose places are ",
+                               distance, " m apart before anything moves: From is at ", from,
+                               ", To at ", to, ". Bring them together, to ", least, " m (",
+                               are_points ? "a millionth of their distance from the origin"
+                                          : "a thousandth of the shorter body",
+                               "), or take a joint along each direction"));
     }
   }
 } // namespace taut

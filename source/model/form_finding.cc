@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/archive.h>
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/model/form_finding.h>
 #include <taut/model/scene_constraints.h>
 #include <taut/model/scene_part.h>
@@ -13,7 +14,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <sstream>
 #include <utility>
 
 namespace taut
@@ -119,11 +119,11 @@ namespace taut
         const double tension = -state.multiplier[constraints.index_of_link(base.links.size() + i)];
         if (!(tension >= 0.))
         {
-          std::ostringstream out;
-          out << "dropper '" << droppers[i].name << "' would have to push with " << -tension
-              << " N to hold its wire at the prescribed height. Move or remove it, or prescribe "
-                 "another height.";
-          throw EntryError(droppers[i].origin, out.str());
+          throw EntryError(droppers[i].origin,
+                           to_text("dropper '", droppers[i].name, "' would have to push with ",
+                                   -tension,
+                                   " N to hold its wire at the prescribed height. Move or remove "
+                                   "it, or prescribe another height."));
         }
         result.push_back(tension);
       }

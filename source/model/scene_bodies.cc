@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/archive.h>
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/mechanism/mechanism.h>
 #include <taut/model/scene_bodies.h>
 #include <taut/model/scene_part.h>
@@ -14,7 +15,6 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
-#include <sstream>
 
 namespace taut
 {
@@ -151,9 +151,10 @@ namespace taut
                             }));
       for (unsigned int k = 0; p > 0 && k < (has_slopes ? 2u : 1u); ++k)
       {
-        std::ostringstream title;
-        title << name << (k == 1 ? " slope" : "") << " cut at " << nodes[pieces[p].first] << " m";
-        CutConstraint constraint{title.str(), k == 1, {}};
+        CutConstraint constraint{
+            to_text(name, k == 1 ? " slope" : "", " cut at ", nodes[pieces[p].first], " m"),
+            k == 1,
+            {}};
         const auto append = [&](const std::size_t body, const unsigned int dof, const double sign)
         {
           constraint.terms.push_back({body, {}});

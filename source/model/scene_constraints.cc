@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/cable/cable.h>
 #include <taut/model/scene_constraints.h>
 #include <taut/model/surface_constraints.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace taut
 {
@@ -42,7 +42,7 @@ namespace taut
       if (!(distance > 0.))
         throw EntryError(link.origin, "link '" + link.name +
                                           "' turns, and its ends start at one place, " +
-                                          text_of(result->first.position) +
+                                          to_text('(', result->first.position, ") m") +
                                           ": it has no direction. Move one of them, or take a "
                                           "ball joint");
       if (link.unstressed_length > 0.)
@@ -118,10 +118,9 @@ namespace taut
         }
         catch (const UserError &e)
         {
-          std::ostringstream out;
-          out << "sliding contact '" << link.name << "' at t = " << t << " s: " << e.what()
-              << ". End the run earlier or lengthen the cable.";
-          throw EntryError(link.origin, out.str());
+          throw EntryError(link.origin,
+                           to_text("sliding contact '", link.name, "' at t = ", t, " s: ", e.what(),
+                                   ". End the run earlier or lengthen the cable."));
         }
       }
 
@@ -134,11 +133,10 @@ namespace taut
         const double length = wire.length(), s = position(t);
         if (s >= -1e-9 * length && s <= (1. + 1e-9) * length)
           return;
-        std::ostringstream out;
-        out << "sliding contact '" << link.name << "' leaves wire '" << wire.name
-            << "' at t = " << t << " s, position " << s << " m of " << length
-            << " m. End the run earlier or lengthen the wire.";
-        throw EntryError(link.origin, out.str());
+        throw EntryError(link.origin,
+                         to_text("sliding contact '", link.name, "' leaves wire '", wire.name,
+                                 "' at t = ", t, " s, position ", s, " m of ", length,
+                                 " m. End the run earlier or lengthen the wire."));
       }
 
       const double start;
@@ -251,12 +249,12 @@ namespace taut
 
       [[noreturn]] void leave(const double s, const double t) const
       {
-        std::ostringstream out;
-        out << "sliding contact '" << link.name << "' finds no place of the cable at t = " << t
-            << " s, near " << s << " m of " << length
-            << " m: it has come to an end of it, or the cable turns back there. End the run "
-               "earlier, lengthen the cable, or take a smaller step";
-        throw EntryError(link.origin + "/Speed", out.str());
+        throw EntryError(
+            link.origin + "/Speed",
+            to_text("sliding contact '", link.name, "' finds no place of the cable at t = ", t,
+                    " s, near ", s, " m of ", length,
+                    " m: it has come to an end of it, or the cable turns back there. End the run "
+                    "earlier, lengthen the cable, or take a smaller step"));
       }
 
       Coordinates along; ///< the way

@@ -97,7 +97,7 @@ namespace taut
       return;
     for (Contact &contact : contacts)
     {
-      contact.table = std::make_unique<CsvFile>(
+      contact.table = std::make_unique<TableFile>(
           folder + contact.stem + ".csv",
           std::vector<std::string>{"time [s]", "force x [N]", "force y [N]", "force z [N]",
                                    "point x [m]", "point y [m]", "point z [m]", "area [m^2]",

@@ -20,7 +20,7 @@ namespace taut
   {
     interval = run.interval;
     if (run.communicator.is_root())
-      file = std::make_unique<CsvFile>(
+      file = std::make_unique<TableFile>(
           run.folder + "/energy.csv",
           std::vector<std::string>{"time [s]", "kinetic [J]", "strain [J]", "links [J]",
                                    "loads [J]", "supports [J]", "contacts [J]", "damping [J]",

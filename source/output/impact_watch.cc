@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/archive.h>
+#include <taut/base/text.h>
 #include <taut/output/impact_watch.h>
 
 #include <algorithm>
 #include <cmath>
 #include <ostream>
-#include <sstream>
 
 namespace taut
 {
@@ -138,12 +138,11 @@ namespace taut
   {
     if (n_steps == 0)
       return;
-    std::ostringstream line; // with digits of its own
-    line << "Impacts: in " << n_steps << (n_steps == 1 ? " step" : " steps, first")
-         << " at t = " << first << " s at " << names
-         << ", contacts that share a body were struck together: restitution then holds at all of "
-            "them at once, not at one after the other. If their order matters, take steps in which "
-            "bodies move less than the gaps between them";
-    out << line.str() << '\n';
+    // With digits of its own.
+    out << to_text("Impacts: in ", n_steps, n_steps == 1 ? " step" : " steps, first",
+                   " at t = ", first, " s at ", names,
+                   ", contacts that share a body were struck together: restitution then holds at "
+                   "all of them at once, not at one after the other. If their order matters, take "
+                   "steps in which bodies move less than the gaps between them\n");
   }
 } // namespace taut

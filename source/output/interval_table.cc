@@ -52,7 +52,7 @@ namespace taut
         header.push_back(column.name + " largest" + unit);
       }
     }
-    file = make_number_table(format, stem, header, goes_on);
+    file = std::make_unique<TableFile>(format, stem, header, goes_on);
   }
 
   void IntervalTable::record(const double now, const std::vector<double> &values)

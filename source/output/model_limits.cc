@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/archive.h>
+#include <taut/base/text.h>
 #include <taut/cable/cable.h>
 #include <taut/output/model_limits.h>
 
 #include <algorithm>
 #include <cmath>
 #include <ostream>
-#include <sstream>
 
 namespace taut
 {
@@ -15,15 +15,6 @@ namespace taut
     constexpr double largest_slope = .1;  ///< [rad]
     constexpr double least_samples = 10.; ///< in a period of the filter frequency
     constexpr std::size_t most_slopes = 2000, most_distances = 300; ///< along a wire
-
-    template <typename... Parts>
-    std::string text(const Parts &...parts)
-    {
-      std::ostringstream out;
-      out.precision(4);
-      (out << ... << parts);
-      return out.str();
-    }
 
     /// At most so many of the positions, with the last one.
     std::vector<double> thinned(const std::vector<double> &positions, const std::size_t most)
@@ -207,10 +198,10 @@ namespace taut
       const double waves = std::sqrt(wire.tension / wire.mass_per_length), v = std::fabs(speed);
       if (!(wire.tension > 0.) || v <= waves)
         return;
-      const std::string what =
-          text(name, " moves at ", v, " m/s, faster than the waves of wire '", wire.name,
-               "', sqrt(tension / mass per length) = ", waves,
-               " m/s: what is ahead of it does not know of it. Slow it down, or tighten the wire");
+      const std::string what = to_text(
+          std::setprecision(4), name, " moves at ", v, " m/s, faster than the waves of wire '",
+          wire.name, "', sqrt(tension / mass per length) = ", waves,
+          " m/s: what is ahead of it does not know of it. Slow it down, or tighten the wire");
       if (constant.empty() || v / waves > constant.back().value / constant.back().limit)
         constant = {{"speed", what, v, waves, "m/s", 0.}};
     };
@@ -231,13 +222,14 @@ namespace taut
     if (!is_used || !(frequency > 0.) || !(step > 0.) || n >= least_samples * (1. - rounding))
       return;
     const double pi = std::acos(-1.);
-    constant.push_back({"filter",
-                        text("a period of Statistics/Filter frequency = ", frequency, " Hz has ", n,
-                             " steps, fewer than ", least_samples, ": peaks may be missed by ",
-                             n > 2. ? 100. * (1. - std::cos(pi / n)) : 100.,
-                             " % of their height. Take a Time/Step of at most ",
-                             1. / (least_samples * frequency), " s, or a lower frequency"),
-                        n, least_samples, "1", 0.});
+    constant.push_back(
+        {"filter",
+         to_text(std::setprecision(4), "a period of Statistics/Filter frequency = ", frequency,
+                 " Hz has ", n, " steps, fewer than ", least_samples, ": peaks may be missed by ",
+                 n > 2. ? 100. * (1. - std::cos(pi / n)) : 100.,
+                 " % of their height. Take a Time/Step of at most ",
+                 1. / (least_samples * frequency), " s, or a lower frequency"),
+         n, least_samples, "1", 0.});
   }
 
   /// Of cables that are linearised there: what they turn counts from then on.
@@ -313,30 +305,32 @@ namespace taut
     store(archive);
   }
 
-  std::vector<ModelWarning> ModelLimits::warnings() const
+  std::vector<Warning> ModelLimits::warnings() const
   {
-    std::vector<ModelWarning> result = constant;
+    std::vector<Warning> result = constant;
     if (slope.excess > 1.)
     {
       const Line &line = lines[slope.line];
       const bool is_wire = line.chords.empty();
       result.push_back(
           {"slope",
-           text(line.name, is_wire ? " has a slope of " : " turns by ", slope.value, " rad at ",
-                slope.position, " m, t = ", slope.time, " s: the equations are those of small ",
-                is_wire ? "slopes" : "turns", ", up to ", slope.limit,
-                " rad. Check loads and tension", is_wire ? "" : ", or take Geometry = nonlinear"),
+           to_text(std::setprecision(4), line.name, is_wire ? " has a slope of " : " turns by ",
+                   slope.value, " rad at ", slope.position, " m, t = ", slope.time,
+                   " s: the equations are those of small ", is_wire ? "slopes" : "turns",
+                   ", up to ", slope.limit, " rad. Check loads and tension",
+                   is_wire ? "" : ", or take Geometry = nonlinear"),
            slope.value, slope.limit, "rad", slope.time});
     }
     if (distance.excess > 1.)
-      result.push_back({"distance",
-                        text(lines[distance.line].name, " comes ", distance.value, " m nearer to ",
-                             lines[distance.line].other, ", which is ", distance.limit,
-                             " m above it, at ", distance.position, " m, t = ", distance.time,
-                             " s: it passes through it, for no contact between them is part of "
-                             "the model. Check loads and the distance"),
-                        distance.value, distance.limit, "m", distance.time});
-    const std::vector<ModelWarning> of_solids = solids.warnings();
+      result.push_back(
+          {"distance",
+           to_text(std::setprecision(4), lines[distance.line].name, " comes ", distance.value,
+                   " m nearer to ", lines[distance.line].other, ", which is ", distance.limit,
+                   " m above it, at ", distance.position, " m, t = ", distance.time,
+                   " s: it passes through it, for no contact between them is part of "
+                   "the model. Check loads and the distance"),
+           distance.value, distance.limit, "m", distance.time});
+    const std::vector<Warning> of_solids = solids.warnings();
     result.insert(result.end(), of_solids.begin(), of_solids.end());
     return result;
   }
@@ -344,7 +338,7 @@ namespace taut
   void ModelLimits::print(std::ostream &out) const
   {
     solids.print_left_out(out);
-    for (const ModelWarning &warning : warnings())
+    for (const Warning &warning : warnings())
       out << "Warning: " << warning.message << '\n';
   }
 } // namespace taut

@@ -40,7 +40,7 @@ namespace taut
       for (const char *quantity : {" x [m]", " y [m]", " z [m]", " rotation x [rad]",
                                    " rotation y [rad]", " rotation z [rad]"})
         columns.push_back(name + quantity);
-    file = std::make_unique<CsvFile>(folder + "/rigid_bodies.csv", columns, goes_on);
+    file = std::make_unique<TableFile>(folder + "/rigid_bodies.csv", columns, goes_on);
   }
 
   void RigidBodies::record(const StepView &step)

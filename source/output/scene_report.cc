@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/memory.h>
+#include <taut/base/text.h>
 #include <taut/base/write_file.h>
 #include <taut/cable/cable.h>
 #include <taut/output/scene_report.h>
@@ -23,7 +24,7 @@ namespace taut
       template <typename... Cells>
       void add(const Cells &...cells)
       {
-        lines.push_back({text(cells)...});
+        lines.push_back({to_text(cells)...});
       }
 
       void print(const std::string &title, std::ostream &out) const
@@ -45,25 +46,12 @@ namespace taut
       }
 
     private:
-      static std::string text(const std::string &value) { return value; }
-      static std::string text(const char *value) { return value; }
-      static std::string text(const double value)
-      {
-        std::ostringstream out;
-        out << value;
-        return out.str();
-      }
-
       std::vector<std::vector<std::string>> lines;
     };
 
     std::string text(const Coordinates &p)
     {
-      std::ostringstream out;
-      out << p.x << ", " << p.y;
-      if (p.z != 0.)
-        out << ", " << p.z;
-      return out.str();
+      return p.z == 0. ? to_text(p.x, ", ", p.y) : to_text(p);
     }
 
     std::string text(const Scene &scene, const Attachment &end, const Coordinates &in_space)
@@ -73,9 +61,7 @@ namespace taut
         const double rounding = 1e-12 * norm(in_space); // of a place along a shape
         const auto cleaned = [&](const double x) { return std::fabs(x) <= rounding ? 0. : x; };
         const Coordinates at = {cleaned(in_space.x), cleaned(in_space.y), cleaned(in_space.z)};
-        std::ostringstream out;
-        out << scene.bodies[end.index].name << " @ " << end.place.x << " (at " << text(at) << ')';
-        return out.str();
+        return to_text(scene.bodies[end.index].name, " @ ", end.place.x, " (at ", text(at), ')');
       }
       if (end.kind == Attachment::Kind::ground)
         return end.has_place ? "ground @ " + text(end.place) : "ground";
@@ -83,9 +69,7 @@ namespace taut
         return scene.masses[end.index].name;
       if (end.kind == Attachment::Kind::body)
         return scene.bodies[end.index].name + " @ " + text(end.place);
-      std::ostringstream out;
-      out << scene.wires[end.index].name << " @ " << end.position;
-      return out.str();
+      return to_text(scene.wires[end.index].name, " @ ", end.position);
     }
 
     std::string positions(const std::vector<double> &list)
@@ -235,16 +219,12 @@ namespace taut
     for (std::size_t i = 0; i < scene.links.size(); ++i)
     {
       const Link &l = scene.links[i];
-      std::ostringstream stiffness;
-      if (l.law)
-        stiffness << l.law->description();
-      else if (l.rigid())
-        stiffness << "rigid";
-      else
-        stiffness << l.stiffness;
+      const std::string stiffness = l.law       ? l.law->description()
+                                    : l.rigid() ? "rigid"
+                                                : to_text(l.stiffness);
       links.add(l.name, kinds[static_cast<int>(l.kind)], text(scene, l.from, places.from[i]),
                 text(scene, l.to, places.to[i]),
-                l.turns ? "turns" : direction(l.rotational, l.direction), stiffness.str(), l.gap,
+                l.turns ? "turns" : direction(l.rotational, l.direction), stiffness, l.gap,
                 l.unstressed_length, l.speed);
     }
     links.print("Links", out);

@@ -32,7 +32,7 @@ namespace taut
                                               "contact energy [J]",
                                               "contact gap [m or rad]",
                                               "peak over mean [1]"};
-    certificate = make_number_table(format, folder + "/certificate", columns, resumes);
+    certificate = std::make_unique<TableFile>(format, folder + "/certificate", columns, resumes);
   }
 
   void Series::add_link(const ConstraintData &constraint)

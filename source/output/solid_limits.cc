@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/output/solid_limits.h>
 #include <taut/solid/contact_constraints.h>
 
@@ -28,14 +29,6 @@ namespace taut
 
     constexpr std::size_t most_lines = 2000; ///< of a body
     const Coordinates axes[] = {{1.}, {0., 1.}, {0., 0., 1.}};
-
-    std::string place_text(const Coordinates &p)
-    {
-      std::ostringstream out;
-      out.precision(4);
-      out << '(' << p.x << ", " << p.y << ", " << p.z << ')';
-      return out.str();
-    }
 
     /// Of each node of a surface, the longest line between two neighbours in the list of nodes of a
     /// face there [m].
@@ -257,7 +250,7 @@ namespace taut
     {
       const Turning &body = bodies[w.item];
       out << "a line on the boundary of '" << body.name << "' turns by " << w.value << " rad at "
-          << place_text(body.places[w.place]) << ", t = " << w.time
+          << '(' << body.places[w.place] << "), t = " << w.time
           << " s: the equations are those of small turns, up to " << w.limit
           << " rad. Check loads and supports; a body that moves far as a whole may be a rigid body";
       return out.str();
@@ -266,7 +259,7 @@ namespace taut
     const bool is_left_out = kind == search;
     const SurfaceConstraint &c =
         is_left_out ? contact.left_out[w.place] : contact.geometry.constraints[w.place];
-    const std::string at = place_text(c.point);
+    const std::string at = to_text(std::setprecision(4), '(', c.point, ')');
     out << "contact '" << contact.name << "' ";
     if (kind == sliding)
       out << "slides by " << w.value << " of its elements, " << w.value * contact.elements[w.place]
@@ -299,12 +292,12 @@ namespace taut
     return out.str();
   }
 
-  std::vector<ModelWarning> SolidLimits::warnings() const
+  std::vector<Warning> SolidLimits::warnings() const
   {
     const char *const names[] = {"turn",           "sliding", "overhang",
                                  "nodes on faces", "facets",  "search"};
     const char *const units[] = {"rad", "elements", "1", "1", "rad", "m"};
-    std::vector<ModelWarning> result;
+    std::vector<Warning> result;
     for (const Kind kind : {turn, sliding, overhang, nodes_on_faces, facets, search})
       if (const Worst &w = worst[kind]; w.excess > 1.)
         result.push_back({names[kind], text_of(kind), w.value, w.limit, units[kind], w.time});

@@ -4,8 +4,8 @@
 // of items, which are in the order of the scene.
 #include <taut/base/version.h>
 #include <taut/base/write_file.h>
-#include <taut/output/csv_file.h>
 #include <taut/output/statistics.h>
+#include <taut/output/table_file.h>
 
 #include <nlohmann/json.hpp>
 
@@ -140,7 +140,7 @@ namespace taut
       certificate["peak_over_mean"] = measure(s.resolution, "1", s.resolution_row);
     }
     json &warnings = root["warnings"] = json::array();
-    for (const ModelWarning &warning : run.warnings)
+    for (const Warning &warning : run.warnings)
       warnings.push_back({{"kind", warning.kind},
                           {"message", warning.message},
                           {"value", warning.value},

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/text.h>
 #include <taut/output/statistics.h>
 
 #include <algorithm>
 #include <iomanip>
 #include <ostream>
-#include <sstream>
 
 namespace taut
 {
@@ -17,16 +17,7 @@ namespace taut
 
     std::string fixed(const double value)
     {
-      std::ostringstream text;
-      text << std::fixed << std::setprecision(2) << value;
-      return text.str();
-    }
-
-    std::string plain(const double value)
-    {
-      std::ostringstream text;
-      text << value;
-      return text.str();
+      return to_text(std::fixed, std::setprecision(2), value);
     }
 
     /// "   expected 1.00 to 2.00   inside"; empty without a range.
@@ -129,8 +120,8 @@ namespace taut
     else if (f.longest_step == 0.)
       out << "not filtered)\n";
     else
-      out << "not filtered, and not judged: a filter at " << plain(parameters.filter_frequency)
-          << " Hz needs steps shorter than " << plain(f.longest_step) << " s)\n";
+      out << "not filtered, and not judged: a filter at " << to_text(parameters.filter_frequency)
+          << " Hz needs steps shorter than " << to_text(f.longest_step) << " s)\n";
     if (f.n_samples == 0)
     {
       out << "  no sample in the window\n";

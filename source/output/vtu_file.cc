@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/write_file.h>
-#include <taut/output/csv_file.h>
+#include <taut/output/table_file.h>
 #include <taut/output/vtu_file.h>
 
 #include <cstring>

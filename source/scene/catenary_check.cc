@@ -3,26 +3,16 @@
 #include "catenary.h"
 
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/scene/entries.h>
 #include <taut/scene/shared_places.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 namespace taut
 {
-  namespace
-  {
-    std::string number(const double x)
-    {
-      std::ostringstream out;
-      out << x;
-      return out.str();
-    }
-  } // namespace
-
   /// What a line needs beyond a scene of any wires.
   void Catenary::check_line() const
   {
@@ -31,7 +21,7 @@ namespace taut
     constexpr double longest = 1e9;
     if (!(n_spans * span_length <= longest))
       throw EntryError("Catenary/Span length", "the line would be " +
-                                                   number(n_spans * span_length) +
+                                                   to_text(n_spans * span_length) +
                                                    " m long; at most 1e9 m are possible");
     const std::pair<const WireItem *, const char *> wires[] = {{&contact, "Contact wire"},
                                                                {&messenger, "Messenger wire"}};
@@ -43,8 +33,9 @@ namespace taut
     const double length = n_spans * span_length;
     for (const double x : uplift_positions)
       if (!(x >= 0. && x <= length))
-        throw EntryError("Catenary/Uplift positions",
-                         number(x) + " m is outside wire 'contact', 0 to " + number(length) + " m");
+        throw EntryError("Catenary/Uplift positions", to_text(x) +
+                                                          " m is outside wire 'contact', 0 to " +
+                                                          to_text(length) + " m");
 
     std::vector<double> sorted = dropper_positions;
     std::sort(sorted.begin(), sorted.end());
@@ -53,12 +44,12 @@ namespace taut
     for (std::size_t i = 0; i < sorted.size(); ++i)
     {
       if (!(sorted[i] > 0. && sorted[i] < span_length))
-        throw EntryError("Catenary/Droppers/Positions", number(sorted[i]) +
+        throw EntryError("Catenary/Droppers/Positions", to_text(sorted[i]) +
                                                             " m is not inside its span of " +
-                                                            number(span_length) + " m");
+                                                            to_text(span_length) + " m");
       if (i > 0 && sorted[i] - sorted[i - 1] <= same)
         throw EntryError("Catenary/Droppers/Positions",
-                         "two droppers hang at " + number(sorted[i]) +
+                         "two droppers hang at " + to_text(sorted[i]) +
                              " m; remove one, or give one the stiffness of both");
     }
   }
@@ -84,7 +75,7 @@ namespace taut
       if (!(item.start >= 0. && item.start <= length))
         throw EntryError(section + "/Start", "the pantograph would stand outside the line, which "
                                              "reaches from 0 to " +
-                                                 number(length) + " m");
+                                                 to_text(length) + " m");
       if (item.static_force < 0.)
         throw EntryError(section + "/Static force",
                          "it pushes the pantograph up, against the contact wire; a negative one "

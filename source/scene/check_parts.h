@@ -3,9 +3,9 @@
 #define taut_check_parts_h
 
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/scene/scene.h>
 
-#include <sstream>
 #include <string>
 
 namespace taut
@@ -15,11 +15,9 @@ namespace taut
   template <typename Item, typename... Parts>
   void fail(const Item &item, const std::string &entry, const Parts &...parts)
   {
-    std::ostringstream out;
-    out.precision(12); // a position that is outside by little has to look so
-    (out << ... << parts);
+    // A position that is outside by little has to look so.
     throw EntryError(item.origin.empty() || entry.empty() ? item.origin : item.origin + "/" + entry,
-                     out.str());
+                     to_text(std::setprecision(12), parts...));
   }
 
   /// Whether a point has a motion along a direction, or a rotation about it.

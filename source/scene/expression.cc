@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/scene/expression.h>
 
 #include <deal.II/base/function_parser.h>
@@ -124,10 +125,7 @@ namespace taut
 
   Expression::Expression(const double value) : constant(value)
   {
-    std::ostringstream out;
-    out.precision(17);
-    out << value;
-    text = out.str();
+    text = to_text(std::setprecision(17), value);
   }
 
   Expression::Expression(const std::string &formula, const std::string &entry,

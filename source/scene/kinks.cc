@@ -2,11 +2,12 @@
 #include "kinks.h"
 #include "check_parts.h"
 
+#include <taut/base/text.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
-#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -58,15 +59,13 @@ namespace taut
     Load make_load(const Link &link, const Attachment &target, const Coordinates &direction,
                    const double magnitude)
     {
-      std::ostringstream text;
-      text.precision(17);
-      text << magnitude;
       Load load;
       load.name = "pull at " + link.name;
       load.origin = link.origin;
       load.target = target;
       load.direction = direction;
-      load.magnitude = Expression(text.str(), link.origin, Expression::Variables::time);
+      load.magnitude = Expression(to_text(std::setprecision(17), magnitude), link.origin,
+                                  Expression::Variables::time);
       return load;
     }
   } // namespace

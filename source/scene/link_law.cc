@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/scene/entries.h>
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
@@ -52,10 +53,7 @@ namespace taut
 
       static std::string number(const double value)
       {
-        std::ostringstream out;
-        out.precision(15);
-        out << value;
-        return out.str();
+        return to_text(std::setprecision(15), value);
       }
 
       [[noreturn]] void fail(const std::string &entry, const std::string &what) const

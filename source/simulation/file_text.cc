@@ -74,7 +74,7 @@ namespace taut
     const fs::path folder = fs::path(file).parent_path();
     std::vector<std::string> names;
     for (const auto &entry : fs::directory_iterator(folder.empty() ? "." : folder, error))
-      if (entry.path().extension() == ".prm" || entry.path().extension() == ".json")
+      if (entry.path().extension() == ".prm")
         names.push_back(entry.path().filename().string());
     std::sort(names.begin(), names.end());
     const std::string near = nearest_name(fs::path(file).filename().string(), names);

@@ -7,10 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cerrno>
 #include <filesystem>
-#include <fstream>
-#include <functional>
 #include <sstream>
 
 namespace taut
@@ -41,15 +38,13 @@ namespace taut
     index.clear();
     section_index.clear();
     if (std::filesystem::path(file).extension() == ".json")
-      read_json(file);
-    else
-    {
-      std::vector<std::string> path;
-      open_files.clear();
-      read_prm(file, path);
-      if (!path.empty())
-        throw UserError(locate(join(path)) + ": the section is opened and never closed; add 'end'");
-    }
+      throw UserError(file + ": scenes are not read from JSON; take a .prm file, with "
+                             "'subsection Name', 'set Name = value' and 'end'");
+    std::vector<std::string> path;
+    open_files.clear();
+    read_prm(file, path);
+    if (!path.empty())
+      throw UserError(locate(join(path)) + ": the section is opened and never closed; add 'end'");
     if (list.empty())
       throw UserError(file +
                       ": it sets no entry; 'taut' without a file writes one with all entries");
@@ -128,92 +123,6 @@ namespace taut
                         "or a comment after '#'");
     }
     open_files.pop_back();
-  }
-
-  void ParameterFile::read_json(const std::string &file)
-  {
-    using nlohmann::json;
-    std::ifstream in(file);
-    const int reason = errno;
-    std::error_code error;
-    if (!in || std::filesystem::is_directory(file, error))
-      throw UserError(cannot_read(file, reason));
-
-    // Keys of the objects that are open while parsing, to find one that comes twice.
-    std::vector<std::vector<std::string>> open;
-    const auto watch = [&](int depth, json::parse_event_t event, json &parsed)
-    {
-      if (depth > static_cast<int>(deepest_section))
-        throw UserError(file + ": more than " + std::to_string(deepest_section) +
-                        " objects or arrays in each other; is a bracket missing?");
-      if (event == json::parse_event_t::object_start)
-        open.emplace_back();
-      else if (event == json::parse_event_t::object_end)
-        open.pop_back();
-      else if (event == json::parse_event_t::key)
-      {
-        const std::string key = parsed.get<std::string>();
-        if (std::count(open.back().begin(), open.back().end(), key) > 0)
-          throw UserError(file + ": the name '" + key + "' comes twice in one object");
-        open.back().push_back(key);
-      }
-      return true;
-    };
-    json root;
-    try
-    {
-      root = json::parse(in, watch);
-    }
-    catch (const json::exception &e)
-    {
-      const std::string what = e.what();
-      const std::size_t mark = what.find("] ");
-      throw UserError(file + ": this is not JSON: " +
-                      (mark == std::string::npos ? what : what.substr(mark + 2)));
-    }
-    if (!root.is_object())
-      throw UserError(file + ": the whole file is one JSON object, {\"Name\": value, ...}");
-
-    const auto text = [&](const json &value, const std::string &name)
-    {
-      if (value.is_string())
-        return value.get<std::string>();
-      if (value.is_number() || value.is_boolean())
-        return value.dump();
-      throw UserError(file + ": " + name +
-                      ": a value is a text, a number, true, false or a list of these");
-    };
-    std::vector<std::string> path;
-    const std::function<void(const json &)> walk = [&](const json &object)
-    {
-      for (const auto &[key, value] : object.items())
-      {
-        path.push_back(key);
-        check_text(key, file);
-        const std::string name = join(path);
-        if (value.is_object())
-        {
-          add_section(path, file);
-          walk(value);
-        }
-        else
-        {
-          std::string all;
-          if (value.is_array())
-            for (const json &item : value)
-              all += (all.empty() ? "" : ", ") + text(item, name);
-          else
-            all = text(value, name);
-          if (all.find_first_of("\n#") != std::string::npos ||
-              name.find_first_of("\n#=") != std::string::npos)
-            throw UserError(file + ": " + name + ": a name or value has no line end and no '#'");
-          check_text(name + all, file + ": " + name);
-          add({path, trim(all), file});
-        }
-        path.pop_back();
-      }
-    };
-    walk(root);
   }
 
   const ParameterFile::Entry &ParameterFile::set(const std::string &assignment)

@@ -63,13 +63,12 @@ namespace taut
 
   RunDescription Simulation::description(const bool is_partial) const
   {
-    std::vector<ModelWarning> warnings = limits->warnings();
-    for (const ContactMeasures::Warning &warning : measures->warnings())
-      warnings.push_back(
-          {warning.kind, warning.message, warning.value, warning.limit, "1", warning.time});
-    if (accuracy && accuracy->is_too_long())
-      warnings.push_back({"step", accuracy->warning(), accuracy->error()->over_bounds(), 1., "1",
-                          accuracy->error()->time});
+    std::vector<Warning> warnings = limits->warnings();
+    const auto append = [&](const std::vector<Warning> &more)
+    { warnings.insert(warnings.end(), more.begin(), more.end()); };
+    append(measures->warnings());
+    if (accuracy)
+      append(accuracy->warnings());
     return {parameters.file_name(),
             parameters.generator_name,
             scheme,

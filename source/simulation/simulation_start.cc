@@ -3,9 +3,9 @@
 #include <taut/base/instruction_set.h>
 #include <taut/model/form_finding.h>
 #include <taut/model/scene_constraints.h>
-#include <taut/output/csv_file.h>
 #include <taut/output/reactions.h>
 #include <taut/output/scene_report.h>
+#include <taut/output/table_file.h>
 #include <taut/simulation/free_bodies.h>
 #include <taut/simulation/simulation.h>
 #include <taut/substructure/slender_body.h>
@@ -215,7 +215,7 @@ namespace taut
       std::vector<std::string> columns = {"time [s]"};
       for (const SupportPoint &point : supports)
         columns.push_back(support_column(point));
-      CsvFile file(parameters.output.folder + "/supports.csv", columns);
+      TableFile file(parameters.output.folder + "/supports.csv", columns);
       file.begin_line(0.);
       for (const double force : reactions.forces())
         file << force;
@@ -224,9 +224,9 @@ namespace taut
     }
     if (model.links.empty())
       return;
-    CsvFile file(parameters.output.folder + "/start.csv",
-                 {"link", "x [m]", "y [m]", "z [m]", "force [N or N m]", "gap [m or rad]",
-                  "length [m]", "stretched length [m]"});
+    TableFile file(parameters.output.folder + "/start.csv",
+                   {"link", "x [m]", "y [m]", "z [m]", "force [N or N m]", "gap [m or rad]",
+                    "length [m]", "stretched length [m]"});
     for (std::size_t i = 0; i < links.size(); ++i)
     {
       if (!links[i].is_link())

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/simulation/stored_study.h>
 
 #include <nlohmann/json.hpp>
@@ -118,10 +119,9 @@ namespace taut
       }
       if (!best)
       {
-        std::ostringstream text;
-        text << "the best setting in '" << file << "' has an error of " << least_error
-             << "; ask for less accuracy, or give the study finer values";
-        throw EntryError(entry_name, text.str());
+        throw EntryError(entry_name,
+                         to_text("the best setting in '", file, "' has an error of ", least_error,
+                                 "; ask for less accuracy, or give the study finer values"));
       }
       StudyChoice choice;
       std::ostringstream text;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
-#include <taut/output/csv_file.h>
+#include <taut/output/table_file.h>
 #include <taut/simulation/sweep_parameters.h>
 
 #include <deal.II/base/parameter_handler.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
 #include <taut/base/nearest_name.h>
-#include <taut/output/csv_file.h>
+#include <taut/output/table_file.h>
 #include <taut/simulation/text_lists.h>
 #include <taut/simulation/varied_entries.h>
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/solid/cell_division.h>
 #include <taut/substructure/fe_body.h>
 
 #include <deal.II/grid/grid_tools.h>
-
-#include <sstream>
 
 namespace taut
 {
@@ -49,9 +48,7 @@ namespace taut
     catch (const dealii::ExceptionBase &)
     {
     }
-    std::ostringstream out;
-    out << "the point " << point << " is not on the body";
-    throw UserError(out.str());
+    throw UserError(to_text("the point ", point, " is not on the body"));
   }
 
   template class CellDivision<1>;

@@ -2,6 +2,7 @@
 #include "solid_entries.h"
 
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 namespace taut
 {
@@ -101,10 +101,9 @@ namespace taut
         throw EntryError(entry, "the mesh has no " + what + ", or it has no radius");
       if (most - least > on_curve * most)
       {
-        std::ostringstream out;
-        out << "nodes of " << what << " are " << least << " to " << most
-            << " m away from there, on no one radius; check the place and the id";
-        throw EntryError(entry, out.str());
+        throw EntryError(
+            entry, to_text("nodes of ", what, " are ", least, " to ", most,
+                           " m away from there, on no one radius; check the place and the id"));
       }
       // Its edges in space have ids of their own, which a file does not give.
       const dealii::types::manifold_id id = curve.id;

@@ -3,6 +3,7 @@
 #include "solid_entries.h"
 
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/patterns.h>
@@ -14,7 +15,6 @@
 #include <cmath>
 #include <fstream>
 #include <regex>
-#include <sstream>
 
 namespace taut
 {
@@ -82,10 +82,11 @@ namespace taut
       for (const auto &cell : cells.active_cell_iterators())
         if (!(smallest_corner(cell) > flat))
         {
-          std::ostringstream out;
-          out << "the cell about (" << cell->center()
-              << ") is flat or turned inside out at a corner; mend the mesh where it is made";
-          throw EntryError(entry, out.str());
+          throw EntryError(
+              entry,
+              to_text(
+                  "the cell about (", cell->center(),
+                  ") is flat or turned inside out at a corner; mend the mesh where it is made"));
         }
     }
   } // namespace

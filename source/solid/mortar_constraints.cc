@@ -4,6 +4,8 @@
 #include <taut/base/exceptions.h>
 #include <taut/solid/contact_constraints.h>
 
+#include <deal.II/lac/full_matrix.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -65,33 +67,6 @@ namespace taut
       return result;
     }
 
-    /// Solves a x = b for a symmetric positive definite matrix of size n, by Cholesky's method.
-    Small solve(std::array<Small, 3> a, Small b, const unsigned int n)
-    {
-      for (unsigned int j = 0; j < n; ++j)
-      {
-        for (unsigned int k = 0; k < j; ++k)
-          for (unsigned int i = j; i < n; ++i)
-            a[i][j] -= a[i][k] * a[j][k];
-        const double root = std::sqrt(a[j][j]);
-        for (unsigned int i = j; i < n; ++i)
-          a[i][j] /= root;
-      }
-      for (unsigned int i = 0; i < n; ++i)
-      {
-        for (unsigned int k = 0; k < i; ++k)
-          b[i] -= a[i][k] * b[k];
-        b[i] /= a[i][i];
-      }
-      for (unsigned int i = n; i-- > 0;)
-      {
-        for (unsigned int k = i + 1; k < n; ++k)
-          b[i] -= a[k][i] * b[k];
-        b[i] /= a[i][i];
-      }
-      return b;
-    }
-
     /// Functions on the covered part of an edge, biorthogonal to the Lagrange polynomials L_i of
     /// its hull: int psi_i L_j = delta_ij int L_i, and their sum is 1.
     class DualBasis
@@ -123,7 +98,7 @@ namespace taut
       /// Returns false if the degree is too high.
       bool build(const Cover &cover)
       {
-        std::array<Small, 3> mass{};
+        dealii::FullMatrix<double> mass(size());
         Small integral{};
         double length = 0.;
         for (const CoverPoint &p : cover.points)
@@ -134,17 +109,16 @@ namespace taut
           {
             integral[i] += p.weight * l.value[i];
             for (unsigned int j = 0; j < size(); ++j)
-              mass[i][j] += p.weight * l.value[i] * l.value[j];
+              mass(i, j) += p.weight * l.value[i] * l.value[j];
           }
         }
         for (unsigned int i = 0; i < size(); ++i)
-        {
           if (degree == 2 && integral[i] < small_integral * length)
             return false;
-          coefficients[i] = {};
-          coefficients[i][i] = integral[i];
-          coefficients[i] = solve(mass, coefficients[i], size());
-        }
+        mass.gauss_jordan();
+        for (unsigned int i = 0; i < size(); ++i)
+          for (unsigned int j = 0; j < size(); ++j)
+            coefficients[i][j] = integral[i] * mass(i, j);
         return true;
       }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "nodal_areas.h"
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 
 #include <algorithm>
 #include <limits>
@@ -89,8 +90,7 @@ namespace taut
     {
       const Coordinates x = geometry.point(node);
       throw UserError("contact surface '" + geometry.surface().name +
-                      "': the integral of the shape function of the node at (" + to_text(x.x) +
-                      ", " + to_text(x.y) + ", " + to_text(x.z) +
+                      "': the integral of the shape function of the node at (" + to_text(x) +
                       ") is not positive: the faces at it are too distorted");
     }
     return sum;

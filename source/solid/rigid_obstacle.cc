@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "surface_geometry.h"
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/solid/rigid_obstacle.h>
 
 #include <cmath>
@@ -19,8 +20,7 @@ namespace taut
     {
       const double length = norm(a);
       if (!(length > 0.) || !std::isfinite(length))
-        throw UserError("obstacle: " + what + " must be a direction, not (" + to_text(a.x) + ", " +
-                        to_text(a.y) + ", " + to_text(a.z) + ")");
+        throw UserError("obstacle: " + what + " must be a direction, not (" + to_text(a) + ")");
       return scaled(1. / length, a);
     }
 
@@ -112,8 +112,7 @@ namespace taut
   {
     const double value = height(foot);
     if (!std::isfinite(value))
-      throw UserError("obstacle: its height at (" + to_text(foot.x) + ", " + to_text(foot.y) +
-                      ", " + to_text(foot.z) + ") is no number");
+      throw UserError("obstacle: its height at (" + to_text(foot) + ") is no number");
     return value;
   }
 

@@ -2,12 +2,12 @@
 #include "surface_geometry.h"
 #include "face_search.h"
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/solid/contact_constraints.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 namespace taut
 {
@@ -29,13 +29,6 @@ namespace taut
       return std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z);
     }
   } // namespace
-
-  std::string to_text(const double value)
-  {
-    std::ostringstream out;
-    out << value;
-    return out.str();
-  }
 
   void Box::add(const Coordinates &x)
   {
@@ -88,7 +81,7 @@ namespace taut
     if (!description.faces[face].empty() && description.faces[face][0] < description.points.size())
     {
       const Coordinates x = point(description.faces[face][0]);
-      where = " at (" + to_text(x.x) + ", " + to_text(x.y) + ", " + to_text(x.z) + ")";
+      where = to_text(" at (", x, ")");
     }
     throw UserError("contact surface '" + description.name + "': face " + std::to_string(face) +
                     where + " " + what);

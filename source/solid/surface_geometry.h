@@ -20,9 +20,6 @@ namespace taut
     return scaled(1. / norm(a), a);
   }
 
-  /// A number for a message, with six digits at most.
-  std::string to_text(double value);
-
   /// A box with axes along those of space.
   struct Box
   {

@@ -2,12 +2,12 @@
 #include <taut/base/exceptions.h>
 #include <taut/base/interruption.h>
 #include <taut/base/memory.h>
+#include <taut/output/table_file.h>
 #include <taut/simulation/simulation.h>
 #include <taut/study/study.h>
 #include <taut/study/study_report.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <ctime>
 #include <filesystem>
@@ -41,13 +41,6 @@ namespace taut
       long n_steps, n_done = 0;
       std::clock_t begin = 0, end = 0;
     };
-
-    /// As short as possible without loss.
-    std::string to_text(const double value)
-    {
-      char digits[32];
-      return std::string(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
-    }
 
     std::string on_one_line(std::string text)
     {
@@ -216,8 +209,9 @@ namespace taut
       if (parameter_list.refined)
         for (const std::string &value : parameter_list.values)
           least = std::min(least, std::stod(value));
-      values.push_back(parameter_list.refined ? to_text(std::ldexp(least, -static_cast<int>(level)))
-                                              : parameter_list.reference);
+      values.push_back(parameter_list.refined
+                           ? csv_number(std::ldexp(least, -static_cast<int>(level)))
+                           : parameter_list.reference);
     }
     return values;
   }
@@ -269,7 +263,7 @@ namespace taut
     for (std::size_t i = 0; i < n; ++i)
     {
       const QuantityReference &reference = result.references[i];
-      log << "  " << study.quantities.names[i] << ": " << to_text(reference.quantity.value);
+      log << "  " << study.quantities.names[i] << ": " << csv_number(reference.quantity.value);
       if (reference.is_exact)
         log << ", exact\n";
       else

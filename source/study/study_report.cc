@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/version.h>
 #include <taut/base/write_file.h>
-#include <taut/output/csv_file.h>
+#include <taut/output/table_file.h>
 #include <taut/simulation/stored_study.h>
 #include <taut/study/study_report.h>
 
@@ -173,7 +173,7 @@ namespace taut
       columns.push_back(name + " error [1]");
     }
     columns.push_back("message");
-    CsvFile file(path, columns);
+    TableFile file(path, columns);
     for (const StudySetting &setting : result.settings)
     {
       for (const std::string &value : setting.values)

@@ -4,7 +4,7 @@
 #include <taut/base/interruption.h>
 #include <taut/base/memory.h>
 #include <taut/base/write_file.h>
-#include <taut/output/csv_file.h>
+#include <taut/output/table_file.h>
 #include <taut/study/sweep.h>
 
 #include <algorithm>

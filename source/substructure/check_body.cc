@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/substructure/check_body.h>
 #include <taut/substructure/constrained_body.h>
 
@@ -8,7 +9,6 @@
 #include <functional>
 #include <limits>
 #include <numeric>
-#include <sstream>
 
 namespace taut
 {
@@ -146,11 +146,8 @@ namespace taut
 
       void note(const std::string &what, const double said, const double expected)
       {
-        std::ostringstream out;
-        out.precision(10);
-        out << "body '" << body.name() << "': " << what << ": " << said << ", and by differences "
-            << expected;
-        found.push_back(out.str());
+        found.push_back(to_text(std::setprecision(10), "body '", body.name(), "': ", what, ": ",
+                                said, ", and by differences ", expected));
       }
 
       /// The worst entry, if it is a discrepancy.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
 #include <taut/base/memory.h>
+#include <taut/base/text.h>
 #include <taut/base/write_file.h>
 #include <taut/substructure/fe_body.h>
 
@@ -295,9 +296,7 @@ namespace taut
     }
     if (cell == handler.end() || !has_cell(cell))
     {
-      std::ostringstream out;
-      out << "body '" << name() << "': the point " << point << " is not on it";
-      throw UserError(out.str());
+      throw UserError(to_text("body '", name(), "': the point ", point, " is not on it"));
     }
     std::vector<dealii::types::global_dof_index> dofs(element.n_dofs_per_cell());
     cell->get_dof_indices(dofs);

@@ -2,11 +2,11 @@
 #include "row_tiles.h"
 
 #include <taut/base/instruction_set.h>
+#include <taut/base/text.h>
 #include <taut/time/balance_certificate.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace taut
 {
@@ -167,14 +167,8 @@ namespace taut
       if (!(std::max({force[kind], sizes.velocity[kind], sizes.displacement[kind]}) <=
             largest_number) ||
           std::isnan(sizes.velocity[kind]) || std::isnan(sizes.displacement[kind]))
-      {
-        std::ostringstream when;
-        if (c.is_at_rest())
-          when << "static equilibrium: ";
-        else
-          when << "at t = " << time << " s: ";
-        check_size(structure[k], force, sizes.displacement, sizes.velocity, when.str());
-      }
+        check_size(structure[k], force, sizes.displacement, sizes.velocity,
+                   c.is_at_rest() ? "static equilibrium: " : to_text("at t = ", time, " s: "));
 
     PerKind inertial = sizes.increment;
     for (double &d : inertial)

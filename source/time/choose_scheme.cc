@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/time/choose_scheme.h>
 #include <taut/time/integrator.h>
 #include <taut/time/largest_frequency.h>
@@ -7,7 +8,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <sstream>
 
 namespace taut
 {
@@ -124,13 +124,12 @@ namespace taut
                            body + "' is 'reduced'. Take another Mass matrix, or 'backward Euler'");
     if (body.empty())
     {
-      std::ostringstream without_loss;
-      without_loss.precision(std::numeric_limits<double>::max_digits10);
-      without_loss << restitution;
+      const std::string without_loss =
+          to_text(std::setprecision(std::numeric_limits<double>::max_digits10), restitution);
       return {"Moreau-Jean",
               {{"Moreau-Jean/Theta", "0.5"},
                {"Moreau-Jean/Conditions", "gaps then velocities"},
-               {"Moreau-Jean/Restitution", without_loss.str()}},
+               {"Moreau-Jean/Restitution", without_loss}},
               reason};
     }
     if (restitution > 0.)
@@ -156,15 +155,14 @@ namespace taut
       const double largest = largest_frequency(structure, constraints, parameters);
       if (largest <= surely_stable * limit)
         return;
-      std::ostringstream out;
-      out.precision(3);
-      out << integrator.description() << " is stable for steps up to "
-          << surely_stable * limit * step / largest
-          << " s here, as bodies and links have frequencies up to " << largest
-          << " rad/s. Take such a step, larger elements, or a scheme that is stable at every step, "
-             "as Newmark with a Beta of at least Gamma / 2"
-          << anyway;
-      throw EntryError("Time/Step", out.str());
+      throw EntryError("Time/Step",
+                       to_text(std::setprecision(3), integrator.description(),
+                               " is stable for steps up to ",
+                               surely_stable * limit * step / largest,
+                               " s here, as bodies and links have frequencies up to ", largest,
+                               " rad/s. Take such a step, larger elements, or a scheme that is "
+                               "stable at every step, as Newmark with a Beta of at least Gamma / 2",
+                               anyway));
     }
   } // namespace
 
@@ -207,13 +205,13 @@ namespace taut
       ++rigid;
     if (rigid == constraints.size())
       return;
-    std::ostringstream out;
-    out << integrator.description() << " fails at unilateral links that act as rigid, here '"
-        << constraints[rigid].name << "': an error of its force keeps " << c.ringing()
-        << " of itself from step to step, so that it rings. Take 'automatic' or more dissipation, "
-           "give the link a Stiffness, set 'Time/Mass redistribution'"
-        << anyway;
-    throw EntryError("Time/Scheme", out.str());
+    throw EntryError(
+        "Time/Scheme",
+        to_text(integrator.description(), " fails at unilateral links that act as rigid, here '",
+                constraints[rigid].name, "': an error of its force keeps ", c.ringing(),
+                " of itself from step to step, so that it rings. Take 'automatic' or more "
+                "dissipation, give the link a Stiffness, set 'Time/Mass redistribution'",
+                anyway));
   }
 
   void check_mass(const TimeIntegrator &integrator, const Structure &structure, const double step)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/archive.h>
+#include <taut/base/text.h>
 #include <taut/time/contact_measures.h>
 
 #include <algorithm>
@@ -306,15 +307,15 @@ namespace taut
   std::string ContactMeasures::error() const
   {
     const Summary s = summary();
-    std::ostringstream out;
-    if (s.relative_energy > wrong_energy)
-      out << energy_message(s) << ". The motion is wrong. " << remedy()
-          << ", or set 'Time/Allow energy gain'";
-    else if (s.relative_motion_energy > wrong_energy)
-      out << "bodies that move by large amounts gained " << s.motion_energy << " J, "
-          << s.relative_motion_energy << " of the energy that moves, from nowhere. The motion is "
-          << "wrong. " << remedy() << ", or set 'Time/Allow energy gain'";
-    return out.str();
+    const std::string wrong =
+        s.relative_energy > wrong_energy ? energy_message(s)
+        : s.relative_motion_energy > wrong_energy
+            ? to_text("bodies that move by large amounts gained ", s.motion_energy, " J, ",
+                      s.relative_motion_energy, " of the energy that moves, from nowhere")
+            : "";
+    return wrong.empty()
+               ? ""
+               : wrong + ". The motion is wrong. " + remedy() + ", or set 'Time/Allow energy gain'";
   }
 
   std::string ContactMeasures::error_origin() const
@@ -323,17 +324,13 @@ namespace taut
     return s.relative_energy > wrong_energy ? constraints.origin(s.energy_constraint) : "";
   }
 
-  std::vector<ContactMeasures::Warning> ContactMeasures::warnings() const
+  std::vector<Warning> ContactMeasures::warnings() const
   {
     const Summary s = summary();
     std::vector<Warning> result;
     const auto add = [&](const std::string &kind, const double value, const double limit,
-                         const double time, const auto &...parts)
-    {
-      std::ostringstream message;
-      message.precision(3);
-      (message << ... << parts);
-      result.push_back({kind, message.str(), value, limit, time});
+                         const double time, const auto &...parts) {
+      result.push_back({kind, to_text(std::setprecision(3), parts...), value, limit, "1", time});
     };
     if (s.relative_energy > suspicious_energy)
       add("contact_energy", s.relative_energy, suspicious_energy,

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/time/initial_state.h>
 #include <taut/time/static_equilibrium.h>
 #include <taut/time/turning_constraints.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace taut
 {
@@ -103,12 +103,11 @@ namespace taut
     [[noreturn]] void complain_about_penetration(const Constraints &constraints,
                                                  const std::size_t i, const double gap)
     {
-      std::ostringstream message;
-      message << "link '" << constraints[i].name << "' starts with a gap of " << gap
-              << (constraints[i].rotational ? " rad" : " m")
-              << ": a rigid unilateral link starts open or just touching. Change its Gap or the "
-                 "start.";
-      throw EntryError(constraints.origin(i), message.str());
+      throw EntryError(constraints.origin(i),
+                       to_text("link '", constraints[i].name, "' starts with a gap of ", gap,
+                               constraints[i].rotational ? " rad" : " m",
+                               ": a rigid unilateral link starts open or just touching. Change its "
+                               "Gap or the start."));
     }
 
     /// Gaps, and the springs of the links with their forces.
@@ -191,12 +190,13 @@ namespace taut
         if (joint.unilateral || !std::isinf(joint.stiffness) || joint.moving ||
             std::fabs(gap) <= closed * terms)
           continue;
-        std::ostringstream out;
-        out << "joint '" << joint.name << "' starts with a gap of " << gap
-            << (joint.rotational ? " rad" : " m")
-            << ": a rigid one starts closed, or would close within the first step. Change its "
-            << (joint.direction ? "Length" : "Gap") << " or the start, or give it a Stiffness";
-        throw EntryError(constraints.origin(i), out.str());
+        throw EntryError(
+            constraints.origin(i),
+            to_text(
+                "joint '", joint.name, "' starts with a gap of ", gap,
+                joint.rotational ? " rad" : " m",
+                ": a rigid one starts closed, or would close within the first step. Change its ",
+                joint.direction ? "Length" : "Gap", " or the start, or give it a Stiffness"));
       }
     }
   } // namespace

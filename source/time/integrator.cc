@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/time/integrator.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -201,9 +202,7 @@ namespace taut
       }
       std::string description() const override
       {
-        std::ostringstream out;
-        out << "Newmark (beta " << beta << ", gamma " << gamma << ")";
-        return out.str();
+        return to_text("Newmark (beta ", beta, ", gamma ", gamma, ")");
       }
 
     private:
@@ -229,9 +228,7 @@ namespace taut
       }
       std::string description() const override
       {
-        std::ostringstream out;
-        out << "generalised-alpha (spectral radius " << rho << ")";
-        return out.str();
+        return to_text("generalised-alpha (spectral radius ", rho, ")");
       }
 
     private:
@@ -251,12 +248,7 @@ namespace taut
         prm.leave_subsection();
       }
       StepCoefficients coefficients(const double step) const override { return hht(step, alpha); }
-      std::string description() const override
-      {
-        std::ostringstream out;
-        out << "HHT (alpha " << alpha << ")";
-        return out.str();
-      }
+      std::string description() const override { return to_text("HHT (alpha ", alpha, ")"); }
 
     private:
       double alpha = .1;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
 #include <taut/base/instruction_set.h>
+#include <taut/base/text.h>
 #include <taut/time/matrix_norms.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <sstream>
 
 namespace taut
 {
@@ -99,11 +99,11 @@ namespace taut
       if (!(force[kind] <= largest_number && displacement[kind] <= largest_number &&
             velocity[kind] <= largest_number))
       {
-        std::ostringstream out;
-        out << when << "body '" << body.name() << "' has numbers beyond " << largest_number
-            << ": force " << force[kind] << ", displacement " << displacement[kind] << ", velocity "
-            << velocity[kind] << ". Check loads, stiffnesses and masses for extreme values.";
-        throw EntryError(body.origin(), out.str());
+        throw EntryError(body.origin(),
+                         to_text(when, "body '", body.name(), "' has numbers beyond ",
+                                 largest_number, ": force ", force[kind], ", displacement ",
+                                 displacement[kind], ", velocity ", velocity[kind],
+                                 ". Check loads, stiffnesses and masses for extreme values."));
       }
   }
 

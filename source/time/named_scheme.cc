@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/nearest_name.h>
+#include <taut/base/text.h>
 #include <taut/time/named_scheme.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -92,9 +93,8 @@ namespace taut
 
   void check_solver_names(const SolverParameters &parameters)
   {
-    std::ostringstream tolerance;
-    tolerance.precision(std::numeric_limits<double>::max_digits10);
-    tolerance << parameters.contact_tolerance;
+    const std::string tolerance = to_text(
+        std::setprecision(std::numeric_limits<double>::max_digits10), parameters.contact_tolerance);
     SolverParameters defaults;
     dealii::ParameterHandler prm;
     defaults.declare_parameters(prm);
@@ -104,7 +104,7 @@ namespace taut
         {"Solver/Preconditioner", parameters.interface.preconditioner},
         {"Solver/Coarse space", parameters.interface.coarse_space},
         {"Solver/Complementarity", parameters.complementarity},
-        {"Solver/Contact tolerance", tolerance.str()}};
+        {"Solver/Contact tolerance", tolerance}};
     for (const auto &[path, value] : values)
       set_entry(path, value, prm);
   }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/time/time_stepper.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <sstream>
 
 namespace taut
 {
@@ -126,10 +126,9 @@ namespace taut
       if (solve_by_newton())
         return;
     }
-    std::ostringstream out;
-    out << "at t = " << current.time << " s: Newton's method does not converge in a step of "
-        << step << " s. Take a smaller step";
-    throw UserError(out.str());
+    throw UserError(to_text("at t = ", current.time,
+                            " s: Newton's method does not converge in a step of ", step,
+                            " s. Take a smaller step"));
   }
 
   bool TimeStepper::solve_by_newton()

@@ -3,6 +3,7 @@
 #include "turning_at_rest.h"
 
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/time/matrix_norms.h>
 #include <taut/time/nonlinear_bodies.h>
 
@@ -11,7 +12,6 @@
 #include <limits>
 #include <numeric>
 #include <optional>
-#include <sstream>
 #include <vector>
 
 namespace taut
@@ -208,13 +208,12 @@ namespace taut
         if (unstable == springs.size())
           return true;
         const std::size_t i = turning.constraint_of(springs[unstable]);
-        std::ostringstream out;
-        out << "static equilibrium: none that is stable was found; links that push give way to the "
-            << "side, link '" << constraints[i].name << "' with " << std::fabs(state.multiplier[i])
-            << " N: what holds its ends across it has to be "
-            << "stiffer than that over its length, " << springs[unstable].stiffness
-            << " N/m. Hold its ends, or start from 'undeformed'";
-        gives_way = out.str();
+        gives_way = to_text(
+            "static equilibrium: none that is stable was found; links that push give way to the "
+            "side, link '",
+            constraints[i].name, "' with ", std::fabs(state.multiplier[i]),
+            " N: what holds its ends across it has to be stiffer than that over its length, ",
+            springs[unstable].stiffness, " N/m. Hold its ends, or start from 'undeformed'");
         origin_of_unstable = constraints.origin(i);
         return false;
       }
@@ -279,20 +278,19 @@ namespace taut
         structure.communicator().sum(motion_of_body);
         const std::size_t body =
             std::max_element(motion_of_body.begin(), motion_of_body.end()) - motion_of_body.begin();
-        std::ostringstream out;
-        out << "static equilibrium: none that is stable was found; the displacements still change "
-            << "by " << change << " of themselves, most in body '"
-            << structure.all_bodies()[body].name << "'. Check lengths and supports for bodies "
-            << "that nothing holds, and cables that nothing holds in tension; start from "
-            << "'undeformed', or give cables some bending stiffness";
+        const std::string message = to_text(
+            "static equilibrium: none that is stable was found; the displacements still change by ",
+            change, " of themselves, most in body '", structure.all_bodies()[body].name,
+            "'. Check lengths and supports for bodies that nothing holds, and cables that nothing "
+            "holds in tension; start from 'undeformed', or give cables some bending stiffness");
         structure.communicator().agree(
             [&]
             {
               for (std::size_t k = 0; k < structure.size(); ++k)
                 if (structure.number(k) == body)
-                  throw EntryError(structure[k].origin(), out.str());
+                  throw EntryError(structure[k].origin(), message);
             });
-        throw UserError(out.str());
+        throw UserError(message);
       }
 
       /// Strain energy, minus the work of loads and of the forces of rigid constraints.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/archive.h>
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/time/step_accuracy.h>
 
 #include <algorithm>
@@ -62,10 +63,7 @@ namespace taut
 
     std::string percent(const double part)
     {
-      std::ostringstream out;
-      out.precision(2);
-      out << 100. * part << " %";
-      return out.str();
+      return to_text(std::setprecision(2), 100. * part, " %");
     }
   } // namespace
 
@@ -130,9 +128,7 @@ namespace taut
       // One without an entry may be that of this rank alone, and ends the run.
       if (run.structure.communicator().size() > 1 && !dynamic_cast<const EntryError *>(&e))
         throw;
-      std::ostringstream out;
-      out << "a run with a step of " << step << " s ended: " << e.what();
-      reason = out.str();
+      reason = to_text("a run with a step of ", step, " s ended: ", e.what());
       return std::nullopt;
     }
   }
@@ -179,10 +175,10 @@ namespace taut
     return std::min(.5, std::pow(aim / over_bounds, 1. / order));
   }
 
-  std::string StepAccuracy::warning() const
+  std::vector<Warning> StepAccuracy::warnings() const
   {
     if (!too_long)
-      return "";
+      return {};
     const double part = std::isfinite(found->over_bounds()) ? shortened(found->over_bounds()) : .1;
     const std::string body = "'" + run.structure.all_bodies()[found->body].name + "'";
     std::ostringstream out;
@@ -202,7 +198,7 @@ namespace taut
           << run.control.tolerance * std::pow(rounding_of_lengths * part, power_of_tolerance);
     else
       out << ". Take a step of about " << run.step * part << " s";
-    return out.str();
+    return {{"step", out.str(), found->over_bounds(), 1., "1", found->time}};
   }
 
   std::string StepAccuracy::report() const
@@ -212,8 +208,8 @@ namespace taut
     std::string text = "Steps: error of places " + percent(found->place) + ", of impulses " +
                        percent(found->impulse) + ", of energies " + percent(found->energy) +
                        " of the largest, from runs with other steps\n";
-    if (too_long)
-      text += "  Warning: " + warning() + '\n';
+    for (const Warning &warning : warnings())
+      text += "  Warning: " + warning.message + '\n';
     return text;
   }
 } // namespace taut

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/time/step_check.h>
-
-#include <sstream>
 
 namespace taut
 {
@@ -10,9 +9,7 @@ namespace taut
   {
     if (!time)
       return "static equilibrium: ";
-    std::ostringstream out;
-    out << "at t = " << *time << " s: ";
-    return out.str();
+    return to_text("at t = ", *time, " s: ");
   }
 
   std::string StepCheck::remedy() const
@@ -53,11 +50,10 @@ namespace taut
   {
     if (certificate.complementarity <= tolerance)
       return;
-    std::ostringstream out;
-    out << "link '" << constraints[certificate.worst_constraint].name
-        << "' misses the contact tolerance: residual " << certificate.complementarity << " > "
-        << tolerance << ". " << remedy();
-    fail(out.str(), constraints.origin(certificate.worst_constraint));
+    fail(to_text("link '", constraints[certificate.worst_constraint].name,
+                 "' misses the contact tolerance: residual ", certificate.complementarity, " > ",
+                 tolerance, ". ", remedy()),
+         constraints.origin(certificate.worst_constraint));
   }
 
   void StepCheck::check_balance(const Certificate &certificate, const double own_balance) const
@@ -70,11 +66,10 @@ namespace taut
           if (own_balance < certificate.balance || structure.size() == 0)
             return;
           const Substructure &body = structure[certificate.worst_body];
-          std::ostringstream out;
-          out << "body '" << body.name() << "' misses the contact tolerance in its equation of "
-              << (time ? "motion" : "equilibrium") << ": residual " << certificate.balance << " > "
-              << tolerance << ". " << remedy();
-          fail(out.str(), body.origin());
+          fail(to_text("body '", body.name(), "' misses the contact tolerance in its equation of ",
+                       time ? "motion" : "equilibrium", ": residual ", certificate.balance, " > ",
+                       tolerance, ". ", remedy()),
+               body.origin());
         });
   }
 } // namespace taut

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/substructure/constrained_body.h>
 #include <taut/time/contact_resolution.h>
 #include <taut/time/time_stepper.h>
@@ -8,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <sstream>
 
 namespace taut
 {
@@ -143,11 +143,12 @@ namespace taut
       if (constraints[i].unilateral && S[i] > 0. && F.diagonal(i) > 2. * S[i] &&
           flexibilities_of_whole_bodies(constraints, {i}, F)[i] > 2. * S[i])
       {
-        std::ostringstream out;
-        out << "link '" << constraints[i].name << "' acts as rigid at t = " << current.time
-            << " s: there it is stiffer than the bodies in one step, which "
-            << integrator.description() << " does not suit. Take 'Moreau-Jean', or a smaller step";
-        throw EntryError(constraints.origin(i), out.str());
+        throw EntryError(constraints.origin(i),
+                         to_text("link '", constraints[i].name,
+                                 "' acts as rigid at t = ", current.time,
+                                 " s: there it is stiffer than the bodies in one step, which ",
+                                 integrator.description(),
+                                 " does not suit. Take 'Moreau-Jean', or a smaller step"));
       }
   }
 } // namespace taut

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/interface/check_constraint.h>
 #include <taut/time/choose_scheme.h>
 #include <taut/time/named_scheme.h>
@@ -8,19 +9,11 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <sstream>
 
 namespace taut
 {
   namespace
   {
-    std::string text(const double value)
-    {
-      std::ostringstream out;
-      out << value;
-      return out.str();
-    }
-
     /// The system, if there is something to step and the options are possible.
     const System &checked(const System &system, const StepperOptions &options)
     {
@@ -29,10 +22,10 @@ namespace taut
       // A step whose square is beyond the range of numbers has no coefficients.
       const double inverse_square = 1. / (options.step * options.step);
       if (!(options.step > 0.) || !std::isfinite(inverse_square) || !(inverse_square > 0.))
-        throw UserError("StepperOptions::step is " + text(options.step) +
+        throw UserError("StepperOptions::step is " + to_text(options.step) +
                         " s; take a positive number");
       if (!(options.restitution >= 0.) || !(options.restitution <= 1.))
-        throw UserError("StepperOptions::restitution is " + text(options.restitution) +
+        throw UserError("StepperOptions::restitution is " + to_text(options.restitution) +
                         "; take a number from 0 to 1");
       if (options.scheme == "automatic" && !options.scheme_entries.empty())
         throw UserError("StepperOptions::scheme_entries has '" +

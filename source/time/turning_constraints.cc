@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/time/turning_constraints.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace taut
 {
@@ -116,21 +116,17 @@ namespace taut
     if (vanishes || norm(add_scaled(a, part, way)) < nearest_pass * turning.length)
       throw UserError(message_of_meeting(name, before.time,
                                          constraints.ends(i, reference.displacement, before.U)));
-    std::ostringstream out;
-    out << "at t = " << before.time << " s: link '" << name
-        << "' turns by more than 120 degrees in a step. Take a smaller step";
-    throw UserError(out.str());
+    throw UserError(to_text("at t = ", before.time, " s: link '", name,
+                            "' turns by more than 120 degrees in a step. Take a smaller step"));
   }
 
   std::string message_of_meeting(const std::string &name, const double t,
                                  const std::array<Coordinates, 2> &ends)
   {
-    std::ostringstream out;
-    out << "at t = " << t << " s: the ends of link '" << name << "' meet, from " << text_of(ends[0])
-        << " and " << text_of(ends[1])
-        << ", while it has a force: it has no direction there. Give it a stiffness that keeps its "
-           "ends apart, keep them apart by a stop, or join them by a ball joint";
-    return out.str();
+    return to_text("at t = ", t, " s: the ends of link '", name, "' meet, from (", ends[0],
+                   ") m and (", ends[1],
+                   ") m, while it has a force: it has no direction there. Give it a stiffness that "
+                   "keeps its ends apart, keep them apart by a stop, or join them by a ball joint");
   }
 
   double TurningConstraints::surplus(const std::size_t i, const double N, const double motion) const

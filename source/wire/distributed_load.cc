@@ -2,13 +2,13 @@
 #include "distributed_load.h"
 
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
 #include <limits>
 #include <regex>
-#include <sstream>
 #include <utility>
 
 namespace taut
@@ -45,13 +45,12 @@ namespace taut
                    least = LoadIntegral::seen_at_once * shortest;
       if (!is_at_end && !is_fine && size > 0. && shortest < no_element && width < least)
       {
-        std::ostringstream out;
-        out.precision(4);
-        out << "load '" << load.name << "' is " << width << " m wide between s = " << first
-            << " and " << last << " m at t = " << t << " s. One that changes with time has to be "
-            << least << " m wide, a fifth of an element: take a smaller Element size, a wider "
-            << "load, or a load of type 'moving', which acts at a point";
-        throw EntryError(load.origin, out.str());
+        throw EntryError(load.origin,
+                         to_text(std::setprecision(4), "load '", load.name, "' is ", width,
+                                 " m wide between s = ", first, " and ", last, " m at t = ", t,
+                                 " s. One that changes with time has to be ", least,
+                                 " m wide, a fifth of an element: take a smaller Element size, a "
+                                 "wider load, or a load of type 'moving', which acts at a point"));
       }
       size = largest = 0.;
       shortest = no_element;
@@ -136,14 +135,12 @@ namespace taut
         integral.over(element.begin, element.length, element.places, t, element.n_pieces, typical);
     if (result.is_resolved)
       return result;
-    std::ostringstream out;
-    out.precision(4);
-    out << "load '" << name << "' cannot be integrated to " << LoadIntegral::tolerance
-        << " at t = " << t
-        << " s: near s = " << element.begin + element.length * result.narrowest_at
-        << " m it jumps or oscillates within " << element.length * result.narrowest
-        << " m, over and over. Give a load that is smooth between jumps";
-    throw EntryError(origin, out.str());
+    throw EntryError(origin,
+                     to_text(std::setprecision(4), "load '", name, "' cannot be integrated to ",
+                             LoadIntegral::tolerance, " at t = ", t,
+                             " s: near s = ", element.begin + element.length * result.narrowest_at,
+                             " m it jumps or oscillates within ", element.length * result.narrowest,
+                             " m, over and over. Give a load that is smooth between jumps"));
   }
 
   void WireComponent::DistributedLoad::add(const double t, std::vector<double> &P) const

@@ -3,11 +3,11 @@
 #include "wire_discretisation.h"
 
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/wire/hermite_shape.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace taut
 {
@@ -24,13 +24,10 @@ namespace taut
     constexpr double uneven = 20.;
     if (!(longest > uneven * length(shortest)))
       return "";
-    std::ostringstream out;
-    out.precision(10);
-    out << "its element from " << nodes[shortest] << " to " << nodes[shortest + 1] << " m is ";
-    out.precision(3);
-    out << length(shortest) << " m long beside others of " << longest
-        << " m. Move what stands at its two ends to one place, or farther apart";
-    return out.str();
+    return to_text(std::setprecision(10), "its element from ", nodes[shortest], " to ",
+                   nodes[shortest + 1], " m is ", std::setprecision(3), length(shortest),
+                   " m long beside others of ", longest,
+                   " m. Move what stands at its two ends to one place, or farther apart");
   }
 
   void WireComponent::evaluate(const double s, const bool slope, LinearForm &result) const

@@ -114,37 +114,6 @@ namespace
     return result;
   }
 
-  std::string as_json(const Lines &lines)
-  {
-    std::string text = "{";
-    bool first = true;
-    const auto quoted = [](const std::string &s)
-    {
-      std::string r = "\"";
-      for (const char c : s)
-        r += (c == '"' || c == '\\') ? std::string("\\") + c : std::string(1, c);
-      return r + "\"";
-    };
-    for (const std::string &line : lines)
-      if (line == "end")
-      {
-        text += "}\n";
-        first = false;
-      }
-      else
-      {
-        text += first ? "" : ", ";
-        first = is_section(line);
-        if (is_section(line))
-          text += quoted(trim(line.substr(11))) + ": {";
-        else if (is_entry(line))
-          text += quoted(key(line)) + ": " + quoted(value(line));
-        else
-          text += line;
-      }
-    return text + "}";
-  }
-
   /// Makes one input of a seed.
   class Mutator
   {
@@ -175,20 +144,16 @@ namespace
         throw std::runtime_error("no .prm files in " + folder);
     }
 
-    std::string make(const std::uint64_t seed, bool &json)
+    std::string make(const std::uint64_t seed)
     {
       random.seed(seed);
       Lines lines = corpus[below(corpus.size())];
       const std::size_t n = 1 + below(4);
       for (std::size_t k = 0; k < n && !lines.empty(); ++k)
         mutate(lines);
-      json = below(20) == 0;
       std::string text;
-      if (json)
-        text = as_json(lines);
-      else
-        for (const std::string &line : lines)
-          text += line + "\n";
+      for (const std::string &line : lines)
+        text += line + "\n";
       if (below(25) == 0)
         for (std::size_t k = 1 + below(4); k > 0 && !text.empty(); --k)
           text[below(text.size())] = static_cast<char>(below(256));
@@ -616,9 +581,8 @@ int main(int argc, char **argv)
     std::string file = replay;
     if (replay.empty())
     {
-      bool json = false;
-      const std::string text = mutator.make(seed * 1000000007u + k, json);
-      file = (scratch / (json ? "scene.json" : "scene.prm")).string();
+      const std::string text = mutator.make(seed * 1000000007u + k);
+      file = (scratch / "scene.prm").string();
       std::ofstream(file, std::ios::binary) << text;
     }
     where_it_is = file.c_str();

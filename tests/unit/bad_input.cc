@@ -1390,46 +1390,16 @@ TEST_F(BadInput, EachMistakeIsNamedWithItsPlaceAndRemedy)
 TEST_F(BadInput, FilesThatCannotBeRead)
 {
   expect_fragments(error_of("nowhere.prm"), {"cannot read 'nowhere.prm'", "no such file"});
-  expect_fragments(error_of("nowhere.json"), {"cannot read 'nowhere.json'", "no such file"});
+  expect_fragments(error_of("scene.json"), {"scene.json: scenes are not", "take a .prm file"});
   write("scene_250.prm", network);
   expect_fragments(error_of("scene_25.prm"), {"no such file", "did you mean 'scene_250.prm'"});
   expect_fragments(error_of("results"), {"cannot read 'results'", "it is a folder"});
-  fs::create_directories("folder.json");
-  expect_fragments(error_of("folder.json"), {"cannot read 'folder.json'", "it is a folder"});
+  fs::create_directories("folder.prm");
+  expect_fragments(error_of("folder.prm"), {"cannot read 'folder.prm'", "it is a folder"});
   write("a.prm", "set Start = given\ninclude b.prm\n");
   write("b.prm", "# back\ninclude ./a.prm\n");
   expect_fragments(error_of("a.prm"), {"b.prm:2:", "include itself"});
   EXPECT_TRUE(earlier_results_are_whole());
-}
-
-TEST_F(BadInput, Json)
-{
-  const std::vector<std::pair<std::string, Texts>> cases = {
-      {"{\"Start\": \"given\",,}", {"scene.json: this is not JSON", "line 1"}},
-      {"", {"scene.json: this is not JSON"}},
-      {"[1, 2]", {"one JSON object"}},
-      {"{\"Time\": {\"Step\": 0.1, \"Step\": 0.2}}", {"'Step' comes twice"}},
-      {"{\"Network\": {\"Wires\": [{\"a\": 1}]}}",
-       {"scene.json: Network/Wires", "a list of these"}},
-      {"{\"Time\": {\"Step\": null}}", {"scene.json: Time/Step"}},
-      {"{\"Time\": {\"Stp\": 0.1}}",
-       {"scene.json", "no entry 'Stp' in 'Time'", "did you mean 'Step'"}},
-      {"{\"Tme\": {\"Step\": 0.1}}", {"scene.json", "no section 'Tme'", "did you mean 'Time'"}},
-      {"{\"Time\": {\"Step\": -0.1}}", {"scene.json: Time/Step = '-0.1'", "at least 0"}},
-      {"{\"Time\": {\"Step\": 1e999}}", {"scene.json: this is not JSON"}},
-      {"{\"Time\": {\"Step\": \"0.1\\u0000\"}}", {"scene.json: Time/Step", "not text"}},
-      {"{\"Time\": {\"Scheme\": \"BDF2\\\\\"}}", {"scene.json: Time/Scheme", "continues a line"}},
-      {"{\"\": 1}", {"scene.json", "empty"}},
-      {"{\"Time\": 3}", {"scene.json", "no entry 'Time'"}},
-      {std::string(100000, '['), {"scene.json", "in each other", "bracket"}},
-  };
-  for (const auto &[text, fragments] : cases)
-  {
-    SCOPED_TRACE(text.substr(0, 80));
-    write("scene.json", text);
-    expect_fragments(error_of("scene.json"), fragments);
-    EXPECT_TRUE(earlier_results_are_whole());
-  }
 }
 
 TEST_F(BadInput, ChangesOnTheCommandLine)

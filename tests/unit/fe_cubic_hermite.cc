@@ -16,6 +16,7 @@
 #include <deal.II/grid/tria.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/lapack_templates.h>
 #include <deal.II/lac/vector.h>
 #include <deal.II/numerics/data_out.h>
 #include <deal.II/numerics/vector_tools.h>
@@ -29,10 +30,6 @@
 #include <iostream>
 #include <set>
 #include <vector>
-
-extern "C" void dsygv_(const int *type, const char *job, const char *half, const int *n, double *a,
-                       const int *lda, double *b, const int *ldb, double *eigenvalues, double *work,
-                       const int *work_size, int *info);
 
 namespace
 {
@@ -716,8 +713,8 @@ namespace
         b[i + n * j] = mass * matrices.mass(row, column);
       }
     int info = 0;
-    dsygv_(&one, "N", "U", &n, a.data(), &n, b.data(), &n, eigenvalues.data(), work.data(),
-           &work_size, &info);
+    sygv(&one, "N", "U", &n, a.data(), &n, b.data(), &n, eigenvalues.data(), work.data(),
+         &work_size, &info);
     EXPECT_EQ(info, 0);
     for (double &eigenvalue : eigenvalues)
       eigenvalue = std::sqrt(eigenvalue);

@@ -4,14 +4,12 @@
 // q = n pi/L; fixed bar or string, omega_n = n pi c/L.
 #include "run.h"
 
+#include <deal.II/lac/lapack_templates.h>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-
-extern "C" void dsygv_(const int *itype, const char *jobz, const char *uplo, const int *n,
-                       double *a, const int *lda, double *b, const int *ldb, double *w,
-                       double *work, const int *lwork, int *info);
 
 using namespace verification;
 
@@ -41,7 +39,8 @@ namespace
     fill(body.mass(), M);
     const int type = 1, lwork = work.size();
     int info = 0;
-    dsygv_(&type, "N", "L", &n, K.data(), &n, M.data(), &n, w.data(), work.data(), &lwork, &info);
+    dealii::sygv(&type, "N", "L", &n, K.data(), &n, M.data(), &n, w.data(), work.data(), &lwork,
+                 &info);
     EXPECT_EQ(info, 0);
     return w;
   }

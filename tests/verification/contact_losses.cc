@@ -46,7 +46,7 @@ namespace
   {
     double taken = 0., given = 0.; ///< of the energy in flight, by contacts [J]
     taut::ContactMeasures::Summary summary;
-    std::vector<taut::ContactMeasures::Warning> warnings; ///< of contact energy
+    std::vector<taut::Warning> warnings; ///< of contact energy
     std::string error, log;
   };
 

@@ -65,7 +65,7 @@ namespace
   struct Outcome
   {
     taut::ContactMeasures::Summary summary;
-    std::vector<taut::ContactMeasures::Warning> warnings;
+    std::vector<taut::Warning> warnings;
     std::string error;
   };
 

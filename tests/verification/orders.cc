@@ -6,6 +6,8 @@
 // the smallest tested one or less.
 #include "run.h"
 
+#include <deal.II/lac/full_matrix.h>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,40 +36,13 @@ namespace
           y[i] += a[i * n + j] * x[j];
       return y;
     }
-    /// Gauss-Jordan with pivoting.
     Matrix inverse() const
     {
-      Matrix m(*this), result(n);
+      dealii::FullMatrix<double> full(n, n, a.data());
+      full.gauss_jordan();
+      Matrix result(n);
       for (int i = 0; i < n; ++i)
-        result(i, i) = 1.;
-      for (int c = 0; c < n; ++c)
-      {
-        int p = c;
-        for (int r = c; r < n; ++r)
-          if (std::fabs(m(r, c)) > std::fabs(m(p, c)))
-            p = r;
-        for (int k = 0; k < n; ++k)
-        {
-          std::swap(m(c, k), m(p, k));
-          std::swap(result(c, k), result(p, k));
-        }
-        const double pivot = m(c, c);
-        for (int k = 0; k < n; ++k)
-        {
-          m(c, k) /= pivot;
-          result(c, k) /= pivot;
-        }
-        for (int r = 0; r < n; ++r)
-          if (r != c && m(r, c) != 0.)
-          {
-            const double f = m(r, c);
-            for (int k = 0; k < n; ++k)
-            {
-              m(r, k) -= f * m(c, k);
-              result(r, k) -= f * result(c, k);
-            }
-          }
-      }
+        std::copy(full.begin(i), full.end(i), result.a.begin() + i * n);
       return result;
     }
   };

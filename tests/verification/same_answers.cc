@@ -6,14 +6,13 @@
 
 #include <taut/interface/schur_complement.h>
 
+#include <deal.II/lac/lapack_templates.h>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-extern "C" void dsyev_(const char *jobz, const char *uplo, const int *n, double *a, const int *lda,
-                       double *w, double *work, const int *lwork, int *info);
 
 using namespace verification;
 
@@ -44,7 +43,7 @@ namespace
     }
     const int lwork = work.size();
     int info = 0;
-    dsyev_("N", "L", &n, F.data(), &n, w.data(), work.data(), &lwork, &info);
+    dealii::syev("N", "L", &n, F.data(), &n, w.data(), work.data(), &lwork, &info);
     EXPECT_EQ(info, 0);
     return w.back() / std::max(w.front(), std::numeric_limits<double>::min());
   }

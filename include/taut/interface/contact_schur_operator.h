@@ -3,23 +3,24 @@
 #define taut_contact_schur_operator_h
 
 #include <taut/interface/body_constraints.h>
+#include <taut/interface/constraint_operator.h>
 #include <taut/substructure/factored_structure.h>
-
-#include <Epetra_LocalMap.h>
-#include <Epetra_Operator.h>
-#include <Epetra_SerialComm.h>
 
 #include <vector>
 
 namespace taut
 {
+  class NaturalCoarseProblem;
+
   /**
    * The interface operator of FETI, F = sum_k B_k^T A_k^-1 B_k + S, applied through the factors of
    * A_k without being formed. Restricted to an active set it acts as the identity on the other
-   * constraints, so that it stays definite and an iterative solver sees vectors of one length. Its
-   * vectors are the same on all ranks.
+   * constraints, so that it stays definite and an iterative solver sees vectors of one length.
+   *
+   * Belos applies P^T D F D P, with a scale D of the constraints and, in statics, the projector P
+   * of the natural coarse problem.
    */
-  class ContactSchurOperator : public Epetra_Operator
+  class ContactSchurOperator : public ConstraintOperator
   {
   public:
     /// The arguments are kept by reference.
@@ -36,34 +37,32 @@ namespace taut
     /// Adds shift * diagonal, one entry a constraint.
     void set_shift(double factor, const std::vector<double> &diagonal);
 
-    /// Y = F X, for each column of the multivectors over the constraints.
-    int Apply(const Epetra_MultiVector &X, Epetra_MultiVector &Y) const override;
+    /// Diagonal D > 0, kept by reference; it has to be set before D F D is applied.
+    void set_scale(const std::vector<double> &D) { scale = &D; }
+
+    /// P, kept by reference; null: the identity.
+    void set_projector(const NaturalCoarseProblem *P) { projector = P; }
 
     /// y = F x; both have one entry a constraint [m, rad; N, N m].
     void apply(const double *x, double *y) const;
+
+    /// y = D F D x on the rows of F; the identity elsewhere.
+    void scaled_apply(const std::vector<double> &x, std::vector<double> &y) const;
 
     /// Products so far but those with zero, and systems of one A_k solved for them on this rank.
     long n_applications() const { return applications; }
     long n_local_solves() const { return local_solves; }
 
-    int SetUseTranspose(bool) override { return 0; } // symmetric
-    int ApplyInverse(const Epetra_MultiVector &, Epetra_MultiVector &) const override { return -1; }
-    double NormInf() const override { return -1.; }
-    const char *Label() const override { return "contact Schur complement"; }
-    bool UseTranspose() const override { return false; }
-    bool HasNormInf() const override { return false; }
-    const Epetra_Comm &Comm() const override { return communicator; }
-    const Epetra_Map &OperatorDomainMap() const override { return map; }
-    const Epetra_Map &OperatorRangeMap() const override { return map; }
-
   private:
+    void multiply(const std::vector<double> &x, std::vector<double> &y) const override;
+
     const FactoredStructure &solvers;
     const BodyConstraints &body_constraints;
-    Epetra_SerialComm communicator;
-    Epetra_LocalMap map;
+    const std::vector<double> *scale = nullptr;
+    const NaturalCoarseProblem *projector = nullptr;
     std::vector<double> compliance, shift;
     std::vector<char> active;
-    mutable std::vector<double> share, work;
+    mutable std::vector<double> share, work, scaled, projected;
     mutable long applications = 0, local_solves = 0;
   };
 } // namespace taut

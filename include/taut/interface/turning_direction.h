@@ -59,9 +59,6 @@ namespace taut
 
   /// Two unit vectors across the unit vector @p d and each other.
   std::array<Coordinates, 2> across(const Coordinates &d);
-
-  /// "(x, y, z) m", for messages.
-  std::string text_of(const Coordinates &place);
 } // namespace taut
 
 #endif

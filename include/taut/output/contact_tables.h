@@ -3,8 +3,8 @@
 #define taut_contact_tables_h
 
 #include <taut/model/surface_constraints.h>
-#include <taut/output/csv_file.h>
 #include <taut/output/observer.h>
+#include <taut/output/table_file.h>
 #include <taut/output/vtu_file.h>
 
 #include <memory>
@@ -39,7 +39,7 @@ namespace taut
     {
       std::string stem;
       ContactGeometry geometry;
-      std::unique_ptr<CsvFile> table; ///< on the root
+      std::unique_ptr<TableFile> table; ///< on the root
       std::unique_ptr<VtuFile> picture;
       std::unique_ptr<PvdFile> collection;
       std::size_t displacement = 0, pressure = 0, gap = 0;

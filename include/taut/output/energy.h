@@ -2,8 +2,8 @@
 #ifndef taut_energy_h
 #define taut_energy_h
 
-#include <taut/output/csv_file.h>
 #include <taut/output/observer.h>
+#include <taut/output/table_file.h>
 #include <taut/time/integrator.h>
 
 #include <memory>
@@ -66,7 +66,7 @@ namespace taut
     void set_forces(const StepView &step);
     void write(double time);
 
-    std::unique_ptr<CsvFile> file;
+    std::unique_ptr<TableFile> file;
     bool has_begun = false;
     double interval = 0., next = 0., start_energy = 0.;
     Balance total;

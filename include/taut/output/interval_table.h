@@ -3,7 +3,7 @@
 #define taut_interval_table_h
 
 #include <taut/base/archive_forward.h>
-#include <taut/output/number_table.h>
+#include <taut/output/table_file.h>
 
 #include <memory>
 #include <string>
@@ -73,7 +73,7 @@ namespace taut
     std::vector<double> last, least, largest; ///< of each column
     std::vector<unsigned int> n_changes;      ///< of each state
     std::vector<double> line;
-    std::unique_ptr<NumberTable> file;
+    std::unique_ptr<TableFile> file;
   };
 } // namespace taut
 

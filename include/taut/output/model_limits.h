@@ -2,8 +2,8 @@
 #ifndef taut_model_limits_h
 #define taut_model_limits_h
 
+#include <taut/base/warning.h>
 #include <taut/output/linear_forms.h>
-#include <taut/output/model_warning.h>
 #include <taut/output/observer.h>
 #include <taut/output/solid_limits.h>
 
@@ -45,7 +45,7 @@ namespace taut
     void load(InputArchive &archive);
 
     /// At most one of each kind.
-    std::vector<ModelWarning> warnings() const;
+    std::vector<Warning> warnings() const;
 
     /// A line each, and what the searches of contacts left out.
     void print(std::ostream &out) const;
@@ -89,7 +89,7 @@ namespace taut
     std::vector<Line> lines;
     std::vector<double> at_reference, values;
     Extreme slope, distance;
-    std::vector<ModelWarning> constant; ///< known before the first step
+    std::vector<Warning> constant; ///< known before the first step
     SolidLimits solids;
   };
 } // namespace taut

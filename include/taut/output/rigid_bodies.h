@@ -2,8 +2,8 @@
 #ifndef taut_rigid_bodies_h
 #define taut_rigid_bodies_h
 
-#include <taut/output/csv_file.h>
 #include <taut/output/observer.h>
+#include <taut/output/table_file.h>
 
 #include <memory>
 #include <string>
@@ -32,7 +32,7 @@ namespace taut
     bool is_root = false, has_begun = false;
     std::vector<std::size_t> bodies; ///< their numbers among all
     std::vector<std::string> names;
-    std::unique_ptr<CsvFile> file;
+    std::unique_ptr<TableFile> file;
   };
 } // namespace taut
 

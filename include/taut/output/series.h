@@ -39,7 +39,7 @@ namespace taut
 
     double interval, next = 0.;
     IntervalTable sliding, links, supports, probes;
-    std::unique_ptr<NumberTable> certificate;
+    std::unique_ptr<TableFile> certificate;
     std::vector<double> values; ///< of one table and step
   };
 

@@ -2,9 +2,9 @@
 #ifndef taut_solid_limits_h
 #define taut_solid_limits_h
 
+#include <taut/base/warning.h>
 #include <taut/model/surface_constraints.h>
 #include <taut/output/linear_forms.h>
-#include <taut/output/model_warning.h>
 #include <taut/output/observer.h>
 
 #include <array>
@@ -41,7 +41,7 @@ namespace taut
     void print_left_out(std::ostream &out) const;
 
     /// At most one of each kind.
-    std::vector<ModelWarning> warnings() const;
+    std::vector<Warning> warnings() const;
 
     /// For checkpoints: the worst so far.
     template <typename Archive>

@@ -41,7 +41,7 @@ namespace taut
     std::string scheme;         ///< of the time integration, with its parameters
     double step = 0., end = 0.; ///< [s]
     bool is_partial = false;    ///< the run was ended before its end
-    std::vector<ModelWarning> warnings;
+    std::vector<Warning> warnings;
   };
 
   /// Mean, standard deviation and extremes of a record.

@@ -4,28 +4,53 @@
 
 #include <taut/base/growing_file.h>
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
 
 namespace taut
 {
-  /// A table that grows line by line, after the header line of a CSV file. Whatever fails, the file
-  /// ends with a complete line.
+  /// A time [s] as short as it was meant: to 14 digits, 0.009 for 9 steps of 0.001.
+  std::string time_text(double time);
+
+  /// A number as short as possible without loss, and a text, quoted if it has to be.
+  std::string csv_number(double value);
+  std::string csv_cell(const std::string &text);
+
+  /// How tables of numbers are written.
+  enum class TableFormat
+  {
+    csv,   ///< as text, numbers as short as possible without loss
+    binary ///< the header line of a CSV file, then all numbers as doubles of this machine
+  };
+
+  /// A table with a header line that grows line by line. Whatever fails, the file ends with a
+  /// complete line.
   class TableFile
   {
   public:
     /// Creates the file; one that @p goes_on is left as it is until resume(). Throws UserError if
     /// it cannot.
-    TableFile(const std::string &path, const std::vector<std::string> &columns, bool goes_on);
+    TableFile(const std::string &path, const std::vector<std::string> &columns,
+              bool goes_on = false, TableFormat format = TableFormat::csv);
 
-    /// Adds to the current line.
-    void add(const char *bytes, const std::size_t n) { buffer.append(bytes, n); }
-    void add(const std::string &bytes) { buffer += bytes; }
+    /// The file @p stem.csv or @p stem.bin. Throws as the other.
+    TableFile(TableFormat format, const std::string &stem, const std::vector<std::string> &columns,
+              bool goes_on = false);
 
-    /// Call it where the current line is complete, whatever ends a line. Throws UserError when the
-    /// disk is full.
+    /// Adds a cell to the current line; a text only to a CSV file.
+    TableFile &operator<<(double value);
+    TableFile &operator<<(const std::string &text);
+
+    /// Begins a line with a time [s].
+    TableFile &begin_line(double time);
+
+    /// Ends the current line. Throws UserError when the disk is full.
     void end_line();
+
+    /// Adds a line: a time [s] and a value for each other column. Throws as end_line().
+    void add_line(double time, const std::vector<double> &values);
 
     /// Writes what is buffered and closes. Throws UserError when the disk is full.
     void close();
@@ -38,11 +63,27 @@ namespace taut
     void resume(std::size_t length);
 
   private:
+    /// A comma and a number.
+    struct Number
+    {
+      explicit Number(double value);
+
+      double value;
+      char text[32];
+      std::size_t length;
+    };
+
+    void add_bytes(const double *values, std::size_t n);
     void write();
 
     std::string path;
+    TableFormat format;
     GrowingFile file;
     std::string buffer;
+    bool line_begins = true;
+
+    /// The last two numbers: a value, its least and its largest are often two.
+    std::array<Number, 2> last = {Number(0.), Number(0.)};
   };
 } // namespace taut
 

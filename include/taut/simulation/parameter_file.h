@@ -14,8 +14,7 @@ namespace taut
   /**
    * The entries of a parameter file with the places where they stand, before anyone knows what they
    * mean. Reads deal.II's .prm format (subsection, set, end, include, comments, continued lines; an
-   * include is sought beside the file that includes it) and .json (objects are sections, arrays
-   * become lists).
+   * include is sought beside the file that includes it).
    */
   class ParameterFile
   {
@@ -24,13 +23,13 @@ namespace taut
     {
       std::vector<std::string> path; ///< sections, then the entry's own name
       std::string value;
-      std::string place; ///< "file:line", "file" for JSON, "--set" on the command line
+      std::string place; ///< "file:line", or "--set" on the command line
 
       std::string name() const; ///< the path joined with '/'
     };
 
     /// Throws UserError with file and line if the text has no such structure, names an entry twice
-    /// or none at all.
+    /// or none at all, and for a .json file.
     void read(const std::string &file);
 
     /// Adds "A.B.Entry=value" or "A/B/Entry=value" from the command line; replaces the entry if it
@@ -57,7 +56,6 @@ namespace taut
 
   private:
     void read_prm(const std::string &file, std::vector<std::string> &path);
-    void read_json(const std::string &file);
     void add(Entry entry);
     void add_section(const std::vector<std::string> &path, const std::string &place);
 

@@ -58,7 +58,7 @@ namespace taut
     ~Parameters();
 
     /**
-     * Reads a .prm or .json file; @p overrides are "Section.Entry=value" and replace entries of the
+     * Reads a .prm file; @p overrides are "Section.Entry=value" and replace entries of the
      * file. With Study/Accuracy, entries that the stored study varied get the values it recommends.
      * Only the root of @p processes reads, and hands on to all ranks. Throws UserError with file,
      * line, entry, value and what is allowed.

@@ -3,6 +3,7 @@
 #define taut_contact_measures_h
 
 #include <taut/base/archive_forward.h>
+#include <taut/base/warning.h>
 #include <taut/interface/constraints.h>
 #include <taut/time/certificate.h>
 #include <taut/time/integrator.h>
@@ -89,13 +90,7 @@ namespace taut
     /// Resolution above which it is said.
     static constexpr double unresolved = 3.;
 
-    /// A measure beyond its bound.
-    struct Warning
-    {
-      std::string kind; ///< an identifier
-      std::string message;
-      double value = 0., limit = 0., time = 0.; ///< [1; 1; s]
-    };
+    /// Of the measures beyond their bounds.
     std::vector<Warning> warnings() const;
 
     /// One line for the log, and one for each warning.

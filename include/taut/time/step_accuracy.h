@@ -2,6 +2,7 @@
 #ifndef taut_step_accuracy_h
 #define taut_step_accuracy_h
 
+#include <taut/base/warning.h>
 #include <taut/time/motion_record.h>
 #include <taut/time/step_control.h>
 
@@ -57,11 +58,9 @@ namespace taut
     /// The errors of the run, relative to its largest values; empty: they are not known.
     const std::optional<MotionDifference> &error() const { return found; }
 
-    /// True if an error is beyond its bound.
-    bool is_too_long() const { return too_long; }
-
-    /// What is off by how much, and the step or tolerance that the run needs.
-    std::string warning() const;
+    /// If an error is beyond its bound: what is off by how much, and the step or tolerance that the
+    /// run needs.
+    std::vector<Warning> warnings() const;
 
     /// One line for the log, and the warning if there is one.
     std::string report() const;

@@ -5,8 +5,8 @@
 
 #include <taut/base/archive.h>
 #include <taut/base/registry.h>
-#include <taut/output/csv_file.h>
 #include <taut/output/observer.h>
+#include <taut/output/table_file.h>
 #include <taut/scene/body_type.h>
 #include <taut/substructure/fe_body.h>
 
@@ -58,9 +58,9 @@ namespace
     void begin(const taut::RunView &run) override
     {
       if (run.communicator.is_root())
-        file = std::make_unique<taut::CsvFile>(run.folder + "/largest.csv",
-                                               std::vector<std::string>{"time [s]", "largest [m]"},
-                                               run.resumes);
+        file = std::make_unique<taut::TableFile>(
+            run.folder + "/largest.csv", std::vector<std::string>{"time [s]", "largest [m]"},
+            run.resumes);
     }
 
     void save(taut::OutputArchive &archive) override
@@ -101,7 +101,7 @@ namespace
 
   private:
     double first = 0.;
-    std::unique_ptr<taut::CsvFile> file;
+    std::unique_ptr<taut::TableFile> file;
   };
 
   const taut::Register<taut::BodyType, ElasticPlate>

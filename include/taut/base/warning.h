@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef taut_model_warning_h
-#define taut_model_warning_h
+#ifndef taut_warning_h
+#define taut_warning_h
 
 #include <string>
 
 namespace taut
 {
-  /// Something that a run went beyond and the model does not hold for.
-  struct ModelWarning
+  /// Something that a run went beyond, and its model, contacts or steps are not good for.
+  struct Warning
   {
     std::string kind; ///< an identifier: "slope", "distance", "speed", "filter", "turn" ...
     std::string message;

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_constraint_operator_h
+#define taut_constraint_operator_h
+
+#include <Epetra_LocalMap.h>
+#include <Epetra_MultiVector.h>
+#include <Epetra_Operator.h>
+#include <Epetra_SerialComm.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace taut
+{
+  /// A symmetric operator on vectors over constraints, as Belos applies it. The vectors are the
+  /// same on all ranks.
+  class ConstraintOperator : public Epetra_Operator
+  {
+  public:
+    explicit ConstraintOperator(const std::size_t n_constraints)
+        : map(static_cast<int>(n_constraints), 0, communicator), in(n_constraints)
+    {
+    }
+
+    /// Y = A X, for each column of the multivectors over the constraints.
+    int Apply(const Epetra_MultiVector &X, Epetra_MultiVector &Y) const override
+    {
+      for (int v = 0; v < X.NumVectors(); ++v)
+      {
+        ++products;
+        std::copy(X[v], X[v] + in.size(), in.begin());
+        multiply(in, out);
+        std::copy(out.begin(), out.end(), Y[v]);
+      }
+      return 0;
+    }
+
+    /// The same: Belos asks a preconditioner, which approximates an inverse, by this name.
+    int ApplyInverse(const Epetra_MultiVector &X, Epetra_MultiVector &Y) const override
+    {
+      return Apply(X, Y);
+    }
+
+    /// Columns that it was applied to so far.
+    int n_products() const { return products; }
+
+    int SetUseTranspose(bool) override { return 0; } // symmetric
+    double NormInf() const override { return -1.; }
+    const char *Label() const override { return "constraints"; }
+    bool UseTranspose() const override { return false; }
+    bool HasNormInf() const override { return false; }
+    const Epetra_Comm &Comm() const override { return communicator; }
+    const Epetra_Map &OperatorDomainMap() const override { return map; }
+    const Epetra_Map &OperatorRangeMap() const override { return map; }
+
+  private:
+    /// y = A x
+    virtual void multiply(const std::vector<double> &x, std::vector<double> &y) const = 0;
+
+    Epetra_SerialComm communicator;
+    Epetra_LocalMap map;
+    mutable std::vector<double> in, out;
+    mutable int products = 0;
+  };
+} // namespace taut
+
+#endif
