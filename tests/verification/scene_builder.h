@@ -3,7 +3,7 @@
 #define taut_verification_scene_builder_h
 
 #include <algorithm>
-#include <sstream>
+#include <regex>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -106,13 +106,12 @@ namespace verification
                           [&](const Entry &entry) { return entry.first == name; });
     }
 
-    static void set(Section &section, const std::string &name, const std::string &value)
+    static std::string &set(Section &section, const std::string &name, const std::string &value)
     {
       const auto found = find(section.entries, name);
       if (found == section.entries.end())
-        section.entries.emplace_back(name, value);
-      else
-        found->second = value;
+        return section.entries.emplace_back(name, value).second;
+      return found->second = value;
     }
 
     /// The section that one holds, which is new and in the list of its kind if it is missing.
@@ -159,6 +158,7 @@ namespace verification
     /// Does "name = value; *name = value; -name; *" to a section.
     static void add_entries(Section &section, const std::string &entries)
     {
+      std::string *last = nullptr;
       for (const std::string &entry : split(entries, "; "))
       {
         const std::size_t equals = entry.find('=');
@@ -166,11 +166,13 @@ namespace verification
         if (entry == "*")
           section.mark = " # here";
         else if (equals != std::string::npos)
-          set(section, trimmed(entry.substr(is_marked, equals - is_marked)),
-              trimmed(entry.substr(equals + 1)) + (is_marked ? " # here" : ""));
+          last = &set(section, trimmed(entry.substr(is_marked, equals - is_marked)),
+                      trimmed(entry.substr(equals + 1)) + (is_marked ? " # here" : ""));
         else if (const auto found = find(section.entries, trimmed(entry.substr(1)));
                  entry[0] == '-' && found != section.entries.end())
           section.entries.erase(found);
+        else if (last && !entry.empty())
+          *last += "; " + entry; // a value with semicolons
         else if (!entry.empty())
           throw std::invalid_argument("no scene says '" + entry + "'");
       }
@@ -190,10 +192,11 @@ namespace verification
     Section root = {};
   };
 
-  /// The text of the .prm file of a scene in lines.
-  inline std::string prm(const std::string &lines)
+  /// The text of the .prm file of a scene in lines, or a text that is one already.
+  inline std::string prm(const std::string &text)
   {
-    return SceneBuilder(lines).text();
+    static const std::regex begin_of_line("(^|\n) *(set|subsection|include) ");
+    return std::regex_search(text, begin_of_line) ? text : SceneBuilder(text).text();
   }
 } // namespace verification
 
