@@ -48,7 +48,7 @@ namespace verification
     if (file.find('\n') != std::string::npos)
     {
       file = scratch + "/scene.prm";
-      std::ofstream(file) << file_or_text;
+      std::ofstream(file) << prm(file_or_text);
     }
     Overrides all = {"Output.Folder=" + scratch + "/results", "Output.Interval=1e9",
                      "Output.Link interval=1e9"};

@@ -2,6 +2,8 @@
 #ifndef taut_verification_run_h
 #define taut_verification_run_h
 
+#include "scene_builder.h"
+
 #include <taut/simulation/simulation.h>
 
 #include <functional>
@@ -26,7 +28,8 @@ namespace verification
   class Session
   {
   public:
-    /// @p file_or_text is the path of a .prm file, or the text of one if it has more than one line.
+    /// @p file_or_text is the path of a .prm file, or if it has more than one line the text of one
+    /// or a scene in the lines of SceneBuilder.
     /// All ranks of @p processes make and run it together.
     explicit Session(const std::string &file_or_text, const Overrides &overrides = {},
                      const taut::Communicator &processes = taut::Communicator());
