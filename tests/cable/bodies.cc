@@ -166,18 +166,10 @@ namespace
     std::remove(path.c_str());
   }
 
-  const std::string scene = R"(set Generator = network
-set Bodies = cable
-subsection Body cable
-  set Type = cable
-  set From = 0, 0
-  set To = 60, 0, 0
-  set Axial stiffness = 1.3e7
-  set Mass per length = 1.07
-end
-subsection Time
-  set End = 0
-end
+  const std::string scene = R"(Generator = network
+Body cable: Type = cable; From = 0, 0; To = 60, 0, 0; Axial stiffness = 1.3e7;
+  Mass per length = 1.07
+Time: End = 0
 )";
 
   TEST(CableEntries, LengthTensionOrSag)

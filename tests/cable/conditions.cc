@@ -63,37 +63,12 @@ namespace
     return text.substr(begin, text.find('<', begin) - begin);
   }
 
-  const std::string scene = R"(set Generator = network
-set Gravity = 0, -9.81
-set Bodies = cable
-subsection Body cable
-  set Type = cable
-  set From = 0, 0
-  set To = 60, 0
-  set Unstressed length = 78
-  set Axial stiffness = 13e6
-  set Mass per length = 1.07
-  set Elements = 8
-end
-subsection Network
-  set Masses = m
-  set Links = l
-  subsection Mass m
-    set Position = 30, -30
-    set Motions = y
-    set Mass = 10
-  end
-  subsection Link l
-    set Type = dropper
-    set From = cable @ 39, 0
-    set To = m
-    set Stiffness = 1e5
-    set Direction = 0, -1
-  end
-end
-subsection Time
-  set End = 0
-end
+  const std::string scene = R"(Gravity = 0, -9.81
+Body cable: Type = cable; From = 0, 0; To = 60, 0; Unstressed length = 78;
+  Axial stiffness = 13e6; Mass per length = 1.07; Elements = 8
+Mass m: Position = 30, -30; Motions = y; Mass = 10
+Link l: Type = dropper; From = cable @ 39, 0; To = m; Stiffness = 1e5; Direction = 0, -1
+Time: End = 0
 )";
 
   std::string error_of_scene(const verification::Overrides &entries)

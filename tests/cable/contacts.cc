@@ -21,27 +21,11 @@ namespace
 {
   using namespace taut;
 
-  const std::string scene = R"(set Generator = network
-set Gravity = 0, -9.81
-set Start = equilibrium
-set Bodies = cable
-set Contacts = o
-subsection Body cable
-  set Type = cable
-  set From = 0, 0, 0
-  set To = 10, 0, 0
-  set Unstressed length = 10.2
-  set Axial stiffness = 1e5
-  set Mass per length = 1
-end
-subsection Contact o
-  set Slave = cable
-  set Obstacle = plane
-  set Point = 0, -0.5
-end
-subsection Time
-  set End = 0
-end
+  const std::string scene = R"(Generator = network; Gravity = 0, -9.81; Start = equilibrium
+Body cable: Type = cable; From = 0, 0, 0; To = 10, 0, 0; Unstressed length = 10.2;
+  Axial stiffness = 1e5; Mass per length = 1
+Contact o: Slave = cable; Obstacle = plane; Point = 0, -0.5
+Time: End = 0
 )";
 
   struct Touch
@@ -156,17 +140,10 @@ TEST(CableContacts, large_motions_are_on_planes_only)
 /// The normals of mortar rows are those of the slave: of a sagging cable they differ.
 TEST(CableContacts, large_motions_on_a_plane_side_of_a_solid)
 {
-  const std::string block = R"(subsection Body block
-  set Type = solid
-  set Young's modulus = 1e7
-  set Density = 0
-  set Fixed boundaries = 2
-  subsection Mesh
-    set Generator = subdivided_hyper_rectangle
-    set Arguments = 20, 1 : 1, -1 : 9, -0.5
-  end
-end
-)";
+  const std::string block =
+      "Body block: Type = solid; Young's modulus = 1e7; Density = 0; Fixed boundaries = 2\n"
+      "Body block/Mesh: Generator = subdivided_hyper_rectangle; Arguments = 20, 1 : 1, -1 : 9, "
+      "-0.5\n";
   const verification::Overrides between = {"Bodies=cable, block", "Contact o/Obstacle=none"};
   const auto with = [&](verification::Overrides more)
   {

@@ -20,43 +20,15 @@ namespace
   std::string line(const std::string &messenger, const std::string &at_cable,
                    const std::string &at_wire)
   {
-    return R"(set Generator = network
-set Gravity = 0, -9.81
-set Start = equilibrium
-set Bodies = messenger
-subsection Body messenger
-  set Type = cable
-  set From = 0, 1, 0
-  set To = 20, 1, 0
-)" + messenger +
-           R"(end
-subsection Network
-  set Wires = contact
-  set Supports = ends
-  set Links = hanger
-  subsection Wire contact
-    set From = 0, 0
-    set To = 20, 0
-    set Components = string
-    set Tension = 2000
-    set Mass per length = 1
-  end
-  subsection Support ends
-    set Wire = contact
-    set Positions = 0, 20
-  end
-  subsection Link hanger
-    set Type = dropper
-    set From = messenger @ )" +
-           at_cable + "\nset To = contact @ " + at_wire + R"(
-    set Direction = 0, -1
-    set Find length = true
-    set Axial stiffness = 1e5
-  end
-end
-subsection Time
-  set End = 0
-end
+    return R"(Gravity = 0, -9.81; Start = equilibrium
+Body messenger: Type = cable; From = 0, 1, 0; To = 20, 1, 0; )" +
+           messenger + R"(
+Wire contact: From = 0, 0; To = 20, 0; Components = string; Tension = 2000; Mass per length = 1
+Support ends: Wire = contact; Positions = 0, 20
+Link hanger: Type = dropper; From = messenger @ )" +
+           at_cable + "; To = contact @ " + at_wire +
+           R"(; Direction = 0, -1; Find length = true; Axial stiffness = 1e5
+Time: End = 0
 )";
   }
 
@@ -105,8 +77,7 @@ TEST(FoundLengths, under_two_bars)
     (2. * T * d / l < V ? low : high) = d;
   }
   const std::string bars =
-      "set Unstressed length = 19.98\nset Axial stiffness = 1e6\nset Element = "
-      "bar\nset Elements = 4\n";
+      "Unstressed length = 19.98; Axial stiffness = 1e6; Element = bar; Elements = 4";
   const Found found = find(line(bars, "9.99, 0", "10"));
   ASSERT_EQ(found.length.size(), 1u);
   EXPECT_NEAR(found.force[0], V, 1e-9 * V);
@@ -117,13 +88,12 @@ TEST(FoundLengths, under_two_bars)
 // Also one that sags by several times the way to the wire: of 21 m it would lie 2 m below.
 TEST(FoundLengths, under_cables_with_weight)
 {
-  const std::string weight = "set Axial stiffness = 1e6\nset Mass per length = 1\n";
+  const std::string weight = "Axial stiffness = 1e6; Mass per length = 1";
   for (const std::string shape : {"Sag = 0.2", "Horizontal tension = 3e3"})
     for (const std::string geometry : {"nonlinear", "linearised"})
     {
       const std::string scene =
-          line(weight + "set " + shape + "\nset Geometry = " + geometry + "\n", "4, 0; 9, 0; 15, 0",
-               "4, 9, 15");
+          line(weight + "; " + shape + "; Geometry = " + geometry, "4, 0; 9, 0; 15, 0", "4, 9, 15");
       const Found found = find(scene, {"Network/Link hanger/Prescribed displacement=0.02"});
       ASSERT_EQ(found.length.size(), 3u);
       for (std::size_t i = 0; i < 3; ++i)
@@ -133,17 +103,16 @@ TEST(FoundLengths, under_cables_with_weight)
         EXPECT_GT(found.force[i], 0.);
       }
     }
-  expect(error_of(line(weight + "set Unstressed length = 21\n", "10, 0", "10")),
+  expect(error_of(line(weight + "; Unstressed length = 21", "10, 0", "10")),
          {"Network/Link hanger", "would have no length"});
 }
 
 // The wire that is held may be a cable, too: its displacement counts from its own shape at rest.
 TEST(FoundLengths, of_what_holds_a_cable)
 {
-  const std::string weight = "set Axial stiffness = 1e6\nset Mass per length = 1\nset Sag = 0.1\n",
-                    lower = "subsection Body lower\nset Type = cable\nset From = 0, 0, 0\nset To = "
-                            "20, 0, 0\n" +
-                            weight + "end\n";
+  const std::string weight = "Axial stiffness = 1e6; Mass per length = 1; Sag = 0.1",
+                    lower =
+                        "Body lower: Type = cable; From = 0, 0, 0; To = 20, 0, 0; " + weight + "\n";
   const Found found = find(line(weight, "10, 0", "10") + lower,
                            {"Bodies=messenger, lower", "Network/Link hanger/To=lower @ 10, 0",
                             "Network/Link hanger/Prescribed displacement=0.05"});

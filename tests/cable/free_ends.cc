@@ -19,23 +19,10 @@ namespace
   constexpr double length = 10., w = 9.81, EA = 1e5,
                    stretched = length + w * length * length / (2. * EA);
 
-  const std::string rope = R"(set Generator = network
-set Gravity = 0, -9.81
-set Start = equilibrium
-set Bodies = rope
-subsection Body rope
-  set Type = cable
-  set From = 0, 0
-  set To = 0, -10
-  set Unstressed length = 10
-  set Axial stiffness = 1e5
-  set Mass per length = 1
-  set Held ends = from
-end
-subsection Time
-  set End = 0
-  set Step = 5e-3
-end
+  const std::string rope = R"(Generator = network; Gravity = 0, -9.81; Start = equilibrium
+Body rope: Type = cable; From = 0, 0; To = 0, -10; Unstressed length = 10;
+  Axial stiffness = 1e5; Mass per length = 1; Held ends = from
+Time: End = 0; Step = 5e-3
 )";
 
   /// Where a place on the rope is in each step.

@@ -23,52 +23,41 @@ namespace
   std::string part_of_cable(const std::string &name, const std::string &ends,
                             const std::string &length, const std::string &elements)
   {
-    return "subsection Body " + name + "\nset Type = cable\n" + ends +
-           "set Unstressed length = " + length +
-           "\nset Axial stiffness = 1e5\nset Mass per length = 1\nset Axial damping = 50\nset "
-           "Largest strain = 1\n" +
-           "set Element = bar\nset Elements = " + elements + "\nend\n";
+    return "Body " + name + ": Type = cable; " + ends + "; Unstressed length = " + length +
+           "; Axial stiffness = 1e5; Mass per length = 1; Axial damping = 50; Largest strain = 1; "
+           "Element = bar; Elements = " +
+           elements + "\n";
   }
 
-  std::string scene(const std::string &bodies, const std::string &names, const std::string &network)
+  std::string scene(const std::string &bodies_and_links)
   {
-    return "set Generator = network\nset Gravity = 0, -9.81\nset Start = equilibrium\n"
-           "set Bodies = " +
-           names + "\n" + bodies +
-           "subsection Time\nset End = 0.5\nset Step = 5e-3\nend\nsubsection Network\n"
-           "set Loads = pull\n" +
-           network + "end\n";
+    return "Gravity = 0, -9.81; Start = equilibrium\nTime: End = 0.5; Step = 5e-3\n" +
+           bodies_and_links;
   }
 
   /// A link from s = 6 to 18 m of a slack cable of 24 m, which something pulls at 3 m.
   std::string between(const std::string &link, const bool is_one)
   {
     const std::string first = is_one ? "whole" : "first", second = is_one ? "whole" : "second",
-                      network = "subsection Load pull\nset On = " + first +
-                                " @ 3, 0\nset Direction = 0.3, 1, 0.5\n"
-                                "set Magnitude = 60*sin(5*t)\nend\nset Links = link" +
-                                (is_one ? "" : ", middle") +
-                                "\nsubsection Link link\nset Turns = true\nset From = " + first +
-                                " @ 6, 0\nset To = " + second + (is_one ? " @ 18, 0" : " @ 6, 0") +
-                                "\n" + link + "end\n";
+                      network = "Load pull: On = " + first +
+                                " @ 3, 0; Direction = 0.3, 1, 0.5; Magnitude = 60*sin(5*t)\n"
+                                "Link link: Turns = true; From = " +
+                                first + " @ 6, 0; To = " + second +
+                                (is_one ? " @ 18, 0" : " @ 6, 0") + "; " + link + "\n";
     if (is_one)
-      return scene(part_of_cable("whole", "set To = 20, 0\n", "24", "16"), "whole", network);
-    return scene(part_of_cable("first", "set To = 10, -5\nset Held ends = from\n", "12", "8") +
-                     part_of_cable("second",
-                                   "set From = 10, -5\nset To = 20, 0\nset Held ends = to\n", "12",
-                                   "8"),
-                 "first, second",
-                 network + "subsection Link middle\nset Type = ball joint\nset From = first @ 12, "
-                           "0\nset To = second @ 0, 0\nend\n");
+      return scene(part_of_cable("whole", "To = 20, 0", "24", "16") + network);
+    return scene(part_of_cable("first", "To = 10, -5; Held ends = from", "12", "8") +
+                 part_of_cable("second", "From = 10, -5; To = 20, 0; Held ends = to", "12", "8") +
+                 network +
+                 "Link middle: Type = ball joint; From = first @ 12, 0; To = second @ 0, 0\n");
   }
 } // namespace
 
 TEST(CableJoints, a_link_between_two_places_of_one_cable)
 {
-  for (const std::string link : {"set Type = dropper\nset Length = 7\n",
-                                 "set Type = dropper\nset Length = 7\nset Stiffness = 4e3\n",
-                                 "set Type = joint\nset Length = 10\n",
-                                 "set Type = stop\nset Length = 11.5\nset Stiffness = 4e3\n"})
+  for (const std::string link :
+       {"Type = dropper; Length = 7", "Type = dropper; Length = 7; Stiffness = 4e3",
+        "Type = joint; Length = 10", "Type = stop; Length = 11.5; Stiffness = 4e3"})
   {
     std::vector<double> force[2];
     for (const bool is_one : {false, true})
@@ -95,18 +84,16 @@ TEST(CableJoints, ball_joints_of_solids_hold_one_place)
   {
     std::string bodies;
     for (const char *const corners : {"0, 0, 0 : 2, 1, 2", "2, 0, 0 : 4, 1, 2"})
-      bodies += std::string("subsection Body ") + (bodies.empty() ? "left" : "right") +
-                "\nset Type = solid\nset Dimension = 3\nset Young's modulus = 1e6\n"
-                "set Density = 10\nsubsection Mesh\nset Generator = subdivided_hyper_rectangle\n"
-                "set Arguments = 2, 1, 2 : " +
-                corners + "\nend\nend\n";
-    return error_of("set Generator = network\nset Start = undeformed\nset Bodies = left, right\n" +
-                    bodies +
-                    "subsection Time\nset End = 0\nend\nsubsection Network\nset Links = pin\n"
-                    "set Masses = lamp\nsubsection Mass lamp\nset Position = 4, 1\n"
-                    "set Motions = x, y, z\nset Mass = 1\nend\n"
-                    "subsection Link pin\nset Type = ball joint\nset From = " +
-                    first + "\nset To = " + to + "\nend\nend\n");
+    {
+      const std::string name = bodies.empty() ? "Body left" : "Body right";
+      bodies +=
+          name + ": Type = solid; Dimension = 3; Young's modulus = 1e6; Density = 10\n" + name +
+          "/Mesh: Generator = subdivided_hyper_rectangle; Arguments = 2, 1, 2 : " + corners + "\n";
+    }
+    return error_of("Start = undeformed\nTime: End = 0\n" + bodies +
+                    "Mass lamp: Position = 4, 1; Motions = x, y, z; Mass = 1\n"
+                    "Link pin: Type = ball joint; From = " +
+                    first + "; To = " + to);
   };
   EXPECT_EQ(joined("left @ 2, 1, 0", "right @ 2, 0.9971, 0"), ""); // a diagonal of 3 m
   expect(joined("left @ 2, 1, 0", "right @ 2, 0.9969, 0"),
@@ -122,13 +109,10 @@ TEST(CableJoints, ball_joints_of_masses_hold_one_place)
   {
     std::string masses;
     for (const std::string name : {"a", "b"})
-      masses += "subsection Mass " + name + "\nset Position = " + (name == "a" ? "3, 4" : place) +
-                "\nset Motions = x, y, z\nset Mass = 1\nend\n";
-    return error_of(
-        "set Generator = network\nset Start = given\nsubsection Time\nset End = 0\nend\n"
-        "subsection Network\nset Masses = a, b\n" +
-        masses + "set Links = tie\nsubsection Link tie\nset Type = ball joint\n" +
-        "set From = a\nset To = " + to + "\nend\nend\n");
+      masses += "Mass " + name + ": Position = " + (name == "a" ? "3, 4" : place) +
+                "; Motions = x, y, z; Mass = 1\n";
+    return error_of("Start = given\nTime: End = 0\n" + masses +
+                    "Link tie: Type = ball joint; From = a; To = " + to);
   };
   EXPECT_EQ(joined("3, 4.000004", "b"), "");
   expect(joined("3, 4, 0.01", "b"), {"Link tie/To", "0.01 m apart", "From is at 3, 4, 0",

@@ -52,30 +52,24 @@ namespace
   std::string parameter_file(const Net &net)
   {
     const JoinedCatenaries &system = net.system;
-    std::ostringstream out, bodies, links, masses, probes;
-    std::string body_names, link_names, mass_names, probe_names;
-    const auto name = [](std::string &list, const std::string &title)
-    { list += (list.empty() ? "" : ", ") + title; };
-    bodies.precision(17);
+    std::ostringstream out;
+    out.precision(17);
+    out << "Gravity = 0, -9.81; Start = equilibrium\nTime: End = 0\n";
     std::vector<std::vector<std::string>> ends(system.n_free);
     for (std::size_t k = 0; k < system.cables.size(); ++k)
     {
       const JoinedCatenaries::Cable &cable = system.cables[k];
       const bool holds_from = cable.from >= system.n_free, holds_to = cable.to >= system.n_free;
-      name(body_names, "c" + std::to_string(k));
-      bodies << "subsection Body c" << k
-             << "\nset Type = cable\nset From = " << numbers_of(system.places[cable.from])
-             << "\nset To = " << numbers_of(system.places[cable.to])
-             << "\nset Unstressed length = " << cable.length
-             << "\nset Axial stiffness = " << cable.EA
-             << "\nset Mass per length = " << -cable.load.y / 9.81
-             << "\nset Element = " << net.elements << "\nset Elements = " << net.n_elements
-             << "\nset Largest strain = 1\nset Held ends = "
-             << (holds_from && holds_to ? "both"
-                 : holds_from           ? "from"
-                 : holds_to             ? "to"
-                                        : "none")
-             << "\nend\n";
+      out << "Body c" << k << ": Type = cable; From = " << numbers_of(system.places[cable.from])
+          << "; To = " << numbers_of(system.places[cable.to])
+          << "; Unstressed length = " << cable.length << "; Axial stiffness = " << cable.EA
+          << "; Mass per length = " << -cable.load.y / 9.81 << "; Element = " << net.elements
+          << "; Elements = " << net.n_elements << "; Largest strain = 1; Held ends = "
+          << (holds_from && holds_to ? "both"
+              : holds_from           ? "from"
+              : holds_to             ? "to"
+                                     : "none")
+          << "\n";
       for (const bool last : {false, true})
         if (!(last ? holds_to : holds_from))
           ends[last ? cable.to : cable.from].push_back(cable_end(net, k, last));
@@ -85,34 +79,23 @@ namespace
       const std::string node = "n" + std::to_string(i);
       if (!net.masses.empty())
       {
-        name(mass_names, node);
-        masses << "subsection Mass " << node << "\nset Position = " << numbers_of(system.places[i])
-               << "\nset Motions = x, y, z\nset Mass = " << net.masses[i] << "\nend\n";
+        out << "Mass " << node << ": Position = " << numbers_of(system.places[i])
+            << "; Motions = x, y, z; Mass = " << net.masses[i] << "\n";
         ends[i].insert(ends[i].begin(), node);
       }
       for (std::size_t e = 1; e < ends[i].size(); ++e)
       {
         const std::string title = node + " " + std::to_string(e);
-        name(link_names, title);
-        links << "subsection Link " << title << "\nset Type = ball joint\nset From = " << ends[i][0]
-              << "\nset To = " << ends[i][e] << "\nend\n";
+        out << "Link " << title << ": Type = ball joint; From = " << ends[i][0]
+            << "; To = " << ends[i][e] << "\n";
       }
       for (const char axis : {'x', 'y', 'z'})
       {
         const std::string title = node + " " + axis;
-        name(probe_names, title);
-        probes << "subsection Probe " << title << "\nset Point = " << ends[i][0]
-               << "\nset Direction = " << (axis == 'x') << ", " << (axis == 'y') << ", "
-               << (axis == 'z') << "\nend\n";
+        out << "Probe " << title << ": Point = " << ends[i][0] << "; Direction = " << (axis == 'x')
+            << ", " << (axis == 'y') << ", " << (axis == 'z') << "\n";
       }
     }
-    out << "set Generator = network\nset Gravity = 0, -9.81\nset Start = equilibrium\nset Bodies = "
-        << body_names << "\n"
-        << bodies.str() << "subsection Network\nset Masses = " << mass_names
-        << "\nset Links = " << link_names << "\n"
-        << masses.str() << links.str() << "end\nsubsection Time\nset End = 0\nend\n"
-        << "subsection Output\nset Probes = " << probe_names << "\n"
-        << probes.str() << "end\n";
     return out.str();
   }
 

@@ -24,44 +24,30 @@ namespace
   using verification::Overrides;
   using verification::Session;
 
-  /// A span with sections of a network, which lists these items.
+  /// A span with these items of a network, and with other sections.
   std::string span(const std::string &network, const std::string &top = "")
   {
-    return R"(set Generator = network
-set Gravity = 0, -9.81
-set Start = equilibrium
-set Bodies = span
-subsection Body span
-  set Type = cable
-  set From = 0, 0, 0
-  set To = 30, 0, 0
-  set Unstressed length = 31
-  set Axial stiffness = 1e6
-  set Mass per length = 1
-end
-subsection Time
-  set End = 0
-  set Step = 0.01
-end
-)" + top + "subsection Network\n" +
-           network + "end\n";
+    return R"(Generator = network; Gravity = 0, -9.81; Start = equilibrium
+Body span: Type = cable; From = 0, 0, 0; To = 30, 0, 0; Unstressed length = 31;
+  Axial stiffness = 1e6; Mass per length = 1
+Time: End = 0; Step = 0.01
+)" + top + network;
   }
 
   std::string load(const std::string &name, const std::string &on, const std::string &magnitude)
   {
-    return "subsection Load " + name + "\nset On = " + on +
-           "\nset Direction = 0.3, -1, 0.5\nset Magnitude = " + magnitude + "\nend\n";
+    return "Load " + name + ": On = " + on +
+           "; Direction = 0.3, -1, 0.5; Magnitude = " + magnitude + "\n";
   }
 
   std::string link(const std::string &name, const std::string &type, const std::string &from,
                    const std::string &to, const std::string &more = "")
   {
-    return "subsection Link " + name + "\nset Type = " + type + "\nset From = " + from +
-           "\nset To = " + to + "\n" + more + "end\n";
+    return "Link " + name + ": Type = " + type + "; From = " + from + "; To = " + to + "; " + more +
+           "\n";
   }
 
-  const std::string lamp = "set Masses = lamp\nsubsection Mass lamp\nset Position = 30, 0\nset "
-                           "Motions = x, y, z\nset Mass = 2\nend\n";
+  const std::string lamp = "Mass lamp: Position = 30, 0; Motions = x, y, z; Mass = 2\n";
 
   /// All displacements of the last step.
   BodyVectors last(const std::string &scene, const Overrides &overrides)
@@ -104,7 +90,7 @@ end
 
 TEST(CablePlaces, a_load_knows_its_arc_length)
 {
-  const std::string one = "set Loads = a\n";
+  const std::string one = "";
   for (const std::string geometry : {"linearised", "nonlinear"})
     for (const std::string factor : {"2", "(2+t)"})
     {
@@ -115,10 +101,9 @@ TEST(CablePlaces, a_load_knows_its_arc_length)
                                  "Time/End=" + std::string(factor == "2" ? "0" : "0.02")};
       const auto formula =
                      last(span(one + load("a", "span @ 9, 0; 21.5, 0", factor + "*s")), entries),
-                 numbers =
-                     last(span("set Loads = a, b\n" + load("a", "span @ 9, 0", factor + "*9") +
-                               load("b", "span @ 21.5, 0", factor + "*21.5")),
-                          entries),
+                 numbers = last(span(load("a", "span @ 9, 0", factor + "*9") +
+                                     load("b", "span @ 21.5, 0", factor + "*21.5")),
+                                entries),
                  none = last(span(one + load("a", "span @ 9, 0", "0")), entries);
       double largest = 0.;
       ASSERT_EQ(formula.size(), 1u);
@@ -133,26 +118,25 @@ TEST(CablePlaces, a_load_knows_its_arc_length)
 
 TEST(CablePlaces, a_load_elsewhere_has_no_arc_length)
 {
-  const std::string scene = span("set Loads = a\n" + lamp + load("a", "lamp", "2*s"));
+  const std::string scene = span(lamp + load("a", "lamp", "2*s"));
   expect(error_of(scene), {"Load a/Magnitude", "does not depend on s", "formula in t"});
 }
 
 TEST(CablePlaces, what_acts_at_a_held_end_only_is_refused)
 {
   const std::string remedy = "Held ends of the cable leave that end free";
-  expect(error_of(span("set Loads = a\n" + load("a", "span @ 31, 0", "5"))),
+  expect(error_of(span(load("a", "span @ 31, 0", "5"))),
          {"Load a/On", "a held end of cable 'span'", "no effect", remedy});
-  expect(error_of(span("set Loads = a\n" + load("a", "span @ 1e-11, 0", "5"))), {"Load a/On"});
-  expect(error_of(span("set Links = a\n" + link("a", "ball joint", "ground", "span @ 0, 0"))),
+  expect(error_of(span(load("a", "span @ 1e-11, 0", "5"))), {"Load a/On"});
+  expect(error_of(span(link("a", "ball joint", "ground", "span @ 0, 0"))),
          {"Link a/To", "a held end of cable 'span'", "does not move either", remedy});
-  expect(error_of(span("set Links = a\n" + link("a", "dropper", "span @ 31, 0", "ground @ 30, -3",
-                                                "set Turns = true\nset Stiffness = 10\n"))),
+  expect(error_of(span(link("a", "dropper", "span @ 31, 0", "ground @ 30, -3",
+                            "Turns = true; Stiffness = 10"))),
          {"Link a/From", "does not move either"});
-  expect(error_of(span("set Links = a\n" + link("a", "joint", "span @ 31, 0", "span @ 0, 0",
-                                                "set Direction = 1, 0\n"))),
+  expect(error_of(span(link("a", "joint", "span @ 31, 0", "span @ 0, 0", "Direction = 1, 0"))),
          {"Link a/From", "does not move either"});
-  EXPECT_EQ(error_of(span("set Loads = a\n" + load("a", "span @ 0.01, 0", "5"))), "");
-  EXPECT_EQ(error_of(span("set Loads = a\nset Links = b\n" + load("a", "span @ 31, 0", "5") +
+  EXPECT_EQ(error_of(span(load("a", "span @ 0.01, 0", "5"))), "");
+  EXPECT_EQ(error_of(span(load("a", "span @ 31, 0", "5") +
                           link("b", "ball joint", "span @ 31, 0", "ground")),
                      {"Body span/Held ends=from"}),
             "");
@@ -160,8 +144,7 @@ TEST(CablePlaces, what_acts_at_a_held_end_only_is_refused)
 
 TEST(CablePlaces, links_that_a_held_end_grounds_are_named)
 {
-  const std::string scene =
-      span("set Links = tie\n" + lamp + link("tie", "ball joint", "span @ 31, 0", "lamp"));
+  const std::string scene = span(lamp + link("tie", "ball joint", "span @ 31, 0", "lamp"));
   Session held(scene), free(scene, {"Body span/Held ends=from", "Start=undeformed"});
   held.run([](const StepView &) {});
   free.run([](const StepView &) {});
@@ -175,9 +158,8 @@ TEST(CablePlaces, ball_joints_hold_one_place)
   // A thousandth of the cable of 31 m.
   const auto scene = [](const std::string &place)
   {
-    return span("set Links = tie\nset Masses = lamp\nsubsection Mass lamp\nset Position = " +
-                place + "\nset Motions = x, y, z\nset Mass = 2\nend\n" +
-                link("tie", "ball joint", "span @ 31, 0", "lamp"));
+    return span("Mass lamp: Position = " + place + "; Motions = x, y, z; Mass = 2\n" +
+                link("tie", "ball joint", "span @ 31, 0", "lamp") + "\n");
   };
   EXPECT_EQ(error_of(scene("30, 0.03, 0")), "");
   expect(error_of(scene("30, 0, 0.2")), {"Link tie/To", "0.2 m apart", "From is at 30, 0, 0",
@@ -187,57 +169,24 @@ TEST(CablePlaces, ball_joints_hold_one_place)
 
 TEST(CablePlaces, ball_joints_of_wires_and_rigid_bodies)
 {
-  const std::string bar = R"(set Generator = network
-set Bodies = bar
-subsection Body bar
-  set Type = rigid body
-  set Mass = 8
-  set Centre = 1, 0
-  set Moments of inertia = 4, 4, 8
-end
-subsection Time
-  set End = 0
-end
-subsection Network
-set Links = pin
+  const std::string bar = R"(Body bar: Type = rigid body; Mass = 8; Centre = 1, 0;
+  Moments of inertia = 4, 4, 8
+Time: End = 0
 )";
   const auto pinned = [&](const std::string &to)
-  { return error_of(bar + link("pin", "ball joint", "bar @ 0, 0", "ground @ " + to) + "end\n"); };
+  { return error_of(bar + link("pin", "ball joint", "bar @ 0, 0", "ground @ " + to)); };
   EXPECT_EQ(pinned("0, 0.0009"), ""); // a radius of gyration of 1 m
   expect(pinned("0, 0.0011"), {"Link pin/To", "0.0011 m apart", "to 0.001 m"});
-  EXPECT_EQ(error_of(bar + link("pin", "ball joint", "bar @ 0, 0", "ground") + "end\n"), "");
+  EXPECT_EQ(error_of(bar + link("pin", "ball joint", "bar @ 0, 0", "ground")), "");
 
   const auto wire = [](const std::string &place)
   {
-    return error_of(R"(set Generator = network
-subsection Time
-  set End = 0
-end
-subsection Network
-set Wires = line
-set Supports = ends, aside
-set Links = tie
-set Masses = lamp
-subsection Wire line
-  set To = 10, 0
-  set Components = string, lateral
-  set Mass per length = 1
-  set Tension = 1000
-end
-subsection Support ends
-  set Wire = line
-  set Positions = 0, 10
-end
-subsection Support aside
-  set Wire = line
-  set Motion = lateral
-  set Positions = 0, 10
-end
-subsection Mass lamp
-  set Motions = x, y, z
-  set Mass = 1
-  set Position = )" +
-                    place + "\nend\n" + link("tie", "ball joint", "line @ 5", "lamp") + "end\n");
+    return error_of(R"(Time: End = 0
+Wire line: To = 10, 0; Components = string, lateral; Mass per length = 1; Tension = 1000
+Support ends: Wire = line; Positions = 0, 10
+Support aside: Wire = line; Motion = lateral; Positions = 0, 10
+Mass lamp: Motions = x, y, z; Mass = 1; Position = )" +
+                    place + "\n" + link("tie", "ball joint", "line @ 5", "lamp"));
   };
   EXPECT_EQ(wire("5, 0.009"), "");
   expect(wire("5, 0, 1"), {"Link tie/To", "1 m apart", "From is at 5, 0, 0"});
@@ -246,11 +195,9 @@ subsection Mass lamp
 TEST(CablePlaces, places_in_space_are_shown)
 {
   const std::string scene = span(
-      "set Loads = a\nset Links = tie, rope\n" + lamp + load("a", "span @ 15.5, 0", "1") +
-          link("tie", "ball joint", "span @ 31, 0", "lamp") +
-          link("rope", "dropper", "lamp", "span @ 15.5, 0", "set Turns = true\nset Length = 40\n"),
-      "subsection Output\nset Probes = p\nsubsection Probe p\nset Point = "
-      "span @ 15.5, 0\nend\nend\n");
+      lamp + load("a", "span @ 15.5, 0", "1") + link("tie", "ball joint", "span @ 31, 0", "lamp") +
+          link("rope", "dropper", "lamp", "span @ 15.5, 0", "Turns = true; Length = 40"),
+      "Probe p: Point = span @ 15.5, 0\n");
   Session session(scene, {"Body span/From=0, 0, 4", "Body span/To=30, 0, 4",
                           "Network/Mass lamp/Position=30, 0, 4", "Network/Load a/Magnitude=0"});
   const ScenePlaces places =
@@ -292,13 +239,8 @@ TEST(CablePlaces, places_in_space_are_shown)
 
 TEST(CablePlaces, contacts_are_drawn_where_the_cable_is)
 {
-  const std::string scene = span("", R"(set Contacts = floor
-subsection Contact floor
-  set Slave = span
-  set Obstacle = plane
-  set Point = 0, -0.5
-end
-)");
+  const std::string scene =
+      span("", "Contact floor: Slave = span; Obstacle = plane; Point = 0, -0.5\n");
   Session session(scene, {"Body span/To=10, 0, 0", "Body span/Unstressed length=10.2",
                           "Body span/Axial stiffness=1e5", "Output/Field interval=1"});
   session.run([](const StepView &) {});
@@ -328,7 +270,7 @@ TEST(CablePlaces, strain_is_checked_under_the_loads_of_the_start)
     const auto stretched =
         [&geometry = geometry](const std::string &force, const std::string &limit)
     {
-      return error_of(span("set Loads = a\n" + load("a", "span @ 14.95, 0", force)),
+      return error_of(span(load("a", "span @ 14.95, 0", force)),
                       {"Body span/Element=bar", "Body span/Unstressed length=29.9",
                        "Body span/Geometry=" + geometry, "Network/Load a/Direction=1, 0",
                        "Body span/Largest strain=" + limit});
@@ -343,11 +285,9 @@ TEST(CablePlaces, entries_without_effect_are_named)
 {
   expect(error_of(span(""), {"Body span/Held ends=none", "Body span/Clamped=true"}),
          {"Body span/Clamped", "Held ends = none", "set it to false"});
-  expect(error_of(span("set Loads = a\n" + load("a", "span @ 15, 0", "1")),
-                  {"Network/Load a/Speed=3"}),
+  expect(error_of(span(load("a", "span @ 15, 0", "1")), {"Network/Load a/Speed=3"}),
          {"Load a/Speed", "Type = moving"});
-  const std::string floor = "set Contacts = floor\nsubsection Contact floor\nset Slave = span\nset "
-                            "Obstacle = plane\nset Point = 0, -10\nend\n";
+  const std::string floor = "Contact floor: Slave = span; Obstacle = plane; Point = 0, -10\n";
   expect(error_of(span("", floor), {"Contact floor/Encloses body=true"}),
          {"Contact floor/Encloses body", "cylinder or a sphere", "Direction"});
 

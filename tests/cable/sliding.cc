@@ -25,31 +25,20 @@ namespace
   /// A mass that is pushed up slides under a line of 60 m from s = 10 m on, named by `To`.
   std::string scene(const std::string &to, const std::string &rest)
   {
-    return "set Generator = network\nset Start = equilibrium\n" + rest +
-           "subsection Network\n set Masses = head\n set Springs = soft\n set Loads = push\n"
-           " set Links = contact\n"
-           " subsection Mass head\n  set Position = 0, -1\n  set Mass = 8\n  set Motions = y\n"
-           " end\n"
-           " subsection Spring soft\n  set From = ground\n  set To = head\n"
-           "  set Direction = 0, 1\n  set Stiffness = 50\n  set Damping = 90\n end\n"
-           " subsection Load push\n  set On = head\n  set Direction = 0, 1\n"
-           "  set Magnitude = 120\n end\n"
-           " subsection Link contact\n  set Type = sliding contact\n  set From = head\n"
-           "  set To = " +
-           to +
-           "\n  set Direction = 0, 1\n  set Stiffness = 5e4\n end\n"
-           "end\n";
+    return rest + R"(Start = equilibrium
+Mass head: Position = 0, -1; Mass = 8; Motions = y
+Spring soft: From = ground; To = head; Direction = 0, 1; Stiffness = 50; Damping = 90
+Load push: On = head; Direction = 0, 1; Magnitude = 120
+Link contact: Type = sliding contact; From = head; To = )" +
+           to + "; Direction = 0, 1; Stiffness = 5e4\n";
   }
 
   std::string cable(const std::string &geometry, const std::string &weight)
   {
-    return "set Gravity = 0, " + weight +
-           "\nset Bodies = cable\n"
-           "subsection Body cable\n  set Type = cable\n  set To = 60, 0\n"
-           "  set Axial stiffness = 13e6\n  set Mass per length = 1.07\n  set Elements = 120\n  "
-           "set Bending stiffness = 200\n"
-           "  set Mass damping = 0.02\n  set Geometry = " +
-           geometry + "\nend\n";
+    return "Gravity = 0, " + weight +
+           "\nBody cable: Type = cable; To = 60, 0; Axial stiffness = 13e6; Mass per length = "
+           "1.07; Elements = 120; Bending stiffness = 200; Mass damping = 0.02; Geometry = " +
+           geometry + "\n";
   }
 
   std::vector<double> forces(const std::string &text, const std::vector<std::string> &settings)
@@ -67,12 +56,10 @@ namespace
 TEST(CableSliding, as_along_a_wire)
 {
   const std::string wire =
-      scene("wire @ 10", "set Gravity = 0, 0\n") +
-      "subsection Network\n set Wires = wire\n set Supports = ends\n"
-      " subsection Wire wire\n  set To = 60, 0\n  set Components = beam\n"
-      "  set Bending stiffness = 200\n  set Mass per length = 1.07\n  set Mass damping = 0.02\n"
-      "  set Tension = 16000\n  set Element size = 0.5\n end\n"
-      " subsection Support ends\n  set Wire = wire\n  set Positions = 0, 60\n end\nend\n";
+      scene("wire @ 10", "Gravity = 0, 0\n") +
+      "Wire wire: To = 60, 0; Components = beam; Bending stiffness = 200; Mass per length = 1.07; "
+      "Mass damping = 0.02; Tension = 16000; Element size = 0.5\n"
+      "Support ends: Wire = wire; Positions = 0, 60\n";
   // The same mass, and the same place at each time.
   const double unstressed = length / (1. + tension / 13e6), part = unstressed / length;
   std::vector<double> coarser;
@@ -155,10 +142,10 @@ namespace
         "Network/Loads=push, swing, back", "Network/Link contact/Gap=100",
         "Network/Link contact/Speed=4",    "Network/Link contact/Straight=true"};
     all.insert(all.end(), settings.begin(), settings.end());
-    run_scene(scene("cable @ 13, 0", cable("nonlinear", "-9.81")) +
-                  "subsection Network\n subsection Load swing\n  set On = cable @ 39, 0\n"
-                  "  set Direction = 1, 0\n end\n subsection Load back\n  set On = cable @ 39, 0\n"
-                  "  set Direction = -1, 0\n end\nend\n",
+    run_scene(scene("cable @ 13, 0", cable("nonlinear", "-9.81")) + R"(
+Load swing: On = cable @ 39, 0; Direction = 1, 0
+Load back: On = cable @ 39, 0; Direction = -1, 0
+)",
               all, record);
   }
 

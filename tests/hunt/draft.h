@@ -56,13 +56,13 @@ namespace hunt
       const double duration = scales.t * random.uniform(least, most);
       const double n = std::max(8., std::round(duration / scene.step));
       scene.n_steps = n;
-      text.set("subsection Time", "Step", number(scene.step));
-      text.set("subsection Time", "End", number(n * scene.step));
+      text.set("Time", "Step", number(scene.step));
+      text.set("Time", "End", number(n * scene.step));
     }
 
     HuntScene finish()
     {
-      text.set("subsection Output", "Field interval", "0");
+      text.set("Output", "Field interval", "0");
       scene.text = text.text();
       return scene;
     }

@@ -17,21 +17,15 @@ namespace
 
   /// The model of a mass above a stop, thrown down; other items after these.
   hunt::LinearModel model_of(const std::string &stop, const std::string &gravity = "0",
-                             const std::string &more = "", const std::string &names = "",
-                             const std::string &links = "")
+                             const std::string &more = "")
   {
-    verification::Session session(
-        "set Generator = network\nset Gravity = 0, -" + gravity +
-        "\nset Start = given\nsubsection Network\n set Masses = m" + names + "\n set Links = stop" +
-        links +
-        "\n subsection Mass m\n  set Position = 0, 0\n  set Mass = 2\n"
-        "  set Motions = y\n  set Initial velocity = 0, -3, 0\n end\n" +
-        more +
-        " subsection Link stop\n  set Type = stop\n  set From = ground\n  set To = m\n"
-        "  set Direction = 0, 1\n  set Gap = 0.6\n" +
-        stop +
-        " end\nend\nsubsection Time\n set Step = 1e-6\n set End = 1e-6\nend\n"
-        "subsection Output\n set Field interval = 0\nend\n");
+    verification::Session session("Gravity = 0, -" + gravity + R"(; Start = given
+Mass m: Position = 0, 0; Mass = 2; Motions = y; Initial velocity = 0, -3, 0
+Link stop: Type = stop; From = ground; To = m; Direction = 0, 1; Gap = 0.6; )" +
+                                  stop + "\n" + more + R"(
+Time: Step = 1e-6; End = 1e-6
+Output: Field interval = 0
+)");
     hunt::Recorder recorder(0.);
     session.run(std::ref(recorder));
     return std::move(*recorder.model);
@@ -66,7 +60,7 @@ TEST(EventDriven, springs_stop_a_mass)
 {
   for (const double k : {2e2, 2e6, 2e9})
   {
-    const hunt::LinearModel model = model_of("  set Stiffness = " + verification::number(k) + "\n");
+    const hunt::LinearModel model = model_of("Stiffness = " + verification::number(k));
     const double contact = pi / std::sqrt(k / mass), touch = height / speed;
     const hunt::Sample at = sample(model, 0., touch + contact + .4);
     EXPECT_NEAR(at.place[0], -height + speed * .4, 1e-7) << k;
@@ -80,7 +74,7 @@ TEST(EventDriven, springs_stop_a_mass)
 TEST(EventDriven, damper_never_pulls)
 {
   constexpr double k = 2e4, c = 100.;
-  const hunt::LinearModel model = model_of("  set Stiffness = 2e4\n  set Damping = 100\n");
+  const hunt::LinearModel model = model_of("Stiffness = 2e4; Damping = 100");
   const double w = std::sqrt(k / mass), z = c / (2. * mass * w), wd = w * std::sqrt(1. - z * z),
                // The force k d + c d' of d = v/wd exp(-z w t) sin(wd t) vanishes at
       contact = 2. / wd * std::atan(std::sqrt(1. - z * z) / z) > 0.
@@ -100,8 +94,7 @@ TEST(EventDriven, law_of_two_slopes)
 {
   // As contact_of_two_slopes() of the tests of laws.
   constexpr double k1 = 2e4, k2 = 1e5, u1 = .01;
-  const hunt::LinearModel model =
-      model_of("  set Law = table\n  set Law points = 0.01: 200, 0.02: 1200\n");
+  const hunt::LinearModel model = model_of("Law = table; Law points = 0.01: 200, 0.02: 1200");
   const double w1 = std::sqrt(k1 / mass), w2 = std::sqrt(k2 / mass),
                v1 = std::sqrt(speed * speed - k1 * u1 * u1 / mass),
                t1 = std::asin(w1 * u1 / speed) / w1, below = k1 * u1 / k2,
@@ -114,8 +107,7 @@ TEST(EventDriven, law_of_two_slopes)
 TEST(EventDriven, law_of_a_cubic_spring)
 {
   // m v^2 / 2 = k u^4 / 4, and the integral of 1 / sqrt(1 - x^4) from 0 to 1.
-  const hunt::LinearModel model =
-      model_of("  set Law = formula\n  set Law formula = 1e6*d^3\n  set Law range = 0.2\n");
+  const hunt::LinearModel model = model_of("Law = formula; Law formula = 1e6*d^3; Law range = 0.2");
   const double largest = std::pow(2. * mass * speed * speed / 1e6, .25),
                contact = 2. * largest / speed * 1.3110287771460599;
   const hunt::Sample at = sample(model, 0., height / speed + contact + .2);
@@ -126,12 +118,10 @@ TEST(EventDriven, law_of_a_cubic_spring)
 TEST(EventDriven, collision_of_two_masses)
 {
   // The upper mass of 4 kg follows with 5 m/s and 0.2 m behind; then both meet the floor.
-  const std::string more =
-      " subsection Mass n\n  set Position = 0, 1\n  set Mass = 4\n"
-      "  set Motions = y\n  set Initial velocity = 0, -5, 0\n end\n"
-      " subsection Link between\n  set Type = stop\n  set From = m\n  set To = n\n"
-      "  set Direction = 0, 1\n  set Gap = 0.2\n end\n";
-  const hunt::LinearModel model = model_of("", "0", more, ", n", ", between");
+  const hunt::LinearModel model = model_of("", "0", R"(
+Mass n: Position = 0, 1; Mass = 4; Motions = y; Initial velocity = 0, -5, 0
+Link between: Type = stop; From = m; To = n; Direction = 0, 1; Gap = 0.2
+)");
   const double e = .5, meet = .1, v = (2. * 3. + 4. * 5.) / 6., // of the centre
       lower = v + e * 2. * 4. / 6., upper = v - e * 2. * 2. / 6.;
   const double t = .02;

@@ -38,51 +38,13 @@ namespace hunt
 
   void SceneText::add(const std::string &kind, const std::string &name, const Entries &entries)
   {
-    const std::string list = kind == "Mass"         ? "Masses"
-                             : kind == "Point mass" ? "Point masses"
-                                                    : kind + "s";
-    bool found = false;
-    for (auto &[known, all] : names)
-      if (known == list)
-      {
-        all += ", " + name;
-        found = true;
-      }
-    if (!found)
-      names.emplace_back(list, name);
-    items += "  subsection " + kind + " " + name + "\n";
     for (const auto &[entry, value] : entries)
-      items += "    set " + entry + " = " + value + "\n";
-    items += "  end\n";
+      set(kind + " " + name, entry, value);
   }
 
   void SceneText::set(const std::string &section, const std::string &entry,
                       const std::string &value)
   {
-    const std::string line = "set " + entry + " = " + value + "\n";
-    for (auto &[known, lines] : sections)
-      if (known == section)
-      {
-        lines += line;
-        return;
-      }
-    sections.emplace_back(section, line);
-  }
-
-  std::string SceneText::text() const
-  {
-    std::string result = "set Generator = network\n";
-    for (const auto &[section, lines] : sections)
-      if (section.empty())
-        result += lines;
-    result += "subsection Network\n";
-    for (const auto &[list, all] : names)
-      result += "  set " + list + " = " + all + "\n";
-    result += items + "end\n";
-    for (const auto &[section, lines] : sections)
-      if (!section.empty())
-        result += section + "\n" + lines +
-                  std::string(section.find('\n') == std::string::npos ? "end\n" : "end\nend\n");
-    return result;
+    scene.add((section.empty() ? "" : section + ": ") + entry + " = " + value);
   }
 } // namespace hunt

@@ -2,6 +2,8 @@
 #ifndef taut_hunt_scene_text_h
 #define taut_hunt_scene_text_h
 
+#include "verification/scene_builder.h"
+
 #include <cstdint>
 #include <random>
 #include <string>
@@ -38,12 +40,10 @@ namespace hunt
     /// Kind as in 'subsection <kind> <name>': Mass, Spring, Link, ...
     void add(const std::string &kind, const std::string &name, const Entries &entries);
     void set(const std::string &section, const std::string &entry, const std::string &value);
-    std::string text() const;
+    std::string text() const { return scene.text(); }
 
   private:
-    std::vector<std::pair<std::string, std::string>> names; ///< of each kind, with commas
-    std::string items;
-    std::vector<std::pair<std::string, std::string>> sections; ///< and their lines
+    verification::SceneBuilder scene;
   };
 } // namespace hunt
 

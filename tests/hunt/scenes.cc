@@ -102,8 +102,7 @@ namespace hunt
       if (draft.random.chance(.5))
       {
         draft.scene.restitution = short_number(draft.random.uniform(.1, 1.));
-        draft.text.set("subsection Time\nsubsection Moreau-Jean", "Restitution",
-                       number(draft.scene.restitution));
+        draft.text.set("Time/Moreau-Jean", "Restitution", number(draft.scene.restitution));
       }
       draft.set_time(step_decades, 1.5, 4.);
       return draft.finish();
@@ -173,7 +172,7 @@ namespace hunt
       add_chain(draft, draft.random.integer(1, 3), draft.random.chance(.5));
       add_stop(draft, "floor", "m0", draft.random.chance(.3) ? Entries{} : elastic(draft));
       draft.set_time(step_decades - 1., 1.5, 4.);
-      draft.text.set("subsection Time", "Step control", "adaptive");
+      draft.text.set("Time", "Step control", "adaptive");
       return draft.finish();
     }
 

@@ -116,7 +116,7 @@ namespace hunt
     if (draft.random.chance(.7))
       contact.emplace_back("Stiffness", draft.draw_decades(s.k(), 0, 5));
     draft.text.add("Link", "collector", contact);
-    draft.text.set("subsection Statistics", "Filter frequency", "0");
+    draft.text.set("Statistics", "Filter frequency", "0");
     draft.scene.kind = ReferenceKind::program;
     draft.set_time(2., 1., 2.5);
     return draft.finish();

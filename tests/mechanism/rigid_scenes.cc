@@ -69,20 +69,9 @@ TEST(RigidBodyScenes, bar_on_two_cables)
 TEST(RigidBodyScenes, a_body_that_flies_straight_takes_long_steps)
 {
   int n_steps = 0;
-  run_scene(R"(set Generator = network
-set Start  = given
-set Bodies = bar
-subsection Body bar
-  set Type = rigid body
-  set Mass = 2
-  set Moments of inertia = 1, 2, 2.5
-  set Velocity = 1, 2, 3
-end
-subsection Time
-  set End = 1
-  set Step = 1e-2
-  set Step control = adaptive
-end
+  run_scene(R"(Generator = network; Start = given
+Body bar: Type = rigid body; Mass = 2; Moments of inertia = 1, 2, 2.5; Velocity = 1, 2, 3
+Time: End = 1; Step = 1e-2; Step control = adaptive
 )",
             {}, [&](const taut::StepView &) { ++n_steps; });
   EXPECT_LE(n_steps, 101);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: nonlinear cables move on any number of ranks as on one. Source: the run of one process.
 #include "nodes.h"
 
 #include <sstream>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: what ranks exchange, and the errors that they share, are the same on all of them. Source:
+// sums of whole numbers in closed form; ranks, places and kinds of errors drawn by all ranks alike.
 #include <taut/base/communicator.h>
 #include <taut/base/exceptions.h>
 #include <taut/base/last_words.h>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: answers do not depend on the number of ranks and parts. Source: the run of one process
+// without cuts.
 #include "../verification/run.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: solids in parts move on any number of ranks as whole ones on one. Source: the run of one
+// process without cuts.
 #include "nodes.h"
 
 #include <string>

@@ -14,15 +14,14 @@ using namespace verification;
 TEST(Tangents, are_made_definite_on_all_ranks_together)
 {
   Session session(
-      "set Generator = network\nset Gravity = 0, 0\nset Start = undeformed\n"
-      "subsection Network\n set Wires = one, two\n set Supports = a, b\n"
-      " subsection Wire one\n  set To = 1, 0\n  set Components = string\n"
-      "  set Mass per length = 1\n  set Tension = 100\n  set Element size = 0.25\n end\n"
-      " subsection Wire two\n  set From = 0, 1\n  set To = 1, 1\n  set Components = string\n"
-      "  set Mass per length = 1\n  set Tension = 100\n  set Element size = 0.25\n end\n"
-      " subsection Support a\n  set Wire = one\n  set Positions = 0, 1\n end\n"
-      " subsection Support b\n  set Wire = two\n  set Positions = 0, 1\n end\n"
-      "end\nsubsection Time\n set Step = 0.01\n set End = 0.01\nend\n",
+      R"(Gravity = 0, 0; Start = undeformed
+Wire one: To = 1, 0; Components = string; Mass per length = 1; Tension = 100; Element size = 0.25
+Wire two: From = 0, 1; To = 1, 1; Components = string; Mass per length = 1; Tension = 100;
+  Element size = 0.25
+Support a: Wire = one; Positions = 0, 1
+Support b: Wire = two; Positions = 0, 1
+Time: Step = 0.01; End = 0.01
+)",
       {}, taut::Communicator(MPI_COMM_WORLD));
   const taut::Structure &structure = session.simulation().structure();
   ASSERT_EQ(structure.all_bodies().size(), 2u);

@@ -12,69 +12,21 @@
 namespace
 {
   /// 50 m x 1 m x 1 m, clamped at the left end, 1 kN at the right one.
-  const std::string solid = R"(set Generator = network
-set Gravity = 0, 0
-set Bodies = beam
-subsection Body beam
-  set Type = solid
-  set Degree = 2
-  set Young's modulus = 1e9
-  set Density = 1e3
-  set Plane state = stress
-  set Fixed boundaries = 0
-  set Traction = 1: 0, -1e3
-  subsection Mesh
-    set Arguments = 100, 4 : 0, -0.5 : 50, 0.5
-  end
-end
-subsection Time
-  set End = 0
-end
-subsection Output
-  set Probes = tip
-  subsection Probe tip
-    set Point = beam @ 50, 0
-    set Direction = 0, 1
-  end
-end
+  const std::string solid = R"(Generator = network; Gravity = 0, 0
+Body beam: Type = solid; Degree = 2; Young's modulus = 1e9; Density = 1e3; Plane state = stress;
+  Fixed boundaries = 0; Traction = 1: 0, -1e3
+Body beam/Mesh: Arguments = 100, 4 : 0, -0.5 : 50, 0.5
+Time: End = 0
+Probe tip: Point = beam @ 50, 0; Direction = 0, 1
 )",
-                    wire = R"(set Generator = network
-set Gravity = 0, 0
-subsection Network
-  set Wires = beam
-  set Supports = clamp, slope
-  set Loads = force
-  subsection Wire beam
-    set From = 0, 0
-    set To = 50, 0
-    set Components = beam
-    set Mass per length = 1e3
-    set Bending stiffness = 8.33333333333333333e7
-    set Element size = 1
-  end
-  subsection Support clamp
-    set Wire = beam
-  end
-  subsection Support slope
-    set Wire = beam
-    set Motion = slope
-  end
-  subsection Load force
-    set On = beam @ 50
-    set Direction = 0, 1
-    set Magnitude = -1e3
-  end
-end
-subsection Time
-  set End = 0
-end
-subsection Output
-  set Probes = tip
-  subsection Probe tip
-    set Point = beam @ 50
-    set Direction = 0, 1
-  end
-end
+                    wire = R"(Gravity = 0, 0
+Wire beam: From = 0, 0; To = 50, 0; Components = beam; Mass per length = 1e3;
+  Bending stiffness = 8.33333333333333333e7; Element size = 1
+Support clamp: Wire = beam
+Support slope: Wire = beam; Motion = slope
+Load force: On = beam @ 50; Direction = 0, 1; Magnitude = -1e3
+Time: End = 0
+Probe tip: Point = beam @ 50; Direction = 0, 1
 )";
 
   /// By inverse iteration [rad/s].
@@ -119,55 +71,17 @@ end
   }
 
   /// The mast of prm/guyed_mast.prm as a solid: width^2 = 12 EI / EA, on a hinge at one point.
-  const std::string mast = R"(set Generator = network
-set Gravity = 0, 0
-set Bodies = mast
-subsection Body mast
-  set Type = solid
-  set Degree = 2
-  set Young's modulus = 12909944.4873580562
-  set Density = 12.9099444873580562
-  set Plane state = stress
-  set Traction = 0: 50*cos(pi*t/4), 0
-  set Mass damping = 2
-  subsection Mesh
-    set Arguments = 4, 40 : -0.387298334620741689, 0 : 0.387298334620741689, 10
-  end
-end
-subsection Network
-  set Links = hinge, foot, left guy, right guy
-  subsection Link hinge
-    set Type = joint
-    set From = ground
-    set To = mast @ 0, 0
-    set Direction = 1, 0
-  end
-  subsection Link foot
-    set Type = joint
-    set From = ground
-    set To = mast @ 0, 0
-    set Direction = 0, 1
-  end
-  subsection Link left guy
-    set Type      = dropper
-    set From      = ground
-    set To        = mast @ 0, 8
-    set Direction = 6, 8
-    set Stiffness = 1e5
-  end
-  subsection Link right guy
-    set Type      = dropper
-    set From      = ground
-    set To        = mast @ 0, 8
-    set Direction = -6, 8
-    set Stiffness = 1e5
-  end
-end
-subsection Time
-  set Scheme = automatic
-  set Step = 4e-3
-  set End = 4
-end
+  const std::string mast = R"(Gravity = 0, 0
+Body mast: Type = solid; Degree = 2; Young's modulus = 12909944.4873580562;
+  Density = 12.9099444873580562; Plane state = stress; Traction = 0: 50*cos(pi*t/4), 0;
+  Mass damping = 2
+Body mast/Mesh: Arguments = 4, 40 : -0.387298334620741689, 0 : 0.387298334620741689, 10
+Link hinge: Type = joint; From = ground; To = mast @ 0, 0; Direction = 1, 0
+Link foot: Type = joint; From = ground; To = mast @ 0, 0; Direction = 0, 1
+Link left guy: Type = dropper; From = ground; To = mast @ 0, 8; Direction = 6, 8; Stiffness = 1e5
+Link right guy: Type = dropper; From = ground; To = mast @ 0, 8; Direction = -6, 8;
+  Stiffness = 1e5
+Time: Scheme = automatic; Step = 4e-3; End = 4
 )";
 
   struct Guys

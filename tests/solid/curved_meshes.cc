@@ -56,21 +56,18 @@ TEST(SolidMeshes, a_mesh_from_a_file_follows_a_circle)
   const QuarterRing ring;
   const auto pressed = [&](const std::string &curve)
   {
-    return run(scene("equilibrium",
-                     "set Bodies = ring\n" +
-                         body("ring", "set File = " + ring.path.string() + "\n" + curve,
-                              "set Degree = 2\nset Symmetry boundaries = 6\nset Displacement = 8: "
-                              "-1e-4*x, -1e-4*y"),
-                     "set Contacts = pin\nsubsection Contact pin\nset Slave = ring: 7\n"
-                     "set Obstacle = cylinder\nset Point = 0, 0\nset Direction = 0, 0, 1\n"
-                     "set Radius = 0.99995\nend\n" +
-                         at_rest));
+    return run(
+        scene("equilibrium",
+              body("ring", "File = " + ring.path.string() + "; " + curve,
+                   "Degree = 2; Symmetry boundaries = 6; Displacement = 8: -1e-4*x, -1e-4*y"),
+              "Contact pin: Slave = ring: 7; Obstacle = cylinder; Point = 0, 0; Direction = 0, 0, "
+              "1; Radius = 0.99995\n" +
+                  at_rest));
   };
   const double chord = std::cos(M_PI / 16.);
   for (const bool follows : {false, true})
   {
-    const Ran found =
-        pressed(follows ? "set Curved boundaries = 7: circle, 0, 0" : "set Shift = 0, 0");
+    const Ran found = pressed(follows ? "Curved boundaries = 7: circle, 0, 0" : "Shift = 0, 0");
     // Middles of straight sides are in the obstacle, where a run at rest pushes them out.
     ASSERT_EQ(found.error, "");
     ASSERT_EQ(found.constraints.size(), 9u);
@@ -80,9 +77,9 @@ TEST(SolidMeshes, a_mesh_from_a_file_follows_a_circle)
     EXPECT_NEAR(least, follows ? 1. : chord, 1e-12);
     EXPECT_EQ(has(found.log, "have a kink of"), !follows) << found.log;
   }
-  EXPECT_TRUE(has(pressed("set Curved boundaries = 7: circle, 0.1, 0").error, "on no one radius"));
-  EXPECT_TRUE(has(pressed("set Curved boundaries = 9: circle, 0, 0").error, "no boundary 9"));
-  EXPECT_TRUE(has(pressed("set Curved boundaries = 7: sphere, 0, 0").error, "id: circle, x, y"));
+  EXPECT_TRUE(has(pressed("Curved boundaries = 7: circle, 0.1, 0").error, "on no one radius"));
+  EXPECT_TRUE(has(pressed("Curved boundaries = 9: circle, 0, 0").error, "no boundary 9"));
+  EXPECT_TRUE(has(pressed("Curved boundaries = 7: sphere, 0, 0").error, "id: circle, x, y"));
 }
 
 namespace
@@ -151,13 +148,11 @@ TEST(SolidMeshes, of_second_order_end_in_one_error)
     for (const char *const format : {"2.2", "4.1"})
     {
       const OneElement mesh(e, format);
-      const std::string error =
-          run(scene("equilibrium",
-                    "set Bodies = block\n" +
-                        body("block", "set File = " + mesh.path.string(),
-                             "set Degree = 2\nset Dimension = " + std::to_string(e.dim)),
-                    at_rest))
-              .error;
+      const std::string error = run(scene("equilibrium",
+                                          body("block", "File = " + mesh.path.string(),
+                                               "Degree = 2; Dimension = " + std::to_string(e.dim)),
+                                          at_rest))
+                                    .error;
       for (const std::string &part :
            {std::string("Body block/Mesh/File"), mesh.path.string(),
             "gmsh's type " + std::to_string(e.type) + ",", std::string("Mesh.ElementOrder = 1"),
@@ -247,15 +242,13 @@ TEST(SolidMeshes, a_cylinder_from_a_file_is_pressed_as_by_hertz)
   const auto pressed = [&](const std::string &curve, const std::string &degree)
   {
     return run(scene("equilibrium",
-                     "set Bodies = cylinder\n" +
-                         body("cylinder", "set File = " + block.path.string() + "\n" + curve,
-                              "set Degree = " + degree + "\nset Symmetry boundaries = 11, 12"),
-                     "set Contacts = plate\nsubsection Contact plate\nset Slave = cylinder: 14\n"
-                     "set Obstacle = plane\nset Point = 0, 1\nset Direction = 0, -1\n"
-                     "set Gap = -0.04\nend\n" +
+                     body("cylinder", "File = " + block.path.string() + "; " + curve,
+                          "Degree = " + degree + "; Symmetry boundaries = 11, 12"),
+                     "Contact plate: Slave = cylinder: 14; Obstacle = plane; Point = 0, 1; "
+                     "Direction = 0, -1; Gap = -0.04\n" +
                          at_rest));
   };
-  const std::string named = "set Curved boundaries = 14: circle, 0, 0";
+  const std::string named = "Curved boundaries = 14: circle, 0, 0";
   const Ran curved = pressed(named, "2"), facets = pressed("", "2"), straight = pressed("", "1");
   for (const Ran *const found : {&curved, &facets, &straight})
     ASSERT_EQ(found->error, "");
@@ -325,16 +318,15 @@ TEST(SolidMeshes, hexahedra_follow_a_sphere_and_a_cylinder)
     {
       const Shell shell(is_sphere);
       const std::string curve = is_sphere ? "sphere, 0, 0, 0" : "cylinder, 0, 0, 5, 0, 0, 2";
-      const Ran found = run(scene(
-          "given",
-          "set Bodies = shell\n" +
-              body("shell",
-                   "set File = " + shell.path.string() +
-                       (follows ? "\nset Curved boundaries = 7: " + curve : ""),
-                   "set Degree = 2\nset Dimension = 3"),
-          "set Contacts = pin\nsubsection Contact pin\nset Slave = shell: 7\nset Obstacle = " +
-              std::string(is_sphere ? "sphere\n" : "cylinder\nset Direction = 0, 0, 1\n") +
-              "set Point = 0, 0, 0\nset Radius = 0.5\nend\n" + at_rest));
+      const Ran found =
+          run(scene("given",
+                    body("shell",
+                         "File = " + shell.path.string() +
+                             (follows ? "; Curved boundaries = 7: " + curve : ""),
+                         "Degree = 2; Dimension = 3"),
+                    "Contact pin: Slave = shell: 7; Obstacle = " +
+                        std::string(is_sphere ? "sphere" : "cylinder; Direction = 0, 0, 1") +
+                        "; Point = 0, 0, 0; Radius = 0.5\n" + at_rest));
       ASSERT_EQ(found.error, "");
       ASSERT_EQ(found.constraints.size(), 25u);
       double least = 2., largest = 0.;

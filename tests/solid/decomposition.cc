@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Solids in parts: iterations of FETI against those of an independent program for the same boxes,
-// and parts that hang together.
+// Claim: FETI needs the iterations that theory and others need, and parts of solids hang together.
+// Source: an independent program for the same boxes.
 #include "solid/box_in_parts.h"
 #include "verification/run.h"
 
@@ -41,23 +41,22 @@ namespace
     const auto block = [](const std::string &name, const unsigned int elements, const double y,
                           const std::string &conditions)
     {
-      return "subsection Body " + name +
-             "\n  set Type = solid\n  set Young's modulus = 1\n  set Poisson's ratio = 0.3\n"
-             "  set Density = 1\n" +
-             conditions +
-             "  subsection Mesh\n    set Generator = subdivided_hyper_rectangle\n"
-             "    set Arguments = " +
+      return "Body " + name +
+             ": Type = solid; Young's modulus = 1; Poisson's ratio = 0.3; Density = 1; " +
+             conditions + "\nBody " + name +
+             "/Mesh: Generator = subdivided_hyper_rectangle; Arguments = " +
              std::to_string(elements) + ", " + std::to_string(elements / 2) + " : 0, " +
-             std::to_string(y) + " : 1, " + std::to_string(y + .5) + "\n  end\nend\n";
+             std::to_string(y) + " : 1, " + std::to_string(y + .5) + "\n";
     };
     const verification::Session session(
-        "set Generator = network\nset Gravity = 0, 0\nset Bodies = lower, upper\n"
-        "set Contacts = joint\n" +
-        block("lower", 40 * n, 0., "  set Fixed boundaries = 2\n") +
+        R"(Generator = network; Gravity = 0, 0
+)" + block("lower", 40 * n, 0., "Fixed boundaries = 2") +
+        "\n" +
         block("upper", 32 * n, .5,
-              "  set Symmetry boundaries = 0\n"
-              "  set Traction = 3: 0, 1e-4 - 1e-3*exp(-((x-0.45)/0.15)^2)\n") +
-        "subsection Contact joint\n  set Slave = upper: 2\n  set Master = lower: 3\nend\n");
+              "Symmetry boundaries = 0; Traction = 3: 0, 1e-4 - 1e-3*exp(-((x-0.45)/0.15)^2)") +
+        R"(
+Contact joint: Slave = upper: 2; Master = lower: 3
+)");
     const taut::Scene scene = session.parameters().scene();
     taut::Partition partition = whole(scene);
     partition.n_parts = 16 * n * n;

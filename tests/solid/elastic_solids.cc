@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Solids against exact solutions: linear displacements, beams of Euler and Timoshenko, their first
-// frequency, and what they weigh.
+// Claim: solids move as exact solutions do, and weigh what they are. Sources: linear displacements,
+// beams of Euler and Timoshenko, their first frequency.
 #include "verification/run.h"
 
 #include <taut/interface/system.h>

@@ -33,14 +33,13 @@ TEST(SolidLimits, whole_discs_and_balls_take_nodes_to_faces)
 {
   for (const bool is_ball : {false, true})
   {
-    const std::string cells = "set Generator = hyper_ball\nset Refinements = 2\nset Arguments = ",
-                      dim = is_ball ? "set Dimension = 3\n" : "", z = is_ball ? ", 0" : "";
-    const Ran found = run(scene(
-        "given",
-        "set Bodies = lower, upper\n" +
-            body("lower", cells + "0, 0" + z + " : 1", dim + "set Displacement = 0: 0, 0" + z) +
-            body("upper", cells + "0, 2" + z + " : 1", dim),
-        contact("upper", "lower", "set Method = nodes to faces") + at_rest));
+    const std::string cells = "Generator = hyper_ball; Refinements = 2; Arguments =",
+                      dim = is_ball ? "Dimension = 3" : "", z = is_ball ? ", 0" : "";
+    const Ran found =
+        run(scene("given",
+                  body("lower", cells + "0, 0" + z + " : 1", dim + "; Displacement = 0: 0, 0" + z) +
+                      body("upper", cells + "0, 2" + z + " : 1", dim),
+                  contact("upper", "lower", "Method = nodes to faces") + at_rest));
     ASSERT_EQ(found.error, "");
     ASSERT_GE(found.constraints.size(), 5u);
     const double facet = 2. * M_PI / 16., sagitta = 1. - std::cos(.5 * facet);
@@ -62,21 +61,16 @@ TEST(SolidLimits, a_ball_joint_holds_a_cable_to_a_solid_in_the_plane)
   const auto text = [](const std::string &links)
   {
     return scene("equilibrium",
-                 "set Bodies = block, rope\n" +
-                     box("block", "2, 2 : 0, 0 : 1, 1", "set Fixed boundaries = 0") +
-                     "subsection Body rope\nset Type = cable\nset From = 1, 1\nset To = 4, 1\n"
-                     "set Unstressed length = 3.2\nset Axial stiffness = 1e5\n"
-                     "set Mass per length = 1\nset Elements = 8\nset Held ends = to\nend\n",
-                 "subsection Network\n" + links + "end\n" + at_rest);
+                 box("block", "2, 2 : 0, 0 : 1, 1", "Fixed boundaries = 0") +
+                     "\nBody rope: Type = cable; From = 1, 1; To = 4, 1; Unstressed length = 3.2; "
+                     "Axial stiffness = 1e5; Mass per length = 1; Elements = 8; Held ends = to\n",
+                 links + "\n" + at_rest);
   };
-  const std::string ends = "\nset From = block @ 1, 1\nset To = rope @ 0, 0\n";
+  const std::string ends = "From = block @ 1, 1; To = rope @ 0, 0";
   const Overrides gravity = {"Gravity=0, -9.81"};
-  const Ran ball =
-      run(text("set Links = pin\nsubsection Link pin\nset Type = ball joint" + ends + "end\n"),
-          gravity);
-  const Ran joints = run(text("set Links = a, b\nsubsection Link a\nset Direction = 1, 0" + ends +
-                              "end\nsubsection Link b\nset Direction = 0, 1" + ends + "end\n"),
-                         gravity);
+  const Ran ball = run(text("Link pin: Type = ball joint; " + ends), gravity);
+  const Ran joints = run(
+      text("Link a: Direction = 1, 0; " + ends + "\nLink b: Direction = 0, 1; " + ends), gravity);
   ASSERT_EQ(ball.error, "");
   ASSERT_EQ(joints.error, "");
   ASSERT_EQ(ball.forces.size(), 3u);
@@ -94,9 +88,8 @@ TEST(SolidLimits, a_block_that_turns_far_is_refused)
   const auto turned = [](const std::string &a, const Overrides &more = {})
   {
     return run(scene("equilibrium",
-                     "set Bodies = block\n" + box("block", "3, 3 : 0, 0 : 1, 1",
-                                                  "set Displacement = 0: -y*" + a + ", x*" + a +
-                                                      "; 1: -y*" + a + ", x*" + a),
+                     box("block", "3, 3 : 0, 0 : 1, 1",
+                         "Displacement = 0: -y*" + a + ", x*" + a + "; 1: -y*" + a + ", x*" + a),
                      at_rest),
                more);
   };
@@ -118,9 +111,8 @@ TEST(SolidLimits, a_block_that_slides_far_is_refused)
   {
     return run(
         scene("equilibrium",
-              "set Bodies = lower, upper\n" +
-                  box("lower", "8, 2 : 0, 0 : 2, 0.5", "set Fixed boundaries = 2") +
-                  box("upper", "2, 2 : 0.5, 0.5 : 1, 1", "set Displacement = 3: " + by + ", -1e-4"),
+              box("lower", "8, 2 : 0, 0 : 2, 0.5", "Fixed boundaries = 2") +
+                  box("upper", "2, 2 : 0.5, 0.5 : 1, 1", "Displacement = 3: " + by + ", -1e-4"),
               contact("upper: 2", "lower: 3") + at_rest),
         more);
   };
@@ -140,22 +132,20 @@ TEST(SolidLimits, a_slave_that_overhangs_is_named)
 {
   const auto pressed = [](const std::string &more)
   {
-    return run(
-        scene("equilibrium",
-              "set Bodies = wide, narrow\n" +
-                  box("wide", "3, 3 : 0, 0 : 1, 0.3", "set Fixed boundaries = 2") +
-                  box("narrow", "2, 2 : 0, 0.3 : 0.5, 0.6", "set Displacement = 3: 0, -1e-4"),
-              contact("wide: 3", "narrow: 2", more) + at_rest));
+    return run(scene("equilibrium",
+                     box("wide", "3, 3 : 0, 0 : 1, 0.3", "Fixed boundaries = 2") +
+                         box("narrow", "2, 2 : 0, 0.3 : 0.5, 0.6", "Displacement = 3: 0, -1e-4"),
+                     contact("wide: 3", "narrow: 2", more) + at_rest));
   };
   const Ran named = pressed("");
   EXPECT_TRUE(has(named.log, "Warning: contact 'pair' acts at")) << named.log;
   EXPECT_TRUE(has(named.log, "overhangs the master by 50 % of a face")) << named.log;
   EXPECT_TRUE(has(named.log, "Choose slave = true"));
-  const Ran chosen = pressed("set Choose slave = true");
+  const Ran chosen = pressed("Choose slave = true");
   ASSERT_EQ(chosen.error, "");
   EXPECT_FALSE(has(chosen.log, "Warning")) << chosen.log;
   EXPECT_EQ(chosen.forces.size(), 3u); // the nodes of the narrow one
-  EXPECT_TRUE(has(pressed("set Choose slave = true\nset Method = nodes to faces").error,
+  EXPECT_TRUE(has(pressed("Choose slave = true; Method = nodes to faces").error,
                   "Contact pair/Choose slave"));
 }
 
@@ -168,11 +158,10 @@ TEST(SolidLimits, the_slave_that_ends_first_has_smooth_pressures)
   {
     const Ran found =
         run(scene("equilibrium",
-                  "set Bodies = wide, narrow\n" +
-                      box("wide", cells + " : 0, 0 : 1, 0.3", "set Fixed boundaries = 2") +
+                  box("wide", cells + " : 0, 0 : 1, 0.3", "Fixed boundaries = 2") +
                       box("narrow", "8, 4 : 0.1, 0.3 : 0.55, 0.6",
-                          "set Traction = 3: 0, -1e6\nset Displacement = 0: 0, "),
-                  contact("wide: 3", "narrow: 2", "set Choose slave = " + chooses) + at_rest));
+                          "Traction = 3: 0, -1e6; Displacement = 0: 0,"),
+                  contact("wide: 3", "narrow: 2", "Choose slave = " + chooses) + at_rest));
     EXPECT_EQ(found.error, "");
     double largest = 0.;
     for (std::size_t i = 0; i < found.constraints.size(); ++i)
@@ -190,14 +179,13 @@ TEST(SolidLimits, nodes_between_nodes_of_the_master_are_named)
 {
   for (const char *const n : {"2", "3"})
   {
-    const Ran found = run(scene("equilibrium",
-                                "set Bodies = lower, upper\n" +
-                                    box("lower", "2, 2, 2 : 0, 0, 0 : 1, 1, 1",
-                                        "set Dimension = 3\nset Fixed boundaries = 4") +
-                                    box("upper", std::string(n) + ", 2, 2 : 0, 0, 1 : 1, 1, 2",
-                                        "set Dimension = 3\nset Displacement = 5: 0, 0, -1e-4"),
-                                contact("upper: 4", "lower: 5", "set Method = nodes to faces") +
-                                    "subsection Time\nset Step = 0.1\nset End = 0.1\nend\n"));
+    const Ran found = run(
+        scene("equilibrium",
+              box("lower", "2, 2, 2 : 0, 0, 0 : 1, 1, 1", "Dimension = 3; Fixed boundaries = 4") +
+                  box("upper", std::string(n) + ", 2, 2 : 0, 0, 1 : 1, 1, 2",
+                      "Dimension = 3; Displacement = 5: 0, 0, -1e-4"),
+              contact("upper: 4", "lower: 5", "Method = nodes to faces") +
+                  "Time: Step = 0.1; End = 0.1\n"));
     ASSERT_EQ(found.error, "");
     const bool is_named = has(found.log, "between nodes of the master");
     EXPECT_EQ(is_named, n[0] == '3') << found.log;
@@ -219,13 +207,12 @@ TEST(SolidLimits, nodes_beyond_the_search_distance_are_counted)
                          "1 1 2 5 1 1 2\n2 3 2 1 1 1 2 3 4\n$EndElements\n";
   for (const std::string by : {"2.9", "3.2"})
   {
-    const Ran found = run(scene(
-        "equilibrium",
-        "set Bodies = lower, slant\n" +
-            box("lower", "2, 2 : 0, -1 : 1, 0", "set Fixed boundaries = 2") +
-            body("slant", "set File = " + path.string(),
-                 "set Largest turn = 100\nset Displacement = 5: 0, -x*" + by + "; 0: 0, -x*" + by),
-        contact("slant: 5", "lower: 3", "set Method = nodes to faces") + at_rest));
+    const Ran found = run(
+        scene("equilibrium",
+              box("lower", "2, 2 : 0, -1 : 1, 0", "Fixed boundaries = 2") +
+                  body("slant", "File = " + path.string(),
+                       "Largest turn = 100; Displacement = 5: 0, -x*" + by + "; 0: 0, -x*" + by),
+              contact("slant: 5", "lower: 3", "Method = nodes to faces") + at_rest));
     EXPECT_EQ(found.error, "");
     EXPECT_TRUE(has(found.log, "search distance and take no part: 1;")) << found.log;
     EXPECT_EQ(has(found.log, "comes 3.2 m nearer to the master, 3 m away"), by == "3.2")

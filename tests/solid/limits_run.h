@@ -77,42 +77,37 @@ namespace solid_limits
   inline std::string body(const std::string &name, const std::string &cells,
                           const std::string &more = "")
   {
-    return "subsection Body " + name +
-           "\nset Type = solid\nset Young's modulus = 1e9\nset Poisson's ratio = 0\n"
-           "set Density = 2000\n" +
-           more + "\nsubsection Mesh\n" + cells + "\nend\nend\n";
+    return "Body " + name +
+           ": Type = solid; Young's modulus = 1e9; Poisson's ratio = 0; Density = 2000; " + more +
+           "\nBody " + name + "/Mesh: " + cells + "\n";
   }
 
   inline std::string box(const std::string &name, const std::string &arguments,
                          const std::string &more)
   {
-    return body(name, "set Arguments = " + arguments, more);
+    return body(name, "Arguments = " + arguments, more);
   }
 
   inline std::string scene(const std::string &start, const std::string &bodies,
                            const std::string &rest)
   {
-    return "set Generator = network\nset Gravity = 0, 0\nset Start = " + start + "\n" + bodies +
-           rest;
+    return "Generator = network; Gravity = 0, 0; Start = " + start + "\n" + bodies + "\n" + rest;
   }
 
   inline std::string contact(const std::string &slave, const std::string &master,
                              const std::string &more = "")
   {
-    return "set Contacts = pair\nsubsection Contact pair\nset Slave = " + slave +
-           "\nset Master = " + master + "\n" + more + "\nend\n";
+    return "Contact pair: Slave = " + slave + "; Master = " + master + "; " + more + "\n";
   }
 
-  const std::string at_rest = "subsection Time\nset End = 0\nend\n",
-                    steps = "subsection Time\nset Step = 1e-5\nset End = 2e-4\nend\n";
+  const std::string at_rest = "Time: End = 0\n", steps = "Time: Step = 1e-5; End = 2e-4\n";
 
   /// A block from y = 0 to @p top below one from @p bottom on, pressed down.
   inline std::string stack(const std::string &top, const std::string &bottom)
   {
     return scene("given",
-                 "set Bodies = lower, upper\n" +
-                     box("lower", "4, 3 : 0, 0 : 1, " + top, "set Fixed boundaries = 2") +
-                     box("upper", "3, 3 : 0, " + bottom + " : 1, 0.6", "set Traction = 3: 0, -1e5"),
+                 box("lower", "4, 3 : 0, 0 : 1, " + top, "Fixed boundaries = 2") +
+                     box("upper", "3, 3 : 0, " + bottom + " : 1, 0.6", "Traction = 3: 0, -1e5"),
                  contact("upper: 2", "lower: 3") + steps);
   }
 } // namespace solid_limits

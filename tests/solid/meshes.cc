@@ -20,10 +20,9 @@ namespace
 {
   std::string scene(const std::string &body, const std::string &mesh, const std::string &more = "")
   {
-    return "set Generator = network\nset Gravity = 0, 0\nset Start = equilibrium\n"
-           "set Bodies = plate\nsubsection Body plate\nset Type = solid\n" +
-           body + "\nsubsection Mesh\n" + mesh + "\nend\nend\n" + more +
-           "subsection Time\nset End = 0\nend\n";
+    return "Generator = network; Gravity = 0, 0; Start = equilibrium\nTime: End = 0\n"
+           "Body plate: Type = solid; " +
+           body + "\nBody plate/Mesh: " + mesh + "\n" + more;
   }
 
   std::string mesh_file(const std::string &name)
@@ -87,19 +86,18 @@ namespace
     return sides;
   }
 
-  const std::string one_material = "set Young's modulus = 1e9\nset Fixed boundaries = 11",
-                    two_materials = "set Materials = 1: 1e9, 0, 0; 2: 3e9, 0, 0";
+  const std::string one_material = "Young's modulus = 1e9; Fixed boundaries = 11",
+                    two_materials = "Materials = 1: 1e9, 0, 0; 2: 3e9, 0, 0";
 
   /// At the top of a hole of radius 1 m in a plate of 80 m x 20 m under 1 MPa [MPa].
   double stress_beside_hole(const int local_refinements)
   {
-    const Sides sides = equilibrium(
-        scene("set Young's modulus = 1e9\nset Degree = 2\nset Plane state = stress\n"
-              "set Fixed boundaries = 0\nset Traction = 1: 1e6, 0",
-              "set Generator = plate_with_a_hole\nset Arguments = 1 : 2 : 8, 8, 38, 38 : 0, 0\n"
-              "set Local refinements = " +
-                  std::to_string(local_refinements) +
-                  "\nset Refine where = 1 + 4/2^t - sqrt(x^2 + y^2)"));
+    const Sides sides = equilibrium(scene("Young's modulus = 1e9; Degree = 2; Plane state = "
+                                          "stress; Fixed boundaries = 0; Traction = 1: 1e6, 0",
+                                          "Generator = plate_with_a_hole; Arguments = 1 : 2 : 8, "
+                                          "8, 38, 38 : 0, 0; Local refinements = " +
+                                              std::to_string(local_refinements) +
+                                              "; Refine where = 1 + 4/2^t - sqrt(x^2 + y^2)"));
     // The stress along the free rim is E times its strain, from the nodes left and right of its
     // top.
     double left = -1., right = 1., u_left = 0., u_right = 0.;
@@ -129,10 +127,10 @@ TEST(SolidMeshes, of_gmsh_have_boundaries_and_materials)
   for (const std::string name : {"quadrilaterals.msh", "triangles.msh"})
     for (const std::string degree : {"1", "2"})
     {
-      const Sides sides = equilibrium(scene(two_materials + "\nset Degree = " + degree +
-                                                "\nset Symmetry boundaries = 11, 13"
-                                                "\nset Traction = 12: 1e6, 0",
-                                            "set File = " + mesh_file(name)));
+      const Sides sides =
+          equilibrium(scene(two_materials + "; Degree = " + degree +
+                                "; Symmetry boundaries = 11, 13; Traction = 12: 1e6, 0",
+                            "File = " + mesh_file(name)));
       unsigned int n_right = 0;
       for (std::size_t i = 0; i < sides.points.size(); ++i)
       {
@@ -146,19 +144,19 @@ TEST(SolidMeshes, of_gmsh_have_boundaries_and_materials)
 
 TEST(SolidMeshes, that_are_none_end_in_one_error)
 {
-  const std::string file = "set File = ", good = file + mesh_file("quadrilaterals.msh");
+  const std::string file = "File =", good = file + mesh_file("quadrilaterals.msh");
   expect_error(scene(one_material, file + "/nowhere/plate.msh"),
                {"Body plate/Mesh/File", "cannot read '/nowhere/plate.msh'"});
-  expect_error(scene(one_material + "\nset Dimension = 3", good),
+  expect_error(scene(one_material + "; Dimension = 3", good),
                {"Body plate/Mesh/File", "no mesh of dimension 3"});
-  expect_error(scene("set Young's modulus = 1e9\nset Fixed boundaries = 21", good),
+  expect_error(scene("Young's modulus = 1e9; Fixed boundaries = 21", good),
                {"Body plate/Fixed boundaries", "no boundary 21; it has 11 12 13 14"});
   expect_error(
-      scene("set Materials = 1: 1e9, 0, 0; 3: 1e9, 0, 0\nset Fixed boundaries = 11", good),
+      scene("Materials = 1: 1e9, 0, 0; 3: 1e9, 0, 0; Fixed boundaries = 11", good),
       {"Body plate/Materials", "the mesh has cells of material 2, of which no material is given"});
   const auto wrong_materials = [&](const std::string &materials, const std::string &part)
   {
-    expect_error(scene("set Materials = " + materials + "\nset Fixed boundaries = 11", good),
+    expect_error(scene("Materials = " + materials + "; Fixed boundaries = 11", good),
                  {"Body plate/Materials", part});
   };
   wrong_materials("1: 1e9, 0, 0", "cells of material 2, of which no material is given");
@@ -179,7 +177,7 @@ TEST(SolidMeshes, that_are_none_end_in_one_error)
 
 TEST(SolidMeshes, of_plates_with_a_hole_are_checked)
 {
-  const std::string generator = "set Generator = plate_with_a_hole\nset Arguments = ";
+  const std::string generator = "Generator = plate_with_a_hole; Arguments =";
   const auto wrong = [&](const std::string &arguments, const std::string &part) {
     expect_error(scene(one_material, generator + arguments), {"Body plate/Mesh/Arguments", part});
   };

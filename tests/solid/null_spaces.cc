@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Motions that nothing but constraints holds: which ones a model of deal.II has, and searches that
-// come across constraints which do not hold a body.
+// Claim: motions that nothing but constraints holds are found, and searches get past constraints
+// that do not hold a body. Source: the rigid body motions of a model of deal.II.
 #include <taut/base/exceptions.h>
 #include <taut/interface/system.h>
 #include <taut/solid/elastic_solid.h>

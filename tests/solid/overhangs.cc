@@ -52,17 +52,15 @@ namespace
   Pressures on_two(const double x, const bool chooses)
   {
     const std::string at = verification::number(x), more = chooses ? "true" : "false";
-    std::string contacts = "set Contacts = a, b\n";
+    std::string contacts = "";
     for (const std::string side : {"a", "b"})
-      contacts += "subsection Contact " + side + "\nset Slave = upper: 2\nset Master = " + side +
-                  ": 3\nset Choose slave = " + more + "\nend\n";
+      contacts += "Contact " + side + ": Slave = upper: 2; Master = " + side +
+                  ": 3; Choose slave = " + more + "\n";
     return pressures(
         scene("equilibrium",
-              "set Bodies = upper, a, b\n" +
-                  box("upper", "10, 3 : 0, 0 : 1, 0.3",
-                      "set Traction = 3: 0, -1e6\nset Displacement = 0: 0, ") +
-                  box("a", "7, 3 : 0, -0.3 : " + at + ", 0", "set Fixed boundaries = 2") +
-                  box("b", "6, 3 : " + at + ", -0.3 : 1, 0", "set Fixed boundaries = 2"),
+              box("upper", "10, 3 : 0, 0 : 1, 0.3", "Traction = 3: 0, -1e6; Displacement = 0: 0,") +
+                  box("a", "7, 3 : 0, -0.3 : " + at + ", 0", "Fixed boundaries = 2") +
+                  box("b", "6, 3 : " + at + ", -0.3 : 1, 0", "Fixed boundaries = 2"),
               contacts + at_rest));
   }
 } // namespace
@@ -89,15 +87,14 @@ TEST(SolidOverhangs, alternate_at_the_ends_and_are_named)
   for (const char *const cells : {"41, 12", "17, 6"})
     for (const bool chooses : {false, true})
     {
-      const Pressures found = pressures(scene(
-          "equilibrium",
-          "set Bodies = wide, narrow\n" +
-              box("wide", std::string(cells) + " : 0, 0 : 1, 0.3", "set Fixed boundaries = 2") +
-              box("narrow", "8, 4 : 0.1, 0.3 : 0.55, 0.6",
-                  "set Traction = 3: 0, -1e6\nset Displacement = 0: 0, "),
-          contact("wide: 3", "narrow: 2",
-                  std::string("set Choose slave = ") + (chooses ? "true" : "false")) +
-              at_rest));
+      const Pressures found = pressures(
+          scene("equilibrium",
+                box("wide", std::string(cells) + " : 0, 0 : 1, 0.3", "Fixed boundaries = 2") +
+                    box("narrow", "8, 4 : 0.1, 0.3 : 0.55, 0.6",
+                        "Traction = 3: 0, -1e6; Displacement = 0: 0,"),
+                contact("wide: 3", "narrow: 2",
+                        std::string("Choose slave =") + (chooses ? "true" : "false")) +
+                    at_rest));
       ASSERT_EQ(found.error, "");
       EXPECT_NE(found.is_named, chooses) << found.log;
       EXPECT_EQ(has(found.log, "Choose slave = true"), !chooses) << found.log;
@@ -125,15 +122,12 @@ TEST(SolidOverhangs, nodes_on_faces_in_space_are_named_where_they_are_off)
   for (const auto &[n, m] : {std::pair<int, int>(2, 2), {3, 2}, {4, 2}, {5, 2}, {2, 3}, {3, 4}})
   {
     const auto cells = [](const int k) { return std::to_string(k) + ", " + std::to_string(k); };
-    const Pressures found =
-        pressures(scene("equilibrium",
-                        "set Bodies = lower, upper\n" +
-                            box("lower", cells(m) + ", 2 : 0, 0, 0 : 1, 1, 1",
-                                "set Dimension = 3\nset Fixed boundaries = 4") +
-                            box("upper", cells(n) + ", 2 : 0, 0, 1 : 1, 1, 2",
-                                "set Dimension = 3\nset Traction = 5: 0, 0, -1e6\n"
-                                "set Displacement = 0: 0, , ; 2: , 0, "),
-                        contact("upper: 4", "lower: 5", "set Method = nodes to faces") + at_rest));
+    const Pressures found = pressures(scene(
+        "equilibrium",
+        box("lower", cells(m) + ", 2 : 0, 0, 0 : 1, 1, 1", "Dimension = 3; Fixed boundaries = 4") +
+            box("upper", cells(n) + ", 2 : 0, 0, 1 : 1, 1, 2",
+                "Dimension = 3; Traction = 5: 0, 0, -1e6; Displacement = 0: 0, , ; 2: , 0,"),
+        contact("upper: 4", "lower: 5", "Method = nodes to faces") + at_rest));
     ASSERT_EQ(found.error, "");
     least = std::fmin(least, found.least);
     largest = std::fmax(largest, found.largest);
@@ -159,14 +153,12 @@ TEST(SolidOverhangs, in_space_are_named)
   for (const double width : {.5, .6, 1.})
   {
     const std::string w = verification::number(width);
-    const Pressures found =
-        pressures(scene("equilibrium",
-                        "set Bodies = lower, upper\n" +
-                            box("lower", "2, 2, 2 : 0, 0, 0 : " + w + ", 1, 1",
-                                "set Dimension = 3\nset Fixed boundaries = 4") +
-                            box("upper", "2, 2, 2 : 0, 0, 1 : 1, 1, 2",
-                                "set Dimension = 3\nset Displacement = 5: 0, 0, -1e-4"),
-                        contact("upper: 4", "lower: 5", "set Method = nodes to faces") + at_rest));
+    const Pressures found = pressures(scene(
+        "equilibrium",
+        box("lower", "2, 2, 2 : 0, 0, 0 : " + w + ", 1, 1", "Dimension = 3; Fixed boundaries = 4") +
+            box("upper", "2, 2, 2 : 0, 0, 1 : 1, 1, 2",
+                "Dimension = 3; Displacement = 5: 0, 0, -1e-4"),
+        contact("upper: 4", "lower: 5", "Method = nodes to faces") + at_rest));
     ASSERT_EQ(found.error, "");
     EXPECT_EQ(has(found.log, "overhangs the master by"), width < 1.) << width << found.log;
   }

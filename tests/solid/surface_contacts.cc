@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Contacts of surfaces against exact solutions: the patch test, Hertz's cylinder and ball.
+// Claim: contacts of surfaces pass on forces as exact solutions do. Sources: the patch test,
+// Hertz's cylinder and ball.
 #include "solid/wavy_floor.h"
 #include "verification/run.h"
 
@@ -196,36 +197,15 @@ TEST(SurfaceContacts, uniform_pressure_passes_between_meshes_that_do_not_match)
 // in by 1 mm.
 TEST(SurfaceContacts, hanging_nodes_and_compliance_leave_a_uniform_pressure_as_it_is)
 {
-  const Found found = equilibrium("set Generator = network\n"
-                                  "set Gravity = 0, 0\n"
-                                  "set Start = equilibrium\n"
-                                  "set Bodies = cube\n"
-                                  "set Contacts = floor\n"
-                                  "subsection Body cube\n"
-                                  "  set Type = solid\n"
-                                  "  set Dimension = 3\n"
-                                  "  set Young's modulus = 1e9\n"
-                                  "  set Poisson's ratio = 0.3\n"
-                                  "  set Density = 2000\n"
-                                  "  set Symmetry boundaries = 0, 2\n"
-                                  "  set Traction = 5: 0, 0, -1e6\n"
-                                  "  subsection Mesh\n"
-                                  "    set Generator = subdivided_hyper_rectangle\n"
-                                  "    set Arguments = 2, 2, 2 : 0, 0, 0 : 1, 1, 1\n"
-                                  "    set Local refinements = 1\n"
-                                  "    set Refine where = 0.5 - x\n"
-                                  "  end\n"
-                                  "end\n"
-                                  "subsection Contact floor\n"
-                                  "  set Slave = cube: 4\n"
-                                  "  set Obstacle = plane\n"
-                                  "  set Point = 0, 0, 0\n"
-                                  "  set Direction = 0, 0, 1\n"
-                                  "  set Compliance = 1e-9\n"
-                                  "end\n"
-                                  "subsection Time\n"
-                                  "  set End = 0\n"
-                                  "end\n");
+  const Found found = equilibrium(R"(Generator = network; Gravity = 0, 0; Start = equilibrium
+Body cube: Type = solid; Dimension = 3; Young's modulus = 1e9; Poisson's ratio = 0.3;
+  Density = 2000; Symmetry boundaries = 0, 2; Traction = 5: 0, 0, -1e6
+Body cube/Mesh: Generator = subdivided_hyper_rectangle; Arguments = 2, 2, 2 : 0, 0, 0 : 1, 1, 1;
+  Local refinements = 1; Refine where = 0.5 - x
+Contact floor: Slave = cube: 4; Obstacle = plane; Point = 0, 0, 0; Direction = 0, 0, 1;
+  Compliance = 1e-9
+Time: End = 0
+)");
   ASSERT_EQ(found.force.size(), 16u); // 18 nodes, of which 2 hang
   double area = 0.;
   for (std::size_t i = 0; i < found.force.size(); ++i)
@@ -247,33 +227,14 @@ TEST(SurfaceContacts, a_slit_is_pressed_shut)
   for (const std::string operator_name :
        {"condensed", "assembled dense", "assembled sparse", "matrix-free"})
   {
-    const Found found = equilibrium("set Generator = network\n"
-                                    "set Gravity = 0, 0\n"
-                                    "set Start = equilibrium\n"
-                                    "set Bodies = square\n"
-                                    "set Contacts = slit\n"
-                                    "subsection Body square\n"
-                                    "  set Type = solid\n"
-                                    "  set Young's modulus = 1e9\n"
-                                    "  set Poisson's ratio = 0.3\n"
-                                    "  set Density = 2000\n"
-                                    "  set Displacement = 3: -1e-3*x, 0\n"
-                                    "  subsection Mesh\n"
-                                    "    set File = " +
-                                    mesh.path.string() +
-                                    "\n"
-                                    "  end\n"
-                                    "end\n"
-                                    "subsection Contact slit\n"
-                                    "  set Slave = square: 1\n"
-                                    "  set Master = square: 2\n"
-                                    "end\n"
-                                    "subsection Time\n"
-                                    "  set End = 0\n"
-                                    "end\n"
-                                    "subsection Solver\n"
-                                    "  set Interface operator = " +
-                                    operator_name + "\nend\n");
+    const Found found = equilibrium(R"(Generator = network; Gravity = 0, 0; Start = equilibrium
+Body square: Type = solid; Young's modulus = 1e9; Poisson's ratio = 0.3; Density = 2000;
+  Displacement = 3: -1e-3*x, 0
+Body square/Mesh: File = )" + mesh.path.string() +
+                                    R"(
+Contact slit: Slave = square: 1; Master = square: 2
+Time: End = 0
+Solver: Interface operator = )" + operator_name);
     unsigned int n_inside = 0;
     for (std::size_t i = 0; i < found.force.size(); ++i)
       if (const double y = found.constraints[i].point.y; y > -.95 && y < -.05)

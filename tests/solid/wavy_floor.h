@@ -32,40 +32,20 @@ namespace wavy_floor
   /// backward Euler [s].
   inline std::string scene(const unsigned int n_x, const int n_steps = 0, const double step = 2e-4)
   {
-    return "set Generator = network\n"
-           "set Gravity   = 0, 0\n"
-           "set Start     = equilibrium\n"
-           "set Bodies    = slab\n"
-           "set Contacts  = floor\n"
-           "subsection Body slab\n"
-           "  set Type = solid\n"
-           "  set Young's modulus = 1e9\n"
-           "  set Poisson's ratio = 0.3\n"
-           "  set Density = 2000\n"
-           "  set Symmetry boundaries = 0, 1\n"
-           "  set Displacement = 3: 0, -0.0012 - 0.00003*x - 0.0006*cos(20*pi*t)\n"
-           "  subsection Mesh\n"
-           "    set Generator = subdivided_hyper_rectangle\n"
-           "    set Arguments = " +
-           std::to_string(n_x) + ", " + std::to_string(n_x / 20) +
-           " : 0, 0 : 20, 1\n"
-           "  end\n"
-           "end\n"
-           "subsection Contact floor\n"
-           "  set Slave = slab: 2\n"
-           "  set Obstacle = height\n"
-           "  set Direction = 0, 1\n"
-           "  set Height = 0.002*(cos(0.8*pi*x) - 1)\n"
-           "  set Search distance = 1\n"
-           "end\n"
-           "subsection Time\n"
-           "  set Scheme = backward Euler\n"
-           "  set Step = " +
-           std::to_string(step) + "\n  set End = " + std::to_string(step * n_steps) +
-           "\nend\n"
-           "subsection Output\n"
-           "  set Field interval = 0\n"
-           "end\n";
+    return R"(Generator = network; Gravity = 0, 0; Start = equilibrium
+Body slab: Type = solid; Young's modulus = 1e9; Poisson's ratio = 0.3; Density = 2000;
+  Symmetry boundaries = 0, 1; Displacement = 3: 0, -0.0012 - 0.00003*x - 0.0006*cos(20*pi*t)
+Body slab/Mesh: Generator = subdivided_hyper_rectangle;
+  Arguments = )" +
+           std::to_string(n_x) + ", " + std::to_string(n_x / 20) + R"( : 0, 0 : 20, 1
+Contact floor: Slave = slab: 2; Obstacle = height; Direction = 0, 1;
+  Height = 0.002*(cos(0.8*pi*x) - 1); Search distance = 1
+Time: Scheme = backward Euler; Step = )" +
+           std::to_string(step) + R"(;
+  End = )" +
+           std::to_string(step * n_steps) + R"(
+Output: Field interval = 0
+)";
   }
 } // namespace wavy_floor
 

@@ -2,6 +2,9 @@
 // Claim: a study measures errors that are the real ones (free oscillator, u = cos(w t)), its
 // refined reference is as far from the exact value as it says, a setting that fails is a row, and
 // Accuracy takes the cheapest setting of a study of the same scene and of no other.
+#include "verification/error_of.h"
+#include "verification/scene_builder.h"
+
 #include <taut/base/exceptions.h>
 #include <taut/simulation/simulation.h>
 #include <taut/study/study.h>
@@ -23,61 +26,24 @@ namespace
 {
   namespace fs = std::filesystem;
   using Texts = std::vector<std::string>;
+  using verification::error_of;
+  using verification::prm;
 
   // w = 10 1/s; at t = 1.3 s the mass is at cos(13) m.
-  const char *const oscillator = R"(set Generator = network
-set Gravity   = 0, 0
-set Start     = given
-subsection Network
-  set Masses  = block
-  set Springs = spring
-  subsection Mass block
-    set Motions              = y
-    set Mass                 = 2
-    set Initial displacement = 0, 1, 0
-  end
-  subsection Spring spring
-    set To        = block
-    set Stiffness = 200
-  end
-end
-subsection Time
-  set Scheme = Newmark
-  set Step   = 0.01
-  set End    = 1.3
-end
-subsection Output
-  set Folder         = results
-  set Field interval = 0
-  set Probes         = place
-  subsection Probe place
-    set Point = block
-  end
-end
-subsection Study
-  set Repeats          = 1
-  set Reference levels = 5
-  set Parameters          = step, scheme
-  subsection Parameter step
-    set Entries = Time/Step
-    set Values  = 0.02, 0.01, 0.005, 0.0025
-    set Refined = true
-  end
-  subsection Parameter scheme
-    set Entries   = Time/Scheme
-    set Values    = Newmark, backward Euler
-    set Reference = Newmark
-  end
-  set Quantities = end, motion
-  subsection Quantity end
-    set Of       = place
-    set Quantity = last
-  end
-  subsection Quantity motion
-    set Of       = place
-    set Quantity = history
-  end
-end
+  const std::string bare_oscillator = R"(Gravity = 0, 0; Start = given
+Mass block: Motions = y; Mass = 2; Initial displacement = 0, 1, 0
+Spring spring: To = block; Stiffness = 200
+Time: Scheme = Newmark; Step = 0.01; End = 1.3
+Output: Folder = results; Field interval = 0
+Probe place: Point = block
+)";
+  const std::string parameters_of_the_study = R"(Study: Repeats = 1; Reference levels = 5
+Parameter step: Entries = Time/Step; Values = 0.02, 0.01, 0.005, 0.0025; Refined = true
+Parameter scheme: Entries = Time/Scheme; Values = Newmark, backward Euler; Reference = Newmark
+)";
+  const std::string oscillator = bare_oscillator + parameters_of_the_study +
+                                 R"(Quantity end: Of = place; Quantity = last
+Quantity motion: Of = place; Quantity = history
 )";
 
   class StudyTest : public testing::Test
@@ -88,7 +54,7 @@ end
       folder = fs::temp_directory_path() / ("taut_study_" + std::to_string(getpid()));
       fs::create_directories(folder);
       fs::current_path(folder);
-      std::ofstream("scene.prm") << oscillator;
+      std::ofstream("scene.prm") << prm(oscillator);
     }
     void TearDown() override
     {
@@ -100,19 +66,6 @@ end
     {
       log.str("");
       return taut::Study("scene.prm", overrides, overwrite, log).run();
-    }
-
-    static std::string error_of(const std::function<void()> &action)
-    {
-      try
-      {
-        action();
-      }
-      catch (const taut::UserError &e)
-      {
-        return e.what();
-      }
-      return "";
     }
 
     static void expect_fragments(const std::string &message, const Texts &fragments)
@@ -393,14 +346,11 @@ TEST_F(StudyTest, mistakes_are_named_before_anything_runs)
     expect_fragments(error_of([&, o = overrides]() { study(o); }), fragments);
     EXPECT_FALSE(fs::exists("results/study/study.json"));
   }
-  std::ofstream("scene.prm")
-      << std::string(oscillator).substr(0, std::string(oscillator).find("subsection Study"));
+  std::ofstream("scene.prm") << prm(bare_oscillator);
   expect_fragments(error_of([&]() { study(); }), {"Study/Parameters", "one or more lists"});
-  std::ofstream("scene.prm")
-      << std::string(oscillator).substr(0, std::string(oscillator).find("  set Quantities = end"))
-      << "end\n";
+  std::ofstream("scene.prm") << prm(bare_oscillator + parameters_of_the_study);
   expect_fragments(error_of([&]() { study(); }), {"Study/Quantities", "one or more quantities"});
-  std::ofstream("scene.prm") << oscillator;
+  std::ofstream("scene.prm") << prm(oscillator);
   study();
   expect_fragments(error_of([&]() { study(); }), {"Study/Folder", "--overwrite"});
   EXPECT_EQ(error_of([&]() { study({}, true); }), "");

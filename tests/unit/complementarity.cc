@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Claims about the complementarity solvers on small problems whose answers are exact and found by
-// hand.
+// Claim: the complementarity solvers solve small problems exactly. Source: answers found by hand.
 #include "complementarity_reference.h"
 
 #include <taut/base/exceptions.h>

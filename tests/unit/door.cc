@@ -2,6 +2,8 @@
 // Claim: what a program or a scene of a plugin says that makes no sense is one UserError that names
 // the body, the constraint or the item, and what was there before is as it was. Source: the tables
 // below; what is not wrong in them runs.
+#include "verification/error_of.h"
+
 #include "fuzz/door_bodies.h"
 
 #include <taut/cable/cable.h>
@@ -19,22 +21,10 @@
 
 namespace
 {
+  using verification::error_of;
   using namespace door;
   using taut::Constraint;
   using taut::Scene;
-
-  std::string error_of(const std::function<void()> &work)
-  {
-    try
-    {
-      work();
-    }
-    catch (const taut::UserError &e)
-    {
-      return e.what();
-    }
-    return "";
-  }
 
   void expect_refused(const std::function<void()> &work, const std::string &name)
   {

@@ -2,6 +2,8 @@
 // Claim: a model of deal.II that does not fit its DoFHandler is one UserError that names the body;
 // one that fits hangs as it should. Source: the table below; a bar under its weight, whose linear
 // elements are exact at nodes.
+#include "verification/error_of.h"
+
 #include <taut/base/exceptions.h>
 #include <taut/substructure/check_body.h>
 #include <taut/substructure/fe_body.h>
@@ -20,6 +22,7 @@
 
 namespace
 {
+  using verification::error_of;
   using namespace dealii;
 
   constexpr double EA = 1e3, weight = 20.; ///< [N; N/m]
@@ -75,18 +78,6 @@ namespace
     }
   };
 
-  std::string error_of(const std::function<void()> &work)
-  {
-    try
-    {
-      work();
-    }
-    catch (const taut::UserError &e)
-    {
-      return e.what();
-    }
-    return "";
-  }
 } // namespace
 
 TEST(DoorFEBody, a_bar_hangs)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The Hermite element against closed forms: polynomials, textbook matrices, frequencies of a beam.
+// Claim: the Hermite element agrees with closed forms. Sources: polynomials, textbook matrices,
+// frequencies of a beam.
 #include <taut/base/exceptions.h>
 #include <taut/wire/fe_cubic_hermite.h>
 #include <taut/wire/hermite_shape.h>

@@ -22,13 +22,13 @@ namespace
   }
 
   const char *const ball =
-      "set Generator = network\nset Gravity = 0, -9.81\nset Start = given\nsubsection Network\n"
-      " set Masses = ball\n set Links = stop\n subsection Mass ball\n  set Position = 0, 1\n"
-      "  set Motions = y\n  set Mass = 1\n end\n subsection Link stop\n  set Type = stop\n"
-      "  set From = ground\n  set To = ball\n  set Direction = 0, 1\n  set Gap = 1\n end\nend\n"
-      "subsection Time\n set Step = 1e-3\n set End = 3\n"
-      " subsection Moreau-Jean\n  set Restitution = 0.5\n end\n"
-      " subsection Adaptive step\n  set Halvings = 34\n end\nend\n";
+      R"(Gravity = 0, -9.81; Start = given
+Mass ball: Position = 0, 1; Motions = y; Mass = 1
+Link stop: Type = stop; From = ground; To = ball; Direction = 0, 1; Gap = 1
+Time: Step = 1e-3; End = 3
+Time/Moreau-Jean: Restitution = 0.5
+Time/Adaptive step: Halvings = 34
+)";
 
   struct Bounces
   {
@@ -119,17 +119,15 @@ namespace
   /// A mass of 1 kg on a rod of 100 N/m without mass to speak of, whose other end moves.
   std::string shaken_mass(const std::string &motion)
   {
-    return "set Generator = network\nset Gravity = 0, 0\nset Start = given\nsubsection Network\n"
-           " set Wires = rod\n set Supports = shaker\n set Masses = block\n set Links = joint\n"
-           " subsection Wire rod\n  set From = 0, 0\n  set To = 0, 1\n  set Components = bar\n"
-           "  set Mass per length = 1e-9\n  set Axial stiffness = 100\n  set Element size = 1\n"
-           "  set Degree = 1\n end\n subsection Support shaker\n  set Wire = rod\n"
-           "  set Positions = 0\n  set Motion = axial\n  set Displacement = " +
-           motion +
-           "\n end\n subsection Mass block\n  set Position = 0, 1\n  set Motions = y\n"
-           "  set Mass = 1\n end\n subsection Link joint\n  set Type = joint\n"
-           "  set From = rod @ 1\n  set To = block\n  set Direction = 0, 1\n end\nend\n"
-           "subsection Time\n set Step = 1e-3\n set End = 2\nend\n";
+    return R"(Gravity = 0, 0; Start = given
+Wire rod: From = 0, 0; To = 0, 1; Components = bar; Mass per length = 1e-9;
+  Axial stiffness = 100; Element size = 1; Degree = 1
+Support shaker: Wire = rod; Positions = 0; Motion = axial; Displacement = )" +
+           motion + R"(
+Mass block: Position = 0, 1; Motions = y; Mass = 1
+Link joint: Type = joint; From = rod @ 1; To = block; Direction = 0, 1
+Time: Step = 1e-3; End = 2
+)";
   }
 
   struct Shaken

@@ -203,14 +203,13 @@ TEST(Damping, first_mode_decays_as_rayleigh_damping_says)
   const double q = pi / L, omega = std::sqrt((T * q * q + EI * q * q * q * q) / m),
                d = .5 * (alpha + beta * omega * omega), damped = std::sqrt(omega * omega - d * d);
   double error = 0.;
-  run_scene("set Generator = network\nset Gravity = 0, 0\nset Start = given\n"
-            "subsection Network\n set Wires = beam\n set Supports = ends\n"
-            " subsection Wire beam\n  set To = 4, 0\n  set Components = beam\n"
-            "  set Mass per length = 1.5\n  set Tension = 60\n  set Bending stiffness = 20\n"
-            "  set Element size = 0.2\n  set Mass damping = 0.3\n  set Stiffness damping = 0.004\n"
-            "  set Initial transverse displacement = 0.01*sin(pi*s/4)\n end\n"
-            " subsection Support ends\n  set Wire = beam\n  set Positions = 0, 4\n end\nend\n"
-            "subsection Time\n set Scheme = Newmark\n set Step = 2.5e-4\n set End = 4\nend\n",
+  run_scene(R"(Gravity = 0, 0; Start = given
+Wire beam: To = 4, 0; Components = beam; Mass per length = 1.5; Tension = 60;
+  Bending stiffness = 20; Element size = 0.2; Mass damping = 0.3; Stiffness damping = 0.004;
+  Initial transverse displacement = 0.01*sin(pi*s/4)
+Support ends: Wire = beam; Positions = 0, 4
+Time: Scheme = Newmark; Step = 2.5e-4; End = 4
+)",
             {},
             [&](const taut::StepView &view)
             {

@@ -20,16 +20,13 @@ namespace
 {
   // A mass of 2 kg hangs from a string by a dropper of 10 kN/m, and stays where it is.
   const char *const scene =
-      "set Generator = network\nset Gravity = 0, -9.81\nset Start = equilibrium\n"
-      "subsection Network\n set Wires = wire\n set Supports = ends\n set Masses = mass\n"
-      " set Links = hanger\n"
-      " subsection Wire wire\n  set To = 4, 0\n  set Components = string\n"
-      "  set Mass per length = 1\n  set Tension = 1000\n  set Element size = 0.5\n end\n"
-      " subsection Support ends\n  set Wire = wire\n  set Positions = 0, 4\n end\n"
-      " subsection Mass mass\n  set Position = 2, -1\n  set Mass = 2\n  set Motions = y\n end\n"
-      " subsection Link hanger\n  set Type = dropper\n  set From = wire @ 2\n  set To = mass\n"
-      "  set Stiffness = 10000\n end\nend\n"
-      "subsection Time\n set Scheme = BDF2\n set Step = 1e-3\n set End = 1e-3\nend\n";
+      R"(Gravity = 0, -9.81; Start = equilibrium
+Wire wire: To = 4, 0; Components = string; Mass per length = 1; Tension = 1000; Element size = 0.5
+Support ends: Wire = wire; Positions = 0, 4
+Mass mass: Position = 2, -1; Mass = 2; Motions = y
+Link hanger: Type = dropper; From = wire @ 2; To = mass; Stiffness = 10000
+Time: Scheme = BDF2; Step = 1e-3; End = 1e-3
+)";
 
   /// A stepper that has factored the matrices of the scene, and what it was made from.
   class Steps
@@ -137,10 +134,9 @@ TEST(Certificate, a_gap_away_from_its_displacements_is_seen)
 TEST(Certificate, a_moving_row_keeps_the_offset_of_its_start)
 {
   std::string text = scene;
-  const std::string dropper = "  set Type = dropper\n  set From = wire @ 2\n  set To = mass\n";
+  const std::string dropper = "Type = dropper; From = wire @ 2; To = mass";
   text.replace(text.find(dropper), dropper.size(),
-               "  set Type = sliding contact\n  set From = mass\n  set To = wire @ 2\n"
-               "  set Direction = 0, -1\n  set Speed = 0\n");
+               "Type = sliding contact; From = mass; To = wire @ 2; Direction = 0, -1; Speed = 0");
   for (const double offset : {0., 1e-9})
   {
     Steps steps(0., offset, text);

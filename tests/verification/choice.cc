@@ -48,16 +48,14 @@ namespace
   /// Two masses on a spring fall 0.8 m onto a floor.
   std::string falling_masses(const std::string &floor = "")
   {
-    return "set Generator = network\nset Gravity = 0, -10\nset Start = given\n"
-           "subsection Network\n set Masses = lower, upper\n set Springs = spring\n"
-           " set Links = floor\n"
-           " subsection Mass lower\n  set Position = 0, 0.8\n  set Motions = y\n  set Mass = 2\n"
-           " end\n subsection Mass upper\n  set Position = 0, 1.8\n  set Motions = y\n"
-           "  set Mass = 2\n end\n"
-           " subsection Spring spring\n  set From = lower\n  set To = upper\n  set Stiffness = 1\n"
-           " end\n subsection Link floor\n  set Type = stop\n  set From = ground\n"
-           "  set To = lower\n  set Direction = 0, 1\n  set Gap = 0.8\n" +
-           floor + " end\nend\nsubsection Time\n set Step = 1e-3\n set End = 0.7\nend\n";
+    return R"(Gravity = 0, -10; Start = given
+Mass lower: Position = 0, 0.8; Motions = y; Mass = 2
+Mass upper: Position = 0, 1.8; Motions = y; Mass = 2
+Spring spring: From = lower; To = upper; Stiffness = 1
+Link floor: Type = stop; From = ground; To = lower; Direction = 0, 1; Gap = 0.8; )" +
+           floor + R"(
+Time: Step = 1e-3; End = 0.7
+)";
   }
 
   /// Root mean square error of the lower end of the bar on the wall over that of its motion.
@@ -132,14 +130,14 @@ TEST(Schemes, automatic_follows_from_links_bodies_and_step)
   expect_choice(beam, {soon}, rigid, "'support 1' acts as rigid");
   expect_choice(beam, {"Time.Step=1e-5", "Time.End=1e-4"}, rigid, "'support 1' acts as rigid");
   // Masses.
-  for (const std::string floor : {"", "  set Stiffness = 1e9\n"})
+  for (const std::string floor : {"", "Stiffness = 1e9"})
     expect_choice(falling_masses(floor), {soon}, rigid, stiffer);
-  expect_choice(falling_masses("  set Stiffness = 1e3\n"), {soon}, smooth, compliant);
+  expect_choice(falling_masses("Stiffness = 1e3"), {soon}, smooth, compliant);
   // The values that the rules were measured with, not the file's.
   expect_choice(falling_masses(), {"Time.Moreau-Jean.Theta=0.7", soon}, rigid, stiffer);
   expect_choice(bar, {"Time.Generalised-alpha.Spectral radius=0.3", soon}, smooth, massless);
   // A mass that rebounds as a whole wants its energy kept, if steps are adaptive at any of them.
-  const std::string spring = "  set Stiffness = 1e5\n", impacts = "does not resolve the impacts";
+  const std::string spring = "Stiffness = 1e5", impacts = "does not resolve the impacts";
   expect_choice(falling_masses(spring), {"Time.Step=1e-4", soon}, smooth, compliant);
   expect_choice(falling_masses(spring), {"Time.Step=2e-3", soon}, rigid, impacts);
   expect_choice(falling_masses(spring), {"Time.Step=4e-2"}, rigid, stiffer);
@@ -174,9 +172,9 @@ TEST(Schemes, automatic_knows_restitution_or_says_so)
   const std::string half = "Time.Moreau-Jean.Restitution=0.5", soon = "Time.End=0.01";
   expect_choice(falling_masses(), {half, soon},
                 "Moreau-Jean (theta 0.5, gaps then velocities, restitution 0.5)", "'floor'");
-  expect_choice(falling_masses("  set Stiffness = 1e9\n"), {half, soon}, "error:",
+  expect_choice(falling_masses("Stiffness = 1e9"), {half, soon}, "error:",
                 "Time/Moreau-Jean/Restitution: restitution is a law of rigid unilateral links");
-  expect_choice(falling_masses("  set Stiffness = 1\n"), {half, soon}, "error:", "Stiffness");
+  expect_choice(falling_masses("Stiffness = 1"), {half, soon}, "error:", "Stiffness");
   expect_choice(scene_file("bar_on_wall"), {half, soon}, "error:", "'floor'");
   expect_choice(falling_masses(),
                 {"Network.Link floor.Type=joint", "Network.Link floor.Gap=0", half, soon},
@@ -236,7 +234,7 @@ TEST(Schemes, automatic_leaves_a_mass_on_a_rigid_floor)
               });
     return largest;
   };
-  const std::string stiff = "  set Stiffness = 1e9\n";
+  const std::string stiff = "Stiffness = 1e9";
   constexpr double highest_at = .37206; // 4 cos t = 10 t
   const double exact = 4. * std::sin(highest_at) - 5. * highest_at * highest_at;
   double lowest = 1., highest = 0.;

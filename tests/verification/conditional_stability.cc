@@ -21,19 +21,16 @@ namespace
 {
   /// m = 1, 3 kg on springs of 4000, 2000 N/m, with one of 9000 N/m between them, one pushed.
   const char *const two_masses =
-      "set Generator = network\nset Gravity = 0, 0\nset Start = undeformed\n"
-      "subsection Network\n set Masses = one, two\n set Springs = first, second\n set Loads = "
-      "push\n set Links = joint\n"
-      " subsection Mass one\n  set Position = 0, 0\n  set Mass = 1\n  set Motions = y\n end\n"
-      " subsection Mass two\n  set Position = 0, 1\n  set Mass = 3\n  set Motions = y\n end\n"
-      " subsection Spring first\n  set From = ground\n  set To = one\n  set Direction = 0, 1\n"
-      "  set Stiffness = 4000\n end\n"
-      " subsection Spring second\n  set From = ground\n  set To = two\n  set Direction = 0, 1\n"
-      "  set Stiffness = 2000\n end\n"
-      " subsection Load push\n  set On = one\n  set Direction = 0, 1\n  set Magnitude = 10\n end\n"
-      " subsection Link joint\n  set Type = joint\n  set From = one\n  set To = two\n"
-      "  set Direction = 0, 1\n  set Stiffness = 9000\n end\nend\n"
-      "subsection Time\n set Scheme = Newmark\n subsection Newmark\n  set Beta = 0.1\n end\nend\n";
+      R"(Gravity = 0, 0; Start = undeformed
+Mass one: Position = 0, 0; Mass = 1; Motions = y
+Mass two: Position = 0, 1; Mass = 3; Motions = y
+Spring first: From = ground; To = one; Direction = 0, 1; Stiffness = 4000
+Spring second: From = ground; To = two; Direction = 0, 1; Stiffness = 2000
+Load push: On = one; Direction = 0, 1; Magnitude = 10
+Link joint: Type = joint; From = one; To = two; Direction = 0, 1; Stiffness = 9000
+Time: Scheme = Newmark
+Time/Newmark: Beta = 0.1
+)";
 
   /// Of them: the larger root of (k1 + k - m1 w)(k2 + k - m2 w) = k^2 with w = omega^2.
   double largest_frequency_of_two_masses()
@@ -60,15 +57,13 @@ TEST(ConditionalStability, fourth_order_with_beta_one_twelfth)
 {
   const double k = 800., omega = std::sqrt(k / 2.), Omega = 7., P = 8.;
   const char *const scene =
-      "set Generator = network\nset Gravity = 0, 0\nset Start = equilibrium\n"
-      "subsection Network\n set Masses = mass\n set Springs = spring\n set Loads = push\n"
-      " subsection Mass mass\n  set Position = 0, 0\n  set Mass = 2\n  set Motions = y\n end\n"
-      " subsection Spring spring\n  set From = ground\n  set To = mass\n  set Direction = 0, 1\n"
-      "  set Stiffness = 800\n end\n"
-      " subsection Load push\n  set On = mass\n  set Direction = 0, 1\n"
-      "  set Magnitude = 8*(1-cos(7*t))\n end\nend\n"
-      "subsection Time\n set Scheme = Newmark\n set End = 3.2\n subsection Newmark\n"
-      "  set Beta = 0.08333333333333333\n end\nend\n";
+      R"(Gravity = 0, 0; Start = equilibrium
+Mass mass: Position = 0, 0; Mass = 2; Motions = y
+Spring spring: From = ground; To = mass; Direction = 0, 1; Stiffness = 800
+Load push: On = mass; Direction = 0, 1; Magnitude = 8*(1-cos(7*t))
+Time: Scheme = Newmark; End = 3.2
+Time/Newmark: Beta = 0.08333333333333333
+)";
   std::vector<double> errors;
   for (const char *const step : {"0.02", "0.01", "0.005"})
   {

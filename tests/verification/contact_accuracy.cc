@@ -96,32 +96,23 @@ namespace
   /// 120 m of wire on springs, and a two-mass pantograph at 250 km/h under it.
   std::string line(const std::string &contact, const std::string &force)
   {
-    return "set Generator = network\nset Gravity = 0, 0\nset Start = equilibrium\n"
-           "subsection Network\n set Wires = wire\n set Supports = ends, soft, hard\n"
-           " set Masses = head, frame\n set Springs = upper, lower\n set Links = contact\n"
-           " set Loads = lift\n"
-           " subsection Wire wire\n  set To = 120, 0\n  set Components = beam\n"
-           "  set Mass per length = 1.35\n  set Tension = 20000\n  set Bending stiffness = 195\n"
-           "  set Element size = 0.5\n  set Mass damping = 0.0125\n"
-           "  set Stiffness damping = 1e-4\n end\n"
-           " subsection Support ends\n  set Wire = wire\n  set Positions = 0, 120\n end\n"
-           " subsection Support soft\n  set Wire = wire\n  set Type = elastic\n"
-           "  set Positions = 6:6:54, 66:6:114\n  set Stiffness = 3000\n end\n"
-           " subsection Support hard\n  set Wire = wire\n  set Type = elastic\n"
-           "  set Positions = 60\n  set Stiffness = 18000\n end\n"
-           " subsection Mass head\n  set Position = 15, 0\n  set Motions = y\n"
-           "  set Mass = 7.2\n end\n"
-           " subsection Mass frame\n  set Position = 15, -1\n  set Motions = y\n"
-           "  set Mass = 15\n end\n"
-           " subsection Spring upper\n  set From = frame\n  set To = head\n"
-           "  set Stiffness = 4200\n  set Damping = 10\n end\n"
-           " subsection Spring lower\n  set From = ground\n  set To = frame\n"
-           "  set Stiffness = 50\n  set Damping = 90\n end\n"
-           " subsection Link contact\n  set Type = sliding contact\n  set From = head\n"
-           "  set To = wire @ 15\n  set Direction = 0, 1\n  set Speed = 69.444444444444443\n" +
-           contact +
-           " end\n subsection Load lift\n  set Type = point\n  set On = frame\n  set Magnitude = " +
-           force + "\n end\nend\nsubsection Time\n set End = 1\nend\n";
+    return R"(Gravity = 0, 0; Start = equilibrium
+Wire wire: To = 120, 0; Components = beam; Mass per length = 1.35; Tension = 20000;
+  Bending stiffness = 195; Element size = 0.5; Mass damping = 0.0125; Stiffness damping = 1e-4
+Support ends: Wire = wire; Positions = 0, 120
+Support soft: Wire = wire; Type = elastic; Positions = 6:6:54, 66:6:114; Stiffness = 3000
+Support hard: Wire = wire; Type = elastic; Positions = 60; Stiffness = 18000
+Mass head: Position = 15, 0; Motions = y; Mass = 7.2
+Mass frame: Position = 15, -1; Motions = y; Mass = 15
+Spring upper: From = frame; To = head; Stiffness = 4200; Damping = 10
+Spring lower: From = ground; To = frame; Stiffness = 50; Damping = 90
+Link contact: Type = sliding contact; From = head; To = wire @ 15; Direction = 0, 1;
+  Speed = 69.444444444444443; )" +
+           contact + R"(
+Load lift: Type = point; On = frame; Magnitude = )" +
+           force + R"(
+Time: End = 1
+)";
   }
 
   Problem moving_contact(const std::string &name, const std::string &contact = "",
@@ -180,7 +171,7 @@ TEST(ContactAccuracy, rigid_moving_contact_with_loss)
 
 TEST(ContactAccuracy, elastic_moving_contact)
 {
-  compare(moving_contact("moving contact of 5e4 N/m", "  set Stiffness = 5e4\n"), 6.25e-5,
+  compare(moving_contact("moving contact of 5e4 N/m", "Stiffness = 5e4"), 6.25e-5,
           {{2e-3, .0097}, {1e-3, .0024}, {5e-4, .0006}}, 1e-3);
 }
 
@@ -191,8 +182,8 @@ TEST(ContactAccuracy, moving_contact_from_a_head_without_mass)
   {
     Problem problem = moving_contact("contact from a massless head, damping " + damping);
     for (const auto &[entry, value] :
-         {std::pair<std::string, std::string>("  set Mass = 7.2\n", "  set Mass = 0\n"),
-          {"  set Damping = 10\n", "  set Damping = " + damping + "\n"}})
+         {std::pair<std::string, std::string>("Mass = 7.2", "Mass = 0"),
+          {"Damping = 10", "Damping = " + damping}})
       problem.scene.replace(problem.scene.find(entry), entry.size(), value);
     const std::vector<double> e = compare(
         problem, 6.25e-5, {{2e-3, .0083}, {1e-3, .0021}, {5e-4, .0005}, {2.5e-4, .00012}}, 1e-3);
@@ -205,13 +196,13 @@ TEST(ContactAccuracy, moving_contact_from_a_head_without_mass)
 TEST(ContactAccuracy, two_masses_on_a_floor)
 {
   const std::string scene =
-      "set Generator = network\nset Gravity = 0, -10\nset Start = given\n"
-      "subsection Network\n set Masses = lower, upper\n set Springs = spring\n set Links = floor\n"
-      " subsection Mass lower\n  set Position = 0, 0.8\n  set Motions = y\n  set Mass = 2\n end\n"
-      " subsection Mass upper\n  set Position = 0, 1.8\n  set Motions = y\n  set Mass = 2\n end\n"
-      " subsection Spring spring\n  set From = lower\n  set To = upper\n  set Stiffness = 400\n"
-      " end\n subsection Link floor\n  set Type = stop\n  set From = ground\n  set To = lower\n"
-      "  set Direction = 0, 1\n  set Gap = 0.8\n end\nend\nsubsection Time\n set End = 1\nend\n";
+      R"(Gravity = 0, -10; Start = given
+Mass lower: Position = 0, 0.8; Motions = y; Mass = 2
+Mass upper: Position = 0, 1.8; Motions = y; Mass = 2
+Spring spring: From = lower; To = upper; Stiffness = 400
+Link floor: Type = stop; From = ground; To = lower; Direction = 0, 1; Gap = 0.8
+Time: End = 1
+)";
   const Overrides of_rates = {"Time.Scheme=Moreau-Jean", "Time.Moreau-Jean.Conditions=velocities"};
   compare({"two masses on a floor [m]", scene, 1.32, .033, -1.}, 1e-5,
           {{.011, 7.1e-3}, {3.3e-3, 1.7e-3}, {1.1e-3, .7e-3}, {3.3e-4, .13e-3}}, 1e-4, true,
@@ -223,20 +214,18 @@ TEST(ContactAccuracy, colliding_beams)
 {
   const auto beam = [](const std::string &name, const std::string &y, const std::string &speed)
   {
-    return " subsection Wire " + name + "\n  set From = 0, " + y + "\n  set To = 20, " + y +
-           "\n  set Components = beam\n  set Mass per length = 20\n"
-           "  set Bending stiffness = 2e5\n  set Element size = 0.5\n"
-           "  set Stiffness damping = 1e-4\n  set Initial transverse velocity = " +
-           speed + "\n end\n subsection Support " + name + "\n  set Wire = " + name +
-           "\n  set Positions = 0, 20\n end\n";
+    return "Wire " + name + ": From = 0, " + y + "; To = 20, " + y +
+           "; Components = beam; Mass per length = 20; Bending stiffness = 2e5; Element size = "
+           "0.5; Stiffness damping = 1e-4; Initial transverse velocity = " +
+           speed + "\nSupport " + name + ": Wire = " + name + "; Positions = 0, 20\n";
   };
   const std::string scene =
-      "set Generator = network\nset Gravity = 0, 0\nset Start = given\nsubsection Network\n"
-      " set Wires = lower, upper\n set Supports = lower, upper\n set Links = stop\n" +
-      beam("lower", "0", "0") + beam("upper", "0.05", "-sin(pi*s/20)") +
-      " subsection Link stop\n  set Type = stop\n  set From = lower @ 1:1:19\n"
-      "  set To = upper @ 1:1:19\n  set Direction = 0, 1\n  set Gap = 0.05\n end\nend\n"
-      "subsection Time\n set End = 1\nend\n";
+      R"(Gravity = 0, 0; Start = given
+)" + beam("lower", "0", "0") +
+      "\n" + beam("upper", "0.05", "-sin(pi*s/20)") + R"(
+Link stop: Type = stop; From = lower @ 1:1:19; To = upper @ 1:1:19; Direction = 0, 1; Gap = 0.05
+Time: End = 1
+)";
   compare({"colliding beams", scene, 1., 4e-3, 10.}, 3.125e-5,
           {{2e-3, .040}, {1e-3, .027}, {5e-4, .014}, {2.5e-4, .004}}, 5e-3);
 }

@@ -23,16 +23,16 @@ namespace
   std::string falling_mass(const double height, const double stiffness, const double step,
                            const double end, const std::string &scheme)
   {
-    return "set Generator = network\nset Gravity = 0, -9.81\nset Start = given\n"
-           "subsection Network\n set Masses = mass\n set Links = stop\n"
-           " subsection Mass mass\n  set Position = 0, " +
-           number(height) +
-           "\n  set Motions = y\n  set Mass = 1\n end\n subsection Link stop\n  set Type = stop\n"
-           "  set From = ground\n  set To = mass\n  set Direction = 0, 1\n  set Gap = " +
-           number(height) + "\n  set Stiffness = " + number(stiffness) +
-           "\n end\nend\nsubsection Time\n set Step = " + number(step) +
-           "\n set End = " + number(end) + "\n set Scheme = " + scheme +
-           "\n set Allow unsuitable scheme = true\nend\n";
+    return R"(Gravity = 0, -9.81; Start = given
+Mass mass: Position = 0, )" +
+           number(height) + R"(; Motions = y; Mass = 1
+Link stop: Type = stop; From = ground; To = mass; Direction = 0, 1;
+  Gap = )" +
+           number(height) + "; Stiffness = " + number(stiffness) + R"(
+Time: Step = )" +
+           number(step) + "; End = " + number(end) + "; Scheme = " + scheme + R"(;
+  Allow unsuitable scheme = true
+)";
   }
 
   /// From touch to lift on a spring, the weight included [s].

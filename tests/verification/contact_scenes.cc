@@ -19,26 +19,23 @@ namespace
 {
   /// A beam of 10 m falls 0.1 m flat on stops under all its nodes: 196.2 J.
   const std::string flat_drop =
-      "set Generator = network\nset Gravity = 0, -9.81\nset Start = undeformed\n"
-      "subsection Network\n set Wires = w\n set Links = stop\n"
-      " subsection Wire w\n  set To = 10, 0\n  set Components = beam\n"
-      "  set Mass per length = 20\n  set Bending stiffness = 2e5\n  set Element size = 0.25\n end\n"
-      " subsection Link stop\n  set Type = stop\n  set From = ground\n  set To = w @ 0:0.25:10\n"
-      "  set Direction = 0, 1\n  set Gap = 0.1\n end\nend\n"
-      "subsection Time\n set Step = 1e-3\n set End = 0.5\nend\n";
+      R"(Gravity = 0, -9.81; Start = undeformed
+Wire w: To = 10, 0; Components = beam; Mass per length = 20; Bending stiffness = 2e5;
+  Element size = 0.25
+Link stop: Type = stop; From = ground; To = w @ 0:0.25:10; Direction = 0, 1; Gap = 0.1
+Time: Step = 1e-3; End = 0.5
+)";
   constexpr double energy_of_fall = 196.2;
 
   /// A string hits a wall that it touches everywhere: 0.25 J.
   const std::string flat_wall =
-      "set Generator = network\nset Gravity = 0, 0\nset Start = given\n"
-      "subsection Network\n set Wires = w\n set Supports = ends\n set Links = wall\n"
-      " subsection Wire w\n  set To = 1, 0\n  set Components = string\n  set Degree = 1\n"
-      "  set Mass per length = 1\n  set Tension = 1\n  set Element size = 0.02\n"
-      "  set Initial transverse velocity = -sin(pi*s)\n end\n"
-      " subsection Support ends\n  set Wire = w\n  set Positions = 0, 1\n end\n"
-      " subsection Link wall\n  set Type = stop\n  set From = ground\n"
-      "  set To = w @ 0.02:0.02:0.98\n  set Direction = 0, 1\n end\nend\n"
-      "subsection Time\n set Step = 5e-3\n set End = 0.5\nend\n";
+      R"(Gravity = 0, 0; Start = given
+Wire w: To = 1, 0; Components = string; Degree = 1; Mass per length = 1; Tension = 1;
+  Element size = 0.02; Initial transverse velocity = -sin(pi*s)
+Support ends: Wire = w; Positions = 0, 1
+Link wall: Type = stop; From = ground; To = w @ 0.02:0.02:0.98; Direction = 0, 1
+Time: Step = 5e-3; End = 0.5
+)";
 
   /// Kinetic and strain energy by M and K [J].
   double energy(const taut::StepView &view)
@@ -169,13 +166,12 @@ TEST(Restitution, a_ball_rises_to_the_heights_of_newtons_law)
   std::vector<double> peaks;
   double highest = 0.;
   bool has_hit = false;
-  run_scene("set Generator = network\nset Gravity = 0, -10\nset Start = given\n"
-            "subsection Network\n set Masses = ball\n set Links = floor\n"
-            " subsection Mass ball\n  set Position = 0, 1\n  set Mass = 2\n end\n"
-            " subsection Link floor\n  set Type = stop\n  set From = ground\n  set To = ball\n"
-            "  set Direction = 0, 1\n  set Gap = 1\n end\nend\n"
-            "subsection Time\n set Step = 1e-3\n set End = 4\n subsection Moreau-Jean\n"
-            "  set Restitution = 0.8\n end\nend\n",
+  run_scene(R"(Gravity = 0, -10; Start = given
+Mass ball: Position = 0, 1; Mass = 2
+Link floor: Type = stop; From = ground; To = ball; Direction = 0, 1; Gap = 1
+Time: Step = 1e-3; End = 4
+Time/Moreau-Jean: Restitution = 0.8
+)",
             {},
             [&](const taut::StepView &view)
             {

@@ -23,18 +23,13 @@ namespace
   std::string scene(const Beam &beam)
   {
     std::ostringstream out;
-    out << "set Generator = network\nset Start = equilibrium\nsubsection Time\n  set End = 0\nend\n"
-        << "subsection Network\n  set Wires = beam\n  set Supports = left, right\n"
-        << "  subsection Wire beam\n    set To = " << beam.length << ", 0\n"
-        << "    set Components = beam\n    set Mass per length = 1\n    set Weight = false\n"
-        << "    set Tension = " << beam.tension
-        << "\n    set Bending stiffness = " << beam.bending_stiffness
-        << "\n    set Element size = 0.5\n  end\n";
+    out << "Start = equilibrium\nTime: End = 0\nWire beam: To = " << beam.length
+        << ", 0; Components = beam; Mass per length = 1; Weight = false; Tension = " << beam.tension
+        << "; Bending stiffness = " << beam.bending_stiffness << "; Element size = 0.5\n";
     for (const bool is_left : {true, false})
-      out << "  subsection Support " << (is_left ? "left" : "right")
-          << "\n    set Wire = beam\n    set Positions = " << (is_left ? 0. : beam.length)
-          << "\n    set Displacement = " << (is_left ? beam.left : beam.right) << "\n  end\n";
-    out << "end\n";
+      out << "Support " << (is_left ? "left" : "right")
+          << ": Wire = beam; Positions = " << (is_left ? 0. : beam.length)
+          << "; Displacement = " << (is_left ? beam.left : beam.right) << "\n";
     return out.str();
   }
 

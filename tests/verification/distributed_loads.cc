@@ -166,17 +166,15 @@ TEST(DistributedLoads, narrow_ones_are_carried_by_the_supports)
   for (const std::string components : {"string", "beam"})
     for (const double middle : {7.0005, 7.0069, 6.9937, 3.3, 17.71})
       for (const int parts : {1, 5})
-        run_scene("set Generator = network\nset Gravity = 0, 0\nsubsection Network\n"
-                  " set Wires = wire\n set Supports = ends\n set Loads = load\n"
-                  " subsection Wire wire\n  set To = 21, 0\n  set Components = " +
-                      components +
-                      "\n  set Mass per length = 1\n  set Tension = 500\n"
-                      "  set Bending stiffness = 200\n  set Element size = 0.7\n end\n"
-                      " subsection Support ends\n  set Wire = wire\n  set Positions = 0, 21\n end\n"
-                      " subsection Load load\n  set Type = distributed\n  set On = wire\n"
-                      "  set Magnitude = " +
-                      block(10., middle, width) +
-                      "\n end\nend\nsubsection Time\n set End = 0\nend\n",
+        run_scene(R"(Gravity = 0, 0
+Wire wire: To = 21, 0; Components = )" +
+                      components + R"(; Mass per length = 1; Tension = 500;
+  Bending stiffness = 200; Element size = 0.7
+Support ends: Wire = wire; Positions = 0, 21
+Load load: Type = distributed; On = wire; Magnitude = )" +
+                      block(10., middle, width) + R"(
+Time: End = 0
+)",
                   {"Partition/Number of substructures=" + std::to_string(parts)},
                   [&](const taut::StepView &step)
                   {

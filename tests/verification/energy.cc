@@ -72,14 +72,12 @@ namespace
 TEST(Energy, of_a_damped_oscillator)
 {
   const std::string scene =
-      "set Generator = network\nset Gravity = 0, 0\nset Start = given\nsubsection Network\n"
-      " set Masses = mass\n set Springs = spring\n set Loads = force\n"
-      " subsection Mass mass\n  set Mass = 2\n  set Motions = y\n"
-      "  set Initial displacement = 0, 0.05, 0\n end\n"
-      " subsection Spring spring\n  set From = ground\n  set To = mass\n  set Stiffness = 800\n"
-      "  set Damping = 8\n end\n"
-      " subsection Load force\n  set Type = point\n  set On = mass\n  set Magnitude = 10\n end\n"
-      "end\nsubsection Time\n set Scheme = Newmark\n set Step = 1e-4\n set End = 0.5\nend\n";
+      R"(Gravity = 0, 0; Start = given
+Mass mass: Mass = 2; Motions = y; Initial displacement = 0, 0.05, 0
+Spring spring: From = ground; To = mass; Stiffness = 800; Damping = 8
+Load force: Type = point; On = mass; Magnitude = 10
+Time: Scheme = Newmark; Step = 1e-4; End = 0.5
+)";
   const auto table = energies(scene, {});
   const double p = 10. / 800., d = 2., w = std::sqrt(400. - 4.), a = .05 - p, b = d * a / w, t = .5,
                e = std::exp(-d * t);
@@ -139,15 +137,13 @@ TEST(Energy, conditions_on_gaps_never_give_any)
 // 2 kg fall on a rigid floor with restitution 1/2: a quarter of the kinetic energy is left.
 TEST(Energy, an_impact_takes_what_newtons_law_says)
 {
-  const auto table =
-      energies("set Generator = network\nset Gravity = 0, 0\nset Start = given\n"
-               "subsection Network\n set Masses = ball\n set Links = floor\n"
-               " subsection Mass ball\n  set Mass = 2\n  set Initial velocity = 0, -3, 0\n end\n"
-               " subsection Link floor\n  set Type = stop\n  set From = ground\n  set To = ball\n"
-               "  set Direction = 0, 1\n  set Gap = 0.8\n end\nend\n"
-               "subsection Time\n set Scheme = Moreau-Jean\n set Step = 1e-3\n set End = 0.5\n"
-               " subsection Moreau-Jean\n  set Restitution = 0.5\n end\nend\n",
-               {});
+  const auto table = energies(R"(Gravity = 0, 0; Start = given
+Mass ball: Mass = 2; Initial velocity = 0, -3, 0
+Link floor: Type = stop; From = ground; To = ball; Direction = 0, 1; Gap = 0.8
+Time: Scheme = Moreau-Jean; Step = 1e-3; End = 0.5
+Time/Moreau-Jean: Restitution = 0.5
+)",
+                              {});
   EXPECT_NEAR(table.front()[kinetic], 9., 1e-12);
   EXPECT_NEAR(table.back()[kinetic], 2.25, 1e-12);
   EXPECT_NEAR(table.back()[contacts], -6.75, 1e-9);

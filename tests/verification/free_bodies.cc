@@ -12,17 +12,11 @@ namespace
   /// A bar and beam of 4 m without loads, and the lines of the log that speak of free bodies.
   std::string free_bodies(const std::string &names, const std::string &items)
   {
-    Session session("set Generator = network\nset Gravity = 0, 0\nsubsection Network\n" + names +
-                        R"(  set Wires = beam
-  subsection Wire beam
-    set To                = 4, 0
-    set Components        = bar, beam
-    set Mass per length   = 1
-    set Axial stiffness   = 1e5
-    set Bending stiffness = 500
-    set Element size      = 0.5
-  end
-)" + items + "end\n",
+    Session session(R"(Gravity = 0, 0
+)" + names + R"(
+Wire beam: To = 4, 0; Components = bar, beam; Mass per length = 1; Axial stiffness = 1e5;
+  Bending stiffness = 500; Element size = 0.5
+)" + items,
                     {"Time.End=0", "Output.Field interval=0"});
     session.run([](const taut::StepView &) {});
     std::istringstream log(session.log());
@@ -33,14 +27,12 @@ namespace
     return found;
   }
 
-  const std::string foot =
-      "  subsection Support foot\n    set Wire = beam\n    set Motion = axial\n  end\n";
-  const std::string hinge = "  subsection Support hinge\n    set Wire = beam\n  end\n";
+  const std::string foot = "Support foot: Wire = beam; Motion = axial\n";
+  const std::string hinge = "Support hinge: Wire = beam\n";
   std::string link(const std::string &name, const std::string &type, const std::string &more)
   {
-    return "  subsection Link " + name + "\n    set Type = " + type +
-           "\n    set From = ground\n    set Direction = 0, 1\n    set Stiffness = 1e5\n" + more +
-           "  end\n";
+    return "Link " + name + ": Type = " + type +
+           "; From = ground; Direction = 0, 1; Stiffness = 1e5; " + more + "\n";
   }
 } // namespace
 
@@ -53,36 +45,28 @@ TEST(FreeBodies, without_any_support)
 
 TEST(FreeBodies, one_condition_does_not_hold_a_beam)
 {
-  EXPECT_EQ(free_bodies("  set Supports = foot, hinge\n", foot + hinge),
+  EXPECT_EQ(free_bodies("", foot + hinge),
             "  nothing holds 'beam (transverse)': at rest only because no force moves it");
 }
 
 TEST(FreeBodies, a_second_support_or_a_joint_does)
 {
-  EXPECT_EQ(free_bodies("  set Supports = foot, hinge\n  set Links = joint\n",
-                        foot + hinge + link("joint", "joint", "    set To = beam @ 3\n")),
-            "");
-  EXPECT_EQ(free_bodies("  set Supports = foot, hinge\n",
-                        foot + "  subsection Support hinge\n    set Wire = beam\n"
-                               "    set Positions = 0, 4\n  end\n"),
-            "");
+  EXPECT_EQ(free_bodies("", foot + hinge + link("joint", "joint", "To = beam @ 3")), "");
+  EXPECT_EQ(free_bodies("", foot + "\nSupport hinge: Wire = beam; Positions = 0, 4\n"), "");
 }
 
 TEST(FreeBodies, an_open_stop_does_not)
 {
-  EXPECT_EQ(free_bodies("  set Supports = foot, hinge\n  set Links = stop\n",
-                        foot + hinge +
-                            link("stop", "stop", "    set To = beam @ 3\n    set Gap = 0.01\n")),
+  EXPECT_EQ(free_bodies("", foot + hinge + link("stop", "stop", "To = beam @ 3; Gap = 0.01")),
             "  nothing holds 'beam (transverse)': at rest only because no force moves it");
 }
 
 TEST(FreeBodies, a_mass_that_is_joined_to_a_free_body_is_free_with_it)
 {
   EXPECT_EQ(
-      free_bodies("  set Supports = foot\n  set Masses = block\n  set Links = joint\n",
-                  foot + "  subsection Mass block\n    set Position = 2, -1\n    set Mass = 3\n"
-                         "    set Motions = y\n  end\n"
-                         "  subsection Link joint\n    set Type = joint\n    set From = block\n"
-                         "    set To = beam @ 2\n    set Stiffness = rigid\n  end\n"),
+      free_bodies("", foot + R"(
+Mass block: Position = 2, -1; Mass = 3; Motions = y
+Link joint: Type = joint; From = block; To = beam @ 2; Stiffness = rigid
+)"),
       "  nothing holds 'beam (transverse)', 'block': at rest only because no force moves them");
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Each named way to solve for the multipliers against the dense one, and against its neighbour
-// where theory says how they differ.
+// Claim: each named way to solve for the multipliers gives the answers of the dense one. Sources:
+// the dense one; its neighbour where theory says how they differ.
 #include "interface_problem.h"
 #include "run.h"
 

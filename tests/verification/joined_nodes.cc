@@ -16,39 +16,37 @@ namespace
   std::string bar(const std::string &name, const std::string &length, const std::string &mass,
                   const std::string &stiffness)
   {
-    return " subsection Wire " + name + "\n  set From = 0, 0\n  set To = 0, " + length +
-           "\n  set Components = bar\n  set Mass per length = " + mass +
-           "\n  set Axial stiffness = " + stiffness +
-           "\n  set Element size = 0.25\n  set Initial axial velocity = -1\n end\n";
+    return "Wire " + name + ": From = 0, 0; To = 0, " + length +
+           "; Components = bar; Mass per length = " + mass + "; Axial stiffness = " + stiffness +
+           "; Element size = 0.25; Initial axial velocity = -1\n";
   }
 
   /// A bar that falls on its end, with what the joint there holds.
   std::string scene(const std::string &names, const std::string &sections, const std::string &joint)
   {
-    return "set Generator = network\nset Gravity = 0, 0\nset Start = given\nsubsection Network\n" +
-           names + " set Links = floor" + (joint.empty() ? "" : ", joint") + "\n" +
-           bar("bar", "10", "1", "10000") + sections +
-           " subsection Link floor\n  set Type = stop\n  set From = ground\n  set To = bar @ 0\n"
-           "  set Direction = 0, 1\n  set Gap = 0.05\n end\n" +
-           (joint.empty() ? ""
-                          : " subsection Link joint\n  set Type = joint\n  set To = bar @ 0\n"
-                            "  set Direction = 0, 1\n" +
-                                joint + " end\n") +
-           "end\nsubsection Time\n set Step = 1e-3\n set End = 0.3\nend\n";
+    return R"(Gravity = 0, 0; Start = given
+)" + names +
+           "\n" + bar("bar", "10", "1", "10000") + "\n" + sections + R"(
+Link floor: Type = stop; From = ground; To = bar @ 0; Direction = 0, 1; Gap = 0.05
+)" +
+           (joint.empty()
+                ? ""
+                : "Link joint: Type = joint; To = bar @ 0; Direction = 0, 1; " + joint + "\n") +
+           R"(
+Time: Step = 1e-3; End = 0.3
+)";
   }
 
   std::string with_wire(const std::string &mass, const std::string &stiffness)
   {
-    return scene(" set Wires = bar, other\n", bar("other", "6", mass, stiffness),
-                 "  set From = other @ 0\n");
+    return scene("", bar("other", "6", mass, stiffness), "From = other @ 0");
   }
 
   std::string with_mass(const double stiffness)
   {
-    return scene(" set Wires = bar\n set Masses = block\n",
-                 " subsection Mass block\n  set Position = 0, 0\n  set Motions = y\n"
-                 "  set Mass = 5\n  set Initial velocity = 0, -1, 0\n end\n",
-                 "  set From = block\n  set Stiffness = " + number(stiffness) + "\n");
+    return scene(
+        "", "Mass block: Position = 0, 0; Motions = y; Mass = 5; Initial velocity = 0, -1, 0\n",
+        "From = block; Stiffness = " + number(stiffness));
   }
 
   struct Motion
@@ -101,7 +99,7 @@ namespace
 // The test can fail: nothing is joined to the node.
 TEST(JoinedNodes, a_node_alone_gives_its_mass)
 {
-  const Motion motion = run(scene(" set Wires = bar\n", "", ""), {});
+  const Motion motion = run(scene("", "", ""), {});
   EXPECT_NE(motion.log.find("under 'floor' gave their mass"), std::string::npos) << motion.log;
 }
 

@@ -22,19 +22,18 @@ namespace
   /// A mass of 2 kg that meets a stop at x = 0 with 3 m/s, after half a millisecond.
   std::string thrown_mass(const std::string &law)
   {
-    return "set Generator = network\nset Gravity = 0, 0\nset Start = given\n"
-           "subsection Network\n set Masses = mass\n set Links = stop\n"
-           " subsection Mass mass\n  set Position = 0, 0\n  set Mass = 2\n  set Motions = y\n"
-           "  set Initial displacement = 0, 0.0015, 0\n  set Initial velocity = 0, -3, 0\n end\n"
-           " subsection Link stop\n  set Type = stop\n  set From = ground\n  set To = mass\n"
-           "  set Direction = 0, 1\n" +
-           law + " end\nend\nsubsection Time\n set Step = 1e-4\n set End = 0.1\nend\n";
+    return R"(Gravity = 0, 0; Start = given
+Mass mass: Position = 0, 0; Mass = 2; Motions = y; Initial displacement = 0, 0.0015, 0;
+  Initial velocity = 0, -3, 0
+Link stop: Type = stop; From = ground; To = mass; Direction = 0, 1; )" +
+           law + R"(
+Time: Step = 1e-4; End = 0.1
+)";
   }
   constexpr double mass = 2., speed = 3., start = .0015;
 
-  const char *const two_slopes = "  set Law = table\n  set Law points = 0.01: 200, 0.02: 1200\n";
-  const char *const cubic = "  set Law = formula\n  set Law formula = 1e6*d^3\n"
-                            "  set Law range = 0.2\n";
+  const char *const two_slopes = "Law = table; Law points = 0.01: 200, 0.02: 1200";
+  const char *const cubic = "Law = formula; Law formula = 1e6*d^3; Law range = 0.2";
 
   /// Time in contact: a quarter of a vibration by each slope, once in and once out.
   double contact_of_two_slopes()
@@ -101,9 +100,8 @@ TEST(Laws, a_table_is_a_chain_of_straight_lines)
 
 TEST(Laws, points_on_a_line_are_the_stiffness)
 {
-  for (const std::string law :
-       {"  set Law = table\n  set Law points = 0.01: 72, 0.03: 216\n",
-        "  set Law = formula\n  set Law formula = 7200*d\n  set Law range = 0.1\n"})
+  for (const std::string law : {"Law = table; Law points = 0.01: 72, 0.03: 216",
+                                "Law = formula; Law formula = 7200*d; Law range = 0.1"})
     for (const std::string scheme :
          {"Moreau-Jean", "automatic", "Newmark", "BDF2", "generalised-alpha", "backward Euler"})
       for (const std::string damping : {"0", "5"})
@@ -114,7 +112,7 @@ TEST(Laws, points_on_a_line_are_the_stiffness)
         {
           std::size_t n = 0;
           const std::string given = scheme == "automatic" ? "Moreau-Jean" : scheme;
-          run_scene(thrown_mass(spring + "  set Damping = " + damping + "\n"),
+          run_scene(thrown_mass(spring + "; Damping = " + damping),
                     {"Time.Scheme=" + given, "Time.Allow unsuitable scheme=true", "Time.Step=1e-3",
                      "Time.Moreau-Jean.Conditions=" +
                          std::string(scheme == "automatic" ? "gaps then velocities" : "gaps")},
@@ -133,7 +131,7 @@ TEST(Laws, points_on_a_line_are_the_stiffness)
                       ++n;
                     });
         };
-        run("  set Stiffness = 7200\n", true);
+        run("Stiffness = 7200", true);
         run(law, false);
         EXPECT_LT(difference, 1e-11) << scheme << ", damping " << damping << law;
       }
@@ -197,11 +195,10 @@ namespace
   {
     const std::string stops =
         cubic +
-        std::string(" end\n subsection Link above\n  set Type = stop\n  set From = mass\n"
-                    "  set To = ground\n  set Direction = 0, 1\n  set Gap = 0.02\n") +
+        std::string("\nLink above: Type = stop; From = mass; To = ground; Direction = 0, 1; "
+                    "Gap = 0.02; ") +
         cubic;
-    std::string scene = thrown_mass(stops);
-    scene.replace(scene.find("Links = stop"), 12, "Links = stop, above");
+    const std::string scene = thrown_mass(stops);
     const double all = .5 * mass * speed * speed;
     double largest = 0., least = all;
     run_scene(scene,
@@ -238,7 +235,7 @@ TEST(Laws, energy_of_a_law_is_in_the_balance)
 {
   for (const std::string scheme : {"automatic", "Newmark", "generalised-alpha", "BDF2"})
   {
-    Session session(thrown_mass(std::string(two_slopes) + "  set Damping = 20\n"),
+    Session session(thrown_mass(std::string(two_slopes) + "; Damping = 20"),
                     {"Time.Scheme=" + scheme, "Time.Step=1e-3", "Output.Observers=energy",
                      "Output.Interval=1e-3"});
     session.run([](const taut::StepView &) {});
@@ -255,17 +252,15 @@ TEST(Laws, two_slopes_at_rest)
 {
   // 1200 N on a dropper of 1000 N at 10 mm and 20 N/mm beyond, and on half as much before it.
   const char *const scene =
-      "set Generator = network\nset Gravity = 0, -10\nset Start = equilibrium\n"
-      "subsection Network\n set Masses = heavy, light\n set Links = one, two\n"
-      " subsection Mass heavy\n  set Position = 0, 0\n  set Mass = 120\n  set Motions = y\n end\n"
-      " subsection Mass light\n  set Position = 1, 0\n  set Mass = 60\n  set Motions = y\n end\n"
-      " subsection Link one\n  set Type = dropper\n  set From = ground\n  set To = heavy\n"
-      "  set Direction = 0, -1\n  set Gap = 0.005\n"
-      "  set Law = table\n  set Law points = 0.01: 1000, 0.03: 1400\n end\n"
-      " subsection Link two\n  set Type = dropper\n  set From = ground\n  set To = light\n"
-      "  set Direction = 0, -1\n"
-      "  set Law = table\n  set Law points = 0: 0, 0.01: 1000, 0.03: 1400\n end\nend\n"
-      "subsection Time\n set Step = 1e-3\n set End = 0.01\nend\n";
+      R"(Gravity = 0, -10; Start = equilibrium
+Mass heavy: Position = 0, 0; Mass = 120; Motions = y
+Mass light: Position = 1, 0; Mass = 60; Motions = y
+Link one: Type = dropper; From = ground; To = heavy; Direction = 0, -1; Gap = 0.005;
+  Law = table; Law points = 0.01: 1000, 0.03: 1400
+Link two: Type = dropper; From = ground; To = light; Direction = 0, -1; Law = table;
+  Law points = 0: 0, 0.01: 1000, 0.03: 1400
+Time: Step = 1e-3; End = 0.01
+)";
   run_scene(scene, {},
             [](const taut::StepView &view)
             {
@@ -285,29 +280,21 @@ namespace
   {
     const auto uniform = [&](const double a, const double b)
     { return std::uniform_real_distribution<double>(a, b)(random); };
-    std::ostringstream names, springs, links, parts;
+    std::ostringstream parts;
+    parts << "Start = equilibrium\nTime: Step = 1e-3; End = 0\n";
     for (int i = 0; i < n; ++i)
     {
       const std::string me = std::to_string(i);
-      names << (i ? ", " : "") << "m" << me;
-      parts << " subsection Mass m" << me << "\n  set Position = " << me
-            << ", 0\n  set Mass = " << std::pow(10., uniform(0., 3.))
-            << "\n  set Motions = y\n end\n";
+      parts << "Mass m" << me << ": Position = " << me
+            << ", 0; Mass = " << std::pow(10., uniform(0., 3.)) << "; Motions = y\n";
       if (i > 0)
-      {
-        springs << (i > 1 ? ", " : "") << "s" << me;
-        parts << " subsection Spring s" << me << "\n  set From = m" << std::to_string(i - 1)
-              << "\n  set To = m" << me << "\n  set Stiffness = " << std::pow(10., uniform(2., 5.))
-              << "\n end\n";
-      }
+        parts << "Spring s" << me << ": From = m" << std::to_string(i - 1) << "; To = m" << me
+              << "; Stiffness = " << std::pow(10., uniform(2., 5.)) << "\n";
       for (int l = 0; l < 2; ++l)
       {
-        const std::string name = "l" + me + (l ? "b" : "a");
-        links << (i + l ? ", " : "") << name;
-        parts << " subsection Link " << name << "\n  set Type = stop\n  set From = ground\n"
-              << "  set To = m" << me
-              << "\n  set Direction = 0, 1\n  set Gap = " << (l ? uniform(0., .2) : 0.)
-              << "\n  set Law = table\n  set Law points = ";
+        parts << "Link l" << me << (l ? "b" : "a") << ": Type = stop; From = ground; To = m" << me
+              << "; Direction = 0, 1; Gap = " << (l ? uniform(0., .2) : 0.)
+              << "; Law = table; Law points = ";
         double u = 0., f = 0.;
         const int points = std::uniform_int_distribution<int>(1, 6)(random);
         for (int p = 0; p < points; ++p)
@@ -317,12 +304,10 @@ namespace
           f += du * std::pow(10., uniform(1., 6.));
           parts << (p ? ", " : "") << number(u) << ": " << number(f);
         }
-        parts << "\n end\n";
+        parts << "\n";
       }
     }
-    return "set Generator = network\nset Start = equilibrium\nsubsection Network\n set Masses = " +
-           names.str() + "\n set Springs = " + springs.str() + "\n set Links = " + links.str() +
-           "\n" + parts.str() + "end\nsubsection Time\n set Step = 1e-3\n set End = 0\nend\n";
+    return parts.str();
   }
 
   /// The largest of what forces lack of their laws and of equilibrium of the whole, over the
@@ -416,22 +401,18 @@ namespace
     std::vector<double> motion;
   };
 
-  HeldCable hold(const std::string &spring)
+  /// The dropper has this law or stiffness.
+  HeldCable hold(const Overrides &spring)
   {
-    std::ifstream file(scene_file("hanging_cable"));
-    std::ostringstream all;
-    all << file.rdbuf();
-    std::string scene = all.str();
-    const std::string loads = "  set Loads = weight\n";
-    scene.replace(scene.find(loads), loads.size(),
-                  loads +
-                      "  set Links = dropper\n  subsection Link dropper\n    set Type = dropper\n"
-                      "    set From = ground\n    set To = cable @ 39, 0\n"
-                      "    set Direction = 0, -1\n    set Gap = 0.4\n" +
-                      spring + "  end\n");
-    scene.replace(scene.find("set Magnitude = 100"), 19, "set Magnitude = 100+40*sin(50*t)");
+    Overrides entries = {"Network/Links=dropper", "Network/Load weight/Magnitude=100+40*sin(50*t)",
+                         "Time/Step=2e-3", "Time/End=0.1"};
+    for (const char *const entry :
+         {"Type=dropper", "From=ground", "To=cable @ 39, 0", "Direction=0, -1", "Gap=0.4"})
+      entries.push_back(std::string("Network/Link dropper/") + entry);
+    for (const std::string &entry : spring)
+      entries.push_back("Network/Link dropper/" + entry);
     HeldCable result;
-    run_scene(scene, {"Time.Step=2e-3", "Time.End=0.1"},
+    run_scene(scene_file("hanging_cable"), entries,
               [&](const taut::StepView &view)
               {
                 if (result.motion.empty())
@@ -449,19 +430,18 @@ namespace
 
 TEST(Laws, large_motions)
 {
-  const HeldCable softening = hold("  set Law = table\n  set Law points = 0.05: 40, 1: 90\n");
+  const HeldCable softening = hold({"Law=table", "Law points=0.05: 40, 1: 90"});
   const taut::TableLaw law({{.05, 40.}, {1., 90.}});
   EXPECT_GT(softening.elongation, .06);
   EXPECT_NEAR(softening.force, law.force(softening.elongation), 1e-10);
   // At rest, the spring whose stiffness is that of the chord does the same.
-  const HeldCable chord =
-      hold("  set Stiffness = " + number(softening.force / softening.elongation) + "\n");
+  const HeldCable chord = hold({"Stiffness=" + number(softening.force / softening.elongation)});
   figure("law, cable at rest, force of the chord's stiffness over that of the law, less one",
          chord.force / softening.force - 1.);
   EXPECT_NEAR(chord.force, softening.force, 1e-9 * softening.force);
 
-  const HeldCable table = hold("  set Law = table\n  set Law points = 0.05: 40\n"),
-                  linear = hold("  set Stiffness = 800\n");
+  const HeldCable table = hold({"Law=table", "Law points=0.05: 40"}),
+                  linear = hold({"Stiffness=800"});
   ASSERT_EQ(table.motion.size(), linear.motion.size());
   double largest = 0., size = 0.;
   for (std::size_t i = 0; i < table.motion.size(); ++i)

@@ -318,16 +318,15 @@ TEST(Rest, mass_held_by_stops_alone)
   const auto scene = [](const double k, const double gravity, const std::string &direction)
   {
     std::ostringstream text;
-    text << "set Generator = network\nset Gravity = 0, " << -gravity
-         << "\nset Start = equilibrium\nsubsection Network\n set Masses = mass\n"
-            " set Links = a, b, c\n subsection Mass mass\n  set Mass = 0.7\n  set Motions = y\n"
-            " end\n subsection Link a\n  set Type = stop\n  set To = mass\n"
-            "  set Direction = 0, 1\n  set Stiffness = 1013\n  set Gap = -0.013\n end\n"
-            " subsection Link b\n  set Type = stop\n  set To = mass\n  set Direction = "
-         << direction << "\n  set Stiffness = " << k
-         << "\n  set Gap = -0.017\n end\n subsection Link c\n  set Type = stop\n  set To = mass\n"
-            "  set Direction = 0, 1\n  set Stiffness = 331\n  set Gap = -0.011\n end\nend\n"
-            "subsection Time\n set Step = 1e-3\n set End = 0.05\nend\n";
+    text << "Gravity = 0, " << -gravity
+         << "; Start = equilibrium\n"
+            "Mass mass: Mass = 0.7; Motions = y\n"
+            "Link a: Type = stop; To = mass; Direction = 0, 1; Stiffness = 1013; Gap = -0.013\n"
+            "Link b: Type = stop; To = mass; Direction = "
+         << direction << "; Stiffness = " << k
+         << "; Gap = -0.017\n"
+            "Link c: Type = stop; To = mass; Direction = 0, 1; Stiffness = 331; Gap = -0.011\n"
+            "Time: Step = 1e-3; End = 0.05\n";
     return text.str();
   };
   double worst = 0., change_of_force = 0.;

@@ -19,22 +19,20 @@ namespace
   /// A wire of unequal elements with stops at one end and inside, and what moves with it rigidly.
   std::string wire(const std::string &components, const int degree, const std::string &massless)
   {
-    return "set Generator = network\nset Gravity = 0, 0\nset Start = given\n"
-           "subsection Network\n set Wires = wire\n set Links = end, middle\n"
-           " subsection Wire wire\n  set From = 0, 0\n  set To = 3, 0\n  set Components = " +
-           components + "\n  set Degree = " + std::to_string(degree) +
-           "\n  set Mass per length = 2\n  set Axial stiffness = 900\n  set Tension = 900\n"
-           "  set Bending stiffness = 5\n  set Element size = 0.3\n end\n"
-           " subsection Link end\n  set Type = stop\n  set From = ground\n  set To = wire @ 0\n"
-           "  set Direction = " +
-           (components == "bar" ? "1, 0" : "0, 1") +
-           "\n  set Gap = 1\n end\n"
-           " subsection Link middle\n  set Type = stop\n  set From = ground\n"
-           "  set To = wire @ 1.3\n  set Direction = " +
-           (components == "bar" ? "1, 0" : "0, 1") +
-           "\n  set Gap = 1\n end\nend\nsubsection Time\n set Scheme = BDF2\n set Step = 1e-3\n"
-           " set End = 1e-3\n set Mass redistribution = " +
-           massless + "\nend\n";
+    return R"(Gravity = 0, 0; Start = given
+Wire wire: From = 0, 0; To = 3, 0; Components = )" +
+           components + R"(;
+  Degree = )" +
+           std::to_string(degree) + R"(; Mass per length = 2; Axial stiffness = 900;
+  Tension = 900; Bending stiffness = 5; Element size = 0.3
+Link end: Type = stop; From = ground; To = wire @ 0;
+  Direction = )" +
+           (components == "bar" ? "1, 0" : "0, 1") + R"(; Gap = 1
+Link middle: Type = stop; From = ground; To = wire @ 1.3;
+  Direction = )" +
+           (components == "bar" ? "1, 0" : "0, 1") + R"(; Gap = 1
+Time: Scheme = BDF2; Step = 1e-3; End = 1e-3; Mass redistribution = )" +
+           massless;
   }
 
   /// Mass, first and second moment about s = 0, least eigenvalue-like pivot, mass of the stops.

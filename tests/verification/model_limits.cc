@@ -138,37 +138,13 @@ TEST(ModelLimits, a_wire_in_space)
 {
   const auto slope = [](const std::string &direction, const std::string &force)
   {
-    const std::string scene = R"(set Generator = network
-set Gravity = 0, 0
-subsection Network
-set Wires = line
-set Supports = ends, aside
-set Loads = push
-subsection Wire line
-  set To = 10, 0
-  set Components = string, lateral
-  set Mass per length = 1
-  set Tension = 1000
-end
-subsection Support ends
-  set Wire = line
-  set Positions = 0, 10
-end
-subsection Support aside
-  set Wire = line
-  set Motion = lateral
-  set Positions = 0, 10
-end
-subsection Load push
-  set On = line @ 5
-  set Direction = )" + direction +
-                              "\n  set Magnitude = " + force + R"(
-end
-end
-subsection Time
-  set Step = 0.01
-  set End = 0.01
-end
+    const std::string scene = R"(Gravity = 0, 0
+Wire line: To = 10, 0; Components = string, lateral; Mass per length = 1; Tension = 1000
+Support ends: Wire = line; Positions = 0, 10
+Support aside: Wire = line; Motion = lateral; Positions = 0, 10
+Load push: On = line @ 5; Direction = )" +
+                              direction + "; Magnitude = " + force + R"(
+Time: Step = 0.01; End = 0.01
 )";
     return find(run(scene, {}, nothing), "slope");
   };
@@ -184,34 +160,14 @@ TEST(ModelLimits, a_linearised_cable)
 {
   const auto slope = [](const std::string &geometry, const std::string &force)
   {
-    const std::string scene = R"(set Generator = network
-set Bodies = span
-subsection Body span
-  set Type = cable
-  set From = 0, 0, 0
-  set To = 60, 20, 0
-  set Horizontal tension = 16e3
-  set Axial stiffness = 13e6
-  set Mass per length = 1.07
-  set Element = bar
-  set Elements = 64
-  set Geometry = )" + geometry +
-                              R"(
-end
-subsection Network
-set Loads = push
-subsection Load push
-  set On = span @ 31.6, 0
-  set Direction = 0, 0, 1
-  set Magnitude = )" + force +
-                              R"(
-end
-end
-subsection Time
-  set Scheme = backward Euler
-  set Step = 1000
-  set End = 2000
-end
+    const std::string scene =
+        R"(Body span: Type = cable; From = 0, 0, 0; To = 60, 20, 0; Horizontal tension = 16e3;
+  Axial stiffness = 13e6; Mass per length = 1.07; Element = bar; Elements = 64;
+  Geometry = )" +
+        geometry + R"(
+Load push: On = span @ 31.6, 0; Direction = 0, 0, 1; Magnitude = )" +
+        force + R"(
+Time: Scheme = backward Euler; Step = 1000; End = 2000
 )";
     return find(run(scene, {}, nothing), "slope");
   };

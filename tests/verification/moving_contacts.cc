@@ -25,24 +25,18 @@ namespace
   /// next one.
   std::string roller(const bool is_beam)
   {
-    return "set Generator = network\nset Gravity = 0, 0\nset Start = equilibrium\n"
-           "subsection Network\n set Wires = wire\n set Supports = posts\n set Masses = roller\n"
-           " set Links = contact\n set Loads = push\n"
-           " subsection Wire wire\n  set To = 8, 0\n  set Mass per length = 0.01\n"
-           "  set Element size = 0.25\n" +
-           std::string(is_beam ? "  set Components = beam\n  set Bending stiffness = 1\n"
-                               : "  set Components = string\n") +
-           "  set Tension = 100\n end\n"
-           " subsection Support posts\n  set Wire = wire\n  set Positions = 0:2:8\n end\n"
-           " subsection Mass roller\n  set Position = 4, 0\n  set Motions = y\n  set Mass = 10\n"
-           " end\n"
-           " subsection Link contact\n  set Type = sliding contact\n  set From = roller\n"
-           "  set To = wire @ 4\n  set Direction = 0, 1\n  set Stiffness = 1e5\n"
-           "  set Speed = 5\n end\n"
-           " subsection Load push\n  set Type = point\n  set On = roller\n"
-           "  set Direction = 0, 1\n  set Magnitude = 5\n end\nend\n"
-           "subsection Statistics\n set Filter frequency = 0\nend\n"
-           "subsection Time\n set Step = 1e-3\n set End = 0.38\nend\n";
+    return R"(Gravity = 0, 0; Start = equilibrium
+Wire wire: To = 8, 0; Mass per length = 0.01; Element size = 0.25;
+  )" + std::string(is_beam ? "Components = beam; Bending stiffness = 1" : "Components = string") +
+           R"(; Tension = 100
+Support posts: Wire = wire; Positions = 0:2:8
+Mass roller: Position = 4, 0; Motions = y; Mass = 10
+Link contact: Type = sliding contact; From = roller; To = wire @ 4; Direction = 0, 1;
+  Stiffness = 1e5; Speed = 5
+Load push: Type = point; On = roller; Direction = 0, 1; Magnitude = 5
+Statistics: Filter frequency = 0
+Time: Step = 1e-3; End = 0.38
+)";
   }
 
   struct Result

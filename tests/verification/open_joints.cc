@@ -15,27 +15,10 @@ namespace
 {
   using verification::Overrides;
 
-  const std::string pendulum = R"(set Generator = network
-set Gravity = 0, -9.81
-set Start = given
-subsection Network
-  set Masses = m
-  set Links = rod
-  subsection Mass m
-    set Position = 0, -1
-    set Motions = x, y
-    set Mass = 2
-  end
-  subsection Link rod
-    set Type = joint
-    set From = ground @ 0, 0
-    set To = m
-  end
-end
-subsection Time
-  set End = 0.02
-  set Step = 1e-3
-end
+  const std::string pendulum = R"(Gravity = 0, -9.81; Start = given
+Mass m: Position = 0, -1; Motions = x, y; Mass = 2
+Link rod: Type = joint; From = ground @ 0, 0; To = m
+Time: End = 0.02; Step = 1e-3
 )";
 
   /// Height of the mass over its place at the end; the message of the error.

@@ -377,42 +377,39 @@ namespace
                    const std::string &more, const double element_size = 1.)
   {
     std::ostringstream text;
-    text << " subsection Wire " << name << "\n  set From = " << from << ", 0\n  set To = " << to
-         << ", 0\n  set Components = beam\n  set Mass per length = 1.5\n  set Tension = 60\n"
-         << "  set Bending stiffness = 20\n  set Element size = " << element_size << "\n"
-         << more << " end\n";
+    text << "Wire " << name << ": From = " << from << ", 0; To = " << to
+         << ", 0; Components = beam; Mass per length = 1.5; Tension = 60; Bending stiffness = 20; "
+            "Element size = "
+         << element_size << "; " << more << "\n";
     return text.str();
   }
 
-  const std::string ends = " subsection Support ends\n  set Wire = beam\n  set Positions = 0, 4\n"
-                           " end\n";
+  const std::string ends = "Support ends: Wire = beam; Positions = 0, 4\n";
 
   std::string network(const std::string &start, const std::string &items)
   {
-    return "set Generator = network\nset Gravity = 0, 0\nset Start = " + start +
-           "\nsubsection Network\n" + items + "end\n";
+    return "Gravity = 0, 0; Start = " + start + "\n" + items;
   }
 } // namespace
 
 TEST(Orders, free_vibration_from_a_given_displacement_and_velocity)
 {
-  measure("free vibration of a beam",
-          network("given", " set Wires = beam\n set Supports = ends\n" + ends +
-                               beam("beam", 0., 4.,
-                                    "  set Initial transverse displacement = "
-                                    "0.01*sin(pi*s/4)+0.004*sin(pi*s/2)\n"
-                                    "  set Initial transverse velocity = 0.1*sin(pi*s/4)\n",
-                                    .5)),
-          2.);
+  measure(
+      "free vibration of a beam",
+      network("given",
+              ends + beam("beam", 0., 4.,
+                          "Initial transverse displacement = 0.01*sin(pi*s/4)+0.004*sin(pi*s/2); "
+                          "Initial transverse velocity = 0.1*sin(pi*s/4)",
+                          .5)),
+      2.);
 }
 
 TEST(Orders, rayleigh_damped_beam)
 {
   measure("Rayleigh-damped beam",
-          network("given", " set Wires = beam\n set Supports = ends\n" + ends +
-                               beam("beam", 0., 4.,
-                                    "  set Mass damping = 1.5\n  set Stiffness damping = 0.01\n"
-                                    "  set Initial transverse displacement = 0.01*sin(pi*s/4)\n")),
+          network("given", ends + beam("beam", 0., 4.,
+                                       "Mass damping = 1.5; Stiffness damping = 0.01; Initial "
+                                       "transverse displacement = 0.01*sin(pi*s/4)")),
           2.);
 }
 
@@ -421,40 +418,33 @@ TEST(Orders, moving_force)
   // Enters at a quarter of the span, smoothly: a force that is switched on excites modes that no
   // step here resolves.
   measure("moving force on a beam",
-          network("undeformed", " set Wires = beam\n set Supports = ends\n set Loads = force\n" +
-                                    ends + beam("beam", 0., 4., "") +
-                                    " subsection Load force\n  set Type = moving\n"
-                                    "  set On = beam @ 1\n  set Speed = 1\n"
-                                    "  set Magnitude = -10*sin(pi*t/4)^4\n end\n"),
+          network("undeformed", ends + "\n" + beam("beam", 0., 4., "") + R"(
+Load force: Type = moving; On = beam @ 1; Speed = 1; Magnitude = -10*sin(pi*t/4)^4
+)"),
           2., {}, 3200, 4);
 }
 
 TEST(Orders, load_that_changes_from_an_equilibrium)
 {
   measure("load from equilibrium",
-          network("equilibrium", " set Wires = beam\n set Supports = ends\n set Loads = force\n" +
-                                     ends + beam("beam", 0., 4., "") +
-                                     " subsection Load force\n  set Type = point\n"
-                                     "  set On = beam @ 1.5\n"
-                                     "  set Magnitude = 10+5*sin(4*t)^2\n end\n"),
+          network("equilibrium", ends + "\n" + beam("beam", 0., 4., "") + R"(
+Load force: Type = point; On = beam @ 1.5; Magnitude = 10+5*sin(4*t)^2
+)"),
           2.);
 }
 
 TEST(Orders, rigid_joint_between_two_bodies)
 {
-  const Orders orders = measure(
-      "rigid joint of two beams",
-      network("undeformed",
-              " set Wires = beam, other\n set Supports = ends, far end\n set Links = joint\n"
-              " set Loads = force\n subsection Support ends\n  set Wire = beam\n"
-              "  set Positions = 0\n end\n subsection Support far end\n  set Wire = other\n"
-              "  set Positions = 2\n end\n" +
-                  beam("beam", 0., 2., "") + beam("other", 2., 4., "") +
-                  " subsection Link joint\n  set Type = joint\n  set From = beam @ 2\n"
-                  "  set To = other @ 0\n  set Direction = 0, 1\n end\n"
-                  " subsection Load force\n  set Type = point\n  set On = beam @ 1\n"
-                  "  set Magnitude = 10*sin(2*t)^4\n end\n"),
-      2.);
+  const Orders orders = measure("rigid joint of two beams",
+                                network("undeformed",
+                                        R"(Support ends: Wire = beam; Positions = 0
+Support far end: Wire = other; Positions = 2
+)" + beam("beam", 0., 2., "") + "\n" + beam("other", 2., 4., "") +
+                                            R"(
+Link joint: Type = joint; From = beam @ 2; To = other @ 0; Direction = 0, 1
+Load force: Type = point; On = beam @ 1; Magnitude = 10*sin(2*t)^4
+)"),
+                                2.);
   for (const Scheme &scheme : schemes)
     EXPECT_NEAR(orders.force.at(scheme.name), scheme.force_order, .2) << scheme.name;
 }
@@ -468,48 +458,34 @@ TEST(Orders, moving_support)
     return Given{.01 * s * s * s, .09 * s * s * c, .27 * (2. * s * c * c - s * s * s)};
   };
   measure("moving support",
-          network("equilibrium", " set Wires = beam\n set Supports = ends, moving\n"
-                                 " subsection Support ends\n  set Wire = beam\n"
-                                 "  set Positions = 4\n end\n"
-                                 " subsection Support moving\n  set Wire = beam\n"
-                                 "  set Positions = 0\n  set Displacement = 0.01*sin(3*t)^3\n"
-                                 " end\n" +
-                                     beam("beam", 0., 4.,
-                                          "  set Mass damping = 0.5\n"
-                                          "  set Stiffness damping = 1e-3\n")),
+          network("equilibrium", R"(Support ends: Wire = beam; Positions = 4
+Support moving: Wire = beam; Positions = 0; Displacement = 0.01*sin(3*t)^3
+)" + beam("beam", 0., 4., "Mass damping = 0.5; Stiffness damping = 1e-3") +
+                                     "\n"),
           2., motion);
 }
 
 TEST(Orders, damped_link_under_a_load)
 {
   measure("Kelvin-Voigt link of mass and beam",
-          network("equilibrium", " set Wires = beam\n set Supports = ends\n set Masses = mass\n"
-                                 " set Links = link\n set Loads = force\n" +
-                                     ends + beam("beam", 0., 4., "") +
-                                     " subsection Mass mass\n  set Position = 1, -1\n"
-                                     "  set Mass = 2\n  set Motions = y\n end\n"
-                                     " subsection Link link\n  set Type = joint\n"
-                                     "  set From = mass\n  set To = beam @ 1\n"
-                                     "  set Direction = 0, 1\n  set Stiffness = 400\n"
-                                     "  set Damping = 20\n end\n"
-                                     " subsection Load force\n  set Type = point\n"
-                                     "  set On = mass\n  set Magnitude = 10*sin(2*t)^4\n end\n"),
+          network("equilibrium", ends + "\n" + beam("beam", 0., 4., "") + R"(
+Mass mass: Position = 1, -1; Mass = 2; Motions = y
+Link link: Type = joint; From = mass; To = beam @ 1; Direction = 0, 1; Stiffness = 400;
+  Damping = 20
+Load force: Type = point; On = mass; Magnitude = 10*sin(2*t)^4
+)"),
           2.);
 }
 
 TEST(Orders, damped_link_of_bodies_that_move_at_the_start)
 {
   measure("Kelvin-Voigt link of moving masses",
-          network("given", " set Masses = one, two\n set Springs = spring\n set Links = link\n"
-                           " subsection Mass one\n  set Position = 0, 0\n  set Mass = 2\n"
-                           "  set Motions = y\n  set Initial velocity = 0, 0.5, 0\n"
-                           "  set Initial displacement = 0, 0.02, 0\n end\n"
-                           " subsection Mass two\n  set Position = 0, 1\n  set Mass = 3\n"
-                           "  set Motions = y\n  set Initial velocity = 0, -0.3, 0\n end\n"
-                           " subsection Spring spring\n  set From = ground\n  set To = one\n"
-                           "  set Stiffness = 100\n end\n"
-                           " subsection Link link\n  set Type = joint\n  set From = one\n"
-                           "  set To = two\n  set Direction = 0, 1\n  set Stiffness = 400\n"
-                           "  set Damping = 20\n end\n"),
+          network("given",
+                  R"(Mass one: Position = 0, 0; Mass = 2; Motions = y; Initial velocity = 0, 0.5, 0;
+  Initial displacement = 0, 0.02, 0
+Mass two: Position = 0, 1; Mass = 3; Motions = y; Initial velocity = 0, -0.3, 0
+Spring spring: From = ground; To = one; Stiffness = 100
+Link link: Type = joint; From = one; To = two; Direction = 0, 1; Stiffness = 400; Damping = 20
+)"),
           2.);
 }

@@ -17,15 +17,12 @@ TEST(Oscillator, two_masses_on_one_spring_and_damper)
 {
   const double m1 = 2., m2 = 3., k = 120., c = 3., V = .4, v = -.1;
   const char *const scene =
-      "set Generator = network\nset Gravity = 0, 0\nset Start = given\n"
-      "subsection Network\n set Masses = one, two\n set Springs = spring\n"
-      " subsection Mass one\n  set Position = 0, 0\n  set Mass = 2\n  set Motions = y\n"
-      "  set Initial velocity = 0, 0.4, 0\n end\n"
-      " subsection Mass two\n  set Position = 0, 1\n  set Mass = 3\n  set Motions = y\n"
-      "  set Initial velocity = 0, -0.1, 0\n end\n"
-      " subsection Spring spring\n  set From = one\n  set To = two\n  set Direction = 0, 1\n"
-      "  set Stiffness = 120\n  set Damping = 3\n end\nend\n"
-      "subsection Time\n set Scheme = Newmark\n set Step = 2e-4\n set End = 2\nend\n";
+      R"(Gravity = 0, 0; Start = given
+Mass one: Position = 0, 0; Mass = 2; Motions = y; Initial velocity = 0, 0.4, 0
+Mass two: Position = 0, 1; Mass = 3; Motions = y; Initial velocity = 0, -0.1, 0
+Spring spring: From = one; To = two; Direction = 0, 1; Stiffness = 120; Damping = 3
+Time: Scheme = Newmark; Step = 2e-4; End = 2
+)";
   const double mu = m1 * m2 / (m1 + m2), decay = .5 * c / mu,
                omega = std::sqrt(k / mu - decay * decay);
   double error = 0., size = 0.;
@@ -49,18 +46,14 @@ TEST(Oscillator, mass_on_a_support_that_moves)
 {
   const double m = 2., k = 800., a = .01, omega = 8., Omega = std::sqrt(k / m);
   const char *const scene =
-      "set Generator = network\nset Gravity = 0, 0\nset Start = equilibrium\n"
-      "subsection Network\n set Wires = wire\n set Supports = moving, end\n set Masses = mass\n"
-      " set Links = joint\n"
-      " subsection Wire wire\n  set To = 4, 0\n  set Components = string\n"
-      "  set Mass per length = 1\n  set Tension = 1000\n  set Element size = 0.5\n end\n"
-      " subsection Support moving\n  set Wire = wire\n  set Positions = 0\n"
-      "  set Displacement = 0.01*(1-cos(8*t))\n end\n"
-      " subsection Support end\n  set Wire = wire\n  set Positions = 4\n end\n"
-      " subsection Mass mass\n  set Position = 0, -1\n  set Mass = 2\n  set Motions = y\n end\n"
-      " subsection Link joint\n  set Type = joint\n  set From = mass\n  set To = wire @ 0\n"
-      "  set Direction = 0, 1\n  set Stiffness = 800\n end\nend\n"
-      "subsection Time\n set Scheme = Newmark\n set Step = 2e-4\n set End = 2\nend\n";
+      R"(Gravity = 0, 0; Start = equilibrium
+Wire wire: To = 4, 0; Components = string; Mass per length = 1; Tension = 1000; Element size = 0.5
+Support moving: Wire = wire; Positions = 0; Displacement = 0.01*(1-cos(8*t))
+Support end: Wire = wire; Positions = 4
+Mass mass: Position = 0, -1; Mass = 2; Motions = y
+Link joint: Type = joint; From = mass; To = wire @ 0; Direction = 0, 1; Stiffness = 800
+Time: Scheme = Newmark; Step = 2e-4; End = 2
+)";
   double error = 0., force_error = 0., gap_error = 0.;
   run_scene(scene, {},
             [&](const taut::StepView &view)
@@ -87,18 +80,14 @@ TEST(Oscillator, mass_on_a_support_that_moves)
 TEST(Oscillator, mass_hangs_at_rest_below_a_sunken_support)
 {
   const char *const scene =
-      "set Generator = network\nset Gravity = 0, -9.81\nset Start = equilibrium\n"
-      "subsection Network\n set Wires = wire\n set Supports = sunken, end\n set Masses = mass\n"
-      " set Links = joint\n"
-      " subsection Wire wire\n  set To = 4, 0\n  set Components = string\n"
-      "  set Mass per length = 1\n  set Tension = 1000\n  set Element size = 0.5\n end\n"
-      " subsection Support sunken\n  set Wire = wire\n  set Positions = 0\n"
-      "  set Displacement = -0.02\n end\n"
-      " subsection Support end\n  set Wire = wire\n  set Positions = 4\n end\n"
-      " subsection Mass mass\n  set Position = 0, -1\n  set Mass = 2\n  set Motions = y\n end\n"
-      " subsection Link joint\n  set Type = joint\n  set From = mass\n  set To = wire @ 0\n"
-      "  set Direction = 0, 1\n  set Stiffness = 800\n end\nend\n"
-      "subsection Time\n set Step = 1e-3\n set End = 1e-3\nend\n";
+      R"(Gravity = 0, -9.81; Start = equilibrium
+Wire wire: To = 4, 0; Components = string; Mass per length = 1; Tension = 1000; Element size = 0.5
+Support sunken: Wire = wire; Positions = 0; Displacement = -0.02
+Support end: Wire = wire; Positions = 4
+Mass mass: Position = 0, -1; Mass = 2; Motions = y
+Link joint: Type = joint; From = mass; To = wire @ 0; Direction = 0, 1; Stiffness = 800
+Time: Step = 1e-3; End = 1e-3
+)";
   const double weight = 2. * 9.81;
   run_scene(scene, {},
             [&](const taut::StepView &view)
@@ -116,23 +105,15 @@ TEST(Oscillator, a_step_from_afar_ends_as_accurately_as_any)
 {
   const double m1 = 1., m2 = 3., k1 = 1000., k2 = 3000., P = 1e-9, u0 = 10., step = 1e6;
   const char *const scene =
-      "set Generator = network\nset Gravity = 0, 0\nset Start = given\n"
-      "subsection Network\n set Masses = one, two\n set Springs = first, second\n set Loads = "
-      "push\n"
-      " set Links = joint\n"
-      " subsection Mass one\n  set Position = 0, 0\n  set Mass = 1\n  set Motions = y\n"
-      "  set Initial displacement = 0, 10, 0\n end\n"
-      " subsection Mass two\n  set Position = 0, 1\n  set Mass = 3\n  set Motions = y\n"
-      "  set Initial displacement = 0, 10, 0\n end\n"
-      " subsection Spring first\n  set From = ground\n  set To = one\n  set Direction = 0, 1\n"
-      "  set Stiffness = 1000\n end\n"
-      " subsection Spring second\n  set From = ground\n  set To = two\n  set Direction = 0, 1\n"
-      "  set Stiffness = 3000\n end\n"
-      " subsection Load push\n  set On = one\n  set Direction = 0, 1\n  set Magnitude = 1e-9\n "
-      "end\n"
-      " subsection Link joint\n  set Type = joint\n  set From = one\n  set To = two\n"
-      "  set Direction = 0, 1\n  set Stiffness = rigid\n end\nend\n"
-      "subsection Time\n set Scheme = backward Euler\n set Step = 1e6\n set End = 1e6\nend\n";
+      R"(Gravity = 0, 0; Start = given
+Mass one: Position = 0, 0; Mass = 1; Motions = y; Initial displacement = 0, 10, 0
+Mass two: Position = 0, 1; Mass = 3; Motions = y; Initial displacement = 0, 10, 0
+Spring first: From = ground; To = one; Direction = 0, 1; Stiffness = 1000
+Spring second: From = ground; To = two; Direction = 0, 1; Stiffness = 3000
+Load push: On = one; Direction = 0, 1; Magnitude = 1e-9
+Link joint: Type = joint; From = one; To = two; Direction = 0, 1; Stiffness = rigid
+Time: Scheme = backward Euler; Step = 1e6; End = 1e6
+)";
   const double m = (m1 + m2) / (step * step), u = (P + m * u0) / (m + k1 + k2);
   run_scene(scene, {},
             [&](const taut::StepView &view)

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: answers do not depend on the cuts of wires, and cuts spare droppers and balance parts.
+// Source: the uncut run; counts of nodes.
 #include "run.h"
 
 #include <gtest/gtest.h>

@@ -36,83 +36,26 @@ namespace
     return sum;
   }
 
-  const char *const string_with_three_supports = R"(set Generator = network
-subsection Network
-  set Wires    = string
-  set Supports = ends, spring
-  set Loads    = push
-  subsection Wire string
-    set To              = 12, 0
-    set Components      = string
-    set Mass per length = 2
-    set Tension         = 400
-    set Element size    = 0.5
-  end
-  subsection Support ends
-    set Wire      = string
-    set Positions = 0, 12
-    set Displacement = 0.01*sin(9*t)
-  end
-  subsection Support spring
-    set Wire      = string
-    set Positions = 5
-    set Type      = elastic
-    set Stiffness = 300
-    set Damping   = 8
-  end
-  subsection Load push
-    set Type      = distributed
-    set On        = string @ 0
-    set Magnitude = 3*sin(7*t)*(1+s)
-  end
-end
-subsection Time
-  set Scheme = BDF2
-  set Step   = 2e-3
-  set End    = 1
-end
+  const char *const string_with_three_supports =
+      R"(Wire string: To = 12, 0; Components = string; Mass per length = 2; Tension = 400;
+  Element size = 0.5
+Support ends: Wire = string; Positions = 0, 12; Displacement = 0.01*sin(9*t)
+Support spring: Wire = string; Positions = 5; Type = elastic; Stiffness = 300; Damping = 8
+Load push: Type = distributed; On = string @ 0; Magnitude = 3*sin(7*t)*(1+s)
+Time: Scheme = BDF2; Step = 2e-3; End = 1
 )";
 } // namespace
 
 // Half of the string and of its tension, and the mass that a rigid dropper hangs at the support.
 TEST(Reactions, of_a_rigid_link_at_a_support_are_its_force)
 {
-  const std::string hung = R"(set Generator = network
-set Gravity = 0, -9.81
-set Start   = equilibrium
-subsection Network
-  set Wires    = string
-  set Masses   = mass
-  set Supports = ends
-  set Links    = dropper
-  subsection Wire string
-    set To              = 10, 0
-    set Components      = string
-    set Tension         = 1000
-    set Mass per length = 1
-    set Element size    = 0.5
-    set Weight          = true
-  end
-  subsection Support ends
-    set Wire      = string
-    set Positions = 0, 10
-  end
-  subsection Mass mass
-    set Position = 10, -1
-    set Mass     = 10
-  end
-  subsection Link dropper
-    set Type      = dropper
-    set From      = string @ 10
-    set To        = mass
-    set Direction = 0, -1
-    set Stiffness = rigid
-  end
-end
-subsection Time
-  set Step = 1e-2
-  set End  = 0.1
-end
+  const std::string hung = R"(Gravity = 0, -9.81; Start = equilibrium
+Wire string: To = 10, 0; Components = string; Tension = 1000; Mass per length = 1;
+  Element size = 0.5; Weight = true
+Support ends: Wire = string; Positions = 0, 10
+Mass mass: Position = 10, -1; Mass = 10
+Link dropper: Type = dropper; From = string @ 10; To = mass; Direction = 0, -1; Stiffness = rigid
+Time: Step = 1e-2; End = 0.1
 )";
   for (const char *const scheme : {"automatic", "BDF2"})
     run_scene(hung, {std::string("Time.Scheme=") + scheme},
@@ -143,38 +86,13 @@ TEST(Reactions, of_the_guyed_mast_are_sums_of_forces)
 TEST(Reactions, of_a_clamp_are_force_and_moment_of_beam_theory)
 {
   // A cantilever of 3 m with 7 N/m and 40 N at its tip: 61 N and 7 L^2/2 + 40 L = 151.5 N m.
-  Session session(R"(set Generator = network
-set Gravity = 0, 0
-subsection Network
-  set Wires    = beam
-  set Supports = clamp, clamp slope
-  set Loads    = tip, line
-  subsection Wire beam
-    set To                = 3, 0
-    set Components        = beam
-    set Mass per length   = 1
-    set Bending stiffness = 2000
-    set Element size      = 0.3
-  end
-  subsection Support clamp
-    set Wire = beam
-  end
-  subsection Support clamp slope
-    set Wire   = beam
-    set Motion = slope
-  end
-  subsection Load tip
-    set On        = beam @ 3
-    set Direction = 0, -1
-    set Magnitude = 40
-  end
-  subsection Load line
-    set Type      = distributed
-    set On        = beam @ 0
-    set Direction = 0, -1
-    set Magnitude = 7
-  end
-end
+  Session session(R"(Gravity = 0, 0
+Wire beam: To = 3, 0; Components = beam; Mass per length = 1; Bending stiffness = 2000;
+  Element size = 0.3
+Support clamp: Wire = beam
+Support clamp slope: Wire = beam; Motion = slope
+Load tip: On = beam @ 3; Direction = 0, -1; Magnitude = 40
+Load line: Type = distributed; On = beam @ 0; Direction = 0, -1; Magnitude = 7
 )",
                   {"Time.End=0"});
   session.run([](const taut::StepView &) {});
@@ -219,31 +137,11 @@ TEST(Reactions, of_a_bar_that_is_pulled_with_constant_acceleration)
 {
   // After the waves have been damped away the end pulls with m L a = 3 * 2 * 5 = 30 N.
   double force = 0.;
-  run_scene(R"(set Generator = network
-set Gravity = 0, 0
-subsection Network
-  set Wires    = bar
-  set Supports = hand
-  subsection Wire bar
-    set To                = 2, 0
-    set Components        = bar
-    set Mass per length   = 3
-    set Axial stiffness   = 1000
-    set Element size      = 0.25
-    set Stiffness damping = 0.02
-  end
-  subsection Support hand
-    set Wire         = bar
-    set Positions    = 2
-    set Motion       = axial
-    set Displacement = 2.5*t^2
-  end
-end
-subsection Time
-  set Scheme = BDF2
-  set Step   = 5e-3
-  set End    = 10
-end
+  run_scene(R"(Gravity = 0, 0
+Wire bar: To = 2, 0; Components = bar; Mass per length = 3; Axial stiffness = 1000;
+  Element size = 0.25; Stiffness damping = 0.02
+Support hand: Wire = bar; Positions = 2; Motion = axial; Displacement = 2.5*t^2
+Time: Scheme = BDF2; Step = 5e-3; End = 10
 )",
             {}, [&](const taut::StepView &step) { force = step.supports.at(0); });
   EXPECT_NEAR(force, 30., 1e-6);

@@ -25,26 +25,22 @@ namespace
   std::string scene(const std::vector<Mass> &masses, const std::string &link,
                     const std::string &time)
   {
-    std::ostringstream names, text;
+    std::ostringstream text;
+    text << "Gravity = 0, 0; Start = given\nTime: " << time << "\n";
     for (std::size_t i = 0; i < masses.size(); ++i)
     {
       const Mass &m = masses[i];
-      names << (i == 0 ? "" : ", ") << "m" << i;
-      text << " subsection Mass m" << i << "\n  set Position = 0, " << i
-           << "\n  set Motions = y\n  set Mass = " << m.mass << "\n  set Initial displacement = 0, "
-           << m.displacement << ", 0\n end\n"
-           << " subsection Spring m" << i << "\n  set From = ground\n  set To = m" << i
-           << "\n  set Direction = 0, 1\n  set Stiffness = " << m.stiffness << "\n end\n"
-           << " subsection Load m" << i << "\n  set On = m" << i
-           << "\n  set Direction = 0, 1\n  set Magnitude = " << m.load << "\n end\n";
+      text << "Mass m" << i << ": Position = 0, " << i << "; Motions = y; Mass = " << m.mass
+           << "; Initial displacement = 0, " << m.displacement << ", 0\n";
+      text << "Spring m" << i << ": From = ground; To = m" << i
+           << "; Direction = 0, 1; Stiffness = " << m.stiffness << "\n";
+      text << "Load m" << i << ": On = m" << i << "; Direction = 0, 1; Magnitude = " << m.load
+           << "\n";
     }
     const bool is_pair = masses.size() > 1;
-    return "set Generator = network\nset Gravity = 0, 0\nset Start = given\n"
-           "subsection Network\n set Links = link\n set Masses = " +
-           names.str() + "\n set Springs = " + names.str() + "\n set Loads = " + names.str() +
-           "\n" + text.str() + " subsection Link link\n  set Direction = 0, 1\n  set From = " +
-           (is_pair ? "m0" : "ground") + "\n  set To = " + (is_pair ? "m1" : "m0") + "\n" + link +
-           " end\nend\nsubsection Time\n" + time + "end\n";
+    text << "Link link: Direction = 0, 1; From = " << (is_pair ? "m0" : "ground")
+         << "; To = " << (is_pair ? "m1" : "m0") << "; " << link;
+    return text.str();
   }
 } // namespace
 
@@ -53,8 +49,8 @@ TEST(Refinement, a_stop_that_lets_go_does_not_pull)
   const double step = 1e6;
   double u[2] = {0., 0.}, v[2] = {0., 0.};
   run_scene(scene({{1.7, 777.7, 0., "if(t<1.5e6, 4e4, -1e-9)"}, {2.9, 3111.3, 0., "0"}},
-                  "  set Type = stop\n  set Stiffness = rigid\n",
-                  " set Scheme = backward Euler\n set Step = 1e6\n set End = 2e6\n"),
+                  "Type = stop; Stiffness = rigid",
+                  "Scheme = backward Euler; Step = 1e6; End = 2e6"),
             {},
             [&](const taut::StepView &view)
             {
@@ -82,8 +78,8 @@ TEST(Refinement, a_stop_that_lets_go_does_not_pull)
 TEST(Refinement, a_stop_that_is_reached_pushes)
 {
   const double P = -3e-17, u0 = 10., step = 1e9, N = -P - u0 / (step * step);
-  run_scene(scene({{1., 1000.3, u0, "-3e-17"}}, "  set Type = stop\n  set Stiffness = rigid\n",
-                  " set Scheme = backward Euler\n set Step = 1e9\n set End = 1e9\n"),
+  run_scene(scene({{1., 1000.3, u0, "-3e-17"}}, "Type = stop; Stiffness = rigid",
+                  "Scheme = backward Euler; Step = 1e9; End = 1e9"),
             {},
             [&](const taut::StepView &view)
             {
@@ -98,9 +94,8 @@ TEST(Refinement, a_stop_that_is_reached_pushes)
 TEST(Refinement, a_joint_without_force_holds)
 {
   const double P = 1e-14, m = 1e-12, k = 1000., u = (.5 * P + m * 10.) / (m + k);
-  run_scene(scene({{1., k, 10., "1e-14"}, {1., k, 10., "0"}},
-                  "  set Type = joint\n  set Stiffness = rigid\n",
-                  " set Scheme = backward Euler\n set Step = 1e6\n set End = 1e6\n"),
+  run_scene(scene({{1., k, 10., "1e-14"}, {1., k, 10., "0"}}, "Type = joint; Stiffness = rigid",
+                  "Scheme = backward Euler; Step = 1e6; End = 1e6"),
             {},
             [&](const taut::StepView &view)
             {
@@ -124,51 +119,50 @@ TEST(Refinement, compliant_stops_and_mean_balances)
     double alpha_m, alpha_f, beta, gamma;
   };
   for (const Case &c :
-       {Case{" set Scheme = HHT\n subsection HHT\n  set Alpha = 0.2\n end\n", 0., .2, .36, .7},
-        Case{" set Scheme = generalised-alpha\n subsection Generalised-alpha\n"
-             "  set Spectral radius = 0.25\n end\n",
-             -.4, .2, .64, 1.1}})
+       {Case{"Scheme = HHT\nTime/HHT: Alpha = 0.2", 0., .2, .36, .7},
+        Case{"Scheme = generalised-alpha\nTime/Generalised-alpha: Spectral radius = 0.25", -.4, .2,
+             .64, 1.1}})
   {
     const double m = 1000., d = 1e-3, k = 1000., ks = 2000., step = 1e6;
     double u = 0., v = 0., a = 0., r = 0.;
     int n = 0;
-    run_scene(
-        scene({{m, k, 0., "if(t<1.5e6, -4e4, -3e-7)"}},
-              "  set Type = stop\n  set Stiffness = 2000\n  set Damping = 1e-3\n",
-              c.entries + " set Allow unsuitable scheme = true\n set Step = 1e6\n set End = 3e6\n"),
-        {},
-        [&](const taut::StepView &view)
-        {
-          if (n == 1)
-          {
-            u = -4e4 / (m / (step * step) + d / step + k + ks);
-            v = u / step;
-            a = v / step;
-            r = m * a;
-          }
-          else if (n > 1)
-          {
-            const double now = 1. - c.alpha_m, P = (1. - c.alpha_f) * -3e-7,
-                         a_u = 1. / (c.beta * step * step),
-                         a_0 = -a_u * (u + step * v) - (.5 / c.beta - 1.) * a,
-                         v_u = c.gamma * step * a_u,
-                         v_0 = v + step * ((1. - c.gamma) * a + c.gamma * a_0);
-            u = (P - (1. - c.alpha_f) * d * v_0 + c.alpha_f * r - m * now * a_0 -
-                 m * c.alpha_m * a) /
-                (m * now * a_u + (1. - c.alpha_f) * (d * v_u + k + ks));
-            v = v_u * u + v_0;
-            r = (m * (now * (a_u * u + a_0) + c.alpha_m * a) - c.alpha_f * r) / (1. - c.alpha_f);
-            a = a_u * u + a_0;
-          }
-          if (n > 0)
-          {
-            const double N = -ks * u - d * v;
-            EXPECT_NEAR(view.state.U[0][0], u, 1e-5 * std::fabs(u)) << c.entries << n;
-            EXPECT_NEAR(view.state.multiplier[0], N, 1e-5 * N) << c.entries << n;
-            EXPECT_NEAR(view.state.gap[0], 0., 1e-9 * std::fabs(u)) << c.entries << n;
-          }
-          ++n;
-        });
+    run_scene(scene({{m, k, 0., "if(t<1.5e6, -4e4, -3e-7)"}},
+                    "Type = stop; Stiffness = 2000; Damping = 1e-3",
+                    "Allow unsuitable scheme = true; Step = 1e6; End = 3e6; " + c.entries),
+              {},
+              [&](const taut::StepView &view)
+              {
+                if (n == 1)
+                {
+                  u = -4e4 / (m / (step * step) + d / step + k + ks);
+                  v = u / step;
+                  a = v / step;
+                  r = m * a;
+                }
+                else if (n > 1)
+                {
+                  const double now = 1. - c.alpha_m, P = (1. - c.alpha_f) * -3e-7,
+                               a_u = 1. / (c.beta * step * step),
+                               a_0 = -a_u * (u + step * v) - (.5 / c.beta - 1.) * a,
+                               v_u = c.gamma * step * a_u,
+                               v_0 = v + step * ((1. - c.gamma) * a + c.gamma * a_0);
+                  u = (P - (1. - c.alpha_f) * d * v_0 + c.alpha_f * r - m * now * a_0 -
+                       m * c.alpha_m * a) /
+                      (m * now * a_u + (1. - c.alpha_f) * (d * v_u + k + ks));
+                  v = v_u * u + v_0;
+                  r = (m * (now * (a_u * u + a_0) + c.alpha_m * a) - c.alpha_f * r) /
+                      (1. - c.alpha_f);
+                  a = a_u * u + a_0;
+                }
+                if (n > 0)
+                {
+                  const double N = -ks * u - d * v;
+                  EXPECT_NEAR(view.state.U[0][0], u, 1e-5 * std::fabs(u)) << c.entries << n;
+                  EXPECT_NEAR(view.state.multiplier[0], N, 1e-5 * N) << c.entries << n;
+                  EXPECT_NEAR(view.state.gap[0], 0., 1e-9 * std::fabs(u)) << c.entries << n;
+                }
+                ++n;
+              });
     EXPECT_EQ(n, 4);
   }
 }

@@ -1,35 +1,21 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: what a program may ask of schemes and constraints outside of their ranges is a UserError
 // that says the range, and its ends are allowed. Source: the ranges in integrator.h and system.h.
-#include <taut/base/exceptions.h>
+#include "error_of.h"
+
 #include <taut/base/force_law.h>
 #include <taut/interface/system.h>
 #include <taut/time/integrator.h>
 
 #include <gtest/gtest.h>
 
-#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
-namespace
-{
-  std::string error_of(const std::function<void()> &work)
-  {
-    try
-    {
-      work();
-    }
-    catch (const taut::UserError &e)
-    {
-      return e.what();
-    }
-    return "";
-  }
-} // namespace
+using verification::error_of;
 
 TEST(Refused, parameters_of_schemes_beyond_their_ranges)
 {

@@ -29,22 +29,18 @@ namespace
                            const std::string &bodies = "")
   {
     std::ostringstream text;
-    text << "set Generator = network\nset Gravity = 0, -9.81\nset Start = given\n"
-            "subsection Network\n set Masses = mass"
-         << (bodies.empty() ? "" : ", other") << "\n set Links = stop\n"
-         << " subsection Mass mass\n  set Position = 0, " << height
-         << "\n  set Motions = y\n  set Mass = 1\n end\n"
-         << bodies << " subsection Link stop\n  set Type = stop\n  set From = ground\n"
-         << "  set To = mass\n  set Direction = 0, 1\n  set Gap = " << height << "\n"
-         << stop << " end\nend\nsubsection Time\n set Step = " << step << "\n set End = " << end
-         << "\n"
-         << more << "end\n";
+    text << "Gravity = 0, -9.81; Start = given\n"
+            "Mass mass: Position = 0, "
+         << height << "; Motions = y; Mass = 1\n"
+         << bodies
+         << "\nLink stop: Type = stop; From = ground; To = mass; Direction = 0, 1; Gap = " << height
+         << "; " << stop << "\nTime: Step = " << step << "; End = " << end << "; " << more;
     return text.str();
   }
 
   std::string stiffness(const double k)
   {
-    return "  set Stiffness = " + number(k) + "\n";
+    return "Stiffness = " + number(k);
   }
 
   /// Motion of the mass, contacts with a spring k in closed form: falls, half-waves about -g/w^2.
@@ -131,17 +127,17 @@ TEST(ResolvedContacts, links_in_parallel_count_together)
   {
     const std::string name = "stop" + std::to_string(i);
     links += (i ? ", " : "") + name;
-    sections += " subsection Link " + name +
-                "\n  set Type = stop\n  set From = ground\n  set To = mass\n"
-                "  set Direction = 0, 1\n  set Gap = 0.05\n  set Stiffness = 1e6\n end\n";
+    sections +=
+        "Link " + name +
+        ": Type = stop; From = ground; To = mass; Direction = 0, 1; Gap = 0.05; Stiffness = 1e6\n";
   }
   const std::string text =
-      "set Generator = network\nset Gravity = 0, -9.81\nset Start = given\nsubsection Network\n"
-      " set Masses = mass\n set Links = " +
-      links +
-      "\n subsection Mass mass\n  set Position = 0, 0.05\n  set Motions = y\n  set Mass = 1\n"
-      " end\n" +
-      sections + "end\nsubsection Time\n set Step = 1e-3\n set End = 0.2\nend\n";
+      R"(Gravity = 0, -9.81; Start = given
+Mass mass: Position = 0, 0.05; Motions = y; Mass = 1
+)" + sections +
+      R"(
+Time: Step = 1e-3; End = 0.2
+)";
   const Result r = run(text, .105);
   const double error = std::fabs(r.end - exact_motion(height, 1e8, .2)) / height;
   figure("drop of 50 mm on 100 stops of 1e6 N/m, step 1 ms, error over the drop", error);
@@ -153,15 +149,12 @@ TEST(ResolvedContacts, opposite_links_do_not_count_together)
 {
   // 0.01 of the ratio of a resolved contact each; together they would have 0.02.
   const std::string text =
-      "set Generator = network\nset Gravity = 0, 0\nset Start = given\nsubsection Network\n"
-      " set Masses = mass\n set Links = floor, roof\n subsection Mass mass\n"
-      "  set Position = 0, 0\n  set Motions = y\n  set Mass = 1\n"
-      "  set Initial velocity = 0, 1, 0\n end\n"
-      " subsection Link floor\n  set Type = stop\n  set From = ground\n  set To = mass\n"
-      "  set Direction = 0, 1\n  set Gap = 0.01\n  set Stiffness = 39000\n end\n"
-      " subsection Link roof\n  set Type = stop\n  set From = mass\n  set To = ground\n"
-      "  set Direction = 0, 1\n  set Gap = 0.01\n  set Stiffness = 39000\n end\n"
-      "end\nsubsection Time\n set Step = 1e-3\n set End = 0.01\nend\n";
+      R"(Gravity = 0, 0; Start = given
+Mass mass: Position = 0, 0; Motions = y; Mass = 1; Initial velocity = 0, 1, 0
+Link floor: Type = stop; From = ground; To = mass; Direction = 0, 1; Gap = 0.01; Stiffness = 39000
+Link roof: Type = stop; From = mass; To = ground; Direction = 0, 1; Gap = 0.01; Stiffness = 39000
+Time: Step = 1e-3; End = 0.01
+)";
   const Result r = run(text, 1.);
   EXPECT_NE(r.log.find("generalised-alpha"), std::string::npos) << r.log;
 }
@@ -177,14 +170,13 @@ TEST(ResolvedContacts, a_link_with_a_damper_is_met_by_shorter_steps)
                  exact = std::exp(
                      -beta / w * (std::acos(-1.) - std::atan2(2. * beta * w, w * w - beta * beta)));
     const std::string text =
-        "set Generator = network\nset Gravity = 0, 0\nset Start = given\nsubsection Network\n"
-        " set Masses = mass\n set Links = stop\n subsection Mass mass\n"
-        "  set Position = 0, 0\n  set Motions = y\n  set Mass = 1\n"
-        "  set Initial velocity = 0, -1, 0\n end\n"
-        " subsection Link stop\n  set Type = stop\n  set From = ground\n  set To = mass\n"
-        "  set Direction = 0, 1\n  set Gap = 0.0123\n  set Stiffness = 1e7\n  set Damping = " +
-        number(2. * zeta * std::sqrt(k * m)) +
-        "\n end\nend\nsubsection Time\n set Step = 1e-3\n set End = 0.03\nend\n";
+        R"(Gravity = 0, 0; Start = given
+Mass mass: Position = 0, 0; Motions = y; Mass = 1; Initial velocity = 0, -1, 0
+Link stop: Type = stop; From = ground; To = mass; Direction = 0, 1; Gap = 0.0123;
+  Stiffness = 1e7; Damping = )" +
+        number(2. * zeta * std::sqrt(k * m)) + R"(
+Time: Step = 1e-3; End = 0.03
+)";
     double velocity = 0., last = 0.;
     run_scene(text, {},
               [&](const taut::StepView &view)
@@ -204,15 +196,14 @@ TEST(ResolvedContacts, a_beam_that_falls_flat_keeps_its_energy)
   const auto height_after = [](const std::string &step, const std::string &scheme)
   {
     double mean = 0.;
-    run_scene("set Generator = network\nset Gravity = 0, -9.81\nset Start = given\n"
-              "subsection Network\n set Wires = beam\n set Links = stop\n"
-              " subsection Wire beam\n  set To = 10, 0\n  set Components = beam\n"
-              "  set Mass per length = 1\n  set Bending stiffness = 1000\n"
-              "  set Element size = 0.25\n end\n"
-              " subsection Link stop\n  set Type = stop\n  set From = ground\n"
-              "  set To = beam @ 0:0.25:10\n  set Direction = 0, 1\n  set Gap = 0.05\n"
-              "  set Stiffness = 1e6\n end\nend\nsubsection Time\n set Step = " +
-                  step + "\n set End = 0.2\nend\n",
+    run_scene(R"(Gravity = 0, -9.81; Start = given
+Wire beam: To = 10, 0; Components = beam; Mass per length = 1; Bending stiffness = 1000;
+  Element size = 0.25
+Link stop: Type = stop; From = ground; To = beam @ 0:0.25:10; Direction = 0, 1; Gap = 0.05;
+  Stiffness = 1e6
+Time: Step = )" + step +
+                  R"(; End = 0.2
+)",
               {"Time.Scheme=" + scheme, "Time.Allow unsuitable scheme=true",
                "Time.Allow energy gain=true"},
               [&](const taut::StepView &view)
@@ -238,18 +229,14 @@ TEST(ResolvedContacts, a_beam_that_falls_flat_keeps_its_energy)
 TEST(ResolvedContacts, a_node_with_a_joined_mass_keeps_its_mass)
 {
   const std::string text =
-      "set Generator = network\nset Gravity = 0, 0\nset Start = given\nsubsection Network\n"
-      " set Wires = bar\n set Masses = block\n set Links = floor, joint\n"
-      " subsection Wire bar\n  set From = 0, 0\n  set To = 0, 10\n  set Components = bar\n"
-      "  set Mass per length = 1\n  set Axial stiffness = 10000\n  set Element size = 0.25\n"
-      "  set Initial axial velocity = -1\n end\n"
-      " subsection Mass block\n  set Position = 0, 0\n  set Motions = y\n  set Mass = 5\n"
-      "  set Initial velocity = 0, -1, 0\n end\n"
-      " subsection Link floor\n  set Type = stop\n  set From = ground\n  set To = bar @ 0\n"
-      "  set Direction = 0, 1\n  set Gap = 0.05\n end\n"
-      " subsection Link joint\n  set Type = joint\n  set From = block\n  set To = bar @ 0\n"
-      "  set Direction = 0, 1\n end\nend\n"
-      "subsection Time\n set Step = 1e-3\n set End = 0.3\nend\n";
+      R"(Gravity = 0, 0; Start = given
+Wire bar: From = 0, 0; To = 0, 10; Components = bar; Mass per length = 1;
+  Axial stiffness = 10000; Element size = 0.25; Initial axial velocity = -1
+Mass block: Position = 0, 0; Motions = y; Mass = 5; Initial velocity = 0, -1, 0
+Link floor: Type = stop; From = ground; To = bar @ 0; Direction = 0, 1; Gap = 0.05
+Link joint: Type = joint; From = block; To = bar @ 0; Direction = 0, 1
+Time: Step = 1e-3; End = 0.3
+)";
   double lowest = 0., largest = 0.;
   Session session(text);
   session.run(
@@ -268,17 +255,16 @@ TEST(ResolvedContacts, a_node_with_a_joined_mass_keeps_its_mass)
 TEST(ResolvedContacts, a_contact_is_compared_with_what_it_is_connected_with)
 {
   const std::string other =
-      " subsection Mass other\n  set Position = 5, 0\n  set Motions = y\n  set Mass = 1e6\n"
-      "  set Initial velocity = 0, 100, 0\n end\n";
+      "Mass other: Position = 5, 0; Motions = y; Mass = 1e6; Initial velocity = 0, 100, 0\n";
   for (const bool has_other : {false, true})
   {
-    const Result r = run(falling_mass(.05, stiffness(1e7), 1e-3, .2, " set Scheme = Newmark\n",
-                                      has_other ? other : ""),
-                         .105, {"Time.Allow unsuitable scheme=true"});
+    const Result r =
+        run(falling_mass(.05, stiffness(1e7), 1e-3, .2, "Scheme = Newmark", has_other ? other : ""),
+            .105, {"Time.Allow unsuitable scheme=true"});
     EXPECT_NE(r.error.find("links gave"), std::string::npos) << r.error << r.log;
     EXPECT_NE(r.error.find("steps"), std::string::npos) << r.error;
-    const Result euler = run(falling_mass(.05, stiffness(1e7), 1e-3, .2,
-                                          " set Scheme = backward Euler\n", has_other ? other : ""),
+    const Result euler = run(falling_mass(.05, stiffness(1e7), 1e-3, .2, "Scheme = backward Euler",
+                                          has_other ? other : ""),
                              .105);
     EXPECT_NE(euler.error.find("links took"), std::string::npos) << euler.error << euler.log;
     EXPECT_NE(euler.error.find("'automatic'"), std::string::npos) << euler.error;

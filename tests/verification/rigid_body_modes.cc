@@ -30,22 +30,16 @@ namespace
   {
     std::ostringstream out;
     out.precision(17);
-    out << "set Generator = network\nset Gravity = 0, 0\nset Start = undeformed\n"
-           "subsection Network\n set Wires = bar\n set Loads = push\n set Links = stop\n"
-           " subsection Wire bar\n  set To = 1, 0\n  set Components = bar\n"
-           "  set Mass per length = 1\n  set Degree = 1\n  set Axial stiffness = "
-        << bar.axial_stiffness << "\n  set Element size = " << bar.element_size
-        << "\n end\n subsection Load push\n  set On = bar @ 0\n  set Direction = 1, 0\n"
-           "  set Magnitude = "
-        << bar.load
-        << "\n end\n subsection Link stop\n  set Type = stop\n  set From = bar @ 1\n"
-           "  set To = ground\n  set Direction = 1, 0\n  set Gap = "
-        << bar.gap
-        << "\n end\nend\nsubsection Time\n set Scheme = backward Euler\n set Step = " << bar.step
-        << "\n set End = " << bar.n_steps * bar.step
-        << "\nend\nsubsection Partition\n set Number of substructures = " << bar.n_parts
-        << "\nend\nsubsection Solver\n set Interface operator = " << bar.form
-        << "\n set Complementarity = " << bar.method << "\nend\n";
+    out << "Gravity = 0, 0; Start = undeformed\n"
+           "Wire bar: To = 1, 0; Components = bar; Mass per length = 1; Degree = 1; Axial "
+           "stiffness = "
+        << bar.axial_stiffness << "; Element size = " << bar.element_size
+        << "\nLoad push: On = bar @ 0; Direction = 1, 0; Magnitude = " << bar.load
+        << "\nLink stop: Type = stop; From = bar @ 1; To = ground; Direction = 1, 0; Gap = "
+        << bar.gap << "\nTime: Scheme = backward Euler; Step = " << bar.step
+        << "; End = " << bar.n_steps * bar.step
+        << "\nPartition: Number of substructures = " << bar.n_parts
+        << "\nSolver: Interface operator = " << bar.form << "; Complementarity = " << bar.method;
     return out.str();
   }
 
@@ -55,18 +49,14 @@ namespace
   {
     std::ostringstream out;
     out.precision(17);
-    out << "set Generator = network\nset Gravity = 0, 0\nset Start = undeformed\n"
-           "subsection Network\n set Wires = beam\n set Loads = push\n set Links = stop\n"
-           " subsection Wire beam\n  set To = 2, 0\n  set Components = beam\n"
-           "  set Mass per length = 1.5\n  set Bending stiffness = 1e3\n  set Element size = 0.25\n"
-           " end\n subsection Load push\n  set On = beam @ 0\n  set Direction = 0, 1\n"
-           "  set Magnitude = "
+    out << "Gravity = 0, 0; Start = undeformed\n"
+           "Wire beam: To = 2, 0; Components = beam; Mass per length = 1.5; Bending stiffness = "
+           "1e3; Element size = 0.25\n"
+           "Load push: On = beam @ 0; Direction = 0, 1; Magnitude = "
         << load
-        << "\n end\n subsection Link stop\n  set Type = stop\n  set From = ground\n"
-           "  set To = beam @ 2\n  set Direction = 0, 1\n  set Gap = "
-        << gap << "\n end\nend\nsubsection Time\n set Scheme = backward Euler\n set Step = " << step
-        << "\n set End = " << 3 * step
-        << "\nend\nsubsection Partition\n set Number of substructures = " << n_parts << "\nend\n";
+        << "\nLink stop: Type = stop; From = ground; To = beam @ 2; Direction = 0, 1; Gap = " << gap
+        << "\nTime: Scheme = backward Euler; Step = " << step << "; End = " << 3 * step
+        << "\nPartition: Number of substructures = " << n_parts;
     return out.str();
   }
 

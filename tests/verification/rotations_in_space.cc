@@ -34,24 +34,17 @@ namespace
   std::string cantilever(const Coordinates &along, const Coordinates &about)
   {
     std::ostringstream scene;
-    scene << "set Generator = network\nset Gravity = 0, 0\nset Start = equilibrium\n"
-             "subsection Network\n"
-             "set Wires = beam\nset Supports = up, slope, side, side slope\nset Loads = moment\n"
-             "subsection Wire beam\n  set From = 0, 0, 0\n  set To = "
+    scene << "Gravity = 0, 0; Start = equilibrium\nTime: End = 0\nWire beam: From = 0, 0, 0; To = "
           << text(add_scaled({}, length, along))
-          << "\n  set Components = beam, lateral\n  set Mass per length = 1\n"
-             "  set Bending stiffness = "
-          << bending_stiffness << "\n  set Element size = 1\nend\n";
+          << "; Components = beam, lateral; Mass per length = 1; Bending stiffness = "
+          << bending_stiffness << "; Element size = 1\n";
     for (const auto &[name, motion] : {std::pair("up", "transverse"),
                                        {"slope", "slope"},
                                        {"side", "lateral"},
                                        {"side slope", "lateral slope"}})
-      scene << "subsection Support " << name
-            << "\n  set Wire = beam\n  set Positions = 0\n  set Motion = " << motion << "\nend\n";
-    scene << "subsection Load moment\n  set On = beam @ " << length
-          << "\n  set Rotational = true\n  set Axis = " << text(about)
-          << "\n  set Magnitude = " << moment << "\nend\nend\n"
-          << "subsection Time\n  set End = 0\nend\n";
+      scene << "Support " << name << ": Wire = beam; Positions = 0; Motion = " << motion << "\n";
+    scene << "Load moment: On = beam @ " << length << "; Rotational = true; Axis = " << text(about)
+          << "; Magnitude = " << moment << "\n";
     return scene.str();
   }
 

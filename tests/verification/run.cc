@@ -121,21 +121,17 @@ namespace verification
   }
 
   const char *const beam_under_laws =
-      "set Generator = network\nset Start = equilibrium\n"
-      "subsection Network\n set Wires = beam\n set Supports = ends\n set Links = stop, dropper\n"
-      " set Loads = push\n"
-      " subsection Wire beam\n  set To = 12, 0\n  set Components = beam\n"
-      "  set Mass per length = 5\n  set Bending stiffness = 4000\n  set Element size = 0.25\n end\n"
-      " subsection Support ends\n  set Wire = beam\n  set Positions = 0, 12\n end\n"
-      " subsection Link stop\n  set Type = stop\n  set From = ground\n  set To = beam @ 2:2:10\n"
-      "  set Direction = 0, 1\n  set Gap = 0.005\n  set Law = formula\n"
-      "  set Law formula = 5e3*d + 1e8*d^3\n  set Law range = 0.1\n end\n"
-      " subsection Link dropper\n  set Type = dropper\n  set From = ground\n"
-      "  set To = beam @ 1:2:11\n  set Direction = 0, -1\n  set Law = table\n"
-      "  set Law points = 0.002: 40, 0.02: 80\n end\n"
-      " subsection Load push\n  set On = beam @ 5\n  set Direction = 0, 1\n"
-      "  set Magnitude = -600*sin(20*t)\n end\nend\n"
-      "subsection Time\n set Step = 2e-3\n set End = 0.4\nend\n";
+      R"(Start = equilibrium
+Wire beam: To = 12, 0; Components = beam; Mass per length = 5; Bending stiffness = 4000;
+  Element size = 0.25
+Support ends: Wire = beam; Positions = 0, 12
+Link stop: Type = stop; From = ground; To = beam @ 2:2:10; Direction = 0, 1; Gap = 0.005;
+  Law = formula; Law formula = 5e3*d + 1e8*d^3; Law range = 0.1
+Link dropper: Type = dropper; From = ground; To = beam @ 1:2:11; Direction = 0, -1; Law = table;
+  Law points = 0.002: 40, 0.02: 80
+Load push: On = beam @ 5; Direction = 0, 1; Magnitude = -600*sin(20*t)
+Time: Step = 2e-3; End = 0.4
+)";
 
   void figure(const std::string &name, const double value, const std::string &unit)
   {

@@ -159,8 +159,12 @@ namespace verification
     static void add_entries(Section &section, const std::string &entries)
     {
       std::string *last = nullptr;
-      for (const std::string &entry : split(entries, "; "))
+      for (std::string entry : split(entries, "; "))
       {
+        if (!entry.empty() && entry.back() == ';')
+          entry.pop_back();
+        if (entry.empty())
+          continue;
         const std::size_t equals = entry.find('=');
         const bool is_marked = entry[0] == '*';
         if (entry == "*")
@@ -171,9 +175,9 @@ namespace verification
         else if (const auto found = find(section.entries, trimmed(entry.substr(1)));
                  entry[0] == '-' && found != section.entries.end())
           section.entries.erase(found);
-        else if (last && !entry.empty())
+        else if (last)
           *last += "; " + entry; // a value with semicolons
-        else if (!entry.empty())
+        else
           throw std::invalid_argument("no scene says '" + entry + "'");
       }
     }

@@ -19,17 +19,14 @@ namespace
   // A ball of 0.5 kg hits a buffer of 5e5 N/m at 0.26 m/s: half a period of sqrt(k/m) = 1000 rad/s,
   // 3.1 ms, and a peak of 0.26 m/s sqrt(k m) = 130 N. A joint holds another ball.
   const char *const scene =
-      "set Generator = network\nset Gravity = 0, 0\nset Start = given\n"
-      "subsection Network\n set Masses = ball, block\n set Links = buffer, rod\n"
-      " subsection Mass ball\n  set Mass = 0.5\n  set Initial velocity = 0, -0.26, 0\n end\n"
-      " subsection Mass block\n  set Mass = 2\n  set Initial velocity = 0, 0.01, 0\n end\n"
-      " subsection Link buffer\n  set Type = stop\n  set To = ball\n  set Direction = 0, 1\n"
-      "  set Stiffness = 5e5\n  set Gap = 0.00325\n end\n"
-      " subsection Link rod\n  set Type = joint\n  set To = block\n  set Direction = 0, 1\n"
-      "  set Stiffness = 1e5\n end\nend\n"
-      "subsection Time\n set Scheme = generalised-alpha\n set Step = 1e-4\n set End = 0.0345\nend\n"
-      "subsection Output\n set Probes = ball\n subsection Probe ball\n  set Point = ball\n end\n"
-      "end\n";
+      R"(Gravity = 0, 0; Start = given
+Mass ball: Mass = 0.5; Initial velocity = 0, -0.26, 0
+Mass block: Mass = 2; Initial velocity = 0, 0.01, 0
+Link buffer: Type = stop; To = ball; Direction = 0, 1; Stiffness = 5e5; Gap = 0.00325
+Link rod: Type = joint; To = block; Direction = 0, 1; Stiffness = 1e5
+Time: Scheme = generalised-alpha; Step = 1e-4; End = 0.0345
+Probe ball: Point = ball
+)";
 
   using Table = std::map<std::string, std::vector<double>>;
 

@@ -17,26 +17,21 @@ namespace
 
   /// Newton's cradle: five equal masses along x, the first with 1 m/s, 10 mm from the second; the
   /// others apart by a gap [m].
-  std::string cradle(const double gap, const std::string &more = "")
+  std::string cradle(const double gap)
   {
     const std::string names = "abcde";
-    std::string text = "set Generator = network\nset Gravity = 0, 0\nset Start = given\nsubsection "
-                       "Time\nset End = 0.1\nset Step = 1e-4\nsubsection Moreau-Jean\nset "
-                       "Restitution = 1\nend\nend\nsubsection Network\nset Masses = a, b, c, d, "
-                       "e\nset Links = ab, bc, cd, de" +
-                       more + "\n";
+    std::string text = "Gravity = 0, 0; Start = given\nTime: End = 0.1; Step = 1e-4\n"
+                       "Time/Moreau-Jean: Restitution = 1\n";
     for (std::size_t i = 0; i < names.size(); ++i)
     {
-      text += std::string("subsection Mass ") + names[i] + "\nset Position = " + std::to_string(i) +
-              ", 0\nset Motions = x, y\nset Mass = 1\n" +
-              (i == 0 ? "set Initial velocity = 1, 0, 0\n" : "") + "end\n";
+      text += std::string("Mass ") + names[i] + ": Position = " + std::to_string(i) +
+              ", 0; Motions = x, y; Mass = 1" + (i == 0 ? "; Initial velocity = 1, 0, 0\n" : "\n");
       if (i > 0)
-        text += std::string("subsection Link ") + names[i - 1] + names[i] +
-                "\nset Type = stop\nset Direction = 1, 0\nset From = " + names[i - 1] +
-                "\nset To = " + names[i] +
-                "\nset Gap = " + verification::number(i == 1 ? .01 : gap) + "\nend\n";
+        text += std::string("Link ") + names[i - 1] + names[i] +
+                ": Type = stop; Direction = 1, 0; From = " + names[i - 1] + "; To = " + names[i] +
+                "; Gap = " + verification::number(i == 1 ? .01 : gap) + "\n";
     }
-    return text + "end\n";
+    return text;
   }
 
   struct Outcome
@@ -107,10 +102,8 @@ TEST(SimultaneousImpacts, are_none_where_steps_tell_them_apart)
 TEST(SimultaneousImpacts, need_a_body_that_shares_them)
 {
   const std::string floor =
-      "subsection Network\nsubsection Link floor\nset Type = stop\nset From "
-      "= ground\nset To = a\nset Direction = 0, 1\nset Gap = 0.01\nend\nend\n";
-  const Outcome outcome =
-      run(cradle(.01, ", floor") + floor, {"Network.Mass a.Initial velocity=1, -1, 0"});
+      "Link floor: Type = stop; From = ground; To = a; Direction = 0, 1; Gap = 0.01\n";
+  const Outcome outcome = run(cradle(.01) + floor, {"Network.Mass a.Initial velocity=1, -1, 0"});
   expect_velocities(outcome, {0., 0., 0., 0., 1.});
   EXPECT_EQ(outcome.log.find("Impacts:"), std::string::npos) << outcome.log;
 }
@@ -125,19 +118,15 @@ TEST(SimultaneousImpacts, are_not_named_without_restitution)
 // A mass that only lies on two stops has rates of rounding, and forces of its weight.
 TEST(SimultaneousImpacts, are_none_at_rest)
 {
-  std::string scene =
-      "set Generator = network\nset Gravity = 0, -9.81\nset Start = undeformed\nsubsection "
-      "Time\nset End = 0.1\nset Step = 1e-3\nsubsection Moreau-Jean\nset Restitution "
-      "= 0.5\nend\nend\nsubsection Network\nset Masses = a\nset Links = l, r\n"
-      "subsection Mass a\nset Position = 0, 0\nset Motions = x, y\nset Mass = 7\nend\n";
+  std::string scene = "Gravity = 0, -9.81; Start = undeformed\nTime: End = 0.1; Step = 1e-3\n"
+                      "Time/Moreau-Jean: Restitution = 0.5\n"
+                      "Mass a: Position = 0, 0; Motions = x, y; Mass = 7\n";
   for (const std::string side : {"l", "r"})
-    scene += "subsection Link " + side +
-             "\nset Type = stop\nset From = ground\nset To = a\nset "
-             "Direction = " +
-             (side == "l" ? "0.3" : "-0.3") + ", 1\nend\n";
-  const Outcome at_rest = run(scene + "end\n", {"Time/Allow energy gain=true"});
+    scene += "Link " + side +
+             ": Type = stop; From = ground; To = a; Direction = " + (side == "l" ? "0.3" : "-0.3") +
+             ", 1\n";
+  const Outcome at_rest = run(scene, {"Time/Allow energy gain=true"});
   EXPECT_EQ(at_rest.log.find("Impacts:"), std::string::npos) << at_rest.log;
-  const Outcome falls =
-      run(scene + "end\n", {"Network/Link l/Gap=0.01", "Network/Link r/Gap=0.01"});
+  const Outcome falls = run(scene, {"Network/Link l/Gap=0.01", "Network/Link r/Gap=0.01"});
   EXPECT_NE(falls.log.find("'l', 'r', contacts that share"), std::string::npos) << falls.log;
 }

@@ -18,21 +18,16 @@ using namespace verification;
 TEST(SlidingContact, wavy_wire_shakes_an_oscillator)
 {
   const std::string scene =
-      "set Generator = network\nset Gravity = 0, 0\nset Start = equilibrium\n"
-      "subsection Network\n set Wires = wire\n set Supports = ends\n set Masses = mass\n"
-      " set Springs = spring\n set Links = contact\n set Loads = force\n"
-      " subsection Wire wire\n  set To = 10, 0\n  set Components = string\n"
-      "  set Mass per length = 1\n  set Tension = 1e9\n  set Element size = 0.5\n end\n"
-      " subsection Support ends\n  set Wire = wire\n  set Positions = 0, 10\n end\n"
-      " subsection Mass mass\n  set Position = 1, 0\n  set Mass = 5\n  set Motions = y\n end\n"
-      " subsection Spring spring\n  set From = ground\n  set To = mass\n  set Stiffness = 2000\n"
-      " end\n"
-      " subsection Link contact\n  set Type = sliding contact\n  set From = mass\n"
-      "  set To = wire @ 1\n  set Direction = 0, 1\n  set Stiffness = 10000\n  set Speed = 4\n"
-      "  set Height profile = 1e-3*(1-cos(pi*(s-1)))\n end\n"
-      " subsection Load force\n  set Type = point\n  set On = mass\n  set Magnitude = 60\n end\n"
-      "end\nsubsection Time\n set Scheme = generalised-alpha\n set Step = 1e-4\n set End = "
-      "2\nend\n";
+      R"(Gravity = 0, 0; Start = equilibrium
+Wire wire: To = 10, 0; Components = string; Mass per length = 1; Tension = 1e9; Element size = 0.5
+Support ends: Wire = wire; Positions = 0, 10
+Mass mass: Position = 1, 0; Mass = 5; Motions = y
+Spring spring: From = ground; To = mass; Stiffness = 2000
+Link contact: Type = sliding contact; From = mass; To = wire @ 1; Direction = 0, 1;
+  Stiffness = 10000; Speed = 4; Height profile = 1e-3*(1-cos(pi*(s-1)))
+Load force: Type = point; On = mass; Magnitude = 60
+Time: Scheme = generalised-alpha; Step = 1e-4; End = 2
+)";
   const double m = 5., k0 = 2000., k = 1e4, a = 1e-3, omega = 4. * std::acos(-1.),
                Omega = std::sqrt((k + k0) / m), at_rest = 60. / (k + k0);
   double error = 0., force_error = 0., largest = 0., least_force = 1e9;
@@ -66,21 +61,16 @@ TEST(SlidingContact, constant_force_on_a_mass_redistribution_is_a_moving_force)
   const double v = 250. / 3.6;
   std::ostringstream scene;
   scene.precision(17);
-  scene << "set Generator = network\nset Gravity = 0, 0\nset Start = equilibrium\n"
-           "subsection Network\n set Wires = string\n set Supports = ends\n set Masses = mass\n"
-           " set Links = contact\n set Loads = force\n"
-           " subsection Wire string\n  set To = 60, 0\n  set Components = string\n"
-           "  set Mass per length = 1.35\n  set Tension = 20000\n  set Element size = 0.05\n"
-           "  set Degree = 2\n end\n"
-           " subsection Support ends\n  set Wire = string\n  set Positions = 0, 60\n end\n"
-           " subsection Mass mass\n  set Mass = 0.001\n  set Motions = y\n end\n"
-           " subsection Link contact\n  set Type = sliding contact\n  set From = mass\n"
-           "  set To = string @ 0\n  set Direction = 0, 1\n  set Stiffness = 50000\n"
-           "  set Damping = 20\n  set Speed = "
+  scene << "Gravity = 0, 0; Start = equilibrium\n"
+           "Wire string: To = 60, 0; Components = string; Mass per length = 1.35; Tension = 20000; "
+           "Element size = 0.05; Degree = 2\n"
+           "Support ends: Wire = string; Positions = 0, 60\n"
+           "Mass mass: Mass = 0.001; Motions = y\n"
+           "Link contact: Type = sliding contact; From = mass; To = string @ 0; Direction = 0, 1; "
+           "Stiffness = 50000; Damping = 20; Speed = "
         << v
-        << "\n end\n subsection Load force\n  set Type = point\n  set On = mass\n"
-           "  set Magnitude = 120\n end\nend\n"
-           "subsection Time\n set Scheme = BDF2\n set Step = 5e-4\n set End = 0.4\nend\n";
+        << "\nLoad force: Type = point; On = mass; Magnitude = 120\n"
+           "Time: Scheme = BDF2; Step = 5e-4; End = 0.4\n";
   const double c = std::sqrt(20000. / 1.35);
   double error = 0., force_error = 0., compression = 0.;
   run_scene(scene.str(), {},

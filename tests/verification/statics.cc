@@ -21,26 +21,25 @@ namespace
   std::string one_wire(const double length, const std::string &wire_entries,
                        const std::string &items)
   {
-    return "set Generator = network\nsubsection Network\n set Wires = wire\n" + items +
-           " subsection Wire wire\n  set To = " + number(length) + ", 0\n" + wire_entries +
-           " end\nend\n" +
-           "subsection Time\n set Scheme = backward Euler\n set Step = 1\n set End = 1\nend\n";
+    return items + R"(
+Wire wire: To = )" +
+           number(length) + ", 0; " + wire_entries + R"(
+Time: Scheme = backward Euler; Step = 1; End = 1
+)";
   }
 
-  const std::string held_ends =
-      " set Supports = ends\n subsection Support ends\n  set Wire = wire\n  set Positions = 0, 30\n"
-      " end\n";
+  const std::string held_ends = "Support ends: Wire = wire; Positions = 0, 30\n";
 } // namespace
 
 TEST(String, sags_by_weight_over_eight_tensions)
 {
   const double m = 1.35, T = 20000., L = 30.;
   double sag = 0.;
-  run_scene(one_wire(L,
-                     "  set Components = string\n  set Mass per length = 1.35\n"
-                     "  set Tension = 20000\n  set Element size = 0.7\n",
-                     held_ends),
-            {}, [&](const taut::StepView &view) { sag = -displacement(view, 0, .5 * L); });
+  run_scene(
+      one_wire(L,
+               "Components = string; Mass per length = 1.35; Tension = 20000; Element size = 0.7",
+               held_ends),
+      {}, [&](const taut::StepView &view) { sag = -displacement(view, 0, .5 * L); });
   const double exact = m * g * L * L / (8. * T);
   figure("string, sag in the middle over m g L^2/(8 T) - 1", sag / exact - 1.);
   EXPECT_NEAR(sag, exact, 1e-12 * exact);
@@ -52,33 +51,30 @@ TEST(String, lies_flat_on_a_floor_between_its_free_lengths)
   const double m = 1.35, T = 2000., L = 30., d = .1;
   const double exact = std::sqrt(2. * T * d / (m * g)); // 5.496 m
   double left = 0., right = 0., first = 0., last = 0., least = 0., resting = 0.;
-  run_scene(one_wire(L,
-                     "  set Components = string\n  set Mass per length = 1.35\n"
-                     "  set Tension = 2000\n  set Element size = 0.1\n",
-                     held_ends +
-                         " set Links = floor\n subsection Link floor\n  set Type = stop\n"
-                         "  set From = ground\n  set To = wire @ 0:0.1:30\n  set Direction = 0, 1\n"
-                         "  set Gap = 0.1\n end\n"),
-            {},
-            [&](const taut::StepView &view)
-            {
-              left = -T * displacement(view, 0, 0., {0., 0., 1.}, true) / (m * g);
-              right = T * displacement(view, 0, L * (1. - 1e-12), {0., 0., 1.}, true) / (m * g);
-              first = L;
-              resting = 0.;
-              for (std::size_t i = 0; i < view.constraints.size(); ++i)
-              {
-                const double x = view.scene.links[view.constraints[i].link].to.position;
-                const double N = view.state.multiplier[i];
-                least = std::min({least, N, view.state.gap[i]});
-                resting += N;
-                if (N > 0.)
-                {
-                  first = std::min(first, x);
-                  last = std::max(last, x);
-                }
-              }
-            });
+  run_scene(
+      one_wire(L, "Components = string; Mass per length = 1.35; Tension = 2000; Element size = 0.1",
+               held_ends + "\nLink floor: Type = stop; From = ground; To = wire @ 0:0.1:30; "
+                           "Direction = 0, 1; Gap = 0.1\n"),
+      {},
+      [&](const taut::StepView &view)
+      {
+        left = -T * displacement(view, 0, 0., {0., 0., 1.}, true) / (m * g);
+        right = T * displacement(view, 0, L * (1. - 1e-12), {0., 0., 1.}, true) / (m * g);
+        first = L;
+        resting = 0.;
+        for (std::size_t i = 0; i < view.constraints.size(); ++i)
+        {
+          const double x = view.scene.links[view.constraints[i].link].to.position;
+          const double N = view.state.multiplier[i];
+          least = std::min({least, N, view.state.gap[i]});
+          resting += N;
+          if (N > 0.)
+          {
+            first = std::min(first, x);
+            last = std::max(last, x);
+          }
+        }
+      });
   figure("string over a floor, free length left, from the pull of its end", left, "m");
   figure("string over a floor, free length, exact", exact, "m");
   figure("string over a floor, first support that carries, spacing 0.1 m", first, "m");
@@ -97,14 +93,11 @@ TEST(Beam, heavy_beam_lifts_off_a_floor)
 {
   const double EI = 2e5, q = 20. * g, h = .1, L = 12., spacing = .05;
   const double l = std::pow(24. * EI * h / q, .25), force = .5 * q * l;
-  Session session(one_wire(L,
-                           "  set Components = beam\n  set Mass per length = 20\n"
-                           "  set Bending stiffness = 2e5\n  set Element size = 0.05\n",
-                           " set Links = lift, floor\n subsection Link lift\n  set Type = joint\n"
-                           "  set From = ground\n  set To = wire @ 0\n  set Direction = 0, 1\n"
-                           "  set Gap = -0.1\n end\n subsection Link floor\n  set Type = stop\n"
-                           "  set From = ground\n  set To = wire @ 0:" +
-                               number(spacing) + ":12\n  set Direction = 0, 1\n end\n"));
+  Session session(one_wire(
+      L, "Components = beam; Mass per length = 20; Bending stiffness = 2e5; Element size = 0.05",
+      "Link lift: Type = joint; From = ground; To = wire @ 0; Direction = 0, 1; Gap = -0.1\n"
+      "Link floor: Type = stop; From = ground; To = wire @ 0:" +
+          number(spacing) + ":12; Direction = 0, 1\n"));
   const taut::Scene &scene = session.simulation().scene();
   const taut::SceneBodies &structure = session.simulation().structure();
   const taut::Constraints &constraints = session.simulation().constraints();
@@ -167,12 +160,10 @@ TEST(Beam, sunken_supports_bend_it_over_a_stop)
   const double EI = 1000., L = 4., d = .01;
   double force = 0., end = 0.;
   run_scene(one_wire(L,
-                     "  set Components = beam\n  set Mass per length = 2\n  set Weight = false\n"
-                     "  set Bending stiffness = 1000\n  set Element size = 0.5\n",
-                     " set Supports = ends\n subsection Support ends\n  set Wire = wire\n"
-                     "  set Positions = 0, 4\n  set Displacement = -0.01\n end\n"
-                     " set Links = stop\n subsection Link stop\n  set Type = stop\n"
-                     "  set From = ground\n  set To = wire @ 2\n  set Direction = 0, 1\n end\n"),
+                     "Components = beam; Mass per length = 2; Weight = false; Bending stiffness = "
+                     "1000; Element size = 0.5",
+                     "Support ends: Wire = wire; Positions = 0, 4; Displacement = -0.01\n"
+                     "Link stop: Type = stop; From = ground; To = wire @ 2; Direction = 0, 1\n"),
             {},
             [&](const taut::StepView &view)
             {
@@ -193,35 +184,33 @@ TEST(Loads, distributed_load_and_elastic_support)
 {
   const double T = 600., EI = 50., L = 30., k = std::acos(-1.) / L;
   double error = 0., largest = 0.;
-  run_scene(one_wire(L,
-                     "  set Components = beam\n  set Mass per length = 2\n  set Weight = false\n"
-                     "  set Tension = 600\n  set Bending stiffness = 50\n  set Element size = 1\n",
-                     held_ends + " set Loads = load\n subsection Load load\n"
-                                 "  set Type = distributed\n  set On = wire\n"
-                                 "  set Magnitude = 10*sin(pi*s/30)\n end\n"),
-            {},
-            [&](const taut::StepView &view)
-            {
-              for (double s = 0.; s <= L; s += .5)
-              {
-                const double w = 10. * std::sin(k * s) / (T * k * k + EI * std::pow(k, 4));
-                largest = std::max(largest, w);
-                error = std::max(error, std::fabs(displacement(view, 0, s) - w));
-              }
-            });
+  run_scene(
+      one_wire(L,
+               "Components = beam; Mass per length = 2; Weight = false; Tension = 600; Bending "
+               "stiffness = 50; Element size = 1",
+               held_ends +
+                   "\nLoad load: Type = distributed; On = wire; Magnitude = 10*sin(pi*s/30)\n"),
+      {},
+      [&](const taut::StepView &view)
+      {
+        for (double s = 0.; s <= L; s += .5)
+        {
+          const double w = 10. * std::sin(k * s) / (T * k * k + EI * std::pow(k, 4));
+          largest = std::max(largest, w);
+          error = std::max(error, std::fabs(displacement(view, 0, s) - w));
+        }
+      });
   figure("distributed load on a beam, largest error over the deflection", error / largest);
   EXPECT_LT(error, 1e-5 * largest);
 
   double down = 0.;
   run_scene(one_wire(L,
-                     "  set Components = string\n  set Mass per length = 2\n  set Weight = false\n"
-                     "  set Tension = 600\n  set Element size = 1\n",
-                     " set Supports = ends, spring\n subsection Support ends\n  set Wire = wire\n"
-                     "  set Positions = 0, 30\n end\n subsection Support spring\n"
-                     "  set Wire = wire\n  set Positions = 15\n  set Type = elastic\n"
-                     "  set Stiffness = 70\n end\n set Loads = load\n"
-                     " subsection Load load\n  set Type = point\n  set On = wire @ 15\n"
-                     "  set Direction = 0, -1\n  set Magnitude = 90\n end\n"),
+                     "Components = string; Mass per length = 2; Weight = false; Tension = 600; "
+                     "Element size = 1",
+                     R"(Support ends: Wire = wire; Positions = 0, 30
+Support spring: Wire = wire; Positions = 15; Type = elastic; Stiffness = 70
+Load load: Type = point; On = wire @ 15; Direction = 0, -1; Magnitude = 90
+)"),
             {}, [&](const taut::StepView &view) { down = -displacement(view, 0, 15.); });
   figure("string on an elastic support, deflection", down, "m");
   EXPECT_NEAR(down, 90. / (70. + 4. * T / L), 1e-12);

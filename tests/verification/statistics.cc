@@ -23,29 +23,21 @@ namespace
   // A mass is driven along a wavy wire and jumps; a joint holds another mass back, which pulls and
   // pushes; a stop is hit now and then.
   const char *const scene =
-      "set Generator = network\nset Gravity = 0, 0\nset Start = equilibrium\n"
-      "subsection Network\n set Wires = wire\n set Supports = ends\n set Masses = head, frame\n"
-      " set Springs = spring\n set Links = contact, rod, stop\n set Loads = force\n"
-      " subsection Wire wire\n  set To = 10, 0\n  set Components = string\n"
-      "  set Mass per length = 1\n  set Tension = 1e5\n  set Element size = 0.5\n end\n"
-      " subsection Support ends\n  set Wire = wire\n  set Positions = 0, 10\n end\n"
-      " subsection Mass head\n  set Position = 1, 0\n  set Mass = 2\n  set Motions = y\n end\n"
-      " subsection Mass frame\n  set Position = 1, -1\n  set Mass = 3\n  set Motions = y\n end\n"
-      " subsection Spring spring\n  set From = ground\n  set To = frame\n  set Stiffness = 2000\n"
-      "  set Damping = 20\n end\n"
-      " subsection Link contact\n  set Type = sliding contact\n  set From = head\n"
-      "  set To = wire @ 1\n  set Direction = 0, 1\n  set Stiffness = 10000\n  set Speed = 4\n"
-      "  set Height profile = 1.5e-2*sin(3*pi*(s-1))\n end\n"
-      " subsection Link rod\n  set Type = joint\n  set From = head\n  set To = frame\n"
-      "  set Direction = 0, 1\n  set Stiffness = 1e5\n end\n"
-      " subsection Link stop\n  set Type = stop\n  set To = frame\n  set Direction = 0, 1\n"
-      "  set Stiffness = 1e4\n  set Gap = -0.002\n end\n"
-      " subsection Load force\n  set Type = point\n  set On = frame\n  set Magnitude = 15\n end\n"
-      "end\n"
-      "subsection Time\n set Scheme = generalised-alpha\n set Step = 1e-3\n set End = 2.2\nend\n"
-      "subsection Output\n set Probes = head\n subsection Probe head\n  set Point = head\n"
-      "  set Direction = 0, 1\n end\nend\n"
-      "subsection Statistics\n set Window = 3, 8\n set Filter frequency = 20\nend\n";
+      R"(Gravity = 0, 0; Start = equilibrium
+Wire wire: To = 10, 0; Components = string; Mass per length = 1; Tension = 1e5; Element size = 0.5
+Support ends: Wire = wire; Positions = 0, 10
+Mass head: Position = 1, 0; Mass = 2; Motions = y
+Mass frame: Position = 1, -1; Mass = 3; Motions = y
+Spring spring: From = ground; To = frame; Stiffness = 2000; Damping = 20
+Link contact: Type = sliding contact; From = head; To = wire @ 1; Direction = 0, 1;
+  Stiffness = 10000; Speed = 4; Height profile = 1.5e-2*sin(3*pi*(s-1))
+Link rod: Type = joint; From = head; To = frame; Direction = 0, 1; Stiffness = 1e5
+Link stop: Type = stop; To = frame; Direction = 0, 1; Stiffness = 1e4; Gap = -0.002
+Load force: Type = point; On = frame; Magnitude = 15
+Time: Scheme = generalised-alpha; Step = 1e-3; End = 2.2
+Probe head: Point = head; Direction = 0, 1
+Statistics: Window = 3, 8; Filter frequency = 20
+)";
 
   struct Moments
   {

@@ -16,20 +16,20 @@ namespace
 {
   /// A mass of 1 kg on a spring of (2 pi)^2 N/m that starts at 1 m/s: sin(2 pi t) / (2 pi).
   const std::string oscillator =
-      "set Generator = network\nset Gravity = 0, 0\nset Start = given\nsubsection Network\n"
-      " set Masses = bob\n set Springs = spring\n subsection Mass bob\n  set Position = 0, 0\n"
-      "  set Motions = y\n  set Mass = 1\n  set Initial velocity = 0, 1, 0\n end\n"
-      " subsection Spring spring\n  set From = ground\n  set To = bob\n"
-      "  set Stiffness = 39.4784176043574\n end\nend\nsubsection Time\n set End = 5\nend\n";
+      R"(Gravity = 0, 0; Start = given
+Mass bob: Position = 0, 0; Motions = y; Mass = 1; Initial velocity = 0, 1, 0
+Spring spring: From = ground; To = bob; Stiffness = 39.4784176043574
+Time: End = 5
+)";
 
   /// A ball that falls 1 m onto a rigid floor and rebounds with its whole velocity.
   const std::string ball =
-      "set Generator = network\nset Gravity = 0, -10\nset Start = given\nsubsection Network\n"
-      " set Masses = ball\n set Links = floor\n subsection Mass ball\n  set Position = 0, 1\n"
-      "  set Motions = y\n  set Mass = 1\n end\n subsection Link floor\n  set Type = stop\n"
-      "  set From = ground\n  set To = ball\n  set Direction = 0, 1\n  set Gap = 1\n end\nend\n"
-      "subsection Time\n set End = 1.7\n subsection Moreau-Jean\n  set Restitution = 1\n "
-      "end\nend\n";
+      R"(Gravity = 0, -10; Start = given
+Mass ball: Position = 0, 1; Motions = y; Mass = 1
+Link floor: Type = stop; From = ground; To = ball; Direction = 0, 1; Gap = 1
+Time: End = 1.7
+Time/Moreau-Jean: Restitution = 1
+)";
 
   double exact_oscillator(const double t)
   {

@@ -86,15 +86,13 @@ namespace
   /// A mass of 1 kg one metre above a stop, with what the stop has more.
   std::string ball(const std::string &stop)
   {
-    return "set Generator = network\nset Gravity = 0, -9.81\nset Start = given\n"
-           "subsection Network\n set Masses = ball\n set Links = stop\n"
-           " subsection Mass ball\n  set Position = 0, 1\n  set Motions = y\n  set Mass = 1\n"
-           " end\n subsection Link stop\n  set Type = stop\n  set From = ground\n"
-           "  set To = ball\n  set Direction = 0, 1\n  set Gap = 1\n" +
-           stop +
-           " end\nend\nsubsection Time\n set Step = 1e-3\n set End = 3\n"
-           " subsection Moreau-Jean\n  set Restitution = " +
-           (stop.empty() ? "1" : "0") + "\n end\nend\n";
+    return R"(Gravity = 0, -9.81; Start = given
+Mass ball: Position = 0, 1; Motions = y; Mass = 1
+Link stop: Type = stop; From = ground; To = ball; Direction = 0, 1; Gap = 1; )" +
+           stop + R"(
+Time: Step = 1e-3; End = 3
+Time/Moreau-Jean: Restitution = )" +
+           (stop.empty() ? "1" : "0");
   }
 
   /// Height of a ball that falls 1 m, after contacts of a duration [s].
@@ -133,8 +131,7 @@ TEST(StepControl, elastic_stops_shorten_steps_too)
     double before = 1.;
     for (const std::string tolerance : {"1e-4", "1e-6"})
     {
-      const AdaptiveRun run =
-          adaptive_run(ball("  set Stiffness = " + number(k) + "\n"), tolerance);
+      const AdaptiveRun run = adaptive_run(ball("Stiffness = " + number(k)), tolerance);
       const double error = std::fabs(run.end - exact_ball(contact));
       figure("ball on a stop of " + number(k) + " N/m, adaptive, tolerance " + tolerance +
                  ", error",
@@ -151,13 +148,12 @@ TEST(StepControl, elastic_stops_shorten_steps_too)
 TEST(StepControl, a_short_load_on_a_calm_mass_is_not_missed)
 {
   const std::string scene =
-      "set Generator = network\nset Gravity = 0, 0\nset Start = given\nsubsection Network\n"
-      " set Masses = mass\n set Springs = spring\n set Loads = pulse\n"
-      " subsection Mass mass\n  set Position = 0, 0\n  set Motions = y\n  set Mass = 1\n end\n"
-      " subsection Spring spring\n  set From = ground\n  set To = mass\n  set Stiffness = 1\n"
-      " end\n subsection Load pulse\n  set On = mass\n  set Direction = 0, 1\n"
-      "  set Magnitude = if(t >= 1 && t < 1.004, 100, 0)\n end\nend\n"
-      "subsection Time\n set Step = 1e-3\n set End = 2\nend\n";
+      R"(Gravity = 0, 0; Start = given
+Mass mass: Position = 0, 0; Motions = y; Mass = 1
+Spring spring: From = ground; To = mass; Stiffness = 1
+Load pulse: On = mass; Direction = 0, 1; Magnitude = if(t >= 1 && t < 1.004, 100, 0)
+Time: Step = 1e-3; End = 2
+)";
   const double exact = 100. * (std::cos(1. - .004) - std::cos(1.));
   double before = 1.;
   for (const std::string tolerance : {"1e-3", "1e-5"})
@@ -176,7 +172,7 @@ TEST(StepControl, a_short_load_on_a_calm_mass_is_not_missed)
 TEST(StepControl, the_largest_step_is_an_entry)
 {
   double longest = 0., last = 0.;
-  run_scene(ball("  set Stiffness = 1e5\n"), {adaptive, "Time.Adaptive step.Largest step=5e-3"},
+  run_scene(ball("Stiffness = 1e5"), {adaptive, "Time.Adaptive step.Largest step=5e-3"},
             [&](const taut::StepView &view)
             {
               longest = std::max(longest, view.state.time - last);

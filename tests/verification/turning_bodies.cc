@@ -31,63 +31,16 @@ namespace
   }
 
   /// A bar that spins and pulls a weight behind it on a rope from its end; a cable hangs below.
-  const char *const bar_and_cable = R"(
-set Generator = network
-set Gravity   = 0, -9.81
-set Start     = given
-set Bodies    = bar, cable
-
-subsection Body bar
-  set Type               = rigid body
-  set Mass               = 20
-  set Moments of inertia = 1, 6, 6
-  set Angular velocity   = 0.5, 1, 4
-  set Velocity           = 0, 3, 0
-end
-
-subsection Body cable
-  set Type              = cable
-  set From              = 1, -1
-  set To                = 2, -1
-  set Unstressed length = 1.2
-  set Axial stiffness   = 1e5
-  set Mass per length   = 0.5
-  set Element           = bar
-  set Elements          = 4
-  set Held ends         = none
-end
-
-subsection Network
-  set Masses = weight
-  subsection Mass weight
-    set Position = 3.1, -1
-    set Motions  = x, y, z
-    set Mass     = 5
-  end
-  set Links = rope, rod
-  subsection Link rope
-    set Type   = dropper
-    set From   = bar @ 1, 0
-    set To     = cable @ 0, 0
-    set Turns  = true
-    set Length = 1.05
-  end
-  subsection Link rod
-    set Type  = joint
-    set From  = cable @ 1.2, 0
-    set To    = weight
-    set Turns = true
-  end
-end
-
-subsection Time
-  set End  = 1
-  set Step = 1e-3
-end
-
-subsection Output
-  set Observers = energy
-end
+  const char *const bar_and_cable = R"(Gravity = 0, -9.81; Start = given
+Body bar: Type = rigid body; Mass = 20; Moments of inertia = 1, 6, 6;
+  Angular velocity = 0.5, 1, 4; Velocity = 0, 3, 0
+Body cable: Type = cable; From = 1, -1; To = 2, -1; Unstressed length = 1.2;
+  Axial stiffness = 1e5; Mass per length = 0.5; Element = bar; Elements = 4; Held ends = none
+Mass weight: Position = 3.1, -1; Motions = x, y, z; Mass = 5
+Link rope: Type = dropper; From = bar @ 1, 0; To = cable @ 0, 0; Turns = true; Length = 1.05
+Link rod: Type = joint; From = cable @ 1.2, 0; To = weight; Turns = true
+Time: End = 1; Step = 1e-3
+Output: Observers = energy
 )";
 } // namespace
 
@@ -117,35 +70,11 @@ TEST(TurningBodies, bar_pulls_cable_and_weight)
 TEST(TurningBodies, bar_hangs_on_two_ropes)
 {
   // Level, by symmetry: half of the difference of the lengths along x is known.
-  const char *const bar = R"(
-set Generator = network
-set Gravity   = 0, -9.81
-set Bodies    = bar
-subsection Body bar
-  set Type               = rigid body
-  set Mass               = 40
-  set Moments of inertia = 1, 6, 6
-end
-subsection Network
-  set Links = left, right
-  subsection Link left
-    set Type   = dropper
-    set Turns  = true
-    set From   = ground @ -2, 2
-    set To     = bar @ -1, 0
-    set Length = 2.5
-  end
-  subsection Link right
-    set Type   = dropper
-    set Turns  = true
-    set From   = ground @ 2, 2
-    set To     = bar @ 1, 0
-    set Length = 2.5
-  end
-end
-subsection Time
-  set End = 0
-end
+  const char *const bar = R"(Gravity = 0, -9.81
+Body bar: Type = rigid body; Mass = 40; Moments of inertia = 1, 6, 6
+Link left: Type = dropper; Turns = true; From = ground @ -2, 2; To = bar @ -1, 0; Length = 2.5
+Link right: Type = dropper; Turns = true; From = ground @ 2, 2; To = bar @ 1, 0; Length = 2.5
+Time: End = 0
 )";
   verification::run_scene(
       bar, {},
@@ -164,37 +93,11 @@ end
 TEST(TurningBodies, wire_hangs_on_a_rope)
 {
   // A string of 10 m under 2 kN on a rope in its middle that turns little: its linear answer.
-  const char *const string = R"(
-set Generator = network
-set Gravity   = 0, 0
-set Start     = equilibrium
-subsection Network
-  set Wires = wire
-  subsection Wire wire
-    set From            = 0, 0
-    set To              = 10, 0
-    set Components      = string
-    set Tension         = 2000
-    set Mass per length = 1
-  end
-  set Supports = ends
-  subsection Support ends
-    set Wire      = wire
-    set Positions = 0, 10
-  end
-  set Links = rope
-  subsection Link rope
-    set Type   = dropper
-    set Turns  = true
-    set From   = ground @ 5, 1
-    set To     = wire @ 5
-    set Length = 0.9
-  end
-end
-subsection Time
-  set End  = 0.1
-  set Step = 1e-3
-end
+  const char *const string = R"(Gravity = 0, 0; Start = equilibrium
+Wire wire: From = 0, 0; To = 10, 0; Components = string; Tension = 2000; Mass per length = 1
+Support ends: Wire = wire; Positions = 0, 10
+Link rope: Type = dropper; Turns = true; From = ground @ 5, 1; To = wire @ 5; Length = 0.9
+Time: End = 0.1; Step = 1e-3
 )";
   verification::run_scene(string, {},
                           [](const taut::StepView &view)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: ropes, props and rods that a program adds to a System are the links of a parameter file
 // that turn. Expected values: the same pendulums from a parameter file; the lowest place.
+#include "error_of.h"
 #include "turning_scene.h"
 
 #include <taut/base/exceptions.h>
@@ -18,6 +19,7 @@ using namespace turning;
 
 namespace
 {
+  using verification::error_of;
   const Coordinates start = {.6, -.5, .2}, speed = {.3, 1., -.4};
   constexpr double mass = 3.;
 
@@ -53,18 +55,6 @@ namespace
     }
   };
 
-  std::string error_of(const std::function<void()> &work)
-  {
-    try
-    {
-      work();
-    }
-    catch (const taut::UserError &e)
-    {
-      return e.what();
-    }
-    return "";
-  }
 } // namespace
 
 TEST(TurningLibrary, pendulums_are_those_of_a_parameter_file)
@@ -91,9 +81,9 @@ TEST(TurningLibrary, pendulums_are_those_of_a_parameter_file)
 
     Scene scene;
     scene.masses = {{mass, start, speed}};
-    scene.links = {"set From = ground @ " + text(pivot.position) + "\nset To = m0\nset Type = " +
-                   (is_elastic ? "dropper\nset Stiffness = 500\nset Damping = 4" : type) +
-                   "\nset Length = " + verification::number(length)};
+    scene.links = {"From = ground @ " + text(pivot.position) + "; To = m0; Type = " +
+                   (is_elastic ? "dropper; Stiffness = 500; Damping = 4" : type) +
+                   "; Length = " + verification::number(length)};
     scene.start = "given";
     scene.step = options.step;
     scene.end = 1.5;

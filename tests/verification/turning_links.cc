@@ -30,8 +30,7 @@ namespace
                  step = period / steps_a_period;
     Scene scene;
     scene.masses = {{2., {std::sin(angle), -std::cos(angle), 0.}, {}}};
-    scene.links = {"set Type = " + type +
-                   "\nset From = ground @ 0, 0\nset To = m0\nset Length = 1"};
+    scene.links = {"Type = " + type + "; From = ground @ 0, 0; To = m0; Length = 1"};
     scene.start = "given";
     scene.step = step;
     scene.end = 5. * period;
@@ -142,9 +141,9 @@ TEST(TurningLinks, tumbling_masses_keep_momentum)
                     {3., {.8, .3, -.2}, {.2, 1.5, -.1}},
                     {2., {.2, -1.1, .4}, {-1., 0., .2}}};
     const std::string kind = type;
-    const std::string link = kind == "elastic" ? "set Type = joint\nset Stiffness = 2000\n"
-                                               : "set Type = " + kind + "\n";
-    scene.links = {link + "set From = m0\nset To = m1", link + "set From = m1\nset To = m2"};
+    const std::string link =
+        kind == "elastic" ? "Type = joint; Stiffness = 2000" : "Type = " + kind;
+    scene.links = {link + "; From = m0; To = m1", link + "; From = m1; To = m2"};
     scene.start = "given";
     scene.step = 1e-3;
     scene.end = 2.;
@@ -183,7 +182,7 @@ TEST(TurningLinks, mass_bounces_on_an_elastic_rope)
       const double begin = step * phase / n_phases;
       Scene scene;
       scene.masses = {{m, {0., -1. - .5 * g * begin * begin, 0.}, {0., -g * begin, 0.}}};
-      scene.links = {rope("ground @ 0, 0", "m0", 3.) + "\nset Stiffness = 1e4"};
+      scene.links = {rope("ground @ 0, 0", "m0", 3.) + "; Stiffness = 1e4"};
       scene.start = "given";
       scene.step = step;
       scene.end = 1.6;

@@ -23,7 +23,7 @@ namespace
     Scene scene;
     scene.gravity = {0., 0., 0.};
     scene.masses = {{1., place, velocity}};
-    scene.links = {link + "\nset From = ground @ 0, 0\nset To = m0\nset Length = 1"};
+    scene.links = {link + "; From = ground @ 0, 0; To = m0; Length = 1"};
     scene.start = "given";
     scene.end = .3;
     return scene;
@@ -57,8 +57,7 @@ namespace
         << end.error;
   }
 
-  const std::string prop = "set Type = stop\nset Stiffness = 100",
-                    rod = "set Type = joint\nset Stiffness = 100";
+  const std::string prop = "Type = stop; Stiffness = 100", rod = "Type = joint; Stiffness = 100";
 } // namespace
 
 TEST(TurningMeetings, mass_thrown_at_its_anchor)
@@ -84,7 +83,7 @@ TEST(TurningMeetings, masses_that_meet)
   Scene scene;
   scene.gravity = {0., 0., 0.};
   scene.masses = {{1., {0., 1., 0.}, {0., 10., 0.}}, {1., {0., 2., 0.}, {0., -10., 0.}}};
-  scene.links = {"set Type = stop\nset Stiffness = 50\nset From = m0\nset To = m1"};
+  scene.links = {"Type = stop; Stiffness = 50; From = m0; To = m1"};
   scene.start = "given";
   scene.end = .2;
   expect_meeting(end_of(scene), {"t = 0.05", "link 'l0' meet, from (0, 1."});
@@ -125,7 +124,7 @@ TEST(TurningMeetings, slack_rope_lets_its_ends_pass)
   // Through the anchor after 0.05 s, once at the end of a step; caught on the other side.
   for (const double step : {1e-3, 7e-4})
   {
-    Scene scene = thrown("set Type = dropper", {.5, 0., 0.}, {-10., 0., 0.});
+    Scene scene = thrown("Type = dropper", {.5, 0., 0.}, {-10., 0., 0.});
     scene.step = step;
     double caught = 0.;
     scene.run(

@@ -39,8 +39,8 @@ namespace turning
   /// A link of a rope of a given length.
   inline std::string rope(const std::string &from, const std::string &to, const double length)
   {
-    return "set Type = dropper\nset From = " + from + "\nset To = " + to +
-           "\nset Length = " + verification::number(length);
+    return "Type = dropper; From = " + from + "; To = " + to +
+           "; Length = " + verification::number(length);
   }
 
   struct Mass
@@ -60,25 +60,19 @@ namespace turning
     std::string parameters() const
     {
       std::ostringstream out;
-      out << "set Generator = network\nset Gravity = " << text(gravity) << "\nset Start = " << start
-          << "\nsubsection Network\nset Masses = ";
-      for (std::size_t i = 0; i < masses.size(); ++i)
-        out << (i > 0 ? ", m" : "m") << i;
-      out << "\nset Links = ";
-      for (std::size_t i = 0; i < links.size(); ++i)
-        out << (i > 0 ? ", l" : "l") << i;
+      out << "Gravity = " << text(gravity) << "; Start = " << start
+          << "\nTime: Step = " << verification::number(step)
+          << "; End = " << verification::number(end) << "\n";
       for (std::size_t i = 0; i < masses.size(); ++i)
       {
         const Coordinates &v = masses[i].velocity;
-        out << "\nsubsection Mass m" << i << "\nset Position = " << text(masses[i].place)
-            << "\nset Mass = " << verification::number(masses[i].mass)
-            << "\nset Motions = x, y, z\nset Initial velocity = " << verification::number(v.x)
-            << ", " << verification::number(v.y) << ", 0, " << verification::number(v.z) << "\nend";
+        out << "Mass m" << i << ": Position = " << text(masses[i].place)
+            << "; Mass = " << verification::number(masses[i].mass)
+            << "; Motions = x, y, z; Initial velocity = " << verification::number(v.x) << ", "
+            << verification::number(v.y) << ", 0, " << verification::number(v.z) << "\n";
       }
       for (std::size_t i = 0; i < links.size(); ++i)
-        out << "\nsubsection Link l" << i << "\nset Turns = true\n" << links[i] << "\nend";
-      out << "\nend\nsubsection Time\nset Step = " << verification::number(step)
-          << "\nset End = " << verification::number(end) << "\nend\n";
+        out << "Link l" << i << ": Turns = true; " << links[i] << "\n";
       return out.str();
     }
 

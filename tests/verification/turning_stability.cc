@@ -22,8 +22,8 @@ namespace
   std::string link(const std::string &type, const std::string &from, const std::string &to,
                    const double of_length)
   {
-    return "set Type = " + type + "\nset From = " + from + "\nset To = " + to +
-           "\nset Length = " + verification::number(of_length);
+    return "Type = " + type + "; From = " + from + "; To = " + to +
+           "; Length = " + verification::number(of_length);
   }
 
   /// Weights one above the other on props, or rods.
@@ -123,7 +123,7 @@ TEST(TurningStability, elastic_prop_gets_shorter)
 {
   constexpr double stiffness = 1000.;
   Scene scene = tower(1);
-  scene.links[0] += "\nset Stiffness = " + verification::number(stiffness);
+  scene.links[0] += "; Stiffness = " + verification::number(stiffness);
   const double critical = weight / (length - weight / stiffness);
   EXPECT_EQ(error_of(scene, springs(1, critical / below, critical / below), weight), "");
   expect_refused(error_of(scene, springs(1, critical * below, critical * below), weight), "l0");
@@ -152,7 +152,7 @@ TEST(TurningStability, guys_hold_a_mast)
     for (const Coordinates &foot :
          {Coordinates{length, 0., 0.}, {-length, 0., 0.}, {0., 0., length}, {0., 0., -length}})
       scene.links.push_back(rope("ground @ " + text(foot), "m0", rope_length - tension / k) +
-                            "\nset Stiffness = " + verification::number(k));
+                            "; Stiffness = " + verification::number(k));
     const std::string error = error_of(scene, {}, weight + 4. * tension / std::sqrt(2.));
     if (part < 1.)
       expect_refused(error, "l0");
@@ -165,8 +165,7 @@ TEST(TurningStability, guys_that_just_touch_hold_a_mast_in_their_plane)
 {
   Scene scene = tower(1);
   for (const double x : {-length, length})
-    scene.links.push_back("set Type = dropper\nset To = m0\nset From = ground @ " +
-                          text({x, 0., 0.}));
+    scene.links.push_back("Type = dropper; To = m0; From = ground @ " + text({x, 0., 0.}));
   EXPECT_EQ(error_of(scene, {"Network/Mass m0/Motions=x, y"}, weight), "");
   expect_refused(error_of(scene, {}, weight), "l0");
 }

@@ -95,9 +95,9 @@ TEST(TurningStatics, chain_of_elastic_ropes)
     scene.masses.push_back({10. * (i + 1), {1. + i, 0., 0.}, {}});
     scene.links.push_back(rope(i == 0 ? "ground @ 0, 0" : "m" + std::to_string(i - 1),
                                "m" + std::to_string(i), length) +
-                          "\nset Stiffness = 5000");
+                          "; Stiffness = 5000");
   }
-  scene.links.push_back(rope("m2", "ground @ 4, 0.5", length) + "\nset Stiffness = 5000");
+  scene.links.push_back(rope("m2", "ground @ 4, 0.5", length) + "; Stiffness = 5000");
   const Motion m = at_rest(scene);
   const Coordinates ends[] = {{0., 0., 0.}, m.place[0], m.place[1], m.place[2], {4., .5, 0.}};
   for (int i = 0; i < 3; ++i)
@@ -132,7 +132,7 @@ TEST(TurningStatics, a_scene_that_is_turned_in_space_has_the_same_answers)
     scene.masses = {{2., turned({1., -.4, .1}, is_turned), turned({.5, 1., -.3}, is_turned)},
                     {1., turned({1.8, -.9, 0.}, is_turned), turned({0., 2., .4}, is_turned)}};
     scene.links = {rope("ground @ " + text(turned({.1, 0., 0.}, is_turned)), "m0", 1.2),
-                   rope("m0", "m1", 1.1) + "\nset Stiffness = 3000\nset Damping = 5"};
+                   rope("m0", "m1", 1.1) + "; Stiffness = 3000; Damping = 5"};
     scene.start = "given";
     scene.end = .8;
     scene.run([&](const Motion &m) { found[is_turned].push_back(m); });
@@ -152,18 +152,18 @@ TEST(TurningStatics, what_cannot_turn_is_refused)
 {
   const auto expect = [](const std::string &error, const std::string &part)
   { EXPECT_NE(error.find(part), std::string::npos) << error; };
-  const std::string ends = "set From = ground @ 0, 0\nset To = m0\n";
-  expect(error_of(ends + "set Type = dropper\nset Direction = 1, 0"), "leave it empty");
-  expect(error_of(ends + "set Type = ball joint"), "no direction from end to end");
-  expect(error_of(ends + "set Type = stop\nset Rotational = true"), "between displacements");
-  expect(error_of(ends + "set Type = dropper\nset Length = 1\nset Gap = 1"), "leave one of them");
-  expect(error_of(ends + "set Type = stop\nset Gap = 2"), "Give it a Length");
-  expect(error_of("set From = ground\nset To = m0\nset Type = dropper"), "ground @ x, y, z");
-  expect(error_of("set From = ground @ 1, 0\nset To = m0\nset Type = dropper\nset Length = 1"),
+  const std::string ends = "From = ground @ 0, 0; To = m0";
+  expect(error_of(ends + "; Type = dropper; Direction = 1, 0"), "leave it empty");
+  expect(error_of(ends + "; Type = ball joint"), "no direction from end to end");
+  expect(error_of(ends + "; Type = stop; Rotational = true"), "between displacements");
+  expect(error_of(ends + "; Type = dropper; Length = 1; Gap = 1"), "leave one of them");
+  expect(error_of(ends + "; Type = stop; Gap = 2"), "Give it a Length");
+  expect(error_of("From = ground; To = m0; Type = dropper"), "ground @ x, y, z");
+  expect(error_of("From = ground @ 1, 0; To = m0; Type = dropper; Length = 1"),
          "start at one place");
-  expect(error_of(ends + "set Type = dropper\nset Length = .9"), "starts with a gap");
-  expect(error_of(ends + "set Type = dropper\nset Turns = false\nset Length = .9\n"), "set before");
-  const std::string good = ends + "set Type = dropper\nset Length = 1";
+  expect(error_of(ends + "; Type = dropper; Length = .9"), "starts with a gap");
+  expect(error_of(ends + "; Type = dropper; Turns = false; Length = .9"), "set 'Turns = true'");
+  const std::string good = ends + "; Type = dropper; Length = 1";
   EXPECT_EQ(error_of(good), "");
   expect(error_of(good, {"Time/Scheme=Newmark"}), "gains energy where link 'l0' turns");
   for (const char *const conditions : {"velocities", "gaps"})

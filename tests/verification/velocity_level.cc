@@ -19,14 +19,13 @@ namespace
 {
   std::string time_section(const double step, const double end, const std::string &more = "")
   {
-    return "subsection Time\n set Scheme = Moreau-Jean\n set Step = " + number(step) +
-           "\n set End = " + number(end) + "\n" + more + "end\n";
+    return "Time: Scheme = Moreau-Jean; Step = " + number(step) + "; End = " + number(end) + "; " +
+           more + "\n";
   }
 
   std::string gaps(const double theta, const std::string &more = "")
   {
-    return more + " subsection Moreau-Jean\n  set Theta = " + number(theta) +
-           "\n  set Conditions = gaps\n end\n";
+    return more + "\nTime/Moreau-Jean: Theta = " + number(theta) + "; Conditions = gaps\n";
   }
 } // namespace
 
@@ -40,14 +39,10 @@ TEST(MoreauJean, a_ball_bounces_with_newtons_restitution)
   {
     const double step = fine ? 1e-4 : 4e-4;
     double error = 0., largest_gap_error = 0.;
-    run_scene("set Generator = network\nset Gravity = 0, -10\nset Start = given\n"
-              "subsection Network\n set Masses = ball\n set Links = floor\n"
-              " subsection Mass ball\n  set Position = 0, 0.8\n  set Mass = 2\n end\n"
-              " subsection Link floor\n  set Type = stop\n  set From = ground\n  set To = ball\n"
-              "  set Direction = 0, 1\n  set Gap = 0.8\n end\nend\n" +
-                  time_section(step, 1.35,
-                               " subsection Moreau-Jean\n  set Restitution = 0.5\n"
-                               "  set Conditions = velocities\n end\n"),
+    run_scene(R"(Gravity = 0, -10; Start = given
+Mass ball: Position = 0, 0.8; Mass = 2
+Link floor: Type = stop; From = ground; To = ball; Direction = 0, 1; Gap = 0.8
+)" + time_section(step, 1.35, "\nTime/Moreau-Jean: Restitution = 0.5; Conditions = velocities\n"),
               {},
               [&](const taut::StepView &view)
               {
@@ -76,18 +71,14 @@ TEST(MoreauJean, a_ball_bounces_with_newtons_restitution)
 TEST(MoreauJean, a_rigid_sliding_contact_follows_a_wavy_wire)
 {
   const std::string scene =
-      "set Generator = network\nset Gravity = 0, 0\nset Start = equilibrium\n"
-      "subsection Network\n set Wires = wire\n set Supports = ends\n set Masses = mass\n"
-      " set Links = contact\n set Loads = force\n"
-      " subsection Wire wire\n  set To = 10, 0\n  set Components = string\n"
-      "  set Mass per length = 1\n  set Tension = 1e9\n  set Element size = 0.5\n end\n"
-      " subsection Support ends\n  set Wire = wire\n  set Positions = 0, 10\n end\n"
-      " subsection Mass mass\n  set Position = 1, 0\n  set Mass = 5\n  set Motions = y\n end\n"
-      " subsection Link contact\n  set Type = sliding contact\n  set From = mass\n"
-      "  set To = wire @ 1\n  set Direction = 0, 1\n  set Speed = 4\n"
-      "  set Height profile = 1e-3*(1-cos(pi*(s-1)))\n end\n"
-      " subsection Load force\n  set Type = point\n  set On = mass\n  set Magnitude = 60\n end\n"
-      "end\n";
+      R"(Gravity = 0, 0; Start = equilibrium
+Wire wire: To = 10, 0; Components = string; Mass per length = 1; Tension = 1e9; Element size = 0.5
+Support ends: Wire = wire; Positions = 0, 10
+Mass mass: Position = 1, 0; Mass = 5; Motions = y
+Link contact: Type = sliding contact; From = mass; To = wire @ 1; Direction = 0, 1; Speed = 4;
+  Height profile = 1e-3*(1-cos(pi*(s-1)))
+Load force: Type = point; On = mass; Magnitude = 60
+)";
   const double w = 4. * std::acos(-1.);
   for (const bool of_gaps : {false, true})
   {
@@ -114,23 +105,19 @@ TEST(MoreauJean, a_rigid_contact_moves_a_string_as_a_moving_force_does)
 {
   const double v = 250. / 3.6, c = std::sqrt(20000. / 1.35);
   double error = 0.;
-  run_scene("set Generator = network\nset Gravity = 0, 0\nset Start = equilibrium\n"
-            "subsection Network\n set Wires = string\n set Supports = ends\n set Masses = mass\n"
-            " set Links = contact\n set Loads = force\n"
-            " subsection Wire string\n  set To = 60, 0\n  set Components = string\n"
-            "  set Mass per length = 1.35\n  set Tension = 20000\n  set Element size = 0.1\n"
-            "  set Degree = 2\n end\n"
-            " subsection Support ends\n  set Wire = string\n  set Positions = 0, 60\n end\n"
-            " subsection Mass mass\n  set Mass = 1\n  set Motions = y\n end\n"
-            " subsection Link contact\n  set Type = sliding contact\n  set From = mass\n"
-            "  set To = string @ 0\n  set Direction = 0, 1\n  set Speed = " +
-                number(v) +
-                "\n end\n subsection Load force\n  set Type = point\n  set On = mass\n"
-                "  set Magnitude = 120\n end\nend\n" +
+  run_scene(R"(Gravity = 0, 0; Start = equilibrium
+Wire string: To = 60, 0; Components = string; Mass per length = 1.35; Tension = 20000;
+  Element size = 0.1; Degree = 2
+Support ends: Wire = string; Positions = 0, 60
+Mass mass: Mass = 1; Motions = y
+Link contact: Type = sliding contact; From = mass; To = string @ 0; Direction = 0, 1;
+  Speed = )" + number(v) +
+                R"(
+Load force: Type = point; On = mass; Magnitude = 120
+)" +
                 time_section(2.5e-4, .4,
-                             " set Allow unsuitable scheme = true\n"
-                             " set Allow energy gain = true\n subsection Moreau-Jean\n"
-                             "  set Theta = 0.6\n  set Conditions = velocities\n end\n"),
+                             "Allow unsuitable scheme = true; Allow energy gain = true\n"
+                             "Time/Moreau-Jean: Theta = 0.6; Conditions = velocities\n"),
             {},
             [&](const taut::StepView &view)
             {
@@ -205,15 +192,13 @@ TEST(MoreauJean, cuts_do_not_drift)
 TEST(MoreauJean, a_change_of_step_at_rest_creates_no_force)
 {
   const std::string scene =
-      "set Generator = network\nset Gravity = 0, -10\nset Start = equilibrium\n"
-      "subsection Network\n set Wires = bar\n set Links = floor\n"
-      " subsection Wire bar\n  set To = 0, 10\n  set Components = bar\n  set Mass per length = 1\n"
-      "  set Axial stiffness = 900\n  set Element size = 0.5\n  set Degree = 1\n"
-      "  set Mass matrix = reduced\n end\n"
-      " subsection Link floor\n  set Type = stop\n  set From = ground\n  set To = bar @ 0\n"
-      "  set Direction = 0, 1\n end\nend\n";
+      R"(Gravity = 0, -10; Start = equilibrium
+Wire bar: To = 0, 10; Components = bar; Mass per length = 1; Axial stiffness = 900;
+  Element size = 0.5; Degree = 1; Mass matrix = reduced
+Link floor: Type = stop; From = ground; To = bar @ 0; Direction = 0, 1
+)";
   double change = 0., shortest = 1., longest = 0., before = 0.;
-  run_scene(scene + time_section(1. / 60., 4., gaps(.5, " set Step control = adaptive\n")), {},
+  run_scene(scene + time_section(1. / 60., 4., gaps(.5, "Step control = adaptive")), {},
             [&](const taut::StepView &view)
             {
               const double step = view.state.time - before;

@@ -27,16 +27,13 @@ namespace
   {
     std::ostringstream text;
     text.precision(17);
-    text << "set Generator = network\nset Gravity = 0, 0\nset Start = undeformed\n"
-         << "subsection Network\n set Wires = string\n set Supports = ends\n set Loads = force\n"
-         << " subsection Wire string\n  set To = 60, 0\n  set Components = string\n"
-         << "  set Mass per length = 1.35\n  set Tension = 20000\n  set Degree = " << degree
-         << "\n  set Element size = " << h << "\n end\n"
-         << " subsection Support ends\n  set Wire = string\n  set Positions = 0, 60\n end\n"
-         << " subsection Load force\n  set Type = moving\n  set On = string @ 0\n"
-         << "  set Magnitude = 120\n  set Speed = " << v << "\n end\nend\n"
-         << "subsection Time\n set Scheme = " << scheme << "\n set Step = " << tau
-         << "\n set End = 0.4\nend\n";
+    text << "Gravity = 0, 0; Start = undeformed\n"
+            "Wire string: To = 60, 0; Components = string; Mass per length = 1.35; Tension = "
+            "20000; Degree = "
+         << degree << "; Element size = " << h
+         << "\nSupport ends: Wire = string; Positions = 0, 60\n"
+            "Load force: Type = moving; On = string @ 0; Magnitude = 120; Speed = "
+         << v << "\nTime: Scheme = " << scheme << "; Step = " << tau << "; End = 0.4\n";
     return text.str();
   }
 
@@ -136,16 +133,14 @@ TEST(MovingForceOnString, whole_profile_is_exact_to_a_thousandth)
 TEST(Damper, of_the_wave_impedance_swallows_a_wave)
 {
   double energy_before = 0., energy_after = 0.;
-  run_scene("set Generator = network\nset Gravity = 0, 0\nset Start = given\n"
-            "subsection Network\n set Wires = string\n set Supports = left, right\n"
-            " subsection Wire string\n  set To = 20, 0\n  set Components = string\n"
-            "  set Mass per length = 1\n  set Tension = 400\n  set Element size = 0.05\n"
-            "  set Initial transverse displacement = 0.01*exp(-(s-10)^2)\n"
-            "  set Initial transverse velocity = 0.4*(s-10)*exp(-(s-10)^2)\n end\n"
-            " subsection Support left\n  set Wire = string\n  set Positions = 0\n end\n"
-            " subsection Support right\n  set Wire = string\n  set Positions = 20\n"
-            "  set Type = elastic\n  set Damping = 20\n end\nend\n"
-            "subsection Time\n set Scheme = Newmark\n set Step = 5e-4\n set End = 0.9\nend\n",
+  run_scene(R"(Gravity = 0, 0; Start = given
+Wire string: To = 20, 0; Components = string; Mass per length = 1; Tension = 400;
+  Element size = 0.05; Initial transverse displacement = 0.01*exp(-(s-10)^2);
+  Initial transverse velocity = 0.4*(s-10)*exp(-(s-10)^2)
+Support left: Wire = string; Positions = 0
+Support right: Wire = string; Positions = 20; Type = elastic; Damping = 20
+Time: Scheme = Newmark; Step = 5e-4; End = 0.9
+)",
             {},
             [&](const taut::StepView &view)
             {
@@ -168,13 +163,12 @@ TEST(Damper, of_the_wave_impedance_swallows_a_wave)
 TEST(StruckString, is_at_rest_where_it_is_held)
 {
   double at_ends = 0., start = 0., middle = 0.;
-  run_scene("set Generator = network\nset Gravity = 0, 0\nset Start = given\n"
-            "subsection Network\n set Wires = string\n set Supports = ends\n"
-            " subsection Wire string\n  set To = 10, 0\n  set Components = string\n"
-            "  set Mass per length = 1\n  set Tension = 400\n  set Element size = 0.1\n"
-            "  set Initial transverse velocity = 1\n end\n"
-            " subsection Support ends\n  set Wire = string\n  set Positions = 0, 10\n end\nend\n"
-            "subsection Time\n set Scheme = Moreau-Jean\n set Step = 1e-3\n set End = 0.2\nend\n",
+  run_scene(R"(Gravity = 0, 0; Start = given
+Wire string: To = 10, 0; Components = string; Mass per length = 1; Tension = 400;
+  Element size = 0.1; Initial transverse velocity = 1
+Support ends: Wire = string; Positions = 0, 10
+Time: Scheme = Moreau-Jean; Step = 1e-3; End = 0.2
+)",
             {},
             [&](const taut::StepView &view)
             {

@@ -74,175 +74,39 @@ namespace
   /// plane of x and y; or turned about x into that of x and z.
   std::string scene_in_a_plane(const bool turned)
   {
-    std::string text = R"(set Generator = network
-set Gravity   = (0, -9.81)
-subsection Network
-  set Wires        = lower, upper
-  set Supports     = lower ends, clamp, arm, upper ends, upper foot{names}
-  set Point masses = clip
-  set Masses       = head, block
-  set Springs      = spring, base
-  set Links        = hanger, slanting, slider, bump
-  set Loads        = push, gust, wheel, shove
-  subsection Wire lower
-    set From              = (0, 0)
-    set To                = (24, 0)
-    set Components        = beam{lateral}
-    set Mass per length   = 1.2
-    set Tension           = 9000
-    set Bending stiffness = 150
-    set Element size      = 0.5
-    set Stiffness damping = 1e-3
-  end
-  subsection Wire upper
-    set From            = (0, 1.4)
-    set To              = (24, 3)
-    set Components      = bar, string{lateral}
-    set Mass per length = 0.8
-    set Tension         = 8000
-    set Axial stiffness = 1e6
-    set Element size    = 1
-    set Mass damping    = 0.1
-  end
-  subsection Support lower ends
-    set Wire      = lower
-    set Positions = 0, 24
-    set Motion    = {across}
-  end
-  subsection Support clamp
-    set Wire   = lower
-    set Motion = {slope}
-  end
-  subsection Support arm
-    set Wire      = lower
-    set Positions = 14
-    set Motion    = {across}
-    set Type      = elastic
-    set Stiffness = 300
-    set Damping   = 12
-  end
-  subsection Support upper ends
-    set Wire         = upper
-    set Positions    = 0, 24
-    set Motion       = {across}
-    set Displacement = 0.01*sin(3*t)
-  end
-  subsection Support upper foot
-    set Wire   = upper
-    set Motion = axial
-  end
-{sections}
-  subsection Point mass clip
-    set Wire      = upper
-    set Positions = 9.3
-    set Mass      = 0.6
-  end
-  subsection Mass head
-    set Position = (4, -1)
-    set Motions  = x, {y}
-    set Mass     = 8
-    set Weight   = false
-  end
-  subsection Mass block
-    set Position = (4, -2)
-    set Motions  = {y}
-    set Mass     = 15
-  end
-  subsection Spring spring
-    set From      = block
-    set To        = head
-    set Direction = (0.3, 1)
-    set Stiffness = 5000
-    set Damping   = 60
-  end
-  subsection Spring base
-    set From      = ground
-    set To        = head
-    set Direction = (1, -0.2)
-    set Stiffness = 700
-    set Damping   = 20
-  end
-  subsection Link hanger
-    set Type      = dropper
-    set From      = upper @ 6
-    set To        = lower @ 6
-    set Stiffness = 1e5
-    set Gap       = -0.03
-  end
-  subsection Link slanting
-    set Type      = dropper
-    set From      = upper @ 19
-    set To        = lower @ 17
-    set Stiffness = 1e5
-    set Gap       = 0.002
-  end
-  subsection Link slider
-    set Type      = sliding contact
-    set From      = head
-    set To        = lower @ 4
-    set Direction = (0, 1)
-    set Stiffness = 50000
-    set Speed     = 12
-  end
-  subsection Link bump
-    set Type      = stop
-    set From      = ground
-    set To        = block
-    set Direction = (0, 1)
-    set Stiffness = 1e5
-  end
-  subsection Load push
-    set On        = block
-    set Direction = (0, 1)
-    set Magnitude = 190
-  end
-  subsection Load gust
-    set Type      = distributed
-    set On        = upper @ 0
-    set Direction = (0.2, -1)
-    set Magnitude = 2*sin(2*t)*s
-  end
-  subsection Load wheel
-    set Type      = moving
-    set On        = upper @ 1
-    set Direction = (0, -1)
-    set Magnitude = 120
-    set Speed     = 15
-  end
-  subsection Load shove
-    set On        = upper @ 20
-    set Direction = (1, 1)
-    set Magnitude = 60*sin(9*t)
-  end
-end
-subsection Time
-  set Scheme = BDF2
-  set Step   = 2e-3
-  set End    = 1
-end
-subsection Output
-  set Probes = under, over, along, head across, head along
-  subsection Probe under
-    set Point     = lower @ 11
-    set Direction = (0, 1)
-  end
-  subsection Probe over
-    set Point     = upper @ 13.7
-    set Direction = (0, 1)
-  end
-  subsection Probe along
-    set Point     = upper @ 13.7
-    set Direction = (1, 0)
-  end
-  subsection Probe head across
-    set Point     = head
-    set Direction = (0, 1)
-  end
-  subsection Probe head along
-    set Point     = head
-    set Direction = (1, 0)
-  end
-end
+    std::string text = R"(Gravity = (0, -9.81)
+Wire lower: From = (0, 0); To = (24, 0); Components = beam{lateral}; Mass per length = 1.2;
+  Tension = 9000; Bending stiffness = 150; Element size = 0.5; Stiffness damping = 1e-3
+Wire upper: From = (0, 1.4); To = (24, 3); Components = bar, string{lateral};
+  Mass per length = 0.8; Tension = 8000; Axial stiffness = 1e6; Element size = 1;
+  Mass damping = 0.1
+Support lower ends: Wire = lower; Positions = 0, 24; Motion = {across}
+Support clamp: Wire = lower; Motion = {slope}
+Support arm: Wire = lower; Positions = 14; Motion = {across}; Type = elastic; Stiffness = 300;
+  Damping = 12
+Support upper ends: Wire = upper; Positions = 0, 24; Motion = {across};
+  Displacement = 0.01*sin(3*t)
+Support upper foot: Wire = upper; Motion = axial
+Point mass clip: Wire = upper; Positions = 9.3; Mass = 0.6
+Mass head: Position = (4, -1); Motions = x, {y}; Mass = 8; Weight = false
+Mass block: Position = (4, -2); Motions = {y}; Mass = 15
+Spring spring: From = block; To = head; Direction = (0.3, 1); Stiffness = 5000; Damping = 60
+Spring base: From = ground; To = head; Direction = (1, -0.2); Stiffness = 700; Damping = 20
+Link hanger: Type = dropper; From = upper @ 6; To = lower @ 6; Stiffness = 1e5; Gap = -0.03
+Link slanting: Type = dropper; From = upper @ 19; To = lower @ 17; Stiffness = 1e5; Gap = 0.002
+Link slider: Type = sliding contact; From = head; To = lower @ 4; Direction = (0, 1);
+  Stiffness = 50000; Speed = 12
+Link bump: Type = stop; From = ground; To = block; Direction = (0, 1); Stiffness = 1e5
+Load push: On = block; Direction = (0, 1); Magnitude = 190
+Load gust: Type = distributed; On = upper @ 0; Direction = (0.2, -1); Magnitude = 2*sin(2*t)*s
+Load wheel: Type = moving; On = upper @ 1; Direction = (0, -1); Magnitude = 120; Speed = 15
+Load shove: On = upper @ 20; Direction = (1, 1); Magnitude = 60*sin(9*t)
+Time: Scheme = BDF2; Step = 2e-3; End = 1
+Probe under: Point = lower @ 11; Direction = (0, 1)
+Probe over: Point = upper @ 13.7; Direction = (0, 1)
+Probe along: Point = upper @ 13.7; Direction = (1, 0)
+Probe head across: Point = head; Direction = (0, 1)
+Probe head along: Point = head; Direction = (1, 0)
 )";
     const auto replace = [&](const std::string &from, const std::string &to)
     { text = std::regex_replace(text, std::regex(from), to); };
@@ -251,75 +115,25 @@ end
     replace("\\{across\\}", turned ? "lateral" : "transverse");
     replace("\\{slope\\}", turned ? "lateral slope" : "slope");
     replace("\\{y\\}", turned ? "z" : "y");
-    replace("\\{names\\}", turned ? ", lower level, upper level" : "");
-    replace("\\{sections\\}", !turned ? "" : R"(  subsection Support lower level
-    set Wire      = lower
-    set Positions = 0, 24
-  end
-  subsection Support upper level
-    set Wire      = upper
-    set Positions = 0, 24
-  end)");
+    if (turned)
+      text += "Support lower level: Wire = lower; Positions = 0, 24\n"
+              "Support upper level: Wire = upper; Positions = 0, 24\n";
     return text;
   }
 
   /// A contact wire with stagger, its lateral supports at every mast; wind across it.
-  const char *const staggered = R"(set Generator = network
-set Gravity   = 0, 0
-subsection Network
-  set Wires    = contact, by links
-  set Supports = height, height by links, left, right
-  set Links    = arms left, arms right
-  subsection Wire contact
-    set From            = 0, 0
-    set To              = 250, 0
-    set Components      = string, lateral
-    set Mass per length = 1.35
-    set Tension         = 20000
-    set Element size    = 5
-  end
-  subsection Wire by links
-    set From            = 0, 0, 5
-    set To              = 250, 0, 5
-    set Components      = string, lateral
-    set Mass per length = 1.35
-    set Tension         = 20000
-    set Element size    = 5
-  end
-  subsection Support height
-    set Wire      = contact
-    set Positions = 0:50:250
-  end
-  subsection Support height by links
-    set Wire      = by links
-    set Positions = 0:50:250
-  end
-  subsection Support left
-    set Wire         = contact
-    set Positions    = 0, 100, 200
-    set Motion       = lateral
-    set Displacement = 0.2
-  end
-  subsection Support right
-    set Wire         = contact
-    set Positions    = 50, 150, 250
-    set Motion       = lateral
-    set Displacement = -0.2
-  end
-  subsection Link arms left
-    set To        = by links @ 0, 100, 200
-    set Direction = 0, 0, 1
-    set Gap       = -0.2
-  end
-  subsection Link arms right
-    set To        = by links @ 50, 150, 250
-    set Direction = 0, 0, 1
-    set Gap       = 0.2
-  end
-end
-subsection Time
-  set End = 0
-end
+  const char *const staggered = R"(Gravity = 0, 0
+Wire contact: From = 0, 0; To = 250, 0; Components = string, lateral; Mass per length = 1.35;
+  Tension = 20000; Element size = 5
+Wire by links: From = 0, 0, 5; To = 250, 0, 5; Components = string, lateral;
+  Mass per length = 1.35; Tension = 20000; Element size = 5
+Support height: Wire = contact; Positions = 0:50:250
+Support height by links: Wire = by links; Positions = 0:50:250
+Support left: Wire = contact; Positions = 0, 100, 200; Motion = lateral; Displacement = 0.2
+Support right: Wire = contact; Positions = 50, 150, 250; Motion = lateral; Displacement = -0.2
+Link arms left: To = by links @ 0, 100, 200; Direction = 0, 0, 1; Gap = -0.2
+Link arms right: To = by links @ 50, 150, 250; Direction = 0, 0, 1; Gap = 0.2
+Time: End = 0
 )";
 
   double sum(const std::vector<double> &values, const std::size_t begin, const std::size_t end)
@@ -342,78 +156,34 @@ TEST(WiresInSpace, a_scene_turned_about_x_moves_as_in_the_plane)
 TEST(WiresInSpace, wind_blows_a_string_off_by_the_parabola)
 {
   const double L = 60., T = 10000., w = 8., sin = .6; // the wind is inclined by 3/5
-  run_scene(R"(set Generator = network
-subsection Network
-  set Wires    = wire
-  set Supports = height, side
-  set Loads    = wind
-  subsection Wire wire
-    set To              = 60, 0
-    set Components      = string, lateral
-    set Mass per length = 1
-    set Tension         = 10000
-    set Element size    = 2.5
-  end
-  subsection Support height
-    set Wire      = wire
-    set Positions = 0, 60
-  end
-  subsection Support side
-    set Wire      = wire
-    set Positions = 0, 60
-    set Motion    = lateral
-  end
-  subsection Load wind
-    set Type      = distributed
-    set On        = wire @ 0
-    set Direction = 0, 3, 4
-    set Magnitude = 8
-  end
-end
-subsection Time
-  set End = 0
-end
+  run_scene(
+      R"(Wire wire: To = 60, 0; Components = string, lateral; Mass per length = 1; Tension = 10000;
+  Element size = 2.5
+Support height: Wire = wire; Positions = 0, 60
+Support side: Wire = wire; Positions = 0, 60; Motion = lateral
+Load wind: Type = distributed; On = wire @ 0; Direction = 0, 3, 4; Magnitude = 8
+Time: End = 0
 )",
-            {},
-            [&](const taut::StepView &step)
-            {
-              const double across = displacement(step, 0, 30., {0., 0., 1.}),
-                           up = displacement(step, 0, 30., {0., 1.});
-              EXPECT_NEAR(across, .8 * w * L * L / (8. * T), 1e-6 * across);
-              EXPECT_NEAR(up, (sin * w - 9.81) * L * L / (8. * T), 1e-6 * across);
-              EXPECT_NEAR(step.supports.at(2), -.8 * w * L / 2., 1e-9 * w * L);
-              figure("blow-off of a string, error relative",
-                     std::fabs(across / (.8 * w * L * L / (8. * T)) - 1.));
-            });
+      {},
+      [&](const taut::StepView &step)
+      {
+        const double across = displacement(step, 0, 30., {0., 0., 1.}),
+                     up = displacement(step, 0, 30., {0., 1.});
+        EXPECT_NEAR(across, .8 * w * L * L / (8. * T), 1e-6 * across);
+        EXPECT_NEAR(up, (sin * w - 9.81) * L * L / (8. * T), 1e-6 * across);
+        EXPECT_NEAR(step.supports.at(2), -.8 * w * L / 2., 1e-9 * w * L);
+        figure("blow-off of a string, error relative",
+               std::fabs(across / (.8 * w * L * L / (8. * T)) - 1.));
+      });
 }
 
 TEST(WiresInSpace, a_wire_along_z_has_its_transverse_motion_along_y)
 {
-  run_scene(R"(set Generator = network
-subsection Network
-  set Wires    = headspan
-  set Supports = height, side
-  subsection Wire headspan
-    set From            = 3, 6, -10
-    set To              = 3, 6, 10
-    set Components      = string, lateral
-    set Mass per length = 2
-    set Tension         = 5000
-  end
-  subsection Support height
-    set Wire      = headspan
-    set Positions = 0, 20
-  end
-  subsection Support side
-    set Wire         = headspan
-    set Positions    = 0, 20
-    set Motion       = lateral
-    set Displacement = 0.1
-  end
-end
-subsection Time
-  set End = 0
-end
+  run_scene(R"(Wire headspan: From = 3, 6, -10; To = 3, 6, 10; Components = string, lateral;
+  Mass per length = 2; Tension = 5000
+Support height: Wire = headspan; Positions = 0, 20
+Support side: Wire = headspan; Positions = 0, 20; Motion = lateral; Displacement = 0.1
+Time: End = 0
 )",
             {},
             [](const taut::StepView &step)
@@ -462,58 +232,22 @@ TEST(WiresInSpace, inclined_droppers_pull_along_their_lines)
   const double T1 = W * l1 * 1. / (3. * 1. + 4. * 2.), T2 = W * l2 * 2. / (3. * 1. + 4. * 2.);
   const auto wire = [](const std::string &name, const std::string &height)
   {
-    return "  subsection Wire " + name + "\n    set From = -10, " + height + "\n    set To = 10, " +
-           height + R"(
-    set Components        = bar, beam, lateral
-    set Mass per length   = 1
-    set Tension           = 4000
-    set Bending stiffness = 300
-    set Axial stiffness   = 1e6
-    set Weight            = false
-  end
-)";
+    return "Wire " + name + ": From = -10, " + height + "; To = 10, " + height +
+           "; Components = bar, beam, lateral; Mass per length = 1; Tension = 4000; Bending "
+           "stiffness = 300; Axial stiffness = 1e6; Weight = false\n";
   };
-  std::string text = "set Generator = network\nsubsection Network\n  set Wires = right, left\n" +
-                     wire("right", "3, 1.6") + wire("left", "4, -0.8");
-  text +=
-      "  set Supports = right height, right side, right foot, left height, left side, left foot\n";
+  std::string text = wire("right", "3, 1.6") + wire("left", "4, -0.8");
   for (const std::string name : {"right", "left"})
   {
-    text += "  subsection Support " + name + " height\n    set Wire = " + name +
-            "\n    set Positions = 0, 20\n  end\n";
-    text += "  subsection Support " + name + " side\n    set Wire = " + name +
-            "\n    set Positions = 0, 20\n    set Motion = lateral\n  end\n";
-    text += "  subsection Support " + name + " foot\n    set Wire = " + name +
-            "\n    set Motion = axial\n  end\n";
+    text += "Support " + name + " height: Wire = " + name + "; Positions = 0, 20\n";
+    text += "Support " + name + " side: Wire = " + name + "; Positions = 0, 20; Motion = lateral\n";
+    text += "Support " + name + " foot: Wire = " + name + "; Motion = axial\n";
   }
-  text += R"(  set Masses  = weight
-  set Springs = stay
-  set Links   = right rope, left rope
-  subsection Mass weight
-    set Position = 0, 0, 0
-    set Motions  = x, y, z
-    set Mass     = 20
-  end
-  subsection Spring stay
-    set To        = weight
-    set Direction = -4, 0, 3
-    set Stiffness = 1000
-  end
-  subsection Link right rope
-    set Type      = dropper
-    set From      = right @ 11.2
-    set To        = weight
-    set Stiffness = 1e5
-  end
-  subsection Link left rope
-    set Type = dropper
-    set From = left @ 9.4
-    set To   = weight
-  end
-end
-subsection Time
-  set End = 0
-end
+  text += R"(Mass weight: Position = 0, 0, 0; Motions = x, y, z; Mass = 20
+Spring stay: To = weight; Direction = -4, 0, 3; Stiffness = 1000
+Link right rope: Type = dropper; From = right @ 11.2; To = weight; Stiffness = 1e5
+Link left rope: Type = dropper; From = left @ 9.4; To = weight
+Time: End = 0
 )";
   run_scene(text, {},
             [&](const taut::StepView &step)
@@ -537,35 +271,21 @@ end
 
 TEST(WiresInSpace, length_of_an_inclined_dropper_is_found_along_its_line)
 {
-  std::string text =
-      "set Generator = network\nsubsection Network\n  set Wires = messenger, contact\n"
-      "  set Supports = messenger height, messenger side, contact height, contact side\n";
+  std::string text;
   for (const std::string name : {"messenger", "contact"})
   {
     const std::string end = name == "messenger" ? ", 1.2, 0.5" : ", 0, 0";
-    text += "  subsection Wire " + name + "\n    set From = 0" + end + "\n    set To = 50" + end +
-            "\n    set Components = string, lateral\n    set Mass per length = 1.1\n"
-            "    set Tension = 15000\n  end\n";
+    text += "Wire " + name + ": From = 0" + end + "; To = 50" + end +
+            "; Components = string, lateral; Mass per length = 1.1; Tension = 15000\n";
     for (const std::string motion : {"height", "side"})
-      text += "  subsection Support " + name + " " + motion + "\n    set Wire = " + name +
-              "\n    set Positions = 0, 50\n    set Motion = " +
-              (motion == "side" ? "lateral" : "transverse") + "\n  end\n";
+      text += "Support " + name + " " + motion + ": Wire = " + name +
+              "; Positions = 0, 50; Motion = " + (motion == "side" ? "lateral" : "transverse") +
+              "\n";
   }
-  text += R"(  set Links = dropper
-  subsection Link dropper
-    set Type                   = dropper
-    set From                   = messenger @ 20, 30
-    set To                     = contact @ 20, 30
-    set Find length            = true
-    set Prescribed displacement = -0.01
-    set Axial stiffness        = 1e5
-    set Mass per length        = 0.1
-  end
-end
-subsection Time
-  set End = 0
-end
-)";
+  text += "Link dropper: Type = dropper; From = messenger @ 20, 30; To = contact @ 20, 30; "
+          "Find length = true; Prescribed displacement = -0.01; Axial stiffness = 1e5; "
+          "Mass per length = 0.1\n"
+          "Time: End = 0\n";
   run_scene(text, {},
             [&](const taut::StepView &step)
             {
@@ -585,49 +305,26 @@ TEST(WiresInSpace, a_polygon_of_wires_is_joined_along_all_axes)
 {
   // Two wires with a kink of 0.016 under a skew load: as one straight string but for the square of
   // the angle. The kink pulls with tension times change of direction, 320 N along z.
-  std::string text = "set Generator = network\nset Gravity = 0, 0\nsubsection Network\n"
-                     "  set Wires = first, second\n  set Supports = ";
-  std::string sections;
+  std::string text = "Gravity = 0, 0\nTime: End = 0\n";
   for (const std::string name : {"first", "second"})
   {
     const bool first = name == "first";
-    sections += "  subsection Wire " + name +
-                "\n    set From = " + (first ? "0, 0, 0.2" : "50, 0, -0.2") +
-                "\n    set To = " + (first ? "50, 0, -0.2" : "100, 0, 0.2") + R"(
-    set Components      = bar, string, lateral
-    set Mass per length = 1
-    set Tension         = 20000
-    set Axial stiffness = 1e7
-  end
-)";
+    text += "Wire " + name + ": From = " + (first ? "0, 0, 0.2" : "50, 0, -0.2") +
+            "; To = " + (first ? "50, 0, -0.2" : "100, 0, 0.2") +
+            "; Components = bar, string, lateral; Mass per length = 1; Tension = 20000; Axial "
+            "stiffness = 1e7\n";
     for (const std::string motion : {"axial", "transverse", "lateral"})
-    {
-      text += (sections.find("Support") == std::string::npos ? "" : ", ") + name + " " + motion;
-      sections += "  subsection Support " + name + " " + motion + "\n    set Wire = " + name +
-                  "\n    set Positions = " + (first ? "0" : "50.001599974400820") +
-                  "\n    set Motion = " + motion + "\n  end\n";
-    }
+      text += "Support " + name + " " + motion + ": Wire = " + name +
+              "; Positions = " + (first ? "0" : "50.001599974400820") + "; Motion = " + motion +
+              "\n";
   }
-  text += "\n" + sections + "  set Links = along, up, across\n";
   for (const std::string name : {"along", "up", "across"})
-    text += "  subsection Link " + name +
-            "\n    set From = first @ 50.001599974400820\n    set To = second @ 0\n"
-            "    set Direction = " +
+    text += "Link " + name + ": From = first @ 50.001599974400820; To = second @ 0; Direction = " +
             (name == "along" ? "1, 0, 0"
              : name == "up"  ? "0, 1, 0"
                              : "0, 0, 1") +
-            "\n  end\n";
-  text += R"(  set Loads = wind
-  subsection Load wind
-    set On        = first @ 50.001599974400820
-    set Direction = 0, -3, 4
-    set Magnitude = 200
-  end
-end
-subsection Time
-  set End = 0
-end
-)";
+            "\n";
+  text += "Load wind: On = first @ 50.001599974400820; Direction = 0, -3, 4; Magnitude = 200\n";
   run_scene(text, {},
             [&](const taut::StepView &step)
             {
@@ -656,49 +353,36 @@ namespace
                    const double tension)
   {
     std::string text =
-        "  subsection Wire " + name + "\n    set From = " + from + "\n    set To = " + to +
-        "\n    set Components = bar, string, lateral\n    set Tension = " +
-        std::to_string(tension) +
-        "\n    set Mass per length = 1\n    set Axial stiffness = 1e6\n    set Weight = "
-        "false\n    set Element size = 5\n  end\n";
+        "Wire " + name + ": From = " + from + "; To = " + to +
+        "; Components = bar, string, lateral; Tension = " + std::to_string(tension) +
+        "; Mass per length = 1; Axial stiffness = 1e6; Weight = false; Element size = 5\n";
     for (const std::string motion : {"axial", "transverse", "lateral"})
-      text += "  subsection Support " + name + " " + motion + "\n    set Wire = " + name +
-              "\n    set Positions = 0\n    set Motion = " + motion + "\n  end\n";
+      text += "Support " + name + " " + motion + ": Wire = " + name +
+              "; Positions = 0; Motion = " + motion + "\n";
     return text;
-  }
-
-  std::string supports_of(const std::string &names)
-  {
-    return std::regex_replace(names, std::regex("(\\w+)"), "$1 axial, $1 transverse, $1 lateral");
   }
 
   std::string joint(const std::string &name, const std::string &from, const std::string &to,
                     const std::string &direction)
   {
-    return "  subsection Link " + name + "\n    set From = " + from + "\n    set To = " + to +
-           (direction.empty() ? "\n    set Type = ball joint"
-                              : "\n    set Direction = " + direction) +
-           "\n  end\n";
+    return "Link " + name + ": From = " + from + "; To = " + to +
+           (direction.empty() ? "; Type = ball joint" : "; Direction = " + direction) + "\n";
   }
 
   /// Displacement in a static state of the end of wire 0 along x, y and z.
-  std::array<double, 3> rest(const std::string &names, const std::string &sections,
-                             const std::string &joints, std::vector<taut::Load> *loads = nullptr)
+  std::array<double, 3> rest(const std::string &sections, std::vector<taut::Load> *loads = nullptr)
   {
     std::array<double, 3> u;
-    run_scene(
-        "set Generator = network\nset Gravity = 0, 0\nsubsection Network\n  set Wires = " + names +
-            "\n  set Supports = " + supports_of(names) + "\n" + sections +
-            "  set Links = " + joints + "end\nsubsection Time\n  set End = 0\nend\n",
-        {},
-        [&](const taut::StepView &step)
-        {
-          const double end = step.scene.wires[0].length();
-          u = {displacement(step, 0, end, {1., 0., 0.}), displacement(step, 0, end, {0., 1., 0.}),
-               displacement(step, 0, end, {0., 0., 1.})};
-          if (loads != nullptr)
-            *loads = step.scene.loads;
-        });
+    run_scene("Gravity = 0, 0\nTime: End = 0\n" + sections, {},
+              [&](const taut::StepView &step)
+              {
+                const double end = step.scene.wires[0].length();
+                u = {displacement(step, 0, end, {1., 0., 0.}),
+                     displacement(step, 0, end, {0., 1., 0.}),
+                     displacement(step, 0, end, {0., 0., 1.})};
+                if (loads != nullptr)
+                  *loads = step.scene.loads;
+              });
     return u;
   }
 } // namespace
@@ -736,18 +420,14 @@ TEST(WiresInSpace, pulls_where_wires_meet_are_in_equilibrium_with_their_stiffnes
       EXPECT_NEAR(found[i], exact[i], 1e-9 * exact.l2_norm()) << i;
   };
   expect(
-      rest("a, b, c", sections,
-           "ab, ac\n" + joint("ab", "a @ 20", "b @ 20", "") + joint("ac", "a @ 20", "c @ 20", "")));
+      rest(sections + joint("ab", "a @ 20", "b @ 20", "") + joint("ac", "a @ 20", "c @ 20", "")));
   // The same with directions that are not orthogonal.
-  std::string names, joints;
+  std::string joints;
   for (const std::string other : {"b", "c"})
     for (const auto &[number, direction] :
          {std::pair("1", "1, 0, 0"), {"2", "1, 1, 0"}, {"3", "0, 1, -2"}})
-    {
-      names += (names.empty() ? "" : ", ") + other + number;
       joints += joint(other + number, "a @ 20", other + " @ 20", direction);
-    }
-  expect(rest("a, b, c", sections, names + "\n" + joints));
+  expect(rest(sections + joints));
 }
 
 TEST(WiresInSpace, pulls_do_not_depend_on_the_order_of_joints)
@@ -758,8 +438,8 @@ TEST(WiresInSpace, pulls_do_not_depend_on_the_order_of_joints)
                                stay("c", "0, 12, -16", "0, 0, 0", 2500.),
                     first = joint("ab", "a @ 20", "b @ 20", "1, 0, 0"),
                     second = joint("ac", "a @ 20", "c @ 20", "1, 1, 0");
-  const std::array<double, 3> one = rest("a, b, c", sections, "ab, ac\n" + first + second),
-                              other = rest("a, b, c", sections, "ac, ab\n" + first + second);
+  const std::array<double, 3> one = rest(sections + first + second),
+                              other = rest(sections + second + first);
   EXPECT_GT(std::fabs(one[1]), .1);
   for (unsigned int i = 0; i < 3; ++i)
     EXPECT_NEAR(one[i], other[i], 1e-12);
@@ -770,48 +450,32 @@ TEST(WiresInSpace, a_wire_that_goes_on_straight_pulls_nothing)
   const auto sections = [](const double second) {
     return stay("a", "0, 0, 0", "16, 12, 0", 2000.) + stay("b", "32, 24, 0", "16, 12, 0", second);
   };
-  const std::string joints = "j\n" + joint("j", "a @ 20", "b @ 20", "");
+  const std::string joints = joint("j", "a @ 20", "b @ 20", "");
   std::vector<taut::Load> loads;
-  const std::array<double, 3> straight = rest("a, b", sections(2000.), joints, &loads);
+  const std::array<double, 3> straight = rest(sections(2000.) + joints, &loads);
   EXPECT_TRUE(loads.empty());
   EXPECT_EQ(straight[0], 0.);
   // Another tension in the second one draws the joint towards it, held by both bars.
-  const std::array<double, 3> drawn = rest("a, b", sections(3000.), joints, &loads);
+  const std::array<double, 3> drawn = rest(sections(3000.) + joints, &loads);
   ASSERT_FALSE(loads.empty());
   EXPECT_NEAR(std::hypot(drawn[0], drawn[1]), 1000. * 20. / 2e6, 1e-9);
   EXPECT_NEAR(drawn[1] / drawn[0], .75, 1e-9);
   // A joint across alone passes on none of it.
-  rest("a, b", sections(3000.), "j\n" + joint("j", "a @ 20", "b @ 20", "-3, 4, 0"), &loads);
+  rest(sections(3000.) + joint("j", "a @ 20", "b @ 20", "-3, 4, 0"), &loads);
   EXPECT_TRUE(loads.empty());
 }
 
 TEST(WiresInSpace, a_wire_in_four_parts_moves_as_the_whole)
 {
-  std::string text = staggered;
-  const auto replace = [&](const std::string &from, const std::string &to)
-  { text = std::regex_replace(text, std::regex(from), to); };
-  replace("= string, lateral", "= beam, lateral\n    set Bending stiffness = 150");
-  replace("set End = 0", "set Scheme = BDF2\n  set Step = 2e-3\n  set End = 0.4");
-  replace("set Gravity   = 0, 0", "set Gravity   = 0, -9.81, 2");
-  replace("set Links ", "set Loads = gust\n  set Links ");
-  text.replace(text.find("  subsection Link"), 0, R"(  subsection Load gust
-    set Type      = distributed
-    set On        = contact @ 0
-    set Direction = 0, 1, 2
-    set Magnitude = 5*sin(6*t)*sin(s/30)
-  end
+  const std::string text = staggered + std::string(R"(Gravity = 0, -9.81, 2
+Wire contact: Components = beam, lateral; Bending stiffness = 150
+Wire by links: Components = beam, lateral; Bending stiffness = 150
+Load gust: Type = distributed; On = contact @ 0; Direction = 0, 1, 2;
+  Magnitude = 5*sin(6*t)*sin(s/30)
+Time: Scheme = BDF2; Step = 2e-3; End = 0.4
+Probe side: Point = contact @ 133; Direction = 0, 0, 1
+Probe height: Point = contact @ 133
 )");
-  text += R"(subsection Output
-  set Probes = side, height
-  subsection Probe side
-    set Point     = contact @ 133
-    set Direction = 0, 0, 1
-  end
-  subsection Probe height
-    set Point = contact @ 133
-  end
-end
-)";
   const History whole = history(text, 18),
                 parts = history(text, 18, {"Partition.Number of substructures=4"});
   std::size_t n_cuts = 0;
@@ -862,54 +526,16 @@ TEST(WiresInSpace, given_starts_move_along_z)
   // that flies, each along z.
   const double a = .01, L = 10., c = 20., g = 3., v = .5, z = .2;
   double worst = 0.;
-  run_scene(R"(set Generator = network
-set Gravity   = 0, 0, -3
-set Start     = given
-subsection Network
-  set Wires    = string
-  set Supports = level, ends
-  set Masses   = ball
-  subsection Wire string
-    set To                           = 10, 0
-    set Components                   = string, lateral
-    set Mass per length              = 1
-    set Tension                      = 400
-    set Element size                 = 0.5
-    set Weight                       = false
-    set Initial lateral displacement = 0.01*sin(pi*s/10)
-  end
-  subsection Support level
-    set Wire      = string
-    set Positions = 0, 10
-  end
-  subsection Support ends
-    set Wire      = string
-    set Positions = 0, 10
-    set Motion    = lateral
-  end
-  subsection Mass ball
-    set Motions              = z
-    set Mass                 = 2
-    set Initial displacement = 0, 0, 0, 0.2
-    set Initial velocity     = 0, 0, 0, 0.5
-  end
-end
-subsection Time
-  set Scheme = BDF2
-  set Step   = 2e-4
-  set End    = 1
-end
-subsection Output
-  set Probes = middle, ball
-  subsection Probe middle
-    set Point     = string @ 5
-    set Direction = 0, 0, 1
-  end
-  subsection Probe ball
-    set Point     = ball
-    set Direction = 0, 0, 1
-  end
-end
+  run_scene(R"(Gravity = 0, 0, -3; Start = given
+Wire string: To = 10, 0; Components = string, lateral; Mass per length = 1; Tension = 400;
+  Element size = 0.5; Weight = false; Initial lateral displacement = 0.01*sin(pi*s/10)
+Support level: Wire = string; Positions = 0, 10
+Support ends: Wire = string; Positions = 0, 10; Motion = lateral
+Mass ball: Motions = z; Mass = 2; Initial displacement = 0, 0, 0, 0.2;
+  Initial velocity = 0, 0, 0, 0.5
+Time: Scheme = BDF2; Step = 2e-4; End = 1
+Probe middle: Point = string @ 5; Direction = 0, 0, 1
+Probe ball: Point = ball; Direction = 0, 0, 1
 )",
             {},
             [&](const taut::StepView &step)
