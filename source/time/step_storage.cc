@@ -9,7 +9,7 @@ namespace taut
   {
     archive &current &last &coefficients &conditions.gaps();
     archive &step &step_before &segment_start &n_in_segment &n_steps;
-    for (double &size : motion_size)
+    for (double &size : errors.largest_motions)
       archive &size;
     std::vector<std::vector<double>> courses = constraints.courses();
     archive &courses;
