@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
 #include <taut/base/interruption.h>
-#include <taut/base/last_words.h>
 #include <taut/base/memory.h>
+#include <taut/base/rank_abort.h>
 #include <taut/base/version.h>
 #include <taut/base/write_file.h>
 #include <taut/output/progress.h>
@@ -238,7 +238,7 @@ namespace
   }
 
   /// Says once what went wrong, without memory of its own. Returns the exit code.
-  int report(taut::LastWords &last_words, const char *message, const int code = 1,
+  int report(taut::RankAbort &rank_abort, const char *message, const int code = 1,
              const char *before = "", const char *after = "")
   {
     taut::ignore_interruptions();
@@ -249,9 +249,9 @@ namespace
       before = after = "";
       memory_is_told = true;
     }
-    if (last_words.are_own())
+    if (rank_abort.are_own())
       std::cerr << "taut: " << before << message << after << '\n';
-    last_words.end_others(code);
+    rank_abort.end_others(code);
     return code;
   }
 } // namespace
@@ -266,7 +266,7 @@ int main(int argc, char **argv)
     taut::start_mpi();
     processes = taut::Communicator(MPI_COMM_WORLD);
   }
-  taut::LastWords last_words(processes);
+  taut::RankAbort rank_abort(processes);
   if (!processes.is_root())
     std::cout.setstate(std::ios::failbit);
   taut::catch_interruptions(processes.is_root());
@@ -275,27 +275,27 @@ int main(int argc, char **argv)
     work(argc, argv, processes);
     std::cout.flush();
     if (processes.is_root() && !std::cout)
-      return report(last_words, "cannot write the log: the disk is full, or its reader is gone; "
+      return report(rank_abort, "cannot write the log: the disk is full, or its reader is gone; "
                                 "results are complete");
     return 0;
   }
   catch (const po::error &e)
   {
-    return report(last_words, e.what(), 1, "", "; see 'taut --help'");
+    return report(rank_abort, e.what(), 1, "", "; see 'taut --help'");
   }
   catch (const taut::Interrupted &e)
   {
-    return report(last_words, e.what(), 128 + e.signal());
+    return report(rank_abort, e.what(), 128 + e.signal());
   }
   catch (const taut::UserError &e)
   {
-    return report(last_words, e.what());
+    return report(rank_abort, e.what());
   }
   catch (const std::exception &e)
   {
     memory_is_told = taut::is_memory_shortage(e);
     if (memory_is_told)
-      return report(last_words, too_large);
-    return report(last_words, e.what(), 1, "internal error: ");
+      return report(rank_abort, too_large);
+    return report(rank_abort, e.what(), 1, "internal error: ");
   }
 }

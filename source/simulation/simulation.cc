@@ -15,7 +15,7 @@
 #include <taut/output/impact_watch.h>
 #include <taut/output/scene_report.h>
 #include <taut/output/series.h>
-#include <taut/output/slack_watch.h>
+#include <taut/output/slack_monitor.h>
 #include <taut/partition/make_partition.h>
 #include <taut/scene/entries.h>
 #include <taut/simulation/simulation.h>
@@ -119,7 +119,7 @@ namespace taut
     Fields fields(parameters.output.folder, model, bodies, parameters.output.field_interval,
                   parameters.output.subdivisions);
     ObserverList observers(processes);
-    SlackWatch slack;
+    SlackMonitor slack;
     ImpactWatch impacts;
     const RunView run_view = {parameters.output.folder, parameters.output.interval, processes,
                               checkpoint != nullptr};

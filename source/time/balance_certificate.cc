@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "row_tiles.h"
+#include "cache_tiles.h"
 
 #include <taut/base/instruction_set.h>
 #include <taut/base/text.h>

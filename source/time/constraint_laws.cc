@@ -232,7 +232,7 @@ namespace taut
   }
 
   const MixedComplementaritySolution &
-  ConstraintLaws::solve(MixedComplementarityProblem &problem, StepSystem &system,
+  ConstraintLaws::solve(MixedComplementarityProblem &problem, StepEquations &system,
                         const StepCheck &check, Certificate &certificate, std::vector<double> &S,
                         std::vector<double> &shift)
   {

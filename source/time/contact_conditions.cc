@@ -43,7 +43,7 @@ namespace taut
     link_springs.prepare(c, step, mean);
   }
 
-  void ContactConditions::set_problem(const State &before, const StepSystem &system,
+  void ContactConditions::set_problem(const State &before, const StepEquations &system,
                                       const BodyVectors &P, const BodyVectors &lift)
   {
     if (system.has_modes())
@@ -78,7 +78,7 @@ namespace taut
     problem.held_open[i] = !is_near && !(before.multiplier[i] > 0.);
   }
 
-  void ContactConditions::find_multipliers(StepSystem &system, const StepCheck &check,
+  void ContactConditions::find_multipliers(StepEquations &system, const StepCheck &check,
                                            Certificate &certificate, State &state)
   {
     const MixedComplementaritySolution &solution =
@@ -153,7 +153,8 @@ namespace taut
     return largest;
   }
 
-  bool ContactConditions::correct(const State &state, StepSystem &system, const BodyVectors &left)
+  bool ContactConditions::correct(const State &state, StepEquations &system,
+                                  const BodyVectors &left)
   {
     MixedComplementarityProblem remainder;
     remainder.unilateral = problem.unilateral;

@@ -40,7 +40,7 @@ namespace taut
       supports_move = supports_move || structure[k].has_moving_constraints();
   }
 
-  void GapTracker::predict(const State &before, const StepSystem &system, const BodyVectors &P,
+  void GapTracker::predict(const State &before, const StepEquations &system, const BodyVectors &P,
                            const BodyVectors &lift)
   {
     system.interface().contact_free_predictor(P, motion, motion_size);

@@ -48,7 +48,8 @@ namespace taut
   }
 
   const MixedComplementaritySolution &LinkSprings::solve(MixedComplementarityProblem &problem,
-                                                         StepSystem &system, const StepCheck &check,
+                                                         StepEquations &system,
+                                                         const StepCheck &check,
                                                          Certificate &certificate)
   {
     return laws.empty() ? system.find_multipliers(problem, check, certificate)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "row_tiles.h"
+#include "cache_tiles.h"
 #include "softer_bodies.h"
 
 #include <taut/time/matrix_norms.h>
@@ -16,7 +16,7 @@ namespace taut
     constexpr double weight_of_force = 100.;
   } // namespace
 
-  PerKind beyond_rounding(const Substructure &body, const PerKind &largest_force)
+  PerKind significant_part(const Substructure &body, const PerKind &largest_force)
   {
     // The solve rounds, too.
     constexpr double of_all = 4.;
@@ -108,7 +108,7 @@ namespace taut
                   found.add({difference, dU.data() + begin, unbalanced, whole}, end - begin);
                 });
     const auto [change, size, unbalanced, force] = found.result();
-    const PerKind lack = beyond_rounding(body, unbalanced);
+    const PerKind lack = significant_part(body, unbalanced);
     double result = 0.;
     for (int kind = 0; kind < 2; ++kind)
     {

@@ -235,7 +235,7 @@ namespace taut
           add_largest(own, moved);
           add_largest(largest(structure[k], to[k]), size);
           bodies.multiply(k, difference, product);
-          add_largest(beyond_rounding(structure[k], largest(structure[k], product)), lack);
+          add_largest(significant_part(structure[k], largest(structure[k], product)), lack);
         }
         structure.communicator().agree(
             [&]

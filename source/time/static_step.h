@@ -7,7 +7,7 @@
 #include <taut/time/constraint_laws.h>
 #include <taut/time/static_equilibrium.h>
 #include <taut/time/step_check.h>
-#include <taut/time/step_system.h>
+#include <taut/time/step_equations.h>
 
 #include <vector>
 
@@ -58,7 +58,7 @@ namespace taut
     const Communicator &processes;
     const double time;
     StepCheck check;
-    StepSystem system;
+    StepEquations system;
     ConstraintLaws laws;
     std::vector<double> compliance, shift; ///< of springs; of linearised laws
     BodyVectors P, lift;

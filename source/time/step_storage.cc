@@ -9,7 +9,7 @@ namespace taut
   {
     archive &current &last &coefficients &conditions.gaps();
     archive &step &step_before &segment_start &n_in_segment &n_steps;
-    for (double &size : motion_size)
+    for (double &size : errors.largest_motions)
       archive &size;
     std::vector<std::vector<double>> courses = constraints.courses();
     archive &courses;
@@ -22,7 +22,7 @@ namespace taut
     const std::vector<double> largest_rates =
         projection ? projection->largest_rates() : std::vector<double>();
     archive << largest_rates;
-    begin_anew(largest_rates);
+    reset_caches(largest_rates);
   }
 
   void TimeStepper::load(InputArchive &archive, State state)
@@ -33,13 +33,13 @@ namespace taut
     archive >> largest_rates;
     constraints.update(current.time);
     turning.follow(current);
-    begin_anew(largest_rates);
+    reset_caches(largest_rates);
   }
 
-  void TimeStepper::begin_anew(const std::vector<double> &largest_rates)
+  void TimeStepper::reset_caches(const std::vector<double> &largest_rates)
   {
     earlier_systems = interface_statistics();
-    system = std::make_unique<StepSystem>(structure, constraints, parameters);
+    system = std::make_unique<StepEquations>(structure, constraints, parameters);
     set_nonlinear();
     projection.reset();
     prepare(coefficients);

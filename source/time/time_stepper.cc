@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "row_tiles.h"
+#include "cache_tiles.h"
 
 #include <taut/base/instruction_set.h>
 #include <taut/time/time_stepper.h>
@@ -16,29 +16,17 @@ namespace taut
       return constraints;
     }
 
-    std::vector<double> masses_of_elements(const Structure &structure,
-                                           const ConnectedBodies &wholes)
-    {
-      const std::vector<double> of_bodies = total_masses(structure);
-      std::vector<double> result(wholes.n_groups(), 0.);
-      for (std::size_t k = 0; k < structure.size(); ++k)
-        if (!structure[k].is_lumped())
-          result[wholes.of_body(k)] += of_bodies[k];
-      structure.communicator().sum(result);
-      return result;
-    }
-
     /// Balance from which a step is refined, and how often: ordinary steps are below 1e-11.
     constexpr double refined_balance = 1e-10;
     constexpr int most_refinements = 3;
 
     /// What is known of velocity and acceleration at the end of a step before its increment is.
-    class KnownMotion
+    class Predictor
     {
     public:
-      KnownMotion(const StepCoefficients &c, const std::vector<double> &V,
-                  const std::vector<double> &A, const std::vector<double> &dU,
-                  const std::vector<double> &V_old)
+      Predictor(const StepCoefficients &c, const std::vector<double> &V,
+                const std::vector<double> &A, const std::vector<double> &dU,
+                const std::vector<double> &V_old)
           : c(c), V(V.data()), A(A.data()), dU(dU.data()), V_old(V_old.data())
       {
       }
@@ -75,13 +63,12 @@ namespace taut
         integrator(integrator), step(step), reference_state(std::move(reference)),
         current(std::move(start)), first_step_is_backward_euler(!at_rest),
         segment_start(current.time),
-        system(std::make_unique<StepSystem>(structure, constraints, this->parameters)),
+        system(std::make_unique<StepEquations>(structure, constraints, this->parameters)),
         turning(at_time(constraints, current.time), reference_state),
         conditions(structure, constraints, turning, reference_state, current),
-        nonlinear(structure, reference_state), groups(structure, constraints), loads(structure),
-        wholes(structure, constraints,
-               [&](const std::size_t i) { return constraints[i].is_cut(); }),
-        mass_of_whole(masses_of_elements(structure, wholes)),
+        nonlinear(structure, reference_state), loads(structure),
+        errors(structure, constraints, reference_state),
+        energy_gains(structure, constraints, nonlinear, conditions, turning),
         balance(structure, constraints, reference_state, nonlinear),
         check(structure, constraints, this->parameters.contact_tolerance)
   {
@@ -101,16 +88,8 @@ namespace taut
     }
     const StepCoefficients c = integrator.coefficients(step);
     first_step_is_backward_euler = first_step_is_backward_euler && !c.starts_itself();
-    double moving_supports = 0.;
-    for (std::size_t k = 0; k < structure.size(); ++k)
-      moving_supports += structure[k].has_moving_constraints();
-    double sums[] = {moving_supports, static_cast<double>(nonlinear.indices().size())};
-    structure.communicator().sum(sums, 2);
-    supports_move = sums[0] > 0.;
-    bodies_are_linear = sums[1] == 0.;
-    current.kinetic_energies.assign(groups.n_groups(), 0.);
-    add_kinetic_energies(current.V, current.kinetic_energies);
-    structure.communicator().sum(current.kinetic_energies);
+    bodies_are_linear = !structure.communicator().any(!nonlinear.indices().empty());
+    energy_gains.start(current);
     set_nonlinear();
     prepare(first_step_is_backward_euler ? backward_euler(step) : c);
     if (c.starts_itself())
@@ -172,7 +151,7 @@ namespace taut
   {
     ++n_steps;
     last = {};
-    before_step = {motion_size, conditions.gaps().sizes(), constraints.courses(),
+    before_step = {errors.largest_motions, conditions.gaps().sizes(), constraints.courses(),
                    projection ? projection->largest_rates() : std::vector<double>()};
     const bool is_first = current.last_step == 0.;
     const StepCoefficients c = is_first && first_step_is_backward_euler ? backward_euler(step)
@@ -223,9 +202,9 @@ namespace taut
     if (c.velocity_projection)
       project_velocities();
     if (c.mean_force && !c.velocity_level && (constraints.size() > 0 || !is_linear()))
-      measure_energy();
+      energy_gains.measure(balance, current, last);
     else if (!is_linear() && c.is_backward_euler())
-      measure_energy_at_ends();
+      energy_gains.measure_at_ends(current, last);
   }
 
   /// P - P_ref at the time of the state.
@@ -250,7 +229,7 @@ namespace taut
       set_external_force(k);
     system->bodies().remove_rounding(k, current.KU[k], current.balance[k]);
 
-    const KnownMotion known(c, current.V[k], current.A[k], current.dU[k], current.V_old[k]);
+    const Predictor known(c, current.V[k], current.A[k], current.dU[k], current.V_old[k]);
     const bool old_forces_count = c.alpha_m != 0. || c.alpha_f != 0.,
                velocity_is_known = c.v_V != 0. || c.v_A != 0. || c.v_dU != 0.;
     const double kappa = c.old_balance(), old = c.old_inertia(), now = c.new_inertia();
@@ -364,8 +343,8 @@ namespace taut
       V[i] = velocity * dU[i] + known_v;
       A[i] = acceleration * dU[i] + known_a;
     };
-    const KnownMotion known(coefficients, current.V_old[k], forces.old_A[k], right_hand_side[k],
-                            current.V[k]);
+    const Predictor known(coefficients, current.V_old[k], forces.old_A[k], right_hand_side[k],
+                          current.V[k]);
     vectorised([=] { known.visit(begin, end, visitor); });
   }
 

@@ -3,7 +3,7 @@
 // sums of whole numbers in closed form; ranks, places and kinds of errors drawn by all ranks alike.
 #include <taut/base/communicator.h>
 #include <taut/base/exceptions.h>
-#include <taut/base/last_words.h>
+#include <taut/base/rank_abort.h>
 
 #include <gtest/gtest.h>
 
@@ -130,7 +130,7 @@ TEST_F(Communicator, all_ranks_leave_at_the_agreement_in_which_one_throws)
 // Claim: an error that all ranks come with is said by the root alone, and no rank ends another.
 TEST_F(Communicator, the_root_says_what_all_ranks_know)
 {
-  taut::LastWords last_words(processes);
-  EXPECT_EQ(last_words.are_own(), r == 0);
-  last_words.end_others(1);
+  taut::RankAbort rank_abort(processes);
+  EXPECT_EQ(rank_abort.are_own(), r == 0);
+  rank_abort.end_others(1);
 }

@@ -3,7 +3,7 @@
 // of ranks. Source: of two wires one has a tangent with a negative pivot at first.
 #include "../verification/run.h"
 
-#include <taut/time/step_system.h>
+#include <taut/time/step_equations.h>
 
 #include <gtest/gtest.h>
 
@@ -32,8 +32,8 @@ Time: Step = 0.01; End = 0.01
     for (const int first_definite : {0, 1, 3})
     {
       std::vector<std::vector<int>> asked_for(structure.size());
-      taut::StepSystem system(structure, session.simulation().constraints(),
-                              session.parameters().solver);
+      taut::StepEquations system(structure, session.simulation().constraints(),
+                                 session.parameters().solver);
       system.set_nonlinear(own,
                            [&](const std::size_t k, const int attempt)
                            {

@@ -2,7 +2,7 @@
 #ifndef taut_constraint_laws_h
 #define taut_constraint_laws_h
 
-#include <taut/time/step_system.h>
+#include <taut/time/step_equations.h>
 
 #include <memory>
 #include <vector>
@@ -59,7 +59,7 @@ namespace taut
      * linearisation; errors are those of @p check. The result is kept until the next call.
      */
     const MixedComplementaritySolution &solve(MixedComplementarityProblem &problem,
-                                              StepSystem &system, const StepCheck &check,
+                                              StepEquations &system, const StepCheck &check,
                                               Certificate &certificate, std::vector<double> &S,
                                               std::vector<double> &shift);
 

@@ -44,7 +44,7 @@ namespace taut
 
     /// Sets the problem of the step from the state before it. The constraints are at its end, @p P
     /// is P^, @p lift the given motions.
-    void set_problem(const State &before, const StepSystem &system, const BodyVectors &P,
+    void set_problem(const State &before, const StepEquations &system, const BodyVectors &P,
                      const BodyVectors &lift);
 
     /**
@@ -52,7 +52,7 @@ namespace taut
      * end of the step, or its mean over the step. Errors are those of @p check, iterations go into
      * @p certificate.
      */
-    void find_multipliers(StepSystem &system, const StepCheck &check, Certificate &certificate,
+    void find_multipliers(StepEquations &system, const StepCheck &check, Certificate &certificate,
                           State &state);
 
     /// L and the amplitudes of rigid body modes.
@@ -92,7 +92,7 @@ namespace taut
      * left that the balance of the bodies lacks, so that their conditions hold again. False if no
      * answer is found. Called by all ranks together.
      */
-    bool correct(const State &state, StepSystem &system, const BodyVectors &left);
+    bool correct(const State &state, StepEquations &system, const BodyVectors &left);
 
     /// The answer: changes of multipliers [N, N m] and amplitudes.
     const MixedComplementaritySolution &corrections() const { return correction; }

@@ -3,7 +3,7 @@
 #define taut_gap_tracker_h
 
 #include <taut/time/state.h>
-#include <taut/time/step_system.h>
+#include <taut/time/step_equations.h>
 #include <taut/time/turning_constraints.h>
 
 #include <cstddef>
@@ -29,7 +29,7 @@ namespace taut
 
     /// Begins a step: how the constraints would move without multipliers, under P^ = @p P and the
     /// given motions @p lift, and where the moving ones are.
-    void predict(const State &before, const StepSystem &system, const BodyVectors &P,
+    void predict(const State &before, const StepEquations &system, const BodyVectors &P,
                  const BodyVectors &lift);
 
     /// The gap of a constraint at the end of the step without its motion, after predict().

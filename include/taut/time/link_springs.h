@@ -46,7 +46,7 @@ namespace taut
     /// Solves the problem of a step, with the springs that follow a law; see
     /// ConstraintLaws::solve().
     const MixedComplementaritySolution &solve(MixedComplementarityProblem &problem,
-                                              StepSystem &system, const StepCheck &check,
+                                              StepEquations &system, const StepCheck &check,
                                               Certificate &certificate);
 
     /// S N + h, and what it lacks of a law, as a gap.

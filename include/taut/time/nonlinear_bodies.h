@@ -15,7 +15,7 @@ namespace taut
 {
   /// The largest entries of a force on a body, as far as they stand out against what rounding
   /// leaves of its internal force, see Substructure::rounding_of_force() [N, N m].
-  PerKind beyond_rounding(const Substructure &body, const PerKind &largest_force);
+  PerKind significant_part(const Substructure &body, const PerKind &largest_force);
 
   /**
    * The bodies of this rank whose internal force f is not K U, through one step. Their f at the end

@@ -3,18 +3,19 @@
 #define taut_time_stepper_h
 
 #include <taut/base/archive_forward.h>
-#include <taut/interface/connected_bodies.h>
 #include <taut/time/balance_certificate.h>
 #include <taut/time/certificate.h>
 #include <taut/time/contact_conditions.h>
+#include <taut/time/energy_gains.h>
 #include <taut/time/integrator.h>
 #include <taut/time/load_sampling.h>
+#include <taut/time/local_error.h>
 #include <taut/time/matrix_norms.h>
 #include <taut/time/nonlinear_bodies.h>
 #include <taut/time/solver_parameters.h>
 #include <taut/time/state.h>
 #include <taut/time/step_check.h>
-#include <taut/time/step_system.h>
+#include <taut/time/step_equations.h>
 #include <taut/time/turning_constraints.h>
 #include <taut/time/velocity_projection.h>
 
@@ -66,18 +67,11 @@ namespace taut
     /// Back to a state of before, as if nothing had happened since.
     void restore(const State &before);
 
-    /**
-     * Largest local error of the last step over the largest displacement so far, from the third
-     * derivative that the accelerations before and after show: dU - step V0 - step^2 (A0/3 + A/6)
-     * (O. C. Zienkiewicz, Y. M. Xie, Earthquake Engineering and Structural Dynamics 20 (1991)). The
-     * accelerations of schemes with mean forces are means, and dU = step V0 + step^2 A/2: its error
-     * is step^3/12 of that derivative, step^2 (A - A0) / (6 (1 + last step / step)). What impulses
-     * change of the velocities besides, dV, counts as step dV. Of a body of elements the error is
-     * the root of its mean square by mass, sqrt(e . M e / m), whether it is cut in parts or not;
-     * of masses and rigid bodies the largest, displacements and slopes each for themselves. Called
-     * by all ranks together.
-     */
-    double local_error();
+    /// Of the last step, see LocalError. Called by all ranks together.
+    double local_error()
+    {
+      return errors.measure(current, coefficients, step_before, forces.old_A);
+    }
 
     /// True if the next step, of @p length [s], misses nothing of loads and given motions; see
     /// LoadSampling. Called by all ranks together.
@@ -113,7 +107,7 @@ namespace taut
     void prepare(StepCoefficients c);
     template <typename Archive>
     void store(Archive &archive);
-    void begin_anew(const std::vector<double> &largest_rates);
+    void reset_caches(const std::vector<double> &largest_rates);
     void set_external_force(std::size_t k);
     void set_history(std::size_t k);
     void set_loads();
@@ -127,12 +121,6 @@ namespace taut
     void check_turning() const;
     double set_guess();
     void project_velocities();
-    void set_local_error(std::size_t k);
-    double square(std::size_t k, const std::vector<double> &x);
-    void measure_energy();
-    void measure_energy_at_ends();
-    void add_kinetic_energies(const BodyVectors &V, std::vector<double> &of_groups);
-    double gain_of_spring(std::size_t i) const;
     void accept_increments();
     void accept(std::size_t k, std::size_t begin, std::size_t end);
     void measure_balance(const BalanceCertificate::SetRows &set_rows = {});
@@ -158,7 +146,6 @@ namespace taut
     long n_iterations = 0; ///< of Newton's method, of all steps
     double segment_start;  ///< time since which steps have this length
     long n_in_segment = 0;
-    PerKind motion_size = {0., 0.}; ///< largest displacements so far
 
     /// What restore() goes back to beside the state.
     struct Sizes
@@ -170,18 +157,16 @@ namespace taut
     };
     Sizes before_step;
 
-    std::unique_ptr<StepSystem> system;
+    std::unique_ptr<StepEquations> system;
     InterfaceStatistics earlier_systems; ///< of those before
     TurningConstraints turning;
     ContactConditions conditions;
     NonlinearBodies nonlinear;
-    const ConnectedBodies groups;
     LoadSampling loads;
-    const ConnectedBodies wholes;            ///< what cuts have parted
-    const std::vector<double> mass_of_whole; ///< of the elements of each of them [kg]
-    bool tangents_are_kept = false;          ///< from step to step
-    bool bodies_are_linear = true;           ///< those of all ranks
-    bool supports_move = false;              ///< of a body of some rank
+    LocalError errors;
+    EnergyGains energy_gains;
+    bool tangents_are_kept = false; ///< from step to step
+    bool bodies_are_linear = true;  ///< those of all ranks
     BalanceCertificate balance;
     double own_balance = 0.; ///< of this rank
     StepCheck check;
@@ -192,7 +177,7 @@ namespace taut
     BodyVectors lift;                   ///< increments of moving supports
     std::vector<double> work_v, work_a; ///< as long as the longest body
     std::vector<double> damping_of_tile, inertia_of_tile;
-    std::vector<double> work_rows, work_of_groups;
+    std::vector<double> work_rows;
   };
 } // namespace taut
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef taut_last_words_h
-#define taut_last_words_h
+#ifndef taut_rank_abort_h
+#define taut_rank_abort_h
 
 #include <taut/base/communicator.h>
 
@@ -10,11 +10,11 @@ namespace taut
    * How the ranks of a program end after an error, which may be that of all of them or of one that
    * the others know nothing of and wait for. Made by all ranks together, before anything may fail.
    */
-  class LastWords
+  class RankAbort
   {
   public:
     /// @p processes live as long as this.
-    explicit LastWords(const Communicator &processes);
+    explicit RankAbort(const Communicator &processes);
 
     /// True if this rank is the one to say what went wrong: the first of all ranks if all of them
     /// come here, and each that does come otherwise. Needs no memory of its own.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef taut_row_tiles_h
-#define taut_row_tiles_h
+#ifndef taut_cache_tiles_h
+#define taut_cache_tiles_h
 
 #include <taut/substructure/substructure.h>
 

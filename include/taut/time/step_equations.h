@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef taut_step_system_h
-#define taut_step_system_h
+#ifndef taut_step_equations_h
+#define taut_step_equations_h
 
 #include <taut/complementarity/solver.h>
 #include <taut/interface/schur_complement.h>
@@ -26,12 +26,12 @@ namespace taut
    * alpha are then unknowns of the complementarity problem. All functions but lift() are called by
    * all ranks together.
    */
-  class StepSystem
+  class StepEquations
   {
   public:
     /// The arguments are kept by reference.
-    StepSystem(const Structure &structure, const Constraints &constraints,
-               const SolverParameters &parameters);
+    StepEquations(const Structure &structure, const Constraints &constraints,
+                  const SolverParameters &parameters);
 
     /// The tangent of a body that is not linear, see NonlinearBodies::tangent().
     using Tangent = std::function<std::unique_ptr<SymmetricMatrix>(std::size_t k, int attempt)>;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef taut_slack_watch_h
-#define taut_slack_watch_h
+#ifndef taut_slack_monitor_h
+#define taut_slack_monitor_h
 
 #include <taut/output/observer.h>
 
@@ -10,7 +10,7 @@
 namespace taut
 {
   /// Notes when and where each body first goes slack, see SlenderBody::is_slack().
-  class SlackWatch : public Observer
+  class SlackMonitor : public Observer
   {
   public:
     void begin(const RunView &run) override { processes = run.communicator; }

@@ -2,7 +2,7 @@
 #include <taut/base/exceptions.h>
 #include <taut/base/gather_entries.h>
 #include <taut/complementarity/active_set_system.h>
-#include <taut/time/step_system.h>
+#include <taut/time/step_equations.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,8 +20,8 @@ namespace taut
     constexpr int most_attempts = 9;
   } // namespace
 
-  StepSystem::StepSystem(const Structure &structure, const Constraints &constraints,
-                         const SolverParameters &parameters)
+  StepEquations::StepEquations(const Structure &structure, const Constraints &constraints,
+                               const SolverParameters &parameters)
       : structure(structure), constraints(constraints), parameters(parameters),
         solvers(structure, parameters.local_solver),
         schur(make_schur_complement(parameters.interface, solvers, constraints)),
@@ -29,7 +29,7 @@ namespace taut
   {
   }
 
-  void StepSystem::prepare(const StepCoefficients &coefficients, const std::vector<double> &S)
+  void StepEquations::prepare(const StepCoefficients &coefficients, const std::vector<double> &S)
   {
     c = coefficients;
     compliance = S;
@@ -61,7 +61,7 @@ namespace taut
 
   /// All bodies, so that a structure without a definite tangent has the same tangents on any number
   /// of ranks.
-  void StepSystem::factor(const int attempt)
+  void StepEquations::factor(const int attempt)
   {
     for (const std::size_t k : nonlinear)
       solvers.set_tangent(k, tangent(k, attempt));
@@ -72,20 +72,20 @@ namespace taut
       solvers.factor(c.mass_factor(), c.velocity, parameters.interface.form != "matrix-free");
   }
 
-  void StepSystem::set_nonlinear(const std::vector<std::size_t> &bodies, const Tangent &of_body)
+  void StepEquations::set_nonlinear(const std::vector<std::size_t> &bodies, const Tangent &of_body)
   {
     nonlinear = bodies;
     tangent = of_body;
   }
 
-  void StepSystem::linearise()
+  void StepEquations::linearise()
   {
     structure.communicator().agree([&] { factor_nonlinear(); });
     number_modes();
     schur->setup(compliance);
   }
 
-  void StepSystem::set_compliance(const std::vector<double> &S)
+  void StepEquations::set_compliance(const std::vector<double> &S)
   {
     if (S == compliance)
       return;
@@ -93,7 +93,7 @@ namespace taut
     schur->set_compliance(S);
   }
 
-  void StepSystem::factor_nonlinear()
+  void StepEquations::factor_nonlinear()
   {
     for (const std::size_t k : nonlinear)
       for (int attempt = 0;; ++attempt)
@@ -111,7 +111,7 @@ namespace taut
   }
 
   /// Rank after rank, and body after body.
-  void StepSystem::number_modes()
+  void StepEquations::number_modes()
   {
     std::size_t n_own = 0;
     for (const FactoredStructure::RigidBodyModes &modes : solvers.rigid_body_modes())
@@ -125,7 +125,7 @@ namespace taut
       first_of_body.push_back(first_of_body.back() + modes.vectors.size());
   }
 
-  std::size_t StepSystem::body_of_mode(const std::size_t amplitude) const
+  std::size_t StepEquations::body_of_mode(const std::size_t amplitude) const
   {
     const auto end = std::upper_bound(first_of_body.begin(), first_of_body.end(), amplitude);
     return end == first_of_body.begin() || end == first_of_body.end()
@@ -133,8 +133,8 @@ namespace taut
                : end - first_of_body.begin() - 1;
   }
 
-  void StepSystem::lift(const std::size_t k, const std::vector<double> &L,
-                        std::vector<double> &P) const
+  void StepEquations::lift(const std::size_t k, const std::vector<double> &L,
+                           std::vector<double> &P) const
   {
     if (!c.is_at_rest())
     {
@@ -144,7 +144,7 @@ namespace taut
     solvers.stiffness(k).vmult_add(-1., L.data(), P.data());
   }
 
-  void StepSystem::set_modes(const BodyVectors &P, MixedComplementarityProblem &problem) const
+  void StepEquations::set_modes(const BodyVectors &P, MixedComplementarityProblem &problem) const
   {
     const Communicator &processes = structure.communicator();
     const auto &modes = solvers.rigid_body_modes();
@@ -175,8 +175,8 @@ namespace taut
   }
 
   const MixedComplementaritySolution &
-  StepSystem::find_multipliers(const MixedComplementarityProblem &problem, const StepCheck &check,
-                               Certificate &certificate)
+  StepEquations::find_multipliers(const MixedComplementarityProblem &problem,
+                                  const StepCheck &check, Certificate &certificate)
   {
     const MixedComplementaritySolution *solution = nullptr;
     check.solve(
@@ -190,8 +190,8 @@ namespace taut
     return *solution;
   }
 
-  void StepSystem::find_increments(const std::vector<double> &N, const std::vector<double> &alpha,
-                                   BodyVectors &P) const
+  void StepEquations::find_increments(const std::vector<double> &N,
+                                      const std::vector<double> &alpha, BodyVectors &P) const
   {
     constraints.add_forces(N, P);
     solvers.solve(P);
@@ -206,9 +206,9 @@ namespace taut
     }
   }
 
-  bool StepSystem::correct(const MixedComplementarityProblem &remainder,
-                           const MixedComplementaritySolution &applied,
-                           MixedComplementaritySolution &correction)
+  bool StepEquations::correct(const MixedComplementarityProblem &remainder,
+                              const MixedComplementaritySolution &applied,
+                              MixedComplementaritySolution &correction)
   {
     correction.reset(remainder);
     if (constraints.size() == 0 && !has_modes())
@@ -243,9 +243,9 @@ namespace taut
     return true;
   }
 
-  bool StepSystem::correct_on_closed_set(const MixedComplementarityProblem &remainder,
-                                         const MixedComplementaritySolution &applied,
-                                         MixedComplementaritySolution &correction)
+  bool StepEquations::correct_on_closed_set(const MixedComplementarityProblem &remainder,
+                                            const MixedComplementaritySolution &applied,
+                                            MixedComplementaritySolution &correction)
   {
     std::vector<std::size_t> set;
     for (std::size_t i = 0; i < constraints.size(); ++i)

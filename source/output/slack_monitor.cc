@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/archive.h>
-#include <taut/output/slack_watch.h>
+#include <taut/output/slack_monitor.h>
 #include <taut/substructure/slender_body.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace taut
 {
-  void SlackWatch::record(const StepView &step)
+  void SlackMonitor::record(const StepView &step)
   {
     const SceneBodies &structure = step.structure;
     if (is_new)
@@ -40,20 +40,20 @@ namespace taut
     watched.erase(std::remove_if(watched.begin(), watched.end(), is_slack), watched.end());
   }
 
-  std::vector<double> SlackWatch::of_all_ranks() const
+  std::vector<double> SlackMonitor::of_all_ranks() const
   {
     std::vector<double> all = own;
     processes.sum(all);
     return all;
   }
 
-  void SlackWatch::save(OutputArchive &archive)
+  void SlackMonitor::save(OutputArchive &archive)
   {
     const std::vector<double> all = of_all_ranks();
     archive << all;
   }
 
-  void SlackWatch::resume(InputArchive &archive, const StepView &step)
+  void SlackMonitor::resume(InputArchive &archive, const StepView &step)
   {
     std::vector<double> all;
     archive >> all;
@@ -63,7 +63,7 @@ namespace taut
                   own.begin() + n_entries * step.structure.number(k));
   }
 
-  void SlackWatch::print(std::ostream &out) const
+  void SlackMonitor::print(std::ostream &out) const
   {
     const std::vector<double> all = of_all_ranks();
     constexpr std::size_t most_named = 6;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/base/last_words.h>
+#include <taut/base/rank_abort.h>
 
 #include <chrono>
 #include <thread>
@@ -13,14 +13,14 @@ namespace taut
     constexpr std::chrono::milliseconds pause{10};
   } // namespace
 
-  LastWords::LastWords(const Communicator &all) : is_root(all.is_root())
+  RankAbort::RankAbort(const Communicator &all) : is_root(all.is_root())
   {
     // Messages of its own, which those of interrupted work cannot be taken for.
     if (all.size() > 1)
       MPI_Comm_dup(MPI_COMM_WORLD, &processes);
   }
 
-  bool LastWords::are_own()
+  bool RankAbort::are_own()
   {
     if (processes == MPI_COMM_NULL)
       return true;
@@ -37,7 +37,7 @@ namespace taut
     return is_root || !are_of_all;
   }
 
-  void LastWords::end_others(const int code) const
+  void RankAbort::end_others(const int code) const
   {
     if (!are_of_all)
       MPI_Abort(processes, code);

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/time/energy_gains.h>
+
+#include <cmath>
+#include <numeric>
+
+namespace taut
+{
+  EnergyGains::EnergyGains(const Structure &structure, const Constraints &constraints,
+                           NonlinearBodies &nonlinear, const ContactConditions &conditions,
+                           const TurningConstraints &turning)
+      : structure(structure), constraints(constraints), nonlinear(nonlinear),
+        conditions(conditions), turning(turning), groups(structure, constraints)
+  {
+    bool here = false;
+    for (std::size_t k = 0; k < structure.size(); ++k)
+      here = here || structure[k].has_moving_constraints();
+    supports_move = structure.communicator().any(here);
+  }
+
+  void EnergyGains::start(State &state)
+  {
+    state.kinetic_energies.assign(groups.n_groups(), 0.);
+    add_kinetic_energies(state.V, state.kinetic_energies);
+    structure.communicator().sum(state.kinetic_energies);
+  }
+
+  /// v . M v / 2 of each body.
+  void EnergyGains::add_kinetic_energies(const BodyVectors &V, std::vector<double> &of_groups)
+  {
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      product.assign(V[k].size(), 0.);
+      structure[k].mass().vmult_add(.5, V[k].data(), product.data());
+      of_groups[groups.of_body(k)] +=
+          std::inner_product(V[k].begin(), V[k].end(), product.begin(), 0.);
+    }
+  }
+
+  void EnergyGains::add_surplus(const double theta, const State &state, double *const of_groups)
+  {
+    structure.communicator().agree(
+        [&]
+        {
+          for (const std::size_t k : nonlinear.indices())
+            of_groups[groups.of_body(k)] += nonlinear.energy_surplus(k, theta, state);
+        });
+  }
+
+  /// What a constraint with a mean force adds to the gain of its group: what its spring stores, and
+  /// if it moves, its work, which is that of what moves it.
+  double EnergyGains::gain_of_spring(const std::size_t i, const State &state) const
+  {
+    const ConstraintData &constraint = constraints[i];
+    if (!conditions.mean_force(i))
+      return 0.;
+    if (constraint.moving)
+      return -state.constraint_work[i];
+    if (std::isinf(constraint.stiffness))
+      return 0.;
+    const State::LinkSpring &spring = state.link_springs[i];
+    const double before = spring.u - spring.du;
+    return constraint.law ? constraint.law->mean_force(before, spring.u) * spring.du
+                          : .5 * constraint.stiffness * (spring.u * spring.u - before * before);
+  }
+
+  void EnergyGains::measure(const BalanceCertificate &balance, State &state,
+                            Certificate &certificate)
+  {
+    const std::size_t n = groups.n_groups();
+    sums.assign(2 * n, 0.);
+    add_surplus(.5, state, sums.data() + n);
+    for (std::size_t k = 0; k < structure.size(); ++k)
+      sums[n + groups.of_body(k)] -= balance.work(k);
+    add_kinetic_energies(state.V, sums);
+    structure.communicator().sum(sums);
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      sums[n + groups.of_constraint(i)] += gain_of_spring(i, state);
+    state.energy_gains.assign(n, 0.);
+    certificate.kinetic_energy = certificate.energy_gain = 0.;
+    for (std::size_t g = 0; g < n; ++g)
+    {
+      if (!supports_move)
+        state.energy_gains[g] = sums[g] - state.kinetic_energies[g] + sums[n + g];
+      state.kinetic_energies[g] = sums[g];
+      certificate.kinetic_energy += sums[g];
+      certificate.energy_gain += state.energy_gains[g];
+    }
+  }
+
+  void EnergyGains::measure_at_ends(State &state, Certificate &certificate)
+  {
+    std::vector<double> lost(groups.n_groups(), 0.);
+    sums.assign(groups.n_groups(), 0.);
+    add_surplus(1., state, sums.data());
+    BodyVectors change = state.V;
+    for (std::size_t k = 0; k < change.size(); ++k)
+      for (std::size_t i = 0; i < change[k].size(); ++i)
+        change[k][i] -= state.V_old[k][i];
+    add_kinetic_energies(change, lost);
+    for (std::size_t g = 0; g < sums.size(); ++g)
+      sums[g] -= lost[g];
+    structure.communicator().sum(sums);
+    for (std::size_t i = constraints.n_fixed(); i < constraints.first_moving(); ++i)
+      sums[groups.of_constraint(i)] +=
+          turning.surplus(i, state.multiplier[i], conditions.gaps().increments()[i]);
+    state.energy_gains = sums;
+    certificate.energy_gain = std::accumulate(sums.begin(), sums.end(), 0.);
+  }
+} // namespace taut
