@@ -109,13 +109,23 @@ namespace taut
     n_calm = 0;
   }
 
-  /// A closed constraint asks for shorter steps than the last one.
+  /// Whether a contact is under way. One that rests, with the same force before and after the step,
+  /// has nothing to resolve.
+  bool StepControl::is_moving_contact(const std::size_t i, const State &state) const
+  {
+    constexpr double same = 1e-2;
+    const double first = before.multiplier[i], last = state.multiplier[i];
+    if (!(first > 0.) || !(last > 0.))
+      return first > 0. || last > 0.;
+    return !(std::fabs(last - first) <= same * std::max(first, last));
+  }
+
+  /// A contact under way asks for shorter steps than the last one.
   bool StepControl::is_too_long_for_contacts(const State &state) const
   {
     constexpr double rounding = 1e-9;
     for (std::size_t i = 0; i < longest_steps.size(); ++i)
-      if (shortest * length() > longest_steps[i] * (1. + rounding) &&
-          (before.multiplier[i] > 0. || state.multiplier[i] > 0.))
+      if (shortest * length() > longest_steps[i] * (1. + rounding) && is_moving_contact(i, state))
         return true;
     return false;
   }
@@ -136,9 +146,10 @@ namespace taut
       solve(stepper);
     }
     position += length();
-    bool is_closed = false;
+    bool is_closed = false; // and not at rest
     for (std::size_t i = 0; i < longest_steps.size(); ++i)
-      is_closed = is_closed || (longest_steps[i] < step && stepper.state().multiplier[i] > 0.);
+      is_closed = is_closed || (longest_steps[i] < step && stepper.state().multiplier[i] > 0. &&
+                                is_moving_contact(i, stepper.state()));
     while (level < n_levels && !is_closed && position % (2 * length()) == 0)
       ++level;
   }

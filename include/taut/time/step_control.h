@@ -77,6 +77,7 @@ namespace taut
     long length() const { return 1L << level; }
 
     void solve(TimeStepper &stepper);
+    bool is_moving_contact(std::size_t i, const State &state) const;
     bool is_too_long_for_contacts(const State &state) const;
     void take_back(TimeStepper &stepper, unsigned int n_levels_down);
     void advance_fixed(TimeStepper &stepper);
