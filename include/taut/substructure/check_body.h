@@ -10,22 +10,23 @@
 namespace taut
 {
   /**
-   * For authors of bodies: compares what a body says of itself with differences, about the
-   * displacement @p U from the undeformed body, one entry a DoF [m, rad]. Each discrepancy is a
-   * line with the functions, the DoF and both values; none: the body is consistent there.
+   * Call it in the tests of a body of your own. It compares the functions of the body with
+   * differences, about the displacement @p U from the undeformed body, one entry a DoF [m, rad].
+   * Each discrepancy is a line with the functions, the DoF and both values; a body without lines is
+   * consistent at U.
    *
    * - internal_force() with the change of strain_energy(),
    * - tangent() with the change of internal_force(), at a rate of 1/s,
    * - mean_internal_force() times U1 - U with the change of strain_energy() from U to U1,
    * - mean_internal_force() from U to U with internal_force(),
    * - mean_tangent() from U to U with twice the change of mean_internal_force(),
-   * - the vectors of null_space() with the stiffness, of a linear body.
+   * - the vectors of null_space() with the stiffness, if the body is linear.
    *
-   * @p length is a displacement over which the body is far from linear, as its smallest size [m,
-   * rad]: differences are taken over small parts of it. Numbers that differ by a millionth of the
-   * largest, and not by rounding or by what the differences neglect, are a discrepancy. Of a
-   * ConstrainedBody, whose forces do no work on motions that its conditions allow only, the energy
-   * is not compared. The cost is some forces and energies for each DoF. Throws UserError if U or a
+   * @p length is a displacement over which the body is far from linear, such as its smallest size
+   * [m, rad]. Differences are taken over small parts of it. A discrepancy is a difference of more
+   * than a millionth of the largest number, beyond rounding and the error of the differences. The
+   * energy of a ConstrainedBody is not compared: its forces do no work only on motions that its
+   * conditions allow. The cost is some forces and energies for each DoF. Throws UserError if U or a
    * result has a wrong size.
    */
   std::vector<std::string> check_body(const Substructure &body, const std::vector<double> &U,

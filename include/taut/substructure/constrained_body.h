@@ -9,15 +9,15 @@
 
 namespace taut
 {
-  /// What a Substructure is, too, if it has constraints inside that move with it: impulses then do
-  /// not meet its mass matrix alone.
+  /// A second base of a Substructure with inner constraints that move with it, such as a rigid
+  /// body. Impulses then meet the mass matrix together with these constraints.
   class ConstrainedBody
   {
   public:
     virtual ~ConstrainedBody() = default;
 
-    /// M [kg, kg m^2] and the conditions that velocities have to meet at the displacement U [m,
-    /// rad] from the undeformed body, with the pattern of K: for the local solver of the body.
+    /// M [kg, kg m^2] and the conditions on velocities at the displacement U [m, rad] from the
+    /// undeformed body, with the pattern of K. The local solver of the body factors this matrix.
     virtual std::unique_ptr<SymmetricMatrix> mass_at(const std::vector<double> &U) const = 0;
   };
 } // namespace taut

@@ -26,14 +26,15 @@ namespace dealii
 namespace taut
 {
   /**
-   * Any linear model of deal.II as a substructure: M U" + C U' + K U = P + B N on the DoFs of a
-   * DoFHandler, as they are numbered there.
+   * A linear model of deal.II as a substructure: M U" + C U' + K U = P + B N on the DoFs of a
+   * DoFHandler, in its numbering. Use it to couple a finite element model of your own with other
+   * bodies by joints, stops and contacts.
    *
-   * The matrices are symmetric and assembled without the constraints (not by
-   * distribute_local_to_global); the constraints are applied here. A DoF that depends on others, at
-   * a hanging node, is condensed onto them; one that is prescribed keeps its equations, so that it
-   * may move in time. An element with dim components is a displacement in the plane or in space;
-   * one with a single component is a displacement along a direction of its own.
+   * Assemble symmetric matrices without the constraints (not by distribute_local_to_global); this
+   * class applies the constraints. A DoF that depends on others, at a hanging node, is condensed
+   * onto them. A prescribed DoF keeps its equations, so that it may move in time. An element with
+   * dim components is a displacement in the plane or in space. An element with a single component
+   * is a displacement along Options::direction.
    */
   template <int dim>
   class FEBody : public Substructure
@@ -43,38 +44,37 @@ namespace taut
 
     struct Options
     {
-      /// Path of the body's section in a parameter file, for messages.
+      /// Path of the section of the body in a parameter file, for messages.
       std::string origin = {};
 
       /// Direction of the displacement of a scalar element.
       Coordinates direction = {0., 0., 1.};
 
-      /// Motions that cost no energy without constraints: rigid body modes from the points of the
-      /// mesh (a constant for a scalar element), or the vectors given, one entry a DoF.
+      /// The null space without constraints: rigid body modes from the points of the mesh (a
+      /// constant for a scalar element), or the vectors of null_space, one entry a DoF.
       bool rigid_body_modes = true;
       std::vector<dealii::Vector<double>> null_space = {};
 
       /// Kind of each DoF, 0 a displacement [m], 1 a slope or rotation [rad]; empty: displacements.
       std::vector<unsigned char> kinds = {};
 
-      /// Places are found with it; none: straight cells.
+      /// Places are found with this mapping; none: straight cells.
       const dealii::Mapping<dim> *mapping = nullptr;
 
-      /// The active cells that the body consists of, if it is a part of a larger one; empty: all.
-      /// A part has the DoFs part_dofs() only: what has an entry a DoF has one for each of them.
+      /// The active cells of the body, if it is a part of a larger body; empty: all cells. A part
+      /// has the DoFs part_dofs() only, and its vectors have an entry for each of these.
       std::vector<Cell> cells = {};
     };
 
-    /// DoFs of these cells, and those that they depend on, in ascending order.
+    /// DoFs of these cells, and the DoFs that they depend on, in ascending order.
     static std::vector<dealii::types::global_dof_index>
     part_dofs(const std::vector<Cell> &cells, const dealii::AffineConstraints<double> &constraints);
 
     /**
-     * @p dof_handler and a mapping are kept by reference; matrices, constraints and load [N] are
-     * copied in the form that is needed. Constraints are those of the whole DoFHandler in any case.
-     * An empty damping matrix is none. Throws UserError for matrices or a load of another size, for
-     * a matrix that is not symmetric, and for a constraint that both depends on DoFs and is
-     * inhomogeneous.
+     * @p dof_handler and the mapping are kept by reference; matrices, constraints and load [N] are
+     * copied. Constraints are always those of the whole DoFHandler. An empty damping matrix means
+     * no damping. Throws UserError for matrices or a load of another size, for a matrix that is not
+     * symmetric, and for a constraint that both depends on DoFs and is inhomogeneous.
      */
     FEBody(const std::string &name, const dealii::DoFHandler<dim> &dof_handler,
            const dealii::SparseMatrix<double> &mass, const dealii::SparseMatrix<double> &damping,
@@ -85,13 +85,13 @@ namespace taut
     /// Adds a load that changes in time: @p add adds it at t [s] to P [N], one entry a DoF.
     void add_load(std::function<void(double t, dealii::Vector<double> &P)> add);
 
-    /// Adds a load that does not change, one entry a DoF [N]. Throws UserError for one of another
-    /// size, or one that is not finite.
+    /// Adds a constant load, one entry a DoF [N]. Throws UserError for a load of another size, or a
+    /// load that is not finite.
     void add_constant_load(const dealii::Vector<double> &P);
 
-    /// Gives DoFs that constraints prescribe motions u(t) [m]. AffineConstraints::close() lets
-    /// hanging nodes forget DoFs that are zero: where such a DoF moves, do not close them. Throws
-    /// UserError for other DoFs.
+    /// Gives motions u(t) [m] to DoFs that the constraints prescribe. AffineConstraints::close()
+    /// lets hanging nodes forget DoFs that are zero: do not close the constraints if such a DoF
+    /// moves. Throws UserError for a DoF that is not prescribed.
     void prescribe(
         const std::map<dealii::types::global_dof_index, std::function<double(double)>> &motions);
 
@@ -99,18 +99,19 @@ namespace taut
     void set_initial_state(const dealii::Vector<double> &displacement,
                            const dealii::Vector<double> &velocity);
 
-    /// At a point of the mesh; a scalar element counts the part of @p direction along its own.
+    /// The displacement at a point of the mesh. A scalar element counts the part of @p direction
+    /// along its own direction.
     LinearForm displacement(const Coordinates &place, const Coordinates &direction) const override;
 
-    /// A place of the boundary or inside: of DoF @p dof alone, condensed where it depends on
-    /// others. Throws UserError for a DoF that the body does not have.
+    /// The displacement of DoF @p dof alone, condensed if it depends on others. Throws UserError
+    /// for a DoF that the body does not have.
     LinearForm displacement_of_dof(dealii::types::global_dof_index dof) const;
 
-    /// All DoFs of the DoFHandler, those that depend on others too, from the displacement that a
-    /// State has; zero outside of a part.
+    /// All DoFs of the DoFHandler, dependent DoFs included, from the displacement in a State; zero
+    /// outside of a part.
     dealii::Vector<double> all_dofs(const std::vector<double> &U) const;
 
-    /// Position in the vectors of the body of a DoF of the DoFHandler that it has.
+    /// Position of a DoF of the DoFHandler in the vectors of the body. The body must have the DoF.
     unsigned int index(dealii::types::global_dof_index dof) const;
     bool has_dof(dealii::types::global_dof_index dof) const;
 
@@ -127,7 +128,7 @@ namespace taut
     const dealii::DoFHandler<dim> &dof_handler() const { return handler; }
 
   protected:
-    /// Leaves the cells out that a part does not have.
+    /// Restricts the output to the cells of this part.
     void show_own_cells(dealii::DataOut<dim, dim> &data) const;
 
   private:
@@ -145,7 +146,7 @@ namespace taut
     const Coordinates scalar_direction;
     std::vector<Cell> own_cells;                           ///< in ascending order
     std::vector<dealii::types::global_dof_index> own_dofs; ///< of a part; empty: all
-    std::vector<LinearForm> forms;                         ///< of each DoF on those that are kept
+    std::vector<LinearForm> forms;                         ///< of each DoF on the kept DoFs
     dealii::Vector<double> U0, V0;
     NullSpace own_null_space;
   };

@@ -9,7 +9,7 @@
 
 namespace taut
 {
-  /// A point of a line in a picture.
+  /// A point of a line in a picture for ParaView.
   struct LinePoint
   {
     Coordinates place, displacement; ///< displaced place [m]
@@ -17,7 +17,7 @@ namespace taut
   };
 
   /// Writes lines, each of two points or more, with `displacement` and the fields @p names as a
-  /// .vtu file, the same bytes from run to run. Throws UserError if it cannot be written.
+  /// .vtu file, the same bytes from run to run. Throws UserError if the file cannot be written.
   void write_lines(const std::string &path, const std::vector<std::vector<LinePoint>> &lines,
                    const std::vector<std::string> &names);
 } // namespace taut

@@ -16,9 +16,10 @@ namespace taut
   using ScaledMatrix = std::pair<double, const SymmetricMatrix *>;
 
   /**
-   * Factorisation of the symmetric positive definite matrix A of one substructure. Constrained DoFs
-   * have an identity row: their entry of a right-hand side is ignored and their entry of a solution
-   * is zero.
+   * Factorisation of the symmetric positive definite matrix A of one substructure. Derive from it
+   * for a body whose matrix has a structure of its own (Substructure::make_solver()). Constrained
+   * DoFs have an identity row: their entry of a right-hand side is ignored, and their entry of a
+   * solution is zero.
    */
   class LocalSolver
   {
@@ -36,14 +37,14 @@ namespace taut
     /// x = A^-1 x.
     virtual void solve(std::vector<double> &x) const = 0;
 
-    /// x = A^-1 x, and y solved by @p other. Solvers of one kind do so in one loop: their chains of
-    /// operations do not wait for each other.
+    /// x = A^-1 x, and y solved by @p other. Solvers of one kind solve both in one loop, in which
+    /// the two chains of operations do not wait for each other.
     virtual void solve_beside(std::vector<double> &x, const LocalSolver &other,
                               std::vector<double> &y) const;
 
     /**
-     * x = A^-1 rhs without the tails where it has decayed below 1e-18 of its largest entry of the
-     * same kind; with them where @p rhs lives on the DoFs of more than one element.
+     * x = A^-1 rhs. Tails below 1e-18 of the largest entry of the same kind are left out, unless @p
+     * rhs acts on the DoFs of more than one element.
      */
     virtual void column(const LinearForm &rhs, WindowedVector &x) const = 0;
 
@@ -58,17 +59,17 @@ namespace taut
 
   /**
    * Block-tridiagonal LDL^T, eliminated from both ends at once, for matrices with a block size of 1
-   * to 4, or 6. The factors of both directions are kept whole, so that a column of A^-1 follows
+   * to 4, or 6. The complete factors of both directions are kept, so that a column of A^-1 follows
    * from a local recurrence.
    */
   std::unique_ptr<LocalSolver> make_block_tridiagonal_solver(unsigned int block_size);
 
-  /// CHOLMOD, for any pattern: entry by entry, or in dense blocks where that pays.
+  /// CHOLMOD, for any pattern: entry by entry, or in dense blocks where these are faster.
   std::unique_ptr<LocalSolver> make_sparse_direct_solver();
 
   /**
    * The solver @p name, "block tridiagonal" or "sparse direct", for a matrix; a matrix without
-   * blocks always gets the sparse one. Throws UserError for another name.
+   * blocks always gets the sparse solver. Throws UserError for another name.
    */
   std::unique_ptr<LocalSolver> make_local_solver(const std::string &name,
                                                  const SymmetricMatrix &matrix);

@@ -12,14 +12,15 @@
 
 namespace taut
 {
-  /// A linear form on the displacements of one substructure of this rank: a summand of a row.
+  /// A linear form on the displacements of one substructure of this rank: a summand of a
+  /// constraint.
   struct Term
   {
     std::size_t substructure = 0;
     LinearForm form;
 
-    /// That substructure, as System::displacement() fills it in: a form on another system is then
-    /// known as one. It is compared only; nullptr: not known.
+    /// The substructure, set by System::displacement() to detect a form on another system. The
+    /// pointer is only compared; nullptr: not known.
     const Substructure *body = nullptr;
   };
 
@@ -27,8 +28,9 @@ namespace taut
   using BodyVectors = std::vector<std::vector<double>>;
 
   /**
-   * The substructures of a system, each on one rank. Every rank knows the names and sizes of all of
-   * them; of those on other ranks it has nothing else, and a point on one has no terms here.
+   * The substructures of a system, each on one rank. Every rank knows the names and sizes of all
+   * substructures, and nothing else of a substructure on another rank. A point on such a
+   * substructure has no terms here.
    */
   class Structure
   {
@@ -36,17 +38,17 @@ namespace taut
     explicit Structure(const Communicator &processes = Communicator()) : processes(processes) {}
     virtual ~Structure() = default;
 
-    /// Makes a substructure; called on its owner alone. One that keeps no state may be in several
-    /// structures.
+    /// Makes a substructure; called on its owner alone. A substructure without state may be in
+    /// several structures.
     using Factory = std::function<std::shared_ptr<Substructure>()>;
 
     /// Index of a substructure that is on another rank.
     static constexpr std::size_t elsewhere = -1;
 
     /// Adds the substructure that @p make returns on the rank @p owner. Called by all ranks
-    /// together; returns its index on the owner, and `elsewhere` on the others. Throws on all ranks
-    /// what @p make throws, and UserError for no body or one that is not consistent, see
-    /// Substructure::check_consistency().
+    /// together. Returns the index of the substructure on the owner, and `elsewhere` on other
+    /// ranks. Throws on all ranks what @p make throws, and UserError for no body or a body that is
+    /// not consistent, see Substructure::check_consistency().
     std::size_t add(const std::string &name, unsigned int owner, const Factory &make);
 
     const Communicator &communicator() const { return processes; }
@@ -56,12 +58,12 @@ namespace taut
     const Substructure &operator[](std::size_t k) const { return *substructures[k]; }
     std::size_t n_dofs() const;
 
-    /// Puts what SlenderBody::linearised() makes for the displacements U in the place of the
-    /// bodies of this rank. Returns for each of all_bodies() whether it was replaced. Called by all
-    /// ranks together; throws on all of them what one throws.
+    /// Replaces bodies of this rank by the bodies that SlenderBody::linearised() makes for the
+    /// displacements U. Returns for each of all_bodies() whether it was replaced. Called by all
+    /// ranks together; all ranks throw what one rank throws.
     std::vector<char> linearise(const BodyVectors &U);
 
-    /// Substructure::load() of one of this rank.
+    /// Substructure::load() of a substructure of this rank.
     void load(std::size_t k, InputArchive &archive) { substructures[k]->load(archive); }
 
     /// A substructure of any rank.
@@ -74,7 +76,7 @@ namespace taut
     /// The substructures of all ranks, in the order of their addition.
     const std::vector<Body> &all_bodies() const { return bodies; }
 
-    /// Which of all_bodies() a substructure of this rank is.
+    /// The index in all_bodies() of a substructure of this rank.
     std::size_t number(std::size_t k) const { return numbers[k]; }
 
     /// Zero vectors of the right sizes.
@@ -87,7 +89,8 @@ namespace taut
     std::vector<std::size_t> numbers; ///< of the substructures here
   };
 
-  /// Sum of the absolute values of the terms applied to U: what a sum that cancels rounds against.
+  /// Sum of the absolute values of the terms applied to U: the size of the rounding error of
+  /// evaluate().
   double magnitude(const std::vector<Term> &terms, const BodyVectors &U);
 
   /// Sum of the forms of @p terms applied to U.
