@@ -13,9 +13,9 @@ namespace taut
    *
    *     F_aa N_a + G_a^T alpha = -d_a,    G_a N_a - E alpha = -e.
    *
-   * alpha comes from the Schur complement G_a F_aa^-1 G_a^T + E, everything is then corrected with
-   * the gaps that remain. Dependent rows are solved with F_aa + shift diag(F_aa); the corrections
-   * are then those of the proximal point method and end at the exact solution if there is one, with
+   * alpha comes from the Schur complement G_a F_aa^-1 G_a^T + E. Corrections with the remaining
+   * gaps follow. Dependent rows are solved with F_aa + shift diag(F_aa). The corrections are then
+   * those of the proximal point method. They end at the exact solution if it exists, with
    * multipliers split evenly.
    */
   class ActiveSetSystem
@@ -23,8 +23,8 @@ namespace taut
   public:
     enum class Outcome
     {
-      solved,      ///< the gaps of the set are at the tolerance
-      unsettled,   ///< they are not: the rows contradict each other, or nearly so
+      solved,      ///< the gaps of the active set are at the tolerance
+      unsettled,   ///< the gaps are not: the rows contradict each other, or nearly so
       inadmissible ///< no solution was computed: the rows do not hold a body, or have no stiffness
     };
 
@@ -33,8 +33,9 @@ namespace taut
     /**
      * Writes multiplier, mode_amplitude and gap of @p solution, and the terms s_i of the gaps. @p
      * set is ordered; keeping the order from call to call lets the operator keep its factor. An
-     * iterative operator starts from the multipliers and amplitudes of @p solution, and gets gaps
-     * of @p tolerance times s_i; above options.linear_tolerance in one correction, or not at all.
+     * iterative operator starts from the multipliers and amplitudes of @p solution, and reaches
+     * gaps of @p tolerance times s_i. With a tolerance above options.linear_tolerance there is at
+     * most one correction.
      */
     Outcome solve(const MixedComplementarityProblem &problem, ComplementarityOperator &matrix,
                   const std::vector<std::size_t> &set, double tolerance,
@@ -63,8 +64,8 @@ namespace taut
     double shift = 0.;
     std::vector<double> rhs, step;
 
-    /// F_aa^-1 G_k^T for each null space vector, and G_a F_aa^-1 G_a^T + E; of this set and shift
-    /// if ready.
+    /// F_aa^-1 G_k^T for each null space vector, and G_a F_aa^-1 G_a^T + E, for the current set and
+    /// shift if null_space_is_ready.
     bool null_space_is_ready = false;
     std::vector<std::vector<double>> null_space_responses;
     DenseOperator null_space_schur;

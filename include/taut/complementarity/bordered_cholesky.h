@@ -8,28 +8,28 @@
 namespace taut
 {
   /**
-   * The Cholesky factor of F_aa for an ordered set of rows, kept while the set and the entries of F
-   * stay the same. Only the rows from the first changed position on are factored again: a row that
-   * is last and changes in every step costs one forward substitution. Leading zeros of the rows are
-   * skipped, so a banded F has a banded factor.
+   * The Cholesky factor of F_aa for an ordered set of rows. Use it where the set and F hardly
+   * change from step to step. The factor is kept while both are unchanged. Only rows from the first
+   * changed position on are factored again: a last row that changes in every step costs one forward
+   * substitution. Leading zeros of the rows are skipped, so a banded F has a banded factor.
    *
-   * The rows are factored one after another with dot products. That is what a border needs anyway,
-   * and it beats the reference LAPACK at every size (91 rows: 47 against 57 us, 1000 rows: 31
-   * against 97 ms).
+   * The rows are factored one after another with dot products, as a border needs. This is faster
+   * than the reference LAPACK at every size (91 rows: 47 against 57 us, 1000 rows: 31 against 97
+   * ms).
    */
   class BorderedCholesky
   {
   public:
-    /// Forgets everything; n rows at most.
+    /// Forgets the factor; the matrix has @p n rows.
     void reinit(std::size_t n);
 
-    /// Entry (i,j) of F is new: the rows of the factor that depend on it are no longer valid.
+    /// Entry (i, j) of F has changed: rows of the factor that depend on it are no longer valid.
     void changed(std::size_t i, std::size_t j);
 
     /**
      * Makes this the factor of F_aa + shift diag(F_aa). @p matrix holds F with n x n entries,
      * row-major; only its lower triangle is read. Returns false when a pivot falls below 1e-12 of
-     * its diagonal entry; the rows before it stay factored for the next call.
+     * its diagonal entry; the rows before it remain factored for the next call.
      */
     bool factor(const std::vector<double> &matrix, const std::vector<std::size_t> &set,
                 double shift);
@@ -47,7 +47,7 @@ namespace taut
     double factored_shift = 0.;
 
     std::vector<std::size_t> rows;      ///< the ordered set
-    std::vector<std::size_t> positions; ///< of each row in the set, n if it is not in it
+    std::vector<std::size_t> positions; ///< of each row in the set, n if the row is not in the set
     std::vector<std::size_t> first;     ///< position of the first entry of each row of the factor
     std::vector<double> lower;          ///< L, n x n, row-major, by position
     std::vector<double> inverse_pivots; ///< 1 / L_pp

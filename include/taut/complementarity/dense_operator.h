@@ -10,10 +10,10 @@
 namespace taut
 {
   /**
-   * F with its entries in memory, for a step that has microseconds: solve() keeps the factor of the
-   * set and repeats only what changed entries and the changed end of the set make necessary. Rows
-   * that change in every step belong last. Nothing is allocated after reinit(), except a second
-   * factor the first time that a shift is asked for.
+   * F as a dense matrix. Use it for up to some hundred constraints, where a step takes
+   * microseconds. solve() keeps the factor of the set, and factors again only from the first
+   * changed entry or row on. So put rows that change in every step last. Nothing is allocated after
+   * reinit(), except a second factor at the first call with a shift.
    */
   class DenseOperator : public ComplementarityOperator
   {
@@ -30,8 +30,8 @@ namespace taut
       return entries[std::max(i, j) * n + std::min(i, j)];
     }
 
-    /// F_ij = F_ji = value. Kept factors notice a change by themselves; the value that was there
-    /// keeps them.
+    /// F_ij = F_ji = value. A changed value updates the kept factors at the next solve(); an equal
+    /// value keeps them.
     void set(std::size_t i, std::size_t j, double value);
 
     std::size_t size() const override { return n; }
@@ -41,7 +41,7 @@ namespace taut
     /// Exactly sum_j |F_ij| |x_j|.
     void apply_absolute(const std::vector<double> &x, std::vector<double> &y) const override;
 
-    /// Dependent: a pivot below 1e-12 of its diagonal entry.
+    /// Rows are dependent if a pivot is below 1e-12 of its diagonal entry.
     bool solve(const std::vector<std::size_t> &set, const std::vector<double> &rhs, double shift,
                std::vector<double> &x) override;
 

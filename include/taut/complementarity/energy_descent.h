@@ -9,17 +9,18 @@
 namespace taut
 {
   /**
-   * The energy-ordered active set for a problem without null space. The energy 1/2 N^T F N + d^T N
-   * falls with every change of the set, so no set comes back and the method is finite (the argument
-   * of Lawson and Hanson, Solving Least Squares Problems, 1974, chapter 23):
+   * The primal active-set method (energy-ordered) for a problem without null space;
+   * EnergyOrderedActiveSet uses it. The energy 1/2 N^T F N + d^T N falls with every change of the
+   * active set, so no set comes back and the method is finite (the argument of Lawson and Hanson,
+   * Solving Least Squares Problems, 1974, chapter 23):
    *
-   * - Bilateral rows are closed first and stay.
-   * - Of the open rows with a negative gap, the one with the largest D_i^2 / (2 F_ii) closes.
-   * - On the way to the minimum on the new set, the first multiplier that would turn negative stops
-   * the motion; its row opens, and the rest goes on.
-   * - A row that depends on the closed ones is taken in exchange: along the direction z with F z =
-   * 0 the energy falls until a multiplier gets to zero. If none does, the gaps of the rows with z_i
-   * != 0 contradict each other.
+   * - Bilateral rows are closed first and remain closed.
+   * - The open row with a negative gap and the largest D_i^2 / (2 F_ii) closes.
+   * - On the way to the minimum on the new set, the first multiplier that would turn negative ends
+   *   the move; its row opens, and the move goes on with the other rows.
+   * - A row that depends on the closed rows changes places with one of them: along the direction z
+   *   with F z = 0 the energy falls until a multiplier reaches zero. If no multiplier does, the
+   *   gaps of the rows with z_i != 0 contradict each other.
    */
   class EnergyDescent
   {
@@ -27,15 +28,15 @@ namespace taut
     explicit EnergyDescent(const ComplementarityOptions &options) : options(options) {}
 
     /**
-     * Zero multipliers, bilateral rows closed as far as they are independent. False if the gaps of
-     * the others contradict them: contradictory_rows() are those that do.
+     * Sets zero multipliers, and closes independent bilateral rows. Returns false if gaps of
+     * dependent bilateral rows contradict the closed rows; contradictory_rows() then names them.
      */
     bool start(const MixedComplementarityProblem &problem, DenseOperator &matrix);
 
     /**
-     * On to the minimum, or until 20 (n + 5) rows have been closed: only rounding can bring it
-     * there. May be called again after the free gaps have changed, and then goes on from the
-     * multipliers and the set of the last call. False if there is no minimum: the gaps of
+     * Descends to the minimum, or until 20 (n + 5) rows have been closed, which only rounding can
+     * cause. May be called again after the free gaps have changed: it then starts from the
+     * multipliers and the set of the last call. Returns false if there is no minimum: the gaps of
      * contradictory_rows() contradict each other.
      */
     bool descend(const MixedComplementarityProblem &problem, DenseOperator &matrix);
@@ -78,7 +79,7 @@ namespace taut
     std::vector<std::size_t> closed_rows, contradiction;
     std::vector<char> is_closed;
 
-    /// Rows that rounding did not let in, until the multipliers move again.
+    /// Rows that could not close because of rounding, until the multipliers move again.
     std::vector<char> blocked;
     unsigned int changes = 0;
   };

@@ -8,27 +8,27 @@
 namespace taut
 {
   /**
-   * The energy-ordered active set on any operator, assembled into a dense matrix first: slower than
-   * Newton's method, but it ends, whatever the problem, with the solution or with the rows or
-   * bodies that have none.
+   * The primal active-set method (energy-ordered) on any operator. Use it where SemismoothNewton
+   * cycles. It is slower, and assembles a dense matrix first, but it ends for any problem: with the
+   * solution, or with the rows or bodies that have none.
    *
-   * Floating bodies are held by the method of multipliers: F + c G^T R G with the penalty's R and a
-   * large c, and alpha raised by c R (G N + e) until this vanishes. Whether admissible multipliers
-   * can balance the bodies at all is found out before, by the same descent without F.
+   * The method of multipliers holds floating bodies: F + c G^T R G with R of NullSpacePenalty and a
+   * large c. alpha is raised by c R (G N + e) until G N + e vanishes. A descent without F first
+   * finds whether admissible multipliers can balance the bodies.
    */
   class EnergyOrderedActiveSet
   {
   public:
     enum class Outcome
     {
-      finished,      ///< residual() tells how well
+      finished,      ///< residual() says how well
       contradictory, ///< failed_indices() are rows
       not_held       ///< failed_indices() are null space vectors
     };
 
     explicit EnergyOrderedActiveSet(const ComplementarityOptions &options) : options(options) {}
 
-    /// Starts from zero multipliers, not from the solution that is handed in.
+    /// Starts from zero multipliers, not from @p solution.
     Outcome solve(const MixedComplementarityProblem &problem, const ComplementarityOperator &matrix,
                   MixedComplementaritySolution &solution);
 

@@ -16,9 +16,8 @@ namespace taut
   {
   public:
     /**
-     * Keeps a reference to @p problem. Where F_ii is nothing, or rounding, the mean of the diagonal
-     * serves for it, or 1 if that is nothing, too. Rows that are 0 in @p rows are left out: W_i =
-     * 0.
+     * Keeps a reference to @p problem. If F_ii is zero, or rounding, the mean of the diagonal takes
+     * its place, or 1 if this mean is zero, too. Rows that are 0 in @p rows are left out: W_i = 0.
      */
     NullSpacePenalty(const MixedComplementarityProblem &problem, const DenseOperator &matrix,
                      const std::vector<char> &rows);
@@ -26,30 +25,30 @@ namespace taut
     /// G N + e.
     std::vector<double> unbalance(const std::vector<double> &multiplier) const;
 
-    /// |e_k| + sum_i |G_ki| max_j |N_j|: the terms of G N + e, not smaller where they happen to
-    /// vanish.
+    /// |e_k| + sum_i |G_ki| max_j |N_j|: a bound of the terms of G N + e that does not vanish with
+    /// them.
     std::vector<double> balance_terms(const std::vector<double> &multiplier) const;
 
     /// The null space vectors k with |G N + e|_k larger than @p tolerance times its terms.
     std::vector<std::size_t> unbalanced(const std::vector<double> &multiplier,
                                         double tolerance) const;
 
-    /// R g. Zero for null space vectors that the rows cannot tell from those before them.
+    /// R g. Zero for null space vectors whose motion of the rows depends on that of earlier
+    /// vectors.
     std::vector<double> weigh(const std::vector<double> &g);
 
-    /// The amplitude x with the least sum of W_i (D + G^T x)_i^2: the motion that closes the gaps
-    /// of the rows best.
+    /// The amplitude x with the least sum of W_i (D + G^T x)_i^2: the motion that best closes the
+    /// gaps of the rows.
     std::vector<double> closing_amplitude(const std::vector<double> &gap);
 
-    /// sum_l |R_kl| times the terms of (G N + e)_l: what the rounding of R (G N + e) is relative
-    /// to.
+    /// sum_l |R_kl| times the terms of (G N + e)_l: the scale of the rounding error of R (G N + e).
     std::vector<double> amplitude_terms(const std::vector<double> &multiplier);
 
     /// matrix += factor G^T R G.
     void add_to(DenseOperator &matrix, double factor);
 
-    /// The problem without null space whose gaps are @p free_gap + G^T amplitude, known to @p
-    /// gap_scale.
+    /// The problem without null space whose free gaps are @p free_gap + G^T amplitude, with the
+    /// terms @p gap_scale.
     MixedComplementarityProblem without_null_space(const std::vector<double> &free_gap,
                                                    const std::vector<double> &gap_scale,
                                                    const std::vector<double> &amplitude) const;
@@ -60,7 +59,7 @@ namespace taut
     const MixedComplementarityProblem &problem;
     std::vector<double> null_space;       ///< G, dense, row-major
     std::vector<std::size_t> all;         ///< null space indices
-    std::vector<std::size_t> independent; ///< those whose rows of G W are independent
+    std::vector<std::size_t> independent; ///< null space indices whose rows of G W are independent
     std::vector<double> row_weights;      ///< W_i
     DenseOperator weights;                ///< G W G^T
   };

@@ -11,8 +11,8 @@ namespace taut
 {
   /**
    * The symmetric positive semidefinite matrix F of a mixed complementarity problem, as its solvers
-   * see it: n rows, one a multiplier. In Taut it is the contact Schur complement, F = sum_k B_k^T
-   * A_k^-1 B_k + S.
+   * see it: n rows, one per multiplier. In Taut F is the contact Schur complement, F = sum_k B_k^T
+   * A_k^-1 B_k + S. Derive from it to bring another representation of F.
    */
   class ComplementarityOperator
   {
@@ -30,15 +30,15 @@ namespace taut
 
     /**
      * An upper bound y_i >= sum_j |F_ij| |x_j|, the scale of the rounding error of row i of F x.
-     * Exact where the entries are at hand; otherwise from |F_ij| <= sqrt(F_ii F_jj), which holds
-     * for every semidefinite F.
+     * Exact if the entries are stored; otherwise from |F_ij| <= sqrt(F_ii F_jj), which holds for
+     * every semidefinite F.
      */
     virtual void apply_absolute(const std::vector<double> &x, std::vector<double> &y) const = 0;
 
     /**
      * Solves F_aa x_a = rhs_a on the ordered rows @p set; x is zero on all other rows. With @p
      * shift > 0 solves (F_aa + shift diag(F_aa)) x_a = rhs_a. Returns false, with x unspecified, if
-     * the rows are dependent to working precision and the system has therefore not been solved.
+     * the rows are dependent to working precision: the system is then not solved.
      */
     virtual bool solve(const std::vector<std::size_t> &set, const std::vector<double> &rhs,
                        double shift, std::vector<double> &x) = 0;
@@ -48,9 +48,9 @@ namespace taut
      *
      *     F_aa x_a + G_a^T alpha = rhs_a,    G_a x_a = load
      *
-     * with one vector of @p null space a row of G, otherwise like solve(); false, too, if the rows
-     * of the set do not hold a body. Only called where has_null_space_solver() is true; elsewhere
-     * one solve() per null space vector has to do.
+     * where each vector of @p null space is a row of G; otherwise as solve(). Returns false, too,
+     * if the rows of the set do not hold a body. Called only if has_null_space_solver() is true;
+     * other operators take one solve() per null space vector.
      */
     virtual bool solve_with_null_space(const std::vector<std::size_t> & /*set*/,
                                        const std::vector<double> & /*rhs*/,
@@ -62,7 +62,7 @@ namespace taut
     }
     virtual bool has_null_space_solver() const { return false; }
 
-    /// True if systems are solved by an iteration, to the tolerance set last.
+    /// True if an iteration solves the systems, to the tolerance set last.
     virtual bool is_iterative() const { return false; }
 
     /// Largest residual of the solves to come, in rows scaled to F_ii = 1 and relative to the

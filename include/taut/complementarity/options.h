@@ -4,23 +4,24 @@
 
 namespace taut
 {
-  /// Numbers that steer the complementarity solvers; all tolerances are relative to the terms of a
-  /// row.
+  /// Parameters of the complementarity solvers. All tolerances are relative to the terms of a row.
+  ///
   struct ComplementarityOptions
   {
     /**
      * Half-width of the band around N = 0 and D = 0 in which a row keeps its state, relative to the
-     * terms s_i of its gap. With 0, exact touch (N = D = 0) flips for ever on rounding noise.
+     * terms s_i of its gap. With 0, a row with exact touch (N = D = 0) flips for ever on rounding
+     * errors.
      */
     double dead_band = 1e-13;
 
-    /// Gaps of closed rows are corrected until they are below this.
+    /// Gaps of closed rows are corrected until they are below this tolerance.
     double linear_tolerance = 1e-12;
 
     /**
-     * The same, and the dead band, while the active set still changes and the operator solves
-     * iteratively: what is solved for then is only which rows flip. A set that stays is solved to
-     * linear_tolerance, and so is one that stayed in the problem before.
+     * Tolerance of the gaps, and dead band, of an iterative operator while the active set changes:
+     * the solution then only decides which rows flip. A set that repeats is solved to
+     * linear_tolerance, and so is a set that repeated in the problem before.
      */
     double inexact_tolerance = 1e-4;
 
@@ -30,12 +31,12 @@ namespace taut
     /// Iterations of the semismooth Newton method before the energy-ordered active set takes over.
     unsigned int max_iterations = 200;
 
-    /// Whether Newton's method stops as soon as an active set comes back, instead of going round to
+    /// Whether Newton's method stops as soon as an active set comes back, instead of at
     /// max_iterations.
     bool detect_cycles = true;
 
-    /// Multiple of diag(F) that is added to F when closed rows are dependent; corrected for, see
-    /// max_corrections.
+    /// Multiple of diag(F) that is added to F if closed rows are dependent. Corrections remove its
+    /// effect, see max_corrections.
     double redundancy_shift = 1e-9;
 
     /// Corrections of one active set (proximal if it is redundant) before it counts as

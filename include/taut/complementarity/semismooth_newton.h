@@ -10,10 +10,11 @@
 namespace taut
 {
   /**
-   * Semismooth Newton's method for min(w_i N_i, D_i) = 0, which is a primal-dual active set
-   * (Hintermueller, Ito, Kunisch 2003): solve on the active set, then let rows with a negative
-   * multiplier open and rows with a negative gap close, all at once. Usually one iteration from the
-   * set of the last step; but it may cycle, even with a positive definite F, and then says so.
+   * Semismooth Newton's method for min(w_i N_i, D_i) = 0, the primal-dual active-set method
+   * (Hintermueller, Ito, Kunisch 2003). Each iteration solves on the active set. Then rows with a
+   * negative multiplier open and rows with a negative gap close, all at once. From the set of the
+   * last step one iteration is usually enough. The method may cycle, even with a positive definite
+   * F; it then returns Outcome::cycle.
    */
   class SemismoothNewton
   {
@@ -23,8 +24,8 @@ namespace taut
       solved,
       cycle,          ///< an earlier active set came back
       max_iterations, ///< options.max_iterations reached
-      unsettled ///< the last active set has dependent rows that contradict each other, or holds a
-                ///< body not
+      unsettled ///< dependent rows of the last active set contradict each other, or the set does
+                ///< not hold a body
     };
 
     explicit SemismoothNewton(const ComplementarityOptions &options)
@@ -32,7 +33,7 @@ namespace taut
     {
     }
 
-    /// Starts from solution.closed, and leaves the final set there.
+    /// Starts from the active set solution.closed, and stores the final set there.
     Outcome solve(const MixedComplementarityProblem &problem, ComplementarityOperator &matrix,
                   MixedComplementaritySolution &solution);
 
@@ -50,7 +51,7 @@ namespace taut
     ComplementarityOptions options;
     ActiveSetSystem system;
     unsigned int iterations = 0;
-    bool stayed = false; ///< the first active set of the last call was its last
+    bool stayed = false; ///< the first active set of the last call was its last set
     ComplementarityResidual final_residual;
 
     /// Rows of the active set, ascending; terms s_i and weights w_i of the problem.

@@ -14,11 +14,11 @@ namespace taut
   {
     MixedComplementaritySolution solution;
 
-    /// Active sets that Newton's method solved for, and changes of one row each by the
-    /// energy-ordered set: of all attempts.
+    /// Active sets of Newton's method, and changes of one row by the energy-ordered method, of all
+    /// attempts.
     unsigned int iterations = 0;
 
-    /// The method that was not chosen got to the end.
+    /// True if the other method, not the chosen one, found the solution.
     bool used_fallback = false;
 
     /// At most the tolerance.
@@ -26,33 +26,33 @@ namespace taut
   };
 
   /**
-   * Solves one mixed complementarity problem after another, each starting from the active set of
-   * the one before. A problem with bilateral rows only takes one linear solve, and one from a set
-   * that is still right just as well.
+   * Solves a sequence of mixed complementarity problems, one per step of a run. Each starts from
+   * the active set of the problem before. A problem with bilateral rows only takes one linear
+   * solve, and so does a problem whose active set has not changed.
    */
   class ComplementaritySolver
   {
   public:
     /**
-     * @p method is "semismooth Newton", with the energy-ordered active set taking over whenever it
-     * does not get to the end, or "energy-ordered" to begin with this one. Where this one misses
-     * the tolerance, Newton's method tries from the set that it found. Another name is a UserError.
+     * @p method is "semismooth Newton" or "energy-ordered". Where Newton's method fails, the
+     * energy-ordered method takes over. Where the energy-ordered method misses the tolerance,
+     * Newton's method starts from its active set. Another name is a UserError.
      */
     explicit ComplementaritySolver(
         const std::string &method = "semismooth Newton",
         const ComplementarityOptions &options = ComplementarityOptions());
 
     /**
-     * The result stays valid, and is the start, until the next call; a problem of another size
-     * starts anew. Throws ContradictoryRows, BodyNotHeld with the indices of its rows and null
-     * space vectors, and NotSolved if the residual ends above the tolerance. After an exception the
-     * next call starts anew.
+     * The result is valid until the next call, which starts from it; a problem of another size
+     * starts anew. Throws ContradictoryRows with indices of rows, BodyNotHeld with indices of null
+     * space vectors, and NotSolved if the residual remains above the tolerance. After an exception
+     * the next call starts anew.
      */
     const ComplementarityResult &solve(const MixedComplementarityProblem &problem,
                                        ComplementarityOperator &matrix);
 
-    /// Starts the next problem from these closed rows, e.g. those of a checkpoint. Empty: from
-    /// none.
+    /// Starts the next problem from these closed rows, e.g. those of a checkpoint. Empty: from no
+    /// closed row.
     void start_from(const std::vector<char> &closed) { result.solution.closed = closed; }
 
   private:

@@ -8,10 +8,10 @@
 namespace taut
 {
   /**
-   * F with the entries of most rows stored sparse, and factored sparse: along a line F is banded.
-   * The last rows are a border that is stored dense and may change in every step: it costs one
-   * solve with the kept factor of the other rows. Another active set is a new factorisation, in the
-   * order found for the first one.
+   * F as a sparse matrix with a sparse factor. Use it for many constraints that act on each other
+   * only near by: along a line F is banded. The last rows are a dense border that may change in
+   * every step, at the cost of one solve with the kept factor of the other rows. A new active set
+   * needs a new factorisation, in the order of the first one.
    */
   class SparseOperator : public ComplementarityOperator
   {
@@ -19,14 +19,14 @@ namespace taut
     /// Zero matrix of @p n rows, of which the last @p n_border are the border.
     void reinit(std::size_t n, std::size_t n_border);
 
-    /// The entries of the rows before the border; replaces those that were there.
+    /// Sets the entries of the rows before the border; earlier entries are replaced.
     void set_interior(const SymmetricEntries &entries);
 
-    /// Row i of the border, n entries: F_ij = F_ji = entries[j]. Where two rows of the border
+    /// Sets row i of the border, n entries: F_ij = F_ji = entries[j]. Where two rows of the border
     /// cross, the later call counts.
     void set_border(std::size_t i, const std::vector<double> &entries);
 
-    /// F_ii = value, where F_ii has been given before.
+    /// Sets F_ii = value; F_ii must have been given before.
     void set_diagonal(std::size_t i, double value);
 
     std::size_t size() const override { return n; }
@@ -36,7 +36,7 @@ namespace taut
     /// Exactly sum_j |F_ij| |x_j|.
     void apply_absolute(const std::vector<double> &x, std::vector<double> &y) const override;
 
-    /// Dependent: a pivot below 1e-12 of its diagonal entry.
+    /// Rows are dependent if a pivot is below 1e-12 of its diagonal entry.
     bool solve(const std::vector<std::size_t> &set, const std::vector<double> &rhs, double shift,
                std::vector<double> &x) override;
 
@@ -44,7 +44,7 @@ namespace taut
     std::size_t n_entries() const { return interior.size(); }
 
   private:
-    /// The factor of the interior of a set, and what the border adds to it.
+    /// The factor of the interior rows of an active set.
     struct Factor
     {
       SparseCholesky interior;
@@ -63,7 +63,7 @@ namespace taut
     SymmetricEntries interior;               ///< each position once
     std::vector<std::vector<double>> border; ///< rows of n entries
     std::vector<double> diagonal_entries;
-    std::vector<std::size_t> diagonal_position; ///< of each row of the interior in its entries
+    std::vector<std::size_t> diagonal_position; ///< of each row of the interior in `interior`
 
     /// A shifted and an unshifted factor, so that a redundant set does not refactor both in every
     /// step.

@@ -21,7 +21,7 @@ namespace taut
   class Substructure;
   struct ContactSurface;
 
-  /// What a scene says to a body that it makes.
+  /// What a BodyType gets from the scene to make a body.
   struct BodySetting
   {
     std::string name;
@@ -30,49 +30,51 @@ namespace taut
   };
 
   /**
-   * A kind of body that a parameter file names, `Body <name>/Type`: registered by a plugin with
-   * Register<BodyType, ...>, one object for each body of that type.
+   * A type of body that a parameter file names in `Body <name>/Type`. Derive from it in a plugin,
+   * and register it with Register<BodyType, ...>, to bring a body of your own into scenes. There is
+   * one object for each body of the type.
    */
   class BodyType
   {
   public:
     virtual ~BodyType() = default;
 
-    /// Declares its entries, in the section of the body.
+    /// Declares the entries of the type, in the section of the body.
     virtual void declare_parameters(dealii::ParameterHandler &) {}
 
-    /// About how many DoFs the body will have, by which ranks share the work; 0: not known before
-    /// it is made.
+    /// Estimated number of DoFs, by which ranks share the work; 0: not known before the body is
+    /// made.
     virtual std::size_t n_dofs() const { return 0; }
 
     /**
-     * The body of the entries read. Called on the rank that owns it, several times if the scene
-     * needs it (for the lengths of droppers, say); what is returned may refer to this object, which
+     * Makes the body from the entries. Called on the rank that owns the body, several times if the
+     * scene needs it, such as for the lengths of droppers. The body may refer to this object, which
      * lives as long as the scene. Throws EntryError about an entry below setting.origin.
      */
     virtual std::unique_ptr<Substructure> make(const BodySetting &setting) const = 0;
 
     /**
-     * The surface that the body shows to contacts, all of it if @p boundaries is empty, otherwise
-     * the faces with these ids; its nodes are those of Substructure::node_displacement() in either
-     * case. Called on all ranks, with the same result. Throws EntryError; so do types without one.
+     * The surface of the body for contacts: the faces with the ids @p boundaries, or all faces if
+     * @p boundaries is empty. In both cases the nodes are those of
+     * Substructure::node_displacement(). Called on all ranks, with the same result. Throws
+     * EntryError, also for types without a surface.
      */
     virtual ContactSurface surface(const BodySetting &setting,
                                    const std::vector<unsigned int> &boundaries) const;
 
-    /// The turn of a part of its surface that ends a run, for bodies whose equations are those of
-    /// small turns [rad]; 0: the turns of its surface are not watched.
+    /// The rotation of a part of the surface that ends a run [rad], for bodies whose equations hold
+    /// for small rotations; 0: rotations of the surface are not watched.
     virtual double largest_turn() const { return 0.; }
 
-    /// How the body can be cut; none: it stays whole. Called on all ranks, with the same result.
-    /// Throws EntryError.
+    /// How the partition can cut the body; none: the body is not cut. Called on all ranks, with the
+    /// same result. Throws EntryError.
     virtual std::shared_ptr<const DivisibleBody> division(const BodySetting &) const
     {
       return nullptr;
     }
   };
 
-  /// A body of a scene whose type is not one of Taut's own.
+  /// A body of a scene that a BodyType makes.
   struct CustomBody
   {
     std::string name;
@@ -81,14 +83,14 @@ namespace taut
     std::shared_ptr<const BodyType> type;
   };
 
-  /// The bodies that a parameter file lists in `Bodies`, each with a section `Body <name>`. Three
-  /// passes: the names, then the types, then all entries.
+  /// The bodies that a parameter file lists in `Bodies`, each with a section `Body <name>`. They
+  /// are read in three passes: names, types, all entries.
   class BodyParameters
   {
   public:
     void declare_names(dealii::ParameterHandler &prm);
 
-    /// Before the third pass; throws EntryError for a name that cannot be one.
+    /// Call it before the third pass. Throws EntryError for a name that is not allowed.
     void declare_types(dealii::ParameterHandler &prm);
 
     /// Makes an object of each type. Throws EntryError for a type that is not registered.
@@ -96,7 +98,7 @@ namespace taut
 
     void declare_parameters(dealii::ParameterHandler &prm);
 
-    /// After the entries were read.
+    /// The bodies, after the entries were read.
     std::vector<CustomBody> bodies() const;
 
   private:

@@ -12,15 +12,16 @@ namespace taut
 {
   /**
    * A part of the boundary of a body in its reference position: nodes, and faces between them.
+   * Return one from BodyType::surface() to give a body contact surfaces.
    *
-   * In the plane (dim 2) a face is an edge with 2 nodes, its ends (degree 1), or 3: its ends, then
-   * its middle (degree 2). In space (dim 3) it is a quadrilateral with 4 or 9 nodes in the
-   * lexicographic order of deal.II's tensor-product support points, or a triangle with 3 nodes or
-   * 6: its vertices 0, 1, 2, then the middles of 01, 12 and 20, as FE_SimplexP has them. Faces of
-   * both forms may share a surface; its degree is one. A line in space (dim 1) has edges with 2
-   * nodes, and a side towards whatever is near.
+   * In the plane (dim 2) a face is an edge. It has 2 nodes, its ends (degree 1), or 3 nodes, its
+   * ends and then its middle (degree 2). In space (dim 3) a face is a quadrilateral or a triangle.
+   * Quadrilaterals have 4 or 9 nodes in the lexicographic order of deal.II's tensor-product support
+   * points. Triangles have 3 or 6 nodes: the vertices 0, 1, 2, then the middles of 01, 12 and 20,
+   * as in FE_SimplexP. A surface may have faces of both forms, of one degree. A line in space (dim
+   * 1) has edges with 2 nodes, and a side towards whatever is near.
    *
-   * The order of the nodes of a face says nothing about its outer side: @p outward does.
+   * @p outward gives the outer side of a face; the order of its nodes does not.
    */
   struct ContactSurface
   {
@@ -34,8 +35,8 @@ namespace taut
     /// Nodes of each face. A node without a face is allowed, and takes no part in contact.
     std::vector<std::vector<unsigned int>> faces;
 
-    /// Hanging nodes, whose displacement is a sum of those of others times weights: they have no
-    /// constraint of their own as slaves.
+    /// Hanging nodes: their displacement is a weighted sum of those of other nodes. As slaves they
+    /// have no constraint of their own.
     struct HangingNode
     {
       unsigned int node;
@@ -43,13 +44,13 @@ namespace taut
     };
     std::vector<HangingNode> hanging;
 
-    /// Of each face the direction out of the body at its centre, of any length. Only its side of
-    /// the face counts, normals themselves are those of the geometry. Obstacles do not read it of
+    /// For each face the direction out of the body at the centre of the face, of any length. It
+    /// only tells the outer side; normals are those of the geometry. Obstacles do not read it for
     /// lines.
     std::vector<Coordinates> outward;
   };
 
-  /// Displacement of a node times a vector.
+  /// A term of a SurfaceConstraint: the displacement of a node times a vector.
   struct NodeWeight
   {
     unsigned int node = 0; ///< in ContactSurface::points
@@ -62,9 +63,9 @@ namespace taut
    *   D = sum over slave (weight . u) + sum over master (weight . u) + gap,   N >= 0, D >= 0, N D =
    * 0.
    *
-   * D is a mean gap [m], its multiplier N a force [N] that acts on each node along its weight, so
-   * that N > 0 pushes the bodies apart. The contact pressure is N / area [Pa]. Displacements are
-   * measured from the reference position.
+   * D is a mean gap [m]. The Lagrange multiplier N is a force [N] that acts on each node along the
+   * weight of the node; N > 0 pushes the bodies apart. The contact pressure is N / area [Pa].
+   * Displacements are measured from the reference position.
    */
   struct SurfaceConstraint
   {
@@ -72,11 +73,11 @@ namespace taut
     std::vector<NodeWeight> master; ///< nodes of the master surface; none against an obstacle
     double gap = 0.;                ///< D without displacements [m]; negative: penetration
     double area = 0.;               ///< part of the contact surface, positive [m^2]
-    Coordinates point;              ///< where on the slave surface it acts, on the average [m]
+    Coordinates point;              ///< mean place on the slave surface where the force acts [m]
     Coordinates normal;             ///< unit vector from the slave towards the master
-    unsigned int node = 0;          ///< of the slave surface: whose multiplier it is
-    double uncovered = 0.; ///< largest part of a slave face at it that lacks a master; 0: none, or
-                           ///< all of the face
+    unsigned int node = 0;          ///< node of the slave surface that N belongs to
+    double uncovered = 0.; ///< largest part of a slave face at the node without a master; 0: no
+                           ///< part, or the whole face
   };
 } // namespace taut
 

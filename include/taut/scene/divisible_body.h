@@ -19,14 +19,15 @@ namespace taut
   {
     unsigned int dim = 0; ///< 2: in the plane, 3: in space
 
-    /// Those of cell c are dofs[begin[c]] to dofs[begin[c + 1] - 1]: all on which a DoF of the cell
-    /// depends, too.
+    /// DoFs of cell c are dofs[begin[c]] to dofs[begin[c + 1] - 1], including all DoFs on which a
+    /// DoF of the cell depends.
     std::vector<std::size_t> begin = {0};
     std::vector<unsigned int> dofs;
 
-    std::vector<std::pair<unsigned int, unsigned int>> faces; ///< pairs of cells that share one
+    std::vector<std::pair<unsigned int, unsigned int>> faces; ///< pairs of cells that share a face
 
-    /// Of each DoF: its displacement is given or follows from others, in every part alike.
+    /// For each DoF, not 0 if its displacement is prescribed or follows from other DoFs, in every
+    /// part alike.
     std::vector<char> is_determined;
 
     std::size_t size() const { return begin.size() - 1; }
@@ -34,9 +35,10 @@ namespace taut
   };
 
   /**
-   * A body that can be cut along the faces of its cells. A part has the DoFs of its cells, in
-   * ascending order, and the elements of these cells only: DoFs on a cut are in all parts beside
-   * it, and are tied by bilateral constraints. Every rank has one.
+   * A body that can be cut along the faces of its cells. Return one from BodyType::division() to
+   * let the partition cut a body of your own. A part has the DoFs of its cells, in ascending order,
+   * and the elements of these cells only. A DoF on a cut is in all adjacent parts, and bilateral
+   * constraints tie its copies. Every rank has the object.
    */
   class DivisibleBody
   {
@@ -45,14 +47,14 @@ namespace taut
 
     virtual const BodyCells &cells() const = 0;
 
-    /// The cell that a place is in; throws UserError if the place is not on the body.
+    /// The cell that contains a place; throws UserError if the place is not on the body.
     virtual std::size_t cell_at(const Coordinates &place) const = 0;
 
     /// A cell at a node of BodyType::surface().
     virtual std::size_t cell_at_node(unsigned int node) const = 0;
 
-    /// A part of these cells, in ascending order. Called on the rank that owns it; throws
-    /// EntryError.
+    /// Makes the part of these cells, in ascending order. Called on the rank that owns the part.
+    /// Throws EntryError.
     virtual std::unique_ptr<Substructure>
     make_part(const BodySetting &setting, const std::vector<unsigned int> &part) const = 0;
   };

@@ -9,8 +9,8 @@
 
 namespace taut
 {
-  /// Positions from "0, 1.5, 3" or from ranges first:step:last, "0:0.5:10, 12". @p entry is named
-  /// in errors.
+  /// Positions from "0, 1.5, 3" or from ranges first:step:last, "0:0.5:10, 12". Errors name @p
+  /// entry.
   std::vector<double> parse_positions(const std::string &text, const std::string &entry);
 
   /// A stiffness: a positive number, or "rigid" for infinity.
@@ -19,7 +19,7 @@ namespace taut
   /**
    * The law of a link from its entries under @p title: null for "linear", else a "table" of points
    * "elongation: force, ..." or a "formula" in d up to an elongation @p range [m, rad]. Throws
-   * EntryError unless it is 0 at 0 and increases.
+   * EntryError unless the law is 0 at 0 and increases.
    */
   std::shared_ptr<const ForceLaw> parse_law(const std::string &kind, const std::string &points,
                                             const std::string &formula, double range,
@@ -35,12 +35,12 @@ namespace taut
   Coordinates parse_direction(const std::vector<double> &components, const std::string &entry);
 
   /// The direction of a displacement or a force or, if @p rotational, the axis of a rotation or a
-  /// moment, from the entries Direction and Axis of a section; no direction is y, no axis z. Throws
-  /// EntryError if both are given, or the wrong one.
+  /// moment, from the entries Direction and Axis of a section; the default direction is y, the
+  /// default axis z. Throws EntryError if both are given, or the wrong entry.
   Coordinates parse_direction_or_axis(bool rotational, const std::vector<double> &direction,
                                       const std::vector<double> &axis, const std::string &section);
 
-  /// The named element of a list of wires or masses; its index, or `ground` if there is none.
+  /// Index of a wire or mass by its name; `ground` if there is none.
   template <typename Item>
   std::size_t find_name(const std::vector<Item> &items, const std::string &name)
   {
@@ -52,8 +52,8 @@ namespace taut
 
   /**
    * Attachments from "ground", "ground @ 1, 2", "mass", "wire @ 12.5", or several on one wire,
-   * "wire @ 0:5:60"; on a body "plate @ 0.1, 0.2", or several, "plate @ 0.1, 0.2; 0.3, 0.2".
-   * Unknown names are UserErrors that list the known ones.
+   * "wire @ 0:5:60"; on a body "plate @ 0.1, 0.2", or several, "plate @ 0.1, 0.2; 0.3, 0.2". An
+   * unknown name is a UserError that lists the known names.
    */
   std::vector<Attachment> parse_attachments(const std::string &text, const Scene &scene,
                                             const std::string &entry);
@@ -61,8 +61,8 @@ namespace taut
   /// Whether a place is on a cable, so that its first coordinate is an unstressed arc length.
   bool is_on_cable(const Scene &scene, const Attachment &point);
 
-  /// Place of an attachment in the undeformed scene, of a body in its own coordinates, see
-  /// SceneBodies::position(); of the ground, if it has one.
+  /// Place of an attachment in the undeformed scene. Places on a body are in the coordinates of the
+  /// body, see SceneBodies::position(); the ground has a place only if one is given.
   Coordinates place(const Scene &scene, const Attachment &point);
 } // namespace taut
 

@@ -30,8 +30,8 @@ namespace taut
       elongation ///< d, in the place of s
     };
 
-    /// @p entry names the parameter in error messages. A formula that cannot be parsed, depends on
-    /// something else, or is random is an EntryError.
+    /// @p entry names the parameter in error messages. A formula that cannot be parsed, that
+    /// depends on other variables, or that is random is an EntryError.
     Expression(const std::string &formula, const std::string &entry,
                Variables variables = Variables::both);
 
@@ -46,7 +46,7 @@ namespace taut
 
     const std::string &formula() const { return text; }
 
-    /// The number of a constant, 0 of other formulas.
+    /// The value of a constant; 0 for other formulas.
     double constant_part() const { return parser ? 0. : constant; }
 
     /// True for a formula that is a number equal to zero.

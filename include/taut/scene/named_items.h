@@ -14,9 +14,9 @@ namespace dealii
 namespace taut
 {
   /**
-   * Throws an EntryError on @p list_entry if one of the names is unusable or repeated. To be called
-   * before the names are declared again: the handler writes its default value and reads it back,
-   * and an empty name does not survive that, so that there would be more names than sections.
+   * Throws an EntryError on @p list_entry if a name is unusable or repeated. Call it before the
+   * names are declared again. The handler writes its default value and reads it back, which loses
+   * an empty name, so that there would be more names than sections.
    */
   void check_item_names(const std::vector<std::string> &names, const std::string &list_entry);
 
@@ -38,8 +38,8 @@ namespace taut
   class NamedItems
   {
   public:
-    /// @p parent is the path of the section that all this stands in, empty for none; @p list the
-    /// entry with the names, e.g. "Wires".
+    /// @p parent is the path of the enclosing section, empty for none; @p list is the entry with
+    /// the names, e.g. "Wires".
     NamedItems(std::string parent, std::string list, std::string section, std::string help)
         : parent(std::move(parent)), list(std::move(list)), section(std::move(section)),
           help(std::move(help))

@@ -12,9 +12,9 @@
 namespace taut
 {
   /**
-   * How the wires and the bodies of a scene are cut: a wire at nodes of its grid, a body along
-   * faces of its cells, so that cutting never changes the mesh. Every piece belongs to one of the
-   * parts.
+   * How the wires and the bodies of a scene are cut (domain decomposition). A wire is cut at nodes
+   * of its grid, a body along faces of its cells, so that cutting never changes the mesh. Every
+   * piece belongs to one part.
    */
   struct Partition
   {
@@ -27,21 +27,21 @@ namespace taut
     };
     std::vector<std::vector<Piece>> wires; ///< at least one piece a wire, in ascending order
 
-    /// How a custom body is cut; without `body` it stays whole.
+    /// How a custom body is cut; without `body` it is not cut.
     struct Division
     {
       std::shared_ptr<const DivisibleBody> body;
-      std::vector<unsigned int> part; ///< of each cell
+      std::vector<unsigned int> part; ///< part of each cell
     };
-    std::vector<Division> bodies; ///< of each custom body, or empty
+    std::vector<Division> bodies; ///< one for each custom body, or empty
 
     unsigned int n_parts = 1;
 
-    /// Of wires.
+    /// Number of cuts of wires.
     std::size_t n_cuts() const;
   };
 
-  /// All wires and bodies whole, in one part.
+  /// The partition without cuts: all wires and bodies in one part.
   Partition whole(const Scene &scene);
 } // namespace taut
 

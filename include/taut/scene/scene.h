@@ -17,8 +17,8 @@
 
 namespace taut
 {
-  /// A scalar motion a wire point can have: along the wire, along its normal, the slope of that,
-  /// along its binormal, the slope of that.
+  /// A scalar motion of a point of a wire: along the wire, along its normal, the slope of this
+  /// displacement, along its binormal, and the slope of that displacement.
   enum class WireMotion
   {
     axial,
@@ -28,7 +28,7 @@ namespace taut
     lateral_slope
   };
 
-  /// The components that a wire can have, each named by its displacement.
+  /// The components of a wire, each named by its displacement.
   constexpr WireMotion wire_components[] = {WireMotion::axial, WireMotion::transverse,
                                             WireMotion::lateral};
 
@@ -37,7 +37,7 @@ namespace taut
     return motion == WireMotion::slope || motion == WireMotion::lateral_slope;
   }
 
-  /// The component that has a motion.
+  /// The component that a motion belongs to.
   constexpr WireMotion component_of(const WireMotion motion)
   {
     return motion == WireMotion::slope           ? WireMotion::transverse
@@ -45,11 +45,11 @@ namespace taut
                                                  : motion;
   }
 
-  /// Of the component of a motion, for people.
+  /// Name of the component of a motion, for messages.
   const char *component_name(WireMotion motion);
 
-  /// What a wire resists transverse motion with. A string has tension only (C0 elements), a beam
-  /// bends (Hermite).
+  /// How a wire resists transverse motion. A string has tension only (C0 elements); a beam has
+  /// bending stiffness (Hermite elements).
   enum class TransverseKind
   {
     none,
@@ -58,8 +58,9 @@ namespace taut
   };
 
   /// How the mass of a bar or string element is integrated. With step = element / wave speed and
-  /// Moreau-Jean or Newmark at 1/2, reduced linear elements carry waves exactly; lumped ones have a
-  /// diagonal matrix and slow short waves, consistent ones make them too fast.
+  /// Moreau-Jean or Newmark at 1/2, reduced linear elements carry waves exactly. Lumped elements
+  /// have a diagonal matrix and short waves that are too slow; consistent elements have short waves
+  /// that are too fast.
   enum class MassMatrix
   {
     consistent, ///< exactly
@@ -67,7 +68,8 @@ namespace taut
     reduced     ///< by one Gauss point less than the element has nodes
   };
 
-  /// C = mass * M + stiffness * K of a wire, without its supports and point masses.
+  /// Rayleigh damping of a wire, without its supports and point masses: C = mass * M + stiffness *
+  /// K.
   struct RayleighDamping
   {
     double mass = 0.;      ///< [1/s]
@@ -81,7 +83,8 @@ namespace taut
     Expression velocity;     ///< [m/s]
   };
 
-  /// A straight wire from a to b. Each of its components is an independent scalar problem.
+  /// A straight wire from a to b that moves by small amounts; take a cable for large motions. Each
+  /// component of a wire is an independent scalar problem.
   struct Wire
   {
     std::string name;
@@ -91,10 +94,10 @@ namespace taut
     bool has_axial = false;      ///< an elastic bar along the wire
     double axial_stiffness = 0.; ///< EA [N]
     TransverseKind transverse = TransverseKind::none;
-    bool has_lateral = false;      ///< resists lateral motion as it does transverse motion
+    bool has_lateral = false;      ///< resists lateral motion like transverse motion
     double tension = 0.;           ///< T [N]
     double bending_stiffness = 0.; ///< EI [N m^2]
-    unsigned int degree = 2;       ///< of the elements of bar and string
+    unsigned int degree = 2;       ///< of bar and string elements
     MassMatrix mass_matrix = MassMatrix::consistent;
     double element_size = 1.; ///< largest element [m]
     RayleighDamping damping;
@@ -104,22 +107,23 @@ namespace taut
     double length() const;
     Coordinates tangent() const; ///< unit vector from a to b
 
-    /// Across the wire in the plane of x and y: the tangent's part in this plane, turned by +90
-    /// degrees; y for a wire along z.
+    /// Unit vector across the wire in the plane of x and y: the part of the tangent in this plane,
+    /// turned by +90 degrees; y for a wire along z.
     Coordinates normal() const;
     Coordinates binormal() const; ///< tangent x normal: +z for a wire in the plane
 
     /// Unit vector of the component of a motion.
     Coordinates axis(WireMotion motion) const;
 
-    /// What a slope of a component turns the wire about: tangent x its axis; 0 of the axial one.
+    /// Rotation axis of the slope of a component: tangent x axis; 0 for the axial component.
     Coordinates rotation_axis(WireMotion motion) const;
     bool has(WireMotion motion) const;
     unsigned int n_dofs_per_node() const; ///< of all components
     Coordinates at(double s) const;
   };
 
-  /// One motion of one wire held, moved or sprung at given positions.
+  /// A support of one motion of one wire at given positions: fixed, moved (Dirichlet condition) or
+  /// elastic.
   struct Support
   {
     std::string name;
@@ -141,7 +145,7 @@ namespace taut
     std::size_t wire = 0;
     std::vector<double> positions; ///< s [m]
     double mass = 0.;              ///< [kg]
-    bool weight = true;            ///< false: inertia only, its weight is carried elsewhere
+    bool weight = true;            ///< false: inertia only, without weight
   };
 
   /// A lumped body: up to four scalar motions, in the order x, y, rotation, z.
@@ -161,8 +165,8 @@ namespace taut
   /// Index of the ground in a spring.
   constexpr std::size_t ground = std::numeric_limits<std::size_t>::max();
 
-  /// A spring and damper between two masses, or a mass and the ground. Connected masses form one
-  /// mechanism.
+  /// A spring and damper between two masses, or between a mass and the ground. Connected masses
+  /// form one mechanism.
   struct Spring
   {
     std::string name;
@@ -174,7 +178,7 @@ namespace taut
     double damping = 0.;              ///< [N s/m, N m s/rad]
   };
 
-  /// Where a link or a load acts.
+  /// The point where a link or a load acts.
   struct Attachment
   {
     enum class Kind
@@ -187,8 +191,8 @@ namespace taut
     Kind kind = Kind::ground;
     std::size_t index = 0;  ///< of the wire, mass or body
     double position = 0.;   ///< s on the wire [m], at t = 0 if it moves
-    Coordinates place = {}; ///< of a body, in its own coordinates, undeformed; of the ground [m]
-    bool has_place = false; ///< of the ground, which need not have one
+    Coordinates place = {}; ///< on a body, in its undeformed coordinates; of the ground [m]
+    bool has_place = false; ///< whether the ground has a place
   };
 
   enum class LinkKind
@@ -199,8 +203,9 @@ namespace taut
     sliding_contact ///< a stop whose `to` end moves along a wire
   };
 
-  /// Where the mass of a DoF at a rigid unilateral link goes: to its neighbours, so that the total
-  /// mass stays, or also its centre and its moment of inertia.
+  /// Mass redistribution: where the mass of a DoF at a rigid unilateral link goes. The neighbours
+  /// of the DoF take it, so that the total mass is kept, or also the centre of mass and the moment
+  /// of inertia.
   enum class ContactMass
   {
     stays,
@@ -209,18 +214,20 @@ namespace taut
   };
 
   /**
-   * A link between two attachments. With n the unit direction and u the displacements, its gap is
+   * A link, that is a constraint between two attachments. With the unit direction n and the
+   * displacements u, the gap is
    *
    *     D =  n . (u_to - u_from) + gap          joint, stop, sliding contact: N > 0 pushes `to`
    * along +n D = -n . (u_to - u_from) + gap          dropper: N > 0 is tension, n from `from` to
    * `to`
    *
-   * plus N over its stiffness; a rotational link has rotations about n instead of n . u. With
-   * `turns` n is the direction from end to end at each time, and D is
+   * plus N over the stiffness of the link, with the Lagrange multiplier N. A rotational link has
+   * rotations about n instead of n . u. With `turns`, n is the direction from end to end at each
+   * time, and D is
    *
    *     D = |Delta| - length    or of a dropper    D = length - |Delta|
    *
-   * of the vector Delta from the `from` to the `to` end.
+   * with the vector Delta from the `from` end to the `to` end.
    */
   struct Link
   {
@@ -232,53 +239,55 @@ namespace taut
     Coordinates direction = {0., 1.};
     double stiffness = std::numeric_limits<double>::infinity(); ///< [N/m, N m/rad]; infinite: rigid
 
-    /// Force over the elongation of a dropper, or the compression of a stop, that does not follow
-    /// the stiffness, which then is the largest one; may be null.
+    /// Law of the force over the elongation of a dropper, or the compression of a stop; may be
+    /// null. With a law `stiffness` is the largest stiffness of the law.
     std::shared_ptr<const ForceLaw> law = {};
     double damping = 0.; ///< [N s/m, N m s/rad]
     double gap = 0.;     ///< D at U = 0, N = 0 [m, rad]
 
-    /// The direction is that from end to end at each time, and `direction` counts for nothing.
+    /// The direction is that from end to end at each time; `direction` has no effect.
     bool turns = false;
-    double unstressed_length = 0.; ///< once known; of a link that turns, 0: as `gap` says [m]
+    double unstressed_length = 0.; ///< once known [m]; for a link that turns 0: from `gap`
 
     double speed = 0.; ///< of the `to` end along its wire [m/s]
 
-    /// The speed of a contact on a cable is not that along its unstressed length, but in space:
-    /// along the line between the ends of the cable as given, across `direction`.
+    /// The speed of a contact on a cable is that in space, along the line between the given ends of
+    /// the cable and across `direction`, not that along the unstressed length.
     bool straight = false;
     Expression
         profile; ///< height r(s) of the wire under a sliding contact [m]: adds to the gap along n
 
-    /// A dropper whose length follows from a height that its `to` end shall have in the static
-    /// state.
+    /// Form finding: the length of the dropper follows from the prescribed height of its `to` end
+    /// in the static state.
     bool find_length = false;
     double prescribed_displacement = 0.; ///< of the `to` end, along -n [m]
     double axial_stiffness = 0.;         ///< EA [N]; if not 0, stiffness = EA / length
     double mass_per_length = 0.;         ///< [kg/m]; half of the mass goes to each end
     double length = 0.;                  ///< geometric length in the static state, once known [m]
 
-    /// With the length of a dropper between wires without axial motion its direction is found, too:
-    /// that from end to end in the static state. `direction` is where its height is prescribed.
+    /// Form finding of the direction, too, for a dropper between wires without axial motion: the
+    /// direction from end to end in the static state. `direction` is the direction in which the
+    /// height is prescribed.
     bool find_direction = false;
-    /// Across such a dropper and its wires, once known: a unit vector, and what pulls the ends back
-    /// into line, the static tension over the length.
+    /// For a dropper with `find_direction`, once known: the unit vector across the dropper and its
+    /// wires, and the stiffness that pulls the ends back into line, the static tension over the
+    /// length.
     Coordinates sideways = {};
     double sideways_stiffness = 0.; ///< [N/m]
     double sideways_gap = 0.;       ///< sideways . (to - from) of the undeformed ends [m]
 
-    /// Whether the DoFs of wires that a fixed rigid unilateral link acts on keep their mass.
+    /// Mass redistribution at the DoFs of wires that a fixed rigid unilateral link acts on.
     ContactMass contact_mass = ContactMass::stays;
 
     bool unilateral() const { return kind != LinkKind::joint; }
     bool moving() const { return kind == LinkKind::sliding_contact; }
 
-    /// Of the spring under a force [m, rad].
+    /// Elongation of the spring under a force [m, rad].
     double elongation(const double N) const { return law ? law->elongation(N) : N / stiffness; }
     bool rigid() const { return stiffness == std::numeric_limits<double>::infinity(); }
   };
 
-  /// A force, or with `rotational` a moment about its direction.
+  /// A force along `direction`, or with `rotational` a moment about it.
   struct Load
   {
     enum class Kind
@@ -296,12 +305,12 @@ namespace taut
     Expression magnitude; ///< [N, N m; N/m if distributed]
     double speed = 0.;    ///< of a moving force [m/s]
 
-    /// False: lengths and directions of droppers are found without it.
+    /// False: form finding of droppers leaves the load out.
     bool acts_while_built = true;
   };
 
-  /// A point whose displacement along a direction is recorded, or with `rotational` its rotation
-  /// about it, and whose largest uplift is reported.
+  /// A point whose displacement along `direction` is recorded, or with `rotational` its rotation
+  /// about this direction. The largest uplift is reported.
   struct Probe
   {
     std::string name;
@@ -311,7 +320,7 @@ namespace taut
     Coordinates direction = {0., 1.};
   };
 
-  /// What is modelled, as plain values.
+  /// The model as plain values. A SceneGenerator fills it; SceneBodies makes bodies from it.
   struct Scene
   {
     Coordinates gravity = {0., -9.81}; ///< [m/s^2]
@@ -329,22 +338,24 @@ namespace taut
   };
 
   /**
-   * Checks what a generator cannot express in types: numbers that are finite and of the right sign,
-   * indices of items that exist, positive masses and lengths, attachments inside their wires,
-   * motions that exist, a contact that stays on its wire until @p end_time [s]. Throws UserError.
+   * Checks a scene of a generator. Numbers must be finite and of the right sign, indices must be
+   * those of existing items, and masses and lengths positive. Attachments must be inside their
+   * wires, motions must exist, and a contact must remain on its wire until @p end_time [s]. Throws
+   * UserError.
    */
   void check(const Scene &scene, double end_time);
 
-  /// The part of it about single values: numbers and indices, and bodies and laws that are there.
+  /// The part of check() about single values: numbers, indices, and bodies and laws that must
+  /// exist.
   void check_values(const Scene &scene);
 
-  /// The part of it about wires, their supports, point masses and loads.
+  /// The part of check() about wires, their supports, point masses and loads.
   void check_wires(const Scene &scene);
 
   /**
-   * Node positions [m] of a wire's grid: sorted, 0 and length included, every support, point mass
-   * and fixed link end a node, elements not longer than the wire's element size and of equal length
-   * between two such points.
+   * Node positions [m] of the grid of a wire, sorted, with 0 and the length. Every support, point
+   * mass and fixed link end is a node. Elements are not longer than the element size of the wire,
+   * and of equal length between two of these points.
    */
   std::vector<double> grid(const Scene &scene, std::size_t wire);
 } // namespace taut

@@ -13,22 +13,24 @@ namespace dealii
 namespace taut
 {
   /**
-   * Fills a scene from a parameter file. Chosen by name, from this library or from a plugin; the
-   * calls come in the order of the functions below.
+   * Fills a scene from a parameter file. Derive from it in a plugin, and register it, to generate
+   * scenes of your own. The entry `Generator` chooses it by name. Functions are called in the order
+   * below.
    */
   class SceneGenerator
   {
   public:
     virtual ~SceneGenerator() = default;
 
-    /// Declares the entries that list names, e.g. of wires; they are read first and leniently.
+    /// Declares the entries that list names, e.g. of wires. These entries are read first and
+    /// leniently.
     virtual void declare_names(dealii::ParameterHandler &) {}
 
-    /// Declares everything, a section a name; read strictly.
+    /// Declares all entries, with a section for each name. They are read strictly.
     virtual void declare_parameters(dealii::ParameterHandler &prm) = 0;
 
-    /// Adds what the entries read describe to a scene, which has gravity, start and the bodies of
-    /// the parameter file. Throws UserError.
+    /// Adds wires, links and other items of the entries to a scene, which already has gravity,
+    /// start and the bodies of the parameter file. Throws UserError.
     virtual void fill(Scene &scene) const = 0;
   };
 } // namespace taut

@@ -9,9 +9,9 @@
 namespace taut
 {
   /**
-   * All values of a scene as bytes: two scenes have the same if and only if they agree in every
-   * number to the last bit, every name and every formula. Not for scenes with bodies of types from
-   * plugins, which are no plain values.
+   * All values of a scene as bytes, a key for SharedParts. Two scenes have the same bytes if and
+   * only if they agree in every number to the last bit, every name and every formula. Do not use it
+   * for scenes with bodies of plugins, which are no plain values.
    */
   std::string values_of(const Scene &scene);
 } // namespace taut

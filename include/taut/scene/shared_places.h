@@ -6,14 +6,14 @@
 
 namespace taut
 {
-  /// Distance of two places on a wire up to which they are meant to be one: 1e-6 of an element [m].
+  /// Largest distance of two places on a wire that count as one place: 1e-6 of an element [m].
   double same_place(const Wire &wire);
 
   /**
-   * Moves supports, point masses, fixed link ends and point loads of a wire that are closer than
-   * same_place() to another one, or to an end of the wire, so that they share a node of its grid:
-   * if the distance is also below 1e-6 of the place, as that of digits which were not written, or
-   * below 1e-8 of the length of the wire.
+   * Moves items of a wire that are nearly at one place to a common place, so that they share a node
+   * of the grid. Items are supports, point masses, fixed link ends, point loads and the ends of the
+   * wire. Their distance must be below same_place(). It must also be below 1e-6 of the place, as
+   * for digits that were not written, or below 1e-8 of the length of the wire.
    */
   void share_places(Scene &scene);
 } // namespace taut

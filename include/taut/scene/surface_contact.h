@@ -19,7 +19,7 @@ namespace taut
 {
   struct CustomBody;
 
-  /// A body that does not move and is not deformed.
+  /// A rigid obstacle at rest, as entries describe it; see RigidObstacle.
   struct ObstacleSetting
   {
     enum class Shape
@@ -39,15 +39,16 @@ namespace taut
     double height_change = 1e-3; ///< step of the differences of the height [m]
   };
 
-  /// How the constraints of two surfaces are made.
+  /// How the constraints of two surfaces are made: mortar_constraints(), or
+  /// node_to_face_constraints() and its like in the plane.
   enum class SurfaceMethod
   {
     mortar,
     nodes_to_faces
   };
 
-  /// Two parts of the boundaries of bodies, or one and an obstacle, that may touch and not pass
-  /// through each other; small sliding.
+  /// A contact between two parts of boundaries of bodies, or between a part of a boundary and an
+  /// obstacle. Sliding is small.
   struct SurfaceContact
   {
     std::string name;
@@ -61,10 +62,10 @@ namespace taut
     Side slave, master; ///< the master counts without an obstacle
     ObstacleSetting obstacle;
     SurfaceMethod method = SurfaceMethod::mortar;
-    double gap = 0.;             ///< added to that of the shapes [m]
+    double gap = 0.;             ///< added to the gap of the shapes [m]
     double compliance = 0.;      ///< closing of the gap by a pressure [m/Pa]
-    double search_distance = 0.; ///< farther sides do not touch; 0: automatic [m]
-    double largest_sliding = 2.; ///< that a run goes on with [elements]
+    double search_distance = 0.; ///< sides that are farther apart do not touch; 0: automatic [m]
+    double largest_sliding = 2.; ///< larger sliding ends the run [elements]
     bool chooses_slave = false;  ///< the sides change places if that avoids an overhang
   };
 
@@ -75,7 +76,7 @@ namespace taut
     void declare_names(dealii::ParameterHandler &prm) { items.declare_names(prm); }
     void declare_parameters(dealii::ParameterHandler &prm) { items.declare_parameters(prm); }
 
-    /// Between these bodies. Throws EntryError.
+    /// The contacts between these bodies. Throws EntryError.
     std::vector<SurfaceContact> contacts(const std::vector<CustomBody> &bodies) const;
 
   private:

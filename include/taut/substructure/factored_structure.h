@@ -11,7 +11,8 @@
 
 namespace taut
 {
-  /// The local solvers of all substructures, for one matrix A_k each.
+  /// The local solvers of all substructures of a Structure, each for its matrix A_k: of a step, of
+  /// statics, or the mass matrix.
   class FactoredStructure
   {
   public:
@@ -19,23 +20,23 @@ namespace taut
     FactoredStructure(const Structure &structure, const std::string &solver_name);
 
     /**
-     * A_k = mass M_k + damping C_k + K_k, mass in 1/s^2, damping in 1/s. Where that is so close to
-     * singular that motions lose their sixth digit, rigid_body_modes() has them apart from the
-     * factor; if the body has none, or without @p use_amplitudes, an EntryError names it and what
-     * helps. BodyNotHeld names a body that nothing holds.
+     * Factors A_k = mass M_k + damping C_k + K_k, mass in 1/s^2, damping in 1/s. If A_k is so close
+     * to singular that motions lose their sixth digit, rigid_body_modes() has these motions apart
+     * from the factor. An EntryError names the body and the remedy if the body has no rigid body
+     * modes, or without @p use_amplitudes. BodyNotHeld names a body that nothing holds.
      */
     void factor(double mass, double damping, bool use_amplitudes = true);
 
     /**
-     * The motions that K_k does not resist, of a body whose inertia J = mass M_k + damping C_k is
-     * lost in the rounding of K_k. With a spring s as stiff as the diagonal on each fixing DoF in
-     * the factor, A_f = A + s, and A_f^-1 in place of A^-1 everywhere else,
+     * The rigid body modes of a body whose inertia J = mass M_k + damping C_k is lost in the
+     * rounding of K_k. The factor has a spring s as stiff as the diagonal on each fixing DoF, A_f =
+     * A + s. A_f^-1 takes the place of A^-1 everywhere else, with
      *
      *     A^-1 = A_f^-1 + R' E^-1 R'^T,    R' = R - A_f^-1 J R,    E = R^T J R',
      *
-     * the formula of Sherman, Morrison and Woodbury with K R = 0 made use of: no spring is left in
-     * it. The vectors are chosen so that E is diagonal. Used only where E is at least half of R^T J
-     * R, so that it does not cancel: the inertia is smaller than what resists elastic motions.
+     * the formula of Sherman, Morrison and Woodbury with K R = 0, which has no springs. The vectors
+     * are chosen so that E is diagonal. The formula is used only if E is at least half of R^T J R,
+     * so that E does not cancel: the inertia is then smaller than the elastic resistance.
      */
     struct RigidBodyModes
     {
@@ -43,30 +44,29 @@ namespace taut
       std::vector<double> resistance;           ///< diagonal of E [N/m, N m/rad]; 0 without inertia
       std::vector<std::vector<double>> rigid;   ///< R; empty without inertia
       std::vector<unsigned int> fixing_dofs;
-      /// Force on each fixing DoF that balances a load of 1 on each vector of R, a row for each
-      /// DoF.
+      /// Force on each fixing DoF that balances a load of 1 on each vector of R; one row per DoF.
       std::vector<std::vector<double>> fixing_forces;
     };
 
-    /// Of each body; without vectors where A_k is factored as it is. After factor_stiffness(), the
-    /// null space of K_k.
+    /// The rigid body modes of each body; without vectors if A_k is factored as it is. After
+    /// factor_stiffness() they are the null space of K_k.
     const std::vector<RigidBodyModes> &rigid_body_modes() const { return motions; }
 
-    /// True if a body of some rank has them. Called by all ranks together.
+    /// True if a body of some rank has rigid body modes. Called by all ranks together.
     bool has_rigid_body_modes() const;
 
     /**
-     * K_k U of a body with rigid body modes is balanced on them, but for rounding of |K||U|, which
-     * may be more than the inertia. Takes that off the forces on the fixing DoFs of @p KU and adds
-     * it to those of @p balance, in which K_k U is subtracted.
+     * The force K_k U of a body is balanced on its rigid body modes, except for rounding of |K||U|,
+     * which may exceed the inertia. Subtracts this rounding from the forces on the fixing DoFs of
+     * @p KU, and adds it to those of @p balance, in which K_k U is subtracted.
      */
     void remove_rounding(std::size_t k, std::vector<double> &KU,
                          std::vector<double> &balance) const;
 
     /**
-     * A_k = K_k, with a spring as stiff as the diagonal on each DoF that fixes the null space: its
-     * inverse is a generalised inverse of K_k, exact for forces that are balanced on the null
-     * space (the springs then carry nothing).
+     * Factors A_k = K_k for statics, with a spring as stiff as the diagonal on each DoF that fixes
+     * the null space. The inverse is a generalised inverse of K_k, exact for forces that are
+     * balanced on the null space: the springs then carry no force.
      */
     void factor_stiffness();
 
@@ -78,7 +78,8 @@ namespace taut
       return tangents[k] ? *tangents[k] : bodies[k].stiffness();
     }
 
-    /// Takes another K_k, for a body that is not linear; A_k stays until the next factor().
+    /// Sets another K_k, for a body that is not linear. The factor of A_k is kept until the next
+    /// factor().
     void set_tangent(std::size_t k, std::unique_ptr<SymmetricMatrix> tangent)
     {
       tangents[k] = std::move(tangent);
@@ -90,8 +91,8 @@ namespace taut
     /// X_k = A_k^-1 X_k for all k.
     void solve(BodyVectors &X) const;
 
-    /// A_k = M_k, with DoFs without mass held at zero. BodyNotHeld names a body with a singular
-    /// one.
+    /// Factors A_k = M_k, with DoFs without mass held at zero. BodyNotHeld names a body with a
+    /// singular mass matrix.
     void factor_mass();
 
     /// True after factor_stiffness().
@@ -100,12 +101,12 @@ namespace taut
     /// Calls the visitor for the entries of A_k, without the springs of factor_stiffness().
     void visit(std::size_t k, const SymmetricMatrix::Visitor &visitor) const;
 
-    /// y = A_k x, without these springs; y is resized.
+    /// y = A_k x, without the springs of factor_stiffness(); y is resized.
     void multiply(std::size_t k, const std::vector<double> &x, std::vector<double> &y) const;
 
     /**
-     * A solver for A_k with more DoFs held at zero. In statics springs hold it, as in
-     * factor_stiffness(), only if a null space vector is left that moves none of these DoFs.
+     * A solver for A_k with more DoFs held at zero. In statics springs hold the body, as in
+     * factor_stiffness(), only if a null space vector remains that moves none of these DoFs.
      */
     std::unique_ptr<LocalSolver> solver_with_held(std::size_t k,
                                                   const std::vector<unsigned int> &held) const;
@@ -126,7 +127,7 @@ namespace taut
 
     const Structure &bodies;
     const std::string solver_name;
-    /// What A_k is.
+    /// The meaning of A_k.
     enum class Kind
     {
       step,

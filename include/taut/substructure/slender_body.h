@@ -9,29 +9,30 @@
 
 namespace taut
 {
-  /// What a body that is much stiffer along itself than across says beside Substructure: a base of
-  /// its own.
+  /// A second base of a Substructure that is much stiffer along itself than across, such as a
+  /// cable. It adds what contacts that slide, searches of an equilibrium and linearised scenes
+  /// need.
   class SlenderBody
   {
   public:
     virtual ~SlenderBody() = default;
 
-    /// The derivative of Substructure::displacement() at a place along the body by this place, that
-    /// of x [1/m]: what a contact that slides along is displaced by.
+    /// The derivative of Substructure::displacement() with respect to the place x along the body
+    /// [1/m]. A contact that slides along the body needs it.
     virtual LinearForm slope(double place, const Coordinates &direction) const = 0;
 
     /// EA [N]
     virtual double axial_stiffness() const = 0;
 
-    /// The body with this EA instead, with the same DoFs and without its loads: searches of an
-    /// equilibrium that begin far from it begin with softer bodies.
+    /// A copy of the body with this EA, with the same DoFs and without loads. A search that begins
+    /// far from the equilibrium begins with softer bodies.
     virtual std::unique_ptr<Substructure> with_axial_stiffness(double EA) const = 0;
 
     /**
-     * The body that takes the place of this one, which @p self owns, once the displacement U [m,
-     * rad] is known that a run starts from: a linear one with the same DoFs, supports and loads,
-     * with the internal force that this one has at U and its tangent there as K. nullptr: none
-     * does. Throws EntryError if the body has no small motions about U.
+     * The linear body that replaces this body, which @p self owns, once the displacement U [m, rad]
+     * at the start of a run is known. It has the same DoFs, supports and loads, the internal force
+     * of this body at U, and the tangent at U as K. nullptr: the body is not replaced. Throws
+     * EntryError if the body has no small motions about U.
      */
     virtual std::shared_ptr<Substructure> linearised(const std::shared_ptr<const Substructure> &,
                                                      const std::vector<double> &) const
@@ -42,8 +43,8 @@ namespace taut
     /// Whether linearised() will make a linear body, unless it throws.
     virtual bool is_to_be_linearised() const { return false; }
 
-    /// A place that is under compression though the body resists tension only, and what then keeps
-    /// the body in shape beside its inertia.
+    /// A place under compression in a body that resists tension only, and the properties that keep
+    /// the body in shape there beside inertia.
     struct Slack
     {
       double place = 0.;             ///< along the body [m]
@@ -55,11 +56,12 @@ namespace taut
     /// @p slack.
     virtual bool is_slack(const std::vector<double> &U, Slack &slack) const = 0;
 
-    /// True if it is in tension at such a displacement, all but its ends, which may have none.
+    /// True if the body is in tension at a displacement U [m, rad]. Its ends may be without
+    /// tension.
     virtual bool is_in_tension(const std::vector<double> &) const { return false; }
 
-    /// Throws EntryError if the body is stretched more than it may be at rest, or has a free end
-    /// that nothing keeps straight, at a displacement U from the undeformed body.
+    /// Throws EntryError if, at a displacement U from the undeformed body, the body exceeds its
+    /// largest strain at rest, or has a free end that nothing keeps straight.
     virtual void check_at_rest(const std::vector<double> &U) const = 0;
   };
 } // namespace taut

@@ -23,23 +23,23 @@ namespace taut
 
     virtual unsigned int size() const = 0;
 
-    /// DoFs that stand together at one node and couple only to those of the two neighbours; 0: no
-    /// such structure.
+    /// Number of DoFs at a node, if they couple only with DoFs of the two neighbouring nodes; 0: no
+    /// block structure.
     virtual unsigned int block_size() const = 0;
 
-    /// Adds @p value to the entry (i, j) and, if i != j, to (j, i): call it once a pair.
+    /// Adds @p value to the entry (i, j) and, if i != j, to (j, i): call it once per pair.
     virtual void add(unsigned int i, unsigned int j, double value) = 0;
 
-    /// Call it after the last add(): products with rows that repeat themselves then read them once.
-    /// A later add() undoes it.
+    /// Call it after the last add(): products then read repeated rows once. A later add() undoes
+    /// it.
     virtual void find_repetitions() {}
 
     /// y += factor * (this) x; vectors of length size().
     virtual void vmult_add(double factor, const double *x, double *y) const = 0;
 
     /**
-     * Rows begin to end - 1 of y = (this) x, into y[0] to y[end - begin - 1]. Both are multiples of
-     * block_size(); a matrix without blocks has only all of its rows at once.
+     * Rows begin to end - 1 of y = (this) x, into y[0] to y[end - begin - 1]. begin and end are
+     * multiples of block_size(); a matrix without blocks computes all rows at once.
      */
     virtual void vmult_rows(std::size_t begin, std::size_t end, const double *x,
                             double *y) const = 0;
