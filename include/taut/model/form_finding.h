@@ -10,25 +10,25 @@ namespace taut
   struct SharedParts;
 
   /**
-   * The scene with its sliding contacts taken off the wires. A mass that one of them may hold, as
-   * nothing but other masses and the ground is connected with it, is held by a joint to the ground
-   * in its place instead, in the direction of the contact.
+   * The scene without its sliding contacts. A mass that only a sliding contact may hold, because
+   * only other masses and the ground are connected with it, gets a joint to the ground instead, in
+   * the direction of the contact.
    */
   Scene without_sliding_contacts(Scene scene);
 
   /**
-   * Finds the lengths of the droppers that ask for it (Link::find_length), so that in static
-   * equilibrium without_sliding_contacts() their `to` ends stand at the prescribed displacement.
-   * Two stages: the prescribed heights as bilateral constraints give the tensions; the `from`
-   * bodies under these tensions give the lengths. Repeated until the lengths stand still where they
-   * decide about stiffness and weight. Where the direction is found, too, the static state has each
-   * dropper in line with its tension; turned out of it, it is pulled back by tension over length
-   * (its geometric stiffness, the force density of H.-J. Schek, Comput. Methods Appl. Mech. Engrg.
-   * 3 (1974)) [N/m], taut or slack.
+   * Form finding: finds the lengths of the droppers with Link::find_length. In static equilibrium
+   * without_sliding_contacts() their `to` ends then have the prescribed displacement. There are two
+   * stages: the prescribed heights as bilateral constraints give the tensions; the `from` bodies
+   * under these tensions give the lengths. The stages repeat until the lengths converge, if
+   * stiffness and weight depend on the lengths. Where the direction is found, too, each dropper is
+   * in line with its tension in the static state. A dropper that turns out of this line is pulled
+   * back by tension over length [N/m], taut or slack (the geometric stiffness, the force density of
+   * H.-J. Schek, Comput. Methods Appl. Mech. Engrg. 3 (1974)).
    *
-   * Returns the scene with gap, length, stiffness and direction of these links set and half of the
-   * mass of each put on each of its ends; the form comes from @p shared if it is known there.
-   * Throws UserError naming the dropper if a tension is negative or a length not positive.
+   * Returns the scene with gap, length, stiffness and direction of these links, and with half of
+   * the mass of each link on each of its ends. The form comes from @p shared if it is known there.
+   * Throws UserError naming the dropper if a tension is negative or a length is not positive.
    */
   Scene find_lengths(Scene scene, const SolverParameters &parameters,
                      SharedParts *shared = nullptr);

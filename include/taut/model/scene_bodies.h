@@ -12,8 +12,8 @@
 
 namespace taut
 {
-  /// What holds two pieces of a wire or body together where it was cut: a linear form that is zero
-  /// [m], or [rad] if it is rotational.
+  /// The bilateral constraint that holds two pieces of a wire or body together at a cut: a linear
+  /// form that is zero [m], or [rad] if it is rotational.
   struct CutConstraint
   {
     std::string name;
@@ -23,23 +23,22 @@ namespace taut
 
   struct SharedParts;
 
-  /// The substructures of a scene, and where the scene's points are in them.
+  /// The substructures of a scene, and the places of the points of the scene in them.
   class SceneBodies : public Structure
   {
   public:
-    /// All wires whole, on this rank.
+    /// All wires without cuts, on this rank.
     explicit SceneBodies(const Scene &scene) : SceneBodies(scene, whole(scene)) {}
 
-    /// The wires cut as @p partition says, the parts shared out so that all ranks have about the
-    /// same number of DoFs. Wires that @p shared knows come from there. Called by all ranks
-    /// together.
+    /// The wires cut by @p partition. All ranks get about the same number of DoFs. Wires that @p
+    /// shared knows come from there. Called by all ranks together.
     SceneBodies(const Scene &scene, const Partition &partition,
                 const Communicator &processes = Communicator(), SharedParts *shared = nullptr);
 
     /**
-     * The displacement along @p direction, or the slope or rotation, of an attachment as linear
-     * forms: appends factor * form, nothing for the ground or for a body of another rank. A wire
-     * counts only the components it has.
+     * The displacement of an attachment along @p direction, or its slope or rotation, as linear
+     * forms: appends factor * form, and nothing for the ground or for a body of another rank. A
+     * wire counts only its components.
      */
     void motion(const Attachment &point, bool rotational, const Coordinates &direction,
                 double factor, std::vector<Term> &terms) const
@@ -47,12 +46,12 @@ namespace taut
       append_motion(point, rotational, direction, factor, false, terms);
     }
 
-    /// Where an attachment is in space, undeformed [m]; not of a ground without a place. Called by
-    /// all ranks together.
+    /// Undeformed position of an attachment in space [m]; the attachment must not be a ground
+    /// without a place. Called by all ranks together.
     Coordinates position(const Scene &scene, const Attachment &point) const;
 
-    /// The same of the derivative of the displacement by the position along the wire or slender
-    /// body [1/m]: what a contact that slides is displaced by.
+    /// As motion(), for the derivative of the displacement with respect to the position along the
+    /// wire or slender body [1/m]. Sliding contacts need it.
     void slope(const Attachment &point, const Coordinates &direction, double factor,
                std::vector<Term> &terms) const
     {
@@ -66,23 +65,25 @@ namespace taut
     void motion(std::size_t wire, double s, WireMotion motion, std::vector<Term> &terms) const;
 
     /**
-     * Of wires one constraint a cut for each motion that is continuous there: displacement, and
-     * slope of a beam. Of bodies one fewer for each DoF than parts have it, from part to part: the
-     * constraints are independent of each other where several cuts meet.
+     * The constraints of all cuts. A cut of a wire has one constraint for each continuous motion:
+     * displacement, and slope of a beam. A DoF of a body on a cut has a chain of constraints from
+     * part to part, one fewer than parts. So the constraints are independent where several cuts
+     * meet.
      */
     const std::vector<CutConstraint> &cut_constraints() const { return cuts; }
 
-    /// The indices on this rank of the parts of a custom body of the scene, one if it is whole;
-    /// Structure::elsewhere for those on other ranks.
+    /// The indices on this rank of the parts of a custom body of the scene, one index if the body
+    /// is not cut; Structure::elsewhere for parts on other ranks.
     const std::vector<std::size_t> &indices_of_body(std::size_t body) const
     {
       return custom_bodies[body].index;
     }
 
-    /// The one of them with a place on the body; throws UserError if it is not on the body.
+    /// The index of the part with a place on the body; throws UserError if the place is not on the
+    /// body.
     std::size_t index_at(std::size_t body, const Coordinates &place) const;
 
-    /// The one with a node of the surface that the body shows to contacts.
+    /// The index of the part with a node of the surface of the body (BodyType::surface()).
     std::size_t index_at_node(std::size_t body, unsigned int node) const;
 
     /// Part of the partition that a point of a wire belongs to.
@@ -92,21 +93,22 @@ namespace taut
     void append_motion(const Attachment &point, bool rotational, const Coordinates &direction,
                        double factor, bool derivative, std::vector<Term> &terms) const;
 
-    /// Substructures of a wire's pieces, in order; none where it lacks the component.
+    /// Substructures of the pieces of a wire, in order; none if the wire lacks the component.
     struct WireParts
     {
       std::vector<double> begins; ///< position of the first node of each piece [m]
       std::vector<unsigned int> part;
       std::array<std::vector<std::size_t>, 3> components; ///< in the order of wire_components
 
-      /// The substructure of a piece's component; `elsewhere` also if the wire lacks it.
+      /// The substructure of a component of a piece; `elsewhere` also if the wire lacks the
+      /// component.
       std::size_t index(const std::size_t component, const std::size_t piece) const
       {
         return components[component].empty() ? elsewhere : components[component][piece];
       }
     };
 
-    /// A custom body, whole or in parts.
+    /// A custom body, uncut or in parts.
     struct BodyParts
     {
       std::vector<std::size_t> index; ///< of each part
@@ -131,7 +133,7 @@ namespace taut
 
     std::vector<WireParts> wires;
 
-    /// Of the components of each wire: of displacements, and what slopes turn it about.
+    /// For the components of each wire: directions of displacements, and rotation axes of slopes.
     std::vector<std::array<Coordinates, 3>> axes, rotation_axes;
     std::vector<double> lengths;
     std::vector<std::size_t> mechanism_of_mass;

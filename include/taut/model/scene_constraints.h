@@ -7,9 +7,8 @@
 
 namespace taut
 {
-  /// The constraints of a scene: links in their order, and the cuts of wires. Both are kept by
-  /// reference;
-  /// @p bodies were made from @p scene, or from one with more links.
+  /// The constraints of a scene: links in their order, and the cuts of wires. Scene and bodies are
+  /// kept by reference; @p bodies must be made from @p scene, or from a scene with more links.
   Constraints scene_constraints(const Scene &scene, const SceneBodies &bodies);
 } // namespace taut
 

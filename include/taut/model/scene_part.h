@@ -12,8 +12,8 @@ namespace taut
   struct ScenePart
   {
     Scene scene;
-    /// Number in the part of each wire, mass and body of the whole scene; `ground` if it is not
-    /// there.
+    /// Number in the part of each wire, mass and body of the whole scene; `ground` if the item is
+    /// not in the part.
     std::vector<std::size_t> wire, mass, body;
 
     /// An attachment of the whole scene that is in the part.
@@ -21,14 +21,14 @@ namespace taut
   };
 
   /**
-   * What decides about the rest of these points: the wires, masses and bodies that springs and
-   * fixed links connect with one of @p points, with all that acts on them. Probes and sliding
-   * contacts are left out.
+   * The part of a scene that determines the equilibrium of @p points: the wires, masses and bodies
+   * that springs and fixed links connect with one of these points, with their supports, links and
+   * loads. Probes and sliding contacts are left out.
    */
   ScenePart connected_part(const Scene &scene, const std::vector<Attachment> &points);
 
-  /// One wire with all that a WireComponent reads: its number is 0. Of links only those that take
-  /// mass from it are there.
+  /// The scene of one wire, number 0, with all data that a WireComponent reads. Links are left out
+  /// unless they take mass from the wire.
   Scene wire_part(const Scene &scene, std::size_t wire);
 } // namespace taut
 

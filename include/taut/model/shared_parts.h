@@ -15,21 +15,22 @@ namespace taut
   {
     std::vector<double> tension;  ///< [N]
     std::vector<double> length;   ///< [m]
-    std::vector<double> sideways; ///< of one whose direction is found: its extent across it [m]
+    std::vector<double> sideways; ///< extent across a dropper whose direction is found [m]
   };
 
   /**
-   * Parts of models that runs after each other have in common, so that they are made once: handed
-   * from run to run by whoever makes them. Each is made from a ScenePart and nothing else, and
-   * found again by all values of that part: a run has the same bits with it and without.
+   * Parts of models that consecutive runs have in common, such as the cases of a sweep, so that
+   * they are made once. The caller of the runs hands the object from run to run. Each part is made
+   * from a ScenePart and nothing else, and found again by all values of this ScenePart. So a run
+   * has the same bits with shared parts and without.
    */
   struct SharedParts
   {
     Kept<DropperForm> forms;
-    /// They keep no state (Substructure::save), so that runs can have them in common.
+    /// Wires keep no state (Substructure::save), so that runs can share them.
     Kept<std::shared_ptr<Substructure>> wires;
 
-    /// A run begins.
+    /// Call it when a run begins.
     void begin()
     {
       forms.begin();

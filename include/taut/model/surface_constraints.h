@@ -19,23 +19,24 @@ namespace taut
     double size = 0.; ///< largest distance of a node of the slave body from the origin [m]
   };
 
-  /// Of contact number @p contact of the scene, from the reference positions; the same on all
-  /// ranks. Throws EntryError on the section of the contact, with what mortar_constraints() and the
-  /// others throw.
+  /// Geometry and constraints of contact number @p contact of the scene, from the reference
+  /// positions; the same on all ranks. Throws EntryError on the section of the contact, with the
+  /// message of mortar_constraints() and its like.
   ContactGeometry contact_geometry(const Scene &scene, std::size_t contact);
 
-  /// What an automatic search distance left out: constraints of the other nodes that face the
-  /// master, however far it is; none if the distance is given or the master is an obstacle.
+  /// Constraints that an automatic search distance left out: those of further nodes that face the
+  /// master, at any distance. None if the distance is given or the master is an obstacle.
   std::vector<SurfaceConstraint> left_out_constraints(const Scene &scene, std::size_t contact,
                                                       const ContactGeometry &geometry);
 
-  /// The scene with the sides of contacts exchanged that choose their slave, where the slave
-  /// overhangs the master at fewer nodes then. Throws EntryError, as contact_geometry() does.
+  /// The scene with slave and master exchanged for contacts with SurfaceContact::chooses_slave, if
+  /// the slave then overhangs the master at fewer nodes. Throws EntryError, as contact_geometry()
+  /// does.
   Scene choose_slaves(Scene scene);
 
-  /// The constraints of all contacts of a scene, one contact after the other, with the forms of the
-  /// bodies of this rank. Throws EntryError, too, if a body that moves by large amounts touches
-  /// anything but a plane. Called by all ranks together.
+  /// The constraints of all contacts of a scene, one contact after the other, with the linear forms
+  /// of the bodies of this rank. Throws EntryError, also if a body that moves by large amounts
+  /// touches anything but a plane. Called by all ranks together.
   std::vector<ConstraintData> surface_constraints(const Scene &scene, const SceneBodies &bodies);
 } // namespace taut
 

@@ -26,12 +26,17 @@ namespace taut
   };
 
   /**
-   * Cuts the wires and the bodies of a scene:
-   * 'METIS': the graph of all grid nodes and cells into parts of about equal work; elements and
-   * links pull their ends together, cells those with which they have nodes in common, by their
-   * number. The cut of a wire moves to the nearest node without a link or support, the cells of a
-   * part hang together by faces. 'wires': every wire is a part. 'given': at the positions listed,
-   * moved to the nearest node; every piece is a part. Bodies then stay whole. Throws EntryError.
+   * Cuts the wires and the bodies of a scene (domain decomposition) by one of three methods.
+   *
+   * - 'METIS' parts the graph of all grid nodes and cells into parts of about equal work. Edges of
+   *   the graph are elements and links, and pairs of cells with common nodes, weighted by the
+   *   number of these nodes. The cut of a wire moves to the nearest node without a link or support.
+   *   The cells of a part are connected by faces.
+   * - 'wires': every wire is a part, and bodies are not cut.
+   * - 'given': wires are cut at the listed positions, moved to the nearest node. Every piece is a
+   *   part, and bodies are not cut.
+   *
+   * Throws EntryError.
    */
   Partition make_partition(const Scene &scene, const PartitionParameters &parameters);
 
@@ -42,9 +47,9 @@ namespace taut
     std::string reason;
   };
 
-  /// What `Number of substructures = automatic` stands for in a run of @p n_steps steps, 0 in
-  /// statics (doc/decomposition.md): solids in space are cut where a few solutions cost less than
-  /// one factor of the whole.
+  /// The number of parts of `Number of substructures = automatic` in a run of @p n_steps steps, 0
+  /// in statics (doc/decomposition.md): solids in space are cut if a few solutions cost less than
+  /// one factor of the uncut solid.
   NumberOfParts automatic_number_of_parts(const Scene &scene, double n_steps,
                                           bool tuned_blas = has_tuned_blas());
 } // namespace taut

@@ -13,7 +13,7 @@
 
 namespace taut
 {
-  /// What a case of a sweep gave.
+  /// The result of a case of a sweep.
   struct CaseResult
   {
     std::vector<Statistics::NamedQuantity> quantities;
@@ -21,14 +21,14 @@ namespace taut
   };
 
   /**
-   * Runs cases of one parameter file one after the other, on this process alone and without files.
-   * What the cases have in common is made once: the parameters, the form of the line, the wires
-   * (SharedParts). Each has the bits of a run of its own.
+   * Runs cases of one parameter file one after the other, on this process alone and without files;
+   * Sweep uses it. Parts that cases have in common are made once: the parameters, the form of the
+   * line, the wires (SharedParts). Each case has the bits of a run of its own.
    */
   class CaseRunner
   {
   public:
-    /// @p overrides as for Parameters::read(), of all cases.
+    /// @p overrides of all cases, as for Parameters::read().
     CaseRunner(std::string file, std::vector<std::string> overrides)
         : file(std::move(file)), overrides(std::move(overrides))
     {
@@ -37,12 +37,11 @@ namespace taut
     /// As Simulation::stop_if(), asked after each step.
     void stop_if(std::function<int()> asked) { stop_asked = std::move(asked); }
 
-    /// The quantities that a case has, of the scene as it is in the file and without a run. Throws
-    /// UserError.
+    /// The quantities of a case, from the scene in the file and without a run. Throws UserError.
     std::vector<Statistics::NamedQuantity> quantities();
 
     /// Runs the case with these entries, "Section/Entry=value": the same entries in each case.
-    /// Throws UserError, and Interrupted if it was asked to stop.
+    /// Throws UserError, and Interrupted if stop_if() asked to stop.
     CaseResult run(const std::vector<std::string> &entries);
 
   private:

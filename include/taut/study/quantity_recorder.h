@@ -20,9 +20,9 @@ namespace taut
   };
 
   /**
-   * Difference of a quantity to that of a finer run: of numbers its size; of histories the root
-   * mean square of the difference at the times of @p quantity, where @p reference is interpolated
-   * linearly.
+   * Distance of a quantity from that of a finer run: the size of the difference for numbers. For
+   * histories it is the root mean square of the difference at the times of @p quantity, with linear
+   * interpolation of @p reference.
    */
   double distance(const StudyQuantity &quantity, const StudyQuantity &reference);
 
@@ -30,7 +30,7 @@ namespace taut
   class QuantityRecorder : public Observer
   {
   public:
-    /// Throws EntryError if the scene has no such item or the item no such quantity.
+    /// Throws EntryError if the scene lacks an item of the study, or the item lacks the quantity.
     QuantityRecorder(const StudyParameters &study, const StatisticsParameters &statistics,
                      const Scene &scene, const Constraints &rows);
 
@@ -42,7 +42,7 @@ namespace taut
     const Certificate &worst_certificate() const { return statistics.worst_certificate(); }
 
   private:
-    /// Where a quantity comes from.
+    /// The source of a quantity.
     struct Source
     {
       enum class Kind

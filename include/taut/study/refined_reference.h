@@ -9,24 +9,25 @@
 
 namespace taut
 {
-  /// What a quantity is compared with.
+  /// The reference of a quantity of a study.
   struct QuantityReference
   {
     StudyQuantity quantity;
-    double error = 0.; ///< of the reference itself, in the quantity's unit; 0 if it is exact
+    double error = 0.; ///< of the reference, in the unit of the quantity; 0: exact
     double order = 0.; ///< observed under refinement; 0: the changes do not fall like a power
-    double scale = 1.; ///< relative errors are relative to it
+    double scale = 1.; ///< errors are relative to this scale
     bool is_exact = false;
   };
 
   /**
-   * Value and error that the runs of a refinement by halves say, coarsest first.
+   * Value and error from runs of a refinement by halves, coarsest run first.
    *
-   * Numbers: Richardson's value with the observed order p, at most 2. Its error is the largest of
-   * the correction, the last change and a quarter of the change before it. Where the changes do not
-   * fall, the last value and the spread of the last three. Histories are not extrapolated: the
-   * last one, with the sum of the geometric series that the changes make, of which the quotient
-   * counts as at least 1/4. One level has an infinite error.
+   * Numbers have Richardson's value with the observed order p, at most 2. The error is the largest
+   * of the correction, the last change and a quarter of the change before the last. If the changes
+   * do not fall, the value is the last value, with the spread of the last three values as error.
+   * Histories are not extrapolated. The reference is the last history, and its error the sum of the
+   * geometric series of the changes, with a quotient of at least 1/4. One level has an infinite
+   * error.
    */
   QuantityReference extrapolate(const std::vector<StudyQuantity> &levels);
 

@@ -12,17 +12,17 @@
 
 namespace taut
 {
-  /// One setting of a study: a value for each parameter list, and what the runs with it gave.
+  /// One setting of a study: a value for each parameter list, and the results of its runs.
   struct StudySetting
   {
     std::vector<std::string> values;
-    std::string message;            ///< why it failed; empty if it ran
-    std::vector<double> quantities; ///< [the quantity's unit]
+    std::string message;            ///< reason of a failure; empty if the setting ran
+    std::vector<double> quantities; ///< [unit of each quantity]
     std::vector<double> errors;     ///< relative, of each quantity
-    std::vector<double> bounds;     ///< largest of these of the setting and of all finer ones
+    std::vector<double> bounds;     ///< largest errors of this and all finer settings
     double error = 0.;              ///< the largest of the errors
     double bound = 0.;              ///< the largest of the bounds
-    double reference_error = 0.;    ///< relative, the largest of the references'
+    double reference_error = 0.;    ///< relative, the largest of all references
     std::vector<double> seconds;    ///< of the loop over the steps without output, of each run
     double seconds_with_output = 0.;
     double certificate = 0.; ///< largest residual of any step [1]
@@ -33,7 +33,7 @@ namespace taut
     double median_seconds() const;
   };
 
-  /// Everything that a study found out.
+  /// The results of a study.
   struct StudyResult
   {
     std::vector<ParameterList> parameter_lists;
@@ -45,14 +45,15 @@ namespace taut
   };
 
   /**
-   * Runs a scene with every combination of the values of the parameter lists in its section Study,
-   * and measures what each costs and how far its quantities are from their references. Cost is
-   * processor time: other work on the machine then matters less.
+   * Measures error against cost (work-precision diagram). A study runs a scene with every
+   * combination of the values of the parameter lists in its section Study. It measures the cost of
+   * each setting, and the errors of its quantities against their references. Cost is processor
+   * time, on which other work on the machine has less effect.
    */
   class Study
   {
   public:
-    /// @p overrides as for Parameters::read(). Throws UserError. What is said goes to @p log.
+    /// @p overrides as for Parameters::read(). Throws UserError. Messages go to @p log.
     Study(const std::string &file, const std::vector<std::string> &overrides, bool overwrite,
           std::ostream &log);
 
@@ -60,9 +61,9 @@ namespace taut
     void stop_if(std::function<int()> asked) { stop_asked = std::move(asked); }
 
     /**
-     * Runs everything and writes work_precision.csv and study.json. A setting that cannot be run
-     * is a row with its error. Throws UserError, and Interrupted if it was asked to stop: then the
-     * files hold the settings measured until then, and none is written if there are none.
+     * Runs all settings and writes work_precision.csv and study.json. A setting that cannot be run
+     * is a row with its error. Throws UserError, and Interrupted if stop_if() asked to stop: the
+     * files then have the settings measured until then, and no file is written without any.
      */
     const StudyResult &run();
 
@@ -92,9 +93,9 @@ namespace taut
 
   /**
    * Sets StudySetting::bounds and bound. A setting is finer than another if its values on the
-   * refined parameter lists are at most those of the other, and equal elsewhere. Errors of step and
-   * mesh can cancel by chance, and a scheme can fail at small steps: an error counts once all finer
-   * settings that ran have it too.
+   * refined parameter lists are at most those of the other setting, and equal elsewhere. Errors of
+   * step and mesh may cancel by chance, and a scheme may fail at small steps. So an accuracy counts
+   * only if all finer settings that ran have it, too.
    */
   void find_bounds(const std::vector<ParameterList> &parameter_lists,
                    std::vector<StudySetting> &settings);
@@ -102,11 +103,11 @@ namespace taut
   /// Sets StudySetting::is_on_front, by least seconds and bound.
   void find_front(std::vector<StudySetting> &settings);
 
-  /// The cheapest setting whose bound and the error of its reference are together at most
-  /// @p accuracy, or null.
+  /// The cheapest setting for which the sum of its bound and of the error of the reference is at
+  /// most @p accuracy, or null.
   const StudySetting *cheapest(const std::vector<StudySetting> &settings, double accuracy);
 
-  /// The same for one quantity alone.
+  /// The cheapest setting for one quantity alone.
   const StudySetting *cheapest(const StudyResult &result, std::size_t quantity, double accuracy);
 } // namespace taut
 

@@ -14,21 +14,22 @@
 namespace taut
 {
   /**
-   * Runs a scene once for each case of its section Sweep, and writes sweep.csv: a line a case, in
-   * order, with the values of the entries, all quantities that are one number
-   * (Statistics::named_quantities), the largest residuals of the run, and why it failed if it did.
+   * Runs a scene once for each case of its section Sweep, and writes sweep.csv with one line per
+   * case, in order. A line has the values of the entries, all quantities that are one number
+   * (Statistics::named_quantities), the largest residuals of the run, and the reason of a failure.
    *
-   * Ranks are workers: each runs cases of its own, alone, so that the lines are the same for any
-   * number of them. They meet after each batch of cases: its lines then go to the disk in order.
+   * Ranks are workers. Each worker runs its cases alone, so that the lines do not depend on the
+   * number of workers. Workers meet after each batch of cases, and the lines of the batch go to the
+   * disk in order.
    */
   class Sweep
   {
   public:
-    /// @p overrides as for Parameters::read(). Throws UserError. What is said goes to @p log.
+    /// @p overrides as for Parameters::read(). Throws UserError. Messages go to @p log.
     Sweep(const std::string &file, const std::vector<std::string> &overrides,
           const Communicator &workers, std::ostream &log);
 
-    /// Replaces an earlier sweep, or goes on after its last complete line.
+    /// Whether to replace an earlier sweep, or to go on after its last complete line.
     void set_overwrite(bool value) { overwrite = value; }
     void set_resume(bool value) { resume = value; }
 
@@ -36,9 +37,9 @@ namespace taut
     void stop_if(std::function<int()> asked) { runner.stop_if(stop_asked = std::move(asked)); }
 
     /**
-     * Runs all cases that have no line yet. A case that cannot be run is a line with its error.
-     * Throws UserError, and Interrupted if it was asked to stop: the lines of the cases until then
-     * are written. Called by all ranks together.
+     * Runs all cases without a line. A case that cannot be run is a line with its error. Throws
+     * UserError, and Interrupted if stop_if() asked to stop: the lines of the cases until then are
+     * written. Called by all ranks together.
      */
     void run();
 
