@@ -16,15 +16,15 @@ namespace taut
 {
   class EndFrames;
 
-  /// What of a cable's geometry changes as it moves.
+  /// How the geometry of a cable changes with its motion.
   enum class CableGeometry
   {
-    nonlinear,  ///< all of it: motions of any size
-    linearised, ///< all of it until the start is found, then nothing: small motions about that
-    linear      ///< nothing: small motions of a straight wire from end to end, of the same tension
+    nonlinear,  ///< motions of any size
+    linearised, ///< nonlinear until the start is found, then small motions about the start
+    linear      ///< small motions of a straight wire from end to end with the same tension
   };
 
-  /// What a cable is made of.
+  /// The data of a cable.
   struct CableData
   {
     std::string name;
@@ -39,49 +39,54 @@ namespace taut
     CableElement element = CableElement::ancf;
 
     bool holds_from = true, holds_to = true; ///< these ends do not move
-    bool clamped = false;                    ///< they keep their direction in it, too
+    bool clamped = false;                    ///< held ends keep their direction, too
 
-    /// Start = given begins with the unstressed cable in a straight line from `from` along
-    /// start_direction, not with the found shape.
+    /// With Start = given a run begins with the unstressed cable in a straight line from `from`
+    /// along start_direction, not with the found shape.
     bool starts_straight = false;
     Coordinates start_direction;
 
     CableGeometry geometry = CableGeometry::nonlinear;
-    double largest_strain = .02; ///< at rest; more is an error [1]
+    double largest_strain = .02; ///< at rest; a larger strain is an error [1]
   };
 
-  /// The force per unstressed length on a cable: weight and the rest [N/m].
+  /// The force per unstressed length on a cable, weight included [N/m].
   Coordinates force_per_length(const CableData &data);
 
-  /// Its elements, for an unstressed length of @p length [m].
+  /// The elements of a cable with the unstressed length @p length [m].
   CableElements make_elements(const CableData &data, double length);
 
   /**
-   * A cable in space that moves by large amounts. U is the displacement from its found shape, the
-   * equilibrium under weight and constant force with both ends held at `from` and `to`, whatever is
-   * held later: see hang(). Where these are above each other, the cable is slack and one end is
-   * free, it is that of hang_freely(). Positions are counted from `from`, so that a scene far from
-   * the origin rounds as one that is near.
+   * A cable in space that moves by large amounts, slack or taut. Take a wire for small motions of a
+   * straight taut wire.
    *
-   * The internal force is that of CableElements at the positions found + U, and the external force
-   * is all of the load: at U = 0 they balance on all DoFs but those of the ends, where their
-   * difference is the force that holds the cable. A cable that is to be linearised is nonlinear
-   * like that until linearised() makes a linear one from it, which has the tangent at a
-   * displacement U* as K, with the axial damping there in C, and the internal force f(U*) + K (U -
-   * U*): U counts from the same found shape, and the load is the same. A linear cable has K and
-   * axial damping of the straight line between `from` and `to`, as long as the cable is when
-   * unstressed, EA along it and across it the tension of the found shape along this line. Its
-   * internal force is K U, and its load only what the found shape does not balance: zero but at the
-   * ends, where it is the load without the internal force of the found shape. So the forces that
-   * hold an end are whole ones in all cases, and an end that nothing holds starts to move in all.
-   * What the sag adds to the stiffness is left out of a linear one. The DoFs of r' at a clamped end
-   * are components along the cable and across it, not along x, y, z; use displacement() and
-   * positions().
+   * U is the displacement from the found shape: the equilibrium under weight and constant force
+   * with both ends held at `from` and `to`, whatever is held later, see hang(). If the ends are
+   * above each other, the cable is slack and one end is free, the found shape is that of
+   * hang_freely(). Positions are counted from `from`, so that a scene far from the origin rounds
+   * like a scene near it.
+   *
+   * - A nonlinear cable has the internal force of CableElements at the positions found + U, and the
+   *   whole load as external force. At U = 0 both balance on all DoFs but those of the ends, where
+   *   their difference is the force that holds the cable.
+   * - A linearised cable is nonlinear until linearised() makes a linear cable from it. The linear
+   *   cable has the tangent at a displacement U* as K, the axial damping there in C, and the
+   *   internal force f(U*) + K (U - U*). U counts from the same found shape, and the load is the
+   *   same.
+   * - A linear cable has K and axial damping of the straight line between `from` and `to`, with the
+   *   unstressed length of the cable. Along the line it has EA, across it the tension of the found
+   *   shape along this line. The internal force is K U. The load is zero but at the ends, where it
+   *   is the load without the internal force of the found shape. The stiffness from the sag is left
+   *   out.
+   *
+   * In all cases the forces that hold an end are complete, and an end that nothing holds starts to
+   * move. The DoFs of r' at a clamped end are components along the cable and across it, not along
+   * x, y, z; use displacement() and positions().
    */
   class Cable : public Substructure, public SlenderBody
   {
   public:
-    /// Throws EntryError for data that make no cable, or no equilibrium that is stable.
+    /// Throws EntryError for data that make no cable, or that have no stable equilibrium.
     explicit Cable(const CableData &data);
     ~Cable() override;
 
@@ -93,10 +98,11 @@ namespace taut
     /// Positions at the displacement U, counted from `from`, in the order of CableElements [m, 1].
     std::vector<double> positions(const std::vector<double> &U) const;
 
-    /// At place[0], the unstressed arc length from `from`, along any direction in space.
+    /// The displacement at place[0], the unstressed arc length from `from`, along any direction in
+    /// space.
     LinearForm displacement(const Coordinates &place, const Coordinates &direction) const override;
 
-    /// In space, of the found shape.
+    /// The position in space of a place on the found shape.
     Coordinates position(const Coordinates &place) const override;
 
     LinearForm slope(double place, const Coordinates &direction) const override;
@@ -106,7 +112,7 @@ namespace taut
       return data.geometry == CableGeometry::linear || !linear_at.empty();
     }
 
-    /// Of a cable that is to be linearised.
+    /// Replaces a cable with CableGeometry::linearised.
     std::shared_ptr<Substructure> linearised(const std::shared_ptr<const Substructure> &self,
                                              const std::vector<double> &U) const override;
 
@@ -115,13 +121,13 @@ namespace taut
       return data.geometry == CableGeometry::linearised && !is_linear();
     }
 
-    /// Whether its K is the tangent at the state that a run starts from.
+    /// True if K is the tangent at the start of a run.
     bool is_linearised() const { return !linear_at.empty(); }
 
-    /// Translations, if no end is held: they change no stretch, whatever the shape.
+    /// Translations, if no end is held: they change no strain, whatever the shape.
     NullSpace null_space() const override;
 
-    /// Where it is compressed most, beyond rounding; one that is linear never is slack.
+    /// The place of the largest compression, beyond rounding. A linear cable never is slack.
     bool is_slack(const std::vector<double> &U, Slack &slack) const override;
 
     bool is_in_tension(const std::vector<double> &U) const override;
@@ -131,7 +137,7 @@ namespace taut
     double axial_stiffness() const override { return data.section.axial_stiffness; }
     std::unique_ptr<Substructure> with_axial_stiffness(double EA) const override;
 
-    /// From the unstressed cable, but of a linear one.
+    /// The energy, zero in the unstressed cable unless the cable is linear.
     double strain_energy(const std::vector<double> &U) const override;
     void internal_force(const std::vector<double> &U, const std::vector<double> &V,
                         std::vector<double> &f) const override;
@@ -145,7 +151,7 @@ namespace taut
                                                   const std::vector<double> &U1, double rate,
                                                   bool definite) const override;
 
-    /// Of node k of the surface, the node between elements k - 1 and k.
+    /// Node k of the surface is the node between elements k - 1 and k.
     LinearForm node_displacement(unsigned int node, const Coordinates &direction) const override;
 
     void initial_state(std::vector<double> &U, std::vector<double> &V) const override;
@@ -176,7 +182,8 @@ namespace taut
     CableShape found;
     std::vector<double> tangent_at; ///< positions whose tangent is K
 
-    /// Of a cable that was linearised: where, its internal force [N, N m] and strain energy [J].
+    /// For a linearised cable: its displacement, internal force [N, N m] and strain energy [J] at
+    /// the start.
     std::vector<double> linear_at, force_there;
     double energy_there = 0.;
     std::unique_ptr<EndFrames> frames;

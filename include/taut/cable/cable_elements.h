@@ -22,7 +22,7 @@ namespace taut
   struct ElementBatch;
   struct NodeBatch;
 
-  /// A cross section; lengths are unstressed.
+  /// A cross section of a cable; lengths are unstressed.
   struct CableSection
   {
     double axial_stiffness = 0.;   ///< EA [N]
@@ -33,26 +33,27 @@ namespace taut
 
   /**
    * Elements of a cable in space, of equal unstressed length h, with positions r(s) over the
-   * unstressed arc length s in [0, L]. All functions take absolute positions q. Node i has the DoFs
-   * 6 i to 6 i + 5, in this order:
+   * unstressed arc length s in [0, L]. Use them without a scene, with find_shape(), or through
+   * Cable. All functions take absolute positions q. Node i has the DoFs 6 i to 6 i + 5, in this
+   * order:
    *
    * - ANCF: x, y, z [m] and the derivatives x', y', z' with respect to s [1];
-   * - bar: x, y, z of the node and of the middle of the element after it [m]. After the last node
-   *   there is none: its last three DoFs do not exist (unused_dofs()) and are to be held.
+   * - bar: x, y, z of the node and of the middle of the next element [m]. The last node has no next
+   *   element: its last three DoFs do not exist (unused_dofs()) and must be held.
    *
    * The axial strain is eps = |r'| - 1, the curvature kappa = |r' x r''| / |r'|^2, the energy per
    * unstressed length EA eps^2 / 2 + EI kappa^2 / 2. The beam without shear by absolute nodal
    * coordinates (ANCF) is that of Shabana (Multibody System Dynamics 1, 1997, 339-348) and
    * Gerstmayr & Shabana (Nonlinear Dynamics 45, 2006, 109-130); with |r'|^2 instead of |r'|^3 in
    * kappa, EI kappa is the moment conjugate to the angle per unstressed length. The integrals have
-   * few points on purpose: axial forces and bending moments with more of them lock.
+   * few points on purpose: with more points axial forces and bending moments lock.
    */
   class CableElements
   {
   public:
     static constexpr unsigned int dofs_per_node = 6;
 
-    /// Of unstressed length @p length [m].
+    /// A cable of unstressed length @p length [m].
     CableElements(CableElement element, double length, unsigned int n_elements,
                   const CableSection &section);
 
@@ -66,39 +67,40 @@ namespace taut
     /// DoFs that no element has, sorted.
     std::vector<unsigned int> unused_dofs() const;
 
-    /// Those of the position of the node at either end.
+    /// DoFs of the position of the node at the first or last end.
     std::array<unsigned int, 3> end_dofs(bool last) const;
 
-    /// The same cable, as soft or stiff along its axis as given.
+    /// The same cable with another axial stiffness [N].
     CableElements with_axial_stiffness(double EA) const;
 
     /// The integral of the energy above [J].
     double strain_energy(const std::vector<double> &q) const;
 
     /// The gradient of the energy, and the force of the damping at the velocities @p v [m/s, 1/s];
-    /// empty: at rest. In equilibrium it is the external force. @p f is resized [N, N m].
+    /// an empty v is a cable at rest. In equilibrium it equals the external force. @p f is resized
+    /// [N, N m].
     void internal_force(const std::vector<double> &q, const std::vector<double> &v,
                         std::vector<double> &f) const;
 
     /**
      * A mean force over a step [s] from q0 to q1 with f . (q1 - q0) equal to the change of the
      * energy and to the work that the damping takes, the integral of eta (eps1 - eps0)^2 / step.
-     * For eps it is the secant stress EA (1 - 2/(lambda0 + lambda1)), lambda = |r'|, on the mean
-     * r'; for kappa the discrete gradient in the invariants r'.r', r'.r'', r''.r'', which keeps the
-     * moment of momentum, too: Gonzalez (Journal of Nonlinear Science 6, 1996, 449-467). @p f is
-     * resized [N, N m].
+     * The part of eps is the secant stress EA (1 - 2/(lambda0 + lambda1)), lambda = |r'|, on the
+     * mean r'. The part of kappa is the discrete gradient in the invariants r'.r', r'.r'', r''.r'',
+     * which keeps angular momentum, too: Gonzalez (Journal of Nonlinear Science 6, 1996, 449-467).
+     * @p f is resized [N, N m].
      */
     void mean_force(const std::vector<double> &q0, const std::vector<double> &q1, double step,
                     std::vector<double> &f) const;
 
-    /// A += the Hessian of the energy [N/m, N, N m]; @p definite: a semidefinite part of it,
+    /// A += the Hessian of the energy [N/m, N, N m]. @p definite adds a semidefinite part of it,
     /// without the geometric stiffness of compression and of moments.
     void add_tangent(const std::vector<double> &q, bool definite, SymmetricMatrix &A) const;
 
     /**
      * A += a symmetric matrix close to twice the derivative of mean_force() with respect to q1: the
-     * secant stress on the middle of the step, where the stretch itself is that of no end. The
-     * stress of a middle that rotation has shortened would be a compression.
+     * secant stress of the step acts on the middle of the step. The stress of the middle itself
+     * would be a compression, as rotation shortens the middle.
      */
     void add_mean_tangent(const std::vector<double> &q0, const std::vector<double> &q1,
                           bool definite, SymmetricMatrix &A) const;
@@ -118,18 +120,18 @@ namespace taut
     Coordinates position(const std::vector<double> &q, double s) const;
     Coordinates tangent(const std::vector<double> &q, double s) const;
 
-    /// EA eps at s, interpolated between the points of the integral, where it is most accurate [N];
+    /// EA eps at s [N], interpolated between the integration points, where it is most accurate;
     /// negative: compression.
     double tension(const std::vector<double> &q, double s) const;
 
-    /// Largest and smallest eps of all points of the integral [1], and where the smallest is [m].
+    /// Largest and smallest eps of all integration points [1], and the place of the smallest [m].
     double largest_strain(const std::vector<double> &q) const;
     double smallest_strain(const std::vector<double> &q, double *place = nullptr) const;
 
-    /// kappa at s [1/m]; of bars zero.
+    /// kappa at s [1/m]; zero for bars.
     double curvature(const std::vector<double> &q, double s) const;
 
-    /// Positions from those of a function: r(s) and, for ANCF, r'(s).
+    /// Positions q from functions r(s) and, for ANCF, r'(s).
     template <typename Position, typename Derivative>
     std::vector<double> interpolate(const Position &r, const Derivative &dr) const
     {
@@ -148,7 +150,7 @@ namespace taut
   private:
     static constexpr unsigned int element_dofs = 12; ///< bars use the first nine
 
-    /// A function of the four shape functions of an element; bars have three, and a zero.
+    /// Values for the four shape functions of an element; bars have three, and a zero.
     using Shape = std::array<double, 4>;
 
     struct Shapes
@@ -156,7 +158,7 @@ namespace taut
       Shape value, slope, curvature; ///< derivatives with respect to s
     };
 
-    /// A point of an integral over an element.
+    /// An integration point of an element.
     struct Point
     {
       double weight; ///< [m]

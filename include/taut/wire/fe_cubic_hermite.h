@@ -27,32 +27,35 @@ namespace taut
 {
   /**
    * The cubic Hermite element of beams: value w and slope dw/ds at each vertex, C1 across cells of
-   * any length.
+   * any length. Use it for beams, and for wires under a sliding contact.
    *
    * s is the arc length along the wire, in the direction of the first coarse cell of the
    * triangulation. Cells may run either way (a mesh file knows no order): on a backward cell the
-   * slope DoFs keep the wire's sign. A cell that turns more than 60 degrees away from that
-   * direction has no clear sense and is a UserError; so is a cell against x for spacedim = 1, where
-   * deal.II would give it a negative JxW.
+   * slope DoFs keep the wire's sign. A cell that turns more than 60 degrees away from this
+   * direction has no clear sense and is a UserError. For spacedim = 1 a cell against x is a
+   * UserError, too: deal.II would give it a negative JxW.
    *
-   * Through FEValues the gradient of a shape function is t dw/ds and its hessian t (x) t d2w/ds2, t
-   * the unit tangent. The mapping must be affine on each cell and keep the vertices of the
+   * Through FEValues, with the unit tangent t, the gradient of a shape function is t dw/ds and its
+   * hessian t (x) t d2w/ds2. The mapping must be affine on each cell and keep the vertices of the
    * triangulation, e.g. MappingQ1 (checked in debug mode).
    *
-   * What follows from the slopes: shape functions depend on the length of their cell, and a slope
-   * is no value at a point. Everything in deal.II that takes the shape functions of the reference
-   * cell for those of all cells, or values for DoFs, throws an exception in every build type:
-   * shape_value() and the like (and with them matrix-free evaluation, VectorTools::project() for
-   * spacedim = 1 and FETools::interpolate() to other elements), interpolation from other elements,
-   * prolongation and restriction (SolutionTransfer), VectorTools::interpolate() and
-   * VectorTools::interpolate_boundary_values(), in an FESystem, too, unless the component mask
-   * leaves this element out. Use interpolate() for functions of which the gradient is known.
+   * Limits follow from the slopes: shape functions depend on the length of their cell, and a slope
+   * is no value at a point. A function of deal.II throws an exception, in every build type, if it
+   * takes the shape functions of the reference cell for those of all cells, or values for DoFs:
    *
-   * In hp mode it stands beside itself and elements without DoFs at vertices; beside FE_Q and the
-   * like, which would share no value with it, evaluation throws.
+   * - shape_value() and its like, and with them matrix-free evaluation, VectorTools::project() for
+   *   spacedim = 1 and FETools::interpolate() to other elements;
+   * - interpolation from other elements, prolongation and restriction (SolutionTransfer);
+   * - VectorTools::interpolate() and VectorTools::interpolate_boundary_values(), in an FESystem,
+   *   too, unless the component mask leaves this element out.
+   *
+   * Use interpolate() for functions whose gradient is known.
+   *
+   * In hp mode the neighbours may be this element and elements without DoFs at vertices. Beside
+   * FE_Q and its like, which would share no value with this element, evaluation throws.
    *
    * DoFs on a cell: (w, dw/ds) at vertex 0, (w, dw/ds) at vertex 1. This is the order of deal.II's
-   * FE_Hermite, another element, whose slopes are scaled by the cell.
+   * FE_Hermite, a different element, whose slopes are scaled by the cell.
    */
   template <int dim, int spacedim = dim>
   class FE_CubicHermite : public dealii::FE_Poly<dim, spacedim>
@@ -77,18 +80,19 @@ namespace taut
 
     std::unique_ptr<dealii::FiniteElement<dim, spacedim>> clone() const override;
 
-    /// Length of the cell [m], negative if it runs against the wire: what hermite_shape() asks for.
+    /// Length of the cell [m], negative if the cell runs against the wire; an argument of
+    /// hermite_shape().
     static double signed_length(const CellIterator &cell);
 
     /**
-     * Sets value and slope in every vertex from @p function and its gradient, which it must
-     * implement. @p dof_handler uses this element; @p dof_values has its size.
+     * Sets value and slope in every vertex from @p function and its gradient, which @p function
+     * must implement. @p dof_handler uses this element; @p dof_values has its size.
      */
     static void interpolate(const dealii::DoFHandler<dim, spacedim> &dof_handler,
                             const dealii::Function<spacedim, double> &function,
                             dealii::Vector<double> &dof_values);
 
-    /// The identity from an element of this class. From others: throws.
+    /// The identity from an element of this class; throws for other elements.
     void get_interpolation_matrix(const dealii::FiniteElement<dim, spacedim> &source,
                                   dealii::FullMatrix<double> &matrix) const override;
 
@@ -120,10 +124,10 @@ namespace taut
     /// @}
 
     /**
-     * Value and slope with those of this class, nothing with an element without DoFs at vertices.
-     * Which of two elements deal.II asks depends on their order, and others know nothing of this
-     * one: beside them this element is refused as soon as FEValues evaluate it. An exception from
-     * here would be lost in a task of deal.II.
+     * Identifies value and slope with those of another element of this class, and nothing with an
+     * element without DoFs at vertices. deal.II asks one of two elements, depending on their order,
+     * and other elements do not know this class. Beside such elements FEValues therefore refuse
+     * this element at its evaluation. An exception from here would be lost in a task of deal.II.
      */
     std::vector<std::pair<unsigned int, unsigned int>>
     hp_vertex_dof_identities(const dealii::FiniteElement<dim, spacedim> &other) const override;

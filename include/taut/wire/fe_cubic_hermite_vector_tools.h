@@ -2,7 +2,7 @@
 #ifndef taut_fe_cubic_hermite_vector_tools_h
 #define taut_fe_cubic_hermite_vector_tools_h
 
-// The headers that the second one includes use it without including it.
+// The headers below use polynomial.h without including it.
 #include <deal.II/base/polynomial.h>
 
 #include <deal.II/numerics/vector_tools_boundary.h>
@@ -13,10 +13,10 @@
 namespace taut
 {
   /**
-   * Throws dealii::ExcMessage, in every build type, if a selected component of @p dof_handler is
-   * one of FE_CubicHermite. VectorTools::interpolate_boundary_values() would set its slopes to the
-   * value of the function, and VectorTools::interpolate() its DoFs in an FESystem to NaN: neither
-   * asks the element anything that could tell it.
+   * Throws dealii::ExcMessage, in every build type, if a selected component of @p dof_handler is an
+   * FE_CubicHermite. VectorTools::interpolate_boundary_values() would set the slopes to the value
+   * of the function. VectorTools::interpolate() would set the DoFs in an FESystem to NaN. Neither
+   * function calls the element, so the element cannot refuse.
    */
   template <int spacedim>
   void refuse_values_of_functions(const dealii::DoFHandler<1, spacedim> &dof_handler,
@@ -24,8 +24,9 @@ namespace taut
 } // namespace taut
 
 /*
- * The functions of deal.II for lines in one to three dimensions, which are taken instead of the
- * general ones where this file is included: the same, after refuse_values_of_functions().
+ * Functions of deal.II for lines in one to three dimensions, which overload resolution prefers to
+ * the general functions if this file is included. They call refuse_values_of_functions(), then the
+ * general function.
  */
 namespace dealii
 {

@@ -14,9 +14,10 @@ namespace taut
 {
   /**
    * One scalar problem of a straight wire: a bar (axial), a string or a beam (transverse, lateral).
-   * DoFs are numbered along the wire, in blocks of one node: for a beam displacement w and slope
-   * dw/ds; for a bar or string of degree p the value at the node and at the p - 1 inner points of
-   * the element that follows. Positions s run from 0 to the length [m].
+   * Use make_wire() to make one without a scene. DoFs are numbered along the wire, in blocks of one
+   * node. A beam has displacement w and slope dw/ds at a node. A bar or string of degree p has the
+   * value at the node and at the p - 1 inner points of the next element. Positions s run from 0 to
+   * the length [m].
    *
    *     bar     M = rho,  K = EA u'v'
    *     string  M = rho,  K = T w'v'
@@ -29,14 +30,14 @@ namespace taut
     WireComponent(const Scene &scene, std::size_t wire, WireMotion motion);
 
     /**
-     * The piece between two nodes of the wire's @p grid. What stands on the node where two pieces
-     * meet belongs to the second one.
+     * The piece between two nodes of the @p grid of the wire. Supports, masses and loads on the
+     * node where two pieces meet belong to the second piece.
      */
     WireComponent(const Scene &scene, std::size_t wire, WireMotion motion,
                   const std::vector<double> &grid, std::size_t first_node, std::size_t last_node);
     ~WireComponent() override;
 
-    /// Name of the component of a wire, the same for all its pieces.
+    /// Name of the component of a wire, the same for all pieces.
     static std::string name_of(const Scene &scene, std::size_t wire, WireMotion motion);
 
     /// True if a point of the wire is on this piece.
@@ -49,17 +50,19 @@ namespace taut
     /// Values of the shape functions at s [m]: u(s) = result . U.
     void value_at(double s, LinearForm &result) const;
 
-    /// Slopes of the shape functions at s: du/ds(s) = result . U [1/m]; at a node of a C0 element,
-    /// the right one.
+    /// Slopes of the shape functions at s: du/ds(s) = result . U [1/m]; at a node of C0 elements,
+    /// the slope to the right.
     void slope_at(double s, LinearForm &result) const;
 
     /// True if slopes are DoFs, so that moments and angular gaps make sense.
     bool has_slopes() const { return beam; }
 
-    /// One Gauss point fewer than nodes sees next to nothing of the shortest wave.
+    /// False for the reduced mass matrix: one Gauss point fewer than nodes gives the shortest wave
+    /// hardly any mass.
     bool has_definite_mass() const override { return mass_matrix != MassMatrix::reduced || beam; }
 
-    /// At position place[0] on the wire; the direction's part along the motion of this component.
+    /// The displacement at position place[0] on the wire: the part of @p direction along the motion
+    /// of this component.
     LinearForm displacement(const Coordinates &place, const Coordinates &direction) const override;
 
     void initial_state(std::vector<double> &U, std::vector<double> &V) const override;
@@ -80,13 +83,13 @@ namespace taut
     void interpolate(const Expression &f, std::vector<double> &U) const;
     void evaluate(double s, bool slope, LinearForm &result) const;
 
-    /// Part of a force along a direction that acts on it, or of a moment about it.
+    /// The part of a force along a direction, or of a moment about it, that acts on this component.
     double component(const Coordinates &direction, bool rotational) const;
 
     std::vector<double> nodes; ///< of this piece, s on the whole wire
     double wire_length;
-    bool is_last;                    ///< the piece with the wire's end
-    Coordinates axis, rotation_axis; ///< unit vectors of the motion and, of a beam, its slope
+    bool is_last;                    ///< the piece with the end of the wire
+    Coordinates axis, rotation_axis; ///< unit vectors of the motion and of the slope of a beam
     WireMotion motion;
     bool beam = false;
     bool bends_freely = false; ///< no tension: a rigid rotation costs nothing
@@ -97,12 +100,13 @@ namespace taut
 
     /// DoFs without mass at contacts, with the section of the link for messages.
     std::map<unsigned int, std::string> massless_dofs;
-    bool keeps_inertia = false; ///< where their mass goes
+    bool keeps_inertia = false; ///< how mass redistribution moves their mass
     std::unique_ptr<Discretisation> discretisation;
   };
-  /// A wire as a body of its own, by one of its motions, with what acts on it: supports, point
-  /// masses and loads count for it whatever wire they name. Throws EntryError for a wire without
-  /// that motion, and for values that a scene cannot have, see check_values() and check_wires().
+  /// A wire as a body for a program without a scene: one of its motions, with supports, point
+  /// masses and loads. These count for this wire, whatever wire they name. Throws EntryError for a
+  /// wire without this motion, and for values that a scene cannot have, see check_values() and
+  /// check_wires().
   std::unique_ptr<Substructure>
   make_wire(const Wire &wire, WireMotion motion = WireMotion::transverse,
             std::vector<Support> supports = {}, std::vector<PointMass> point_masses = {},
