@@ -8,8 +8,8 @@
 
 namespace taut
 {
-  /// What @p function returns; a UserError from it is one about the entry or section @p path of the
-  /// parameter file, unless it names an entry itself.
+  /// Returns the result of @p function. A UserError of @p function becomes an EntryError about the
+  /// entry or section @p path of the parameter file, unless it names an entry itself.
   template <typename Function>
   auto about_entry(const std::string &path, const Function &function) -> decltype(function())
   {

@@ -2,8 +2,8 @@
 #ifndef taut_archive_h
 #define taut_archive_h
 
-// What checkpoints are made of: Boost's binary archives. Headers name them as OutputArchive and
-// InputArchive of archive_forward.h; sources that write or read one include this file.
+// Binary archives of Boost for checkpoints. Headers name them as OutputArchive and InputArchive of
+// archive_forward.h. Include this file in sources that write or read an archive.
 
 #include <taut/base/archive_forward.h>
 
@@ -20,7 +20,7 @@
 
 namespace taut
 {
-  /// What @p write stores in an archive, as text.
+  /// The bytes that @p write stores in an archive.
   template <typename Write>
   std::string archived(const Write &write)
   {
@@ -32,8 +32,8 @@ namespace taut
     return out.str();
   }
 
-  /// Calls @p read with an archive of this text. Throws boost::archive::archive_exception if it is
-  /// too short.
+  /// Calls @p read with an archive of these bytes. Throws boost::archive::archive_exception if the
+  /// archive is too short.
   template <typename Read>
   void unarchive(const std::string &text, const Read &read)
   {

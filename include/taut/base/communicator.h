@@ -11,18 +11,18 @@
 
 namespace taut
 {
-  /// Initialises MPI unless that has been done; it then ends with the program.
+  /// Initialises MPI unless it is initialised already; MPI then ends with the program.
   void start_mpi();
 
-  /// True if the program was started by mpirun or a like of it.
+  /// True if mpirun or a similar program started this program.
   bool started_in_parallel();
 
   /**
-   * The processes that run a scene together, by value. Bodies are distributed over them, everything
-   * that has one number a row is on all of them: what a process knows of a row from its own bodies
-   * is its share, and sum() makes the whole of it.
+   * The processes (ranks) that run a scene together, by value. Bodies are distributed over the
+   * ranks. Vectors with one number per constraint are on all ranks: each rank has the share of its
+   * own bodies, and sum() adds the shares.
    *
-   * One process needs no MPI: none of the functions then calls it.
+   * One process needs no MPI: no function then calls it.
    */
   class Communicator
   {
@@ -30,7 +30,7 @@ namespace taut
     /// This process alone.
     Communicator() = default;
 
-    /// MPI must have been initialised, and live as long as this.
+    /// MPI must be initialised, and live as long as this object.
     explicit Communicator(MPI_Comm processes);
 
     unsigned int rank() const { return own_rank; }
@@ -41,10 +41,10 @@ namespace taut
     void sum(double *values, std::size_t n) const;
     void sum(std::vector<double> &values) const { sum(values.data(), values.size()); }
 
-    /// The largest of the values of all ranks; not-a-number if one is.
+    /// The largest of the values of all ranks; not-a-number if one value is.
     double max(double value) const;
 
-    /// True if it is on any rank.
+    /// True if @p is_true is true on any rank.
     bool any(const bool is_true) const { return max(is_true ? 1. : 0.) > 0.; }
 
     /// The value of each rank, in order.
@@ -57,9 +57,9 @@ namespace taut
     void broadcast(std::string &text) const;
 
     /**
-     * Calls @p work, which may differ from rank to rank and communicate with no one. If it throws
-     * on any rank, all ranks throw what the first of them threw: a UserError as what it is,
-     * std::bad_alloc, or anything else as std::runtime_error.
+     * Calls @p work, which may differ from rank to rank and must not communicate. If it throws on
+     * any rank, all ranks throw the exception of the first of these ranks: a UserError with its
+     * type, std::bad_alloc, or any other exception as std::runtime_error.
      */
     void agree(const std::function<void()> &work) const;
 

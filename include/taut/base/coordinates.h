@@ -6,9 +6,9 @@
 
 namespace taut
 {
-  /// A point [m] or a direction in space: x along the line, y upwards, z out of the plane, which a
-  /// plane scene leaves at zero. What a place on a body means is up to the body: the position along
-  /// a wire is its first coordinate.
+  /// A point [m] or a direction in space: x along the line, y upwards, z out of the plane; z = 0 in
+  /// a plane scene. Each body says what its places mean: the first coordinate of a place on a wire
+  /// is the position along it.
   struct Coordinates
   {
     double x = 0., y = 0., z = 0.;

@@ -11,9 +11,9 @@
 namespace taut
 {
   /**
-   * A mistake in what the user asked for, or a limit of the method that the user can do something
-   * about. The message says what is wrong, where, and what to do; the program prints it without a
-   * stack trace and ends with exit code 1.
+   * A mistake of the user, or a limit of the method that the user can avoid. Throw it with a
+   * message that says what is wrong, where, and what to do. The program prints the message without
+   * a stack trace and ends with exit code 1.
    */
   class UserError : public std::runtime_error
   {
@@ -22,8 +22,8 @@ namespace taut
   };
 
   /**
-   * A UserError about one entry of a parameter file. Whoever read the file can add file, line and
-   * value; entry() is the path of sections and entry, "Network/Link a/Stiffness", or that of a
+   * A UserError about one entry of a parameter file. The reader of the file adds file, line and
+   * value. entry() is the path of sections and entry, "Network/Link a/Stiffness", or the path of a
    * section.
    */
   class EntryError : public UserError
@@ -58,15 +58,15 @@ namespace taut
     {
     }
 
-    /// Indices in the complementarity problem, for whoever knows the names of its rows.
+    /// Indices of rows in the complementarity problem, for callers that know the names of the rows.
     const std::vector<std::size_t> &rows() const { return row_indices; }
 
   private:
     std::vector<std::size_t> row_indices;
   };
 
-  /// A step of bodies that are not linear without an answer: a shorter one may have one. Says why,
-  /// with the entry that the reason is about.
+  /// A step of nonlinear bodies without a solution; a shorter step may have one. The message is the
+  /// reason, with its entry.
   class StepNotSolved : public EntryError
   {
   public:
@@ -84,7 +84,7 @@ namespace taut
   };
 
   /// A body that the equations do not hold: a singular matrix, or loads that no admissible contact
-  /// force balances. The entry is the section of the body, once that is known.
+  /// force balances. The entry is the section of the body, once the section is known.
   class BodyNotHeld : public EntryError
   {
   public:
@@ -94,15 +94,15 @@ namespace taut
     {
     }
 
-    /// Indices of the null space vectors that stay unbalanced in the complementarity problem; empty
-    /// if it was not that.
+    /// Indices of the null space vectors that remain unbalanced in the complementarity problem;
+    /// empty for other causes.
     const std::vector<std::size_t> &null_space() const { return null_space_indices; }
 
   private:
     std::vector<std::size_t> null_space_indices;
   };
 
-  /// A complementarity problem that was left with a residual above the tolerance.
+  /// A complementarity problem whose residual remains above the tolerance.
   class NotSolved : public UserError
   {
   public:

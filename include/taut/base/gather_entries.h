@@ -7,8 +7,8 @@
 
 namespace taut
 {
-  /// The entries that each rank has of a matrix over rows: those of all ranks, in the order of the
-  /// ranks, on all of them.
+  /// Gathers the entries of a matrix over constraints: all ranks get the entries of all ranks, in
+  /// the order of the ranks.
   inline void gather(const Communicator &processes, MatrixEntries &entries)
   {
     if (processes.size() == 1)

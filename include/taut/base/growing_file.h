@@ -8,9 +8,10 @@
 namespace taut
 {
   /**
-   * A file to whose end bytes are added. What cannot be written as a whole is not written at all:
-   * the file keeps its earlier length, and the same bytes may be tried again. All functions but the
-   * destructor throw UserError with the reason if they fail.
+   * A file that grows by whole pieces: a table, a collection, the lines of a sweep. Bytes that
+   * cannot be written completely are not written at all: the file keeps its earlier length, and the
+   * call may be repeated. All functions but the destructor throw UserError with the reason of a
+   * failure.
    */
   class GrowingFile
   {
@@ -20,19 +21,19 @@ namespace taut
     GrowingFile &operator=(GrowingFile &&) = delete;
     ~GrowingFile();
 
-    /// Makes an empty file, or one of what is there.
+    /// Makes an empty file, in the place of an existing one.
     void create(const std::string &name);
 
-    /// Opens a file at this length and drops what follows. Says that a run cannot go on there if it
-    /// is shorter.
+    /// Opens a file at this length and drops the bytes behind it. For a shorter file the error says
+    /// that a run cannot go on there.
     void resume(const std::string &name, std::size_t length);
 
     void append(const std::string &bytes);
 
-    /// Puts @p bytes before @p tail, with which the file ends.
+    /// Inserts @p bytes before @p tail, the end of the file.
     void insert(const std::string &bytes, const std::string &tail);
 
-    /// Brings all to the disk.
+    /// Brings all bytes to the disk.
     void sync();
 
     void close();

@@ -4,16 +4,16 @@
 
 #include <string>
 
-// A build for any x86-64 processor has its hot loops once more for newer ones. TAUT_NATIVE and
-// processors of other kinds have them once, as the compiler's flags say.
+// A build for any x86-64 processor also has its hot loops for newer processors. With TAUT_NATIVE,
+// and on other kinds of processors, the loops are compiled once, with the flags of the compiler.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__AVX2__)
 #define TAUT_SEVERAL_INSTRUCTION_SETS
 #endif
 
 namespace taut
 {
-  /// What the hot loops run with: the instructions that the whole program is compiled for, those
-  /// and AVX2 with FMA, or these and AVX-512 with its long registers.
+  /// The instructions of the hot loops: those of the whole program, with AVX2 and FMA, or also with
+  /// AVX-512 and its long registers.
   enum class InstructionSet
   {
     baseline,
@@ -22,9 +22,10 @@ namespace taut
   };
 
   /**
-   * The best set that the processor has, or the one that the environment variable
-   * TAUT_INSTRUCTION_SET names: baseline, avx2 or avx512. It is the same throughout a run. Throws a
-   * UserError if the variable names no set, or one that this processor or this build does not have.
+   * The best instruction set of the processor, or the set that the environment variable
+   * TAUT_INSTRUCTION_SET names: baseline, avx2 or avx512. It is constant during a run. Throws
+   * UserError if the variable names no set, or a set that this processor or this build does not
+   * have.
    */
   InstructionSet instruction_set();
 
@@ -32,17 +33,17 @@ namespace taut
   std::string instruction_set_in_use();
 
 #ifdef TAUT_SEVERAL_INSTRUCTION_SETS
-  /// What the loops call is compiled into this function, and hence for its instructions, as far as
-  /// the compiler sees it; no other function changes. By value, so that what they write cannot be
-  /// what they hold.
+  /// Functions that the loops call are compiled into this function, and hence for its instructions,
+  /// as far as the compiler sees them; no other function changes. @p loops is passed by value, so
+  /// that the loops cannot write to their own members.
   template <typename Loops>
   [[gnu::target("avx2,fma"), gnu::flatten]] void run_with_avx2(const Loops loops)
   {
     loops();
   }
 
-  /// The same for AVX-512, with registers of eight doubles also where the compiler holds four for
-  /// enough.
+  /// As run_with_avx2(), for AVX-512 with registers of eight doubles, also where the compiler would
+  /// take four.
   template <typename Loops>
   [[gnu::target("avx2,fma,avx512f,avx512dq,avx512bw,avx512vl,prefer-vector-width=512"),
     gnu::flatten]] void

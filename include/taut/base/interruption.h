@@ -7,7 +7,7 @@
 
 namespace taut
 {
-  /// Thrown by work that a signal ended early, after it has written what it had computed.
+  /// Thrown by work that a signal ended early, after it has written its results.
   class Interrupted : public std::runtime_error
   {
   public:
@@ -23,14 +23,14 @@ namespace taut
   };
 
   /**
-   * For a program, not for a library: from now on the first SIGINT or SIGTERM only sets what
-   * interruption() returns, and a second one ends the process at once, with exit code 128 plus
-   * its number. With @p says_so the first one says so on the standard error.
+   * For a program, not for a library: from now on the first SIGINT or SIGTERM only sets the value
+   * of interruption(). A second signal ends the process at once, with exit code 128 plus its
+   * number. With @p says_so the first signal writes a line to the standard error.
    */
   void catch_interruptions(bool says_so);
 
-  /// From here on they change nothing: the program is about to say why it ends, and mpirun sends
-  /// one to all ranks when the first of them has.
+  /// From now on signals have no effect. Call it before the program says why it ends: mpirun sends
+  /// a signal to all ranks when the first rank has ended.
   void ignore_interruptions();
 
   /// The signal that asked the process to end; 0: none.

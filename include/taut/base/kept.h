@@ -9,15 +9,15 @@
 namespace taut
 {
   /**
-   * What one run made and the next one may use again, by a key that holds all values that define
-   * it. What a run did not ask for is forgotten when the next but one begins, so that memory stays
-   * that of two runs.
+   * Values that one run made and the next run may use again. The key of a value holds all data that
+   * define it. A value that a run did not ask for is forgotten when the next run begins, so that
+   * memory is bounded by two runs.
    */
   template <typename Value>
   class Kept
   {
   public:
-    /// A run begins.
+    /// Call it when a run begins.
     void begin()
     {
       for (auto entry = entries.begin(); entry != entries.end();)
@@ -27,8 +27,7 @@ namespace taut
           entry = entries.erase(entry);
     }
 
-    /// The value of @p key, which @p make returns if it is not known; nothing is kept if that
-    /// throws.
+    /// The value of @p key; @p make makes it if it is not known. Nothing is kept if @p make throws.
     template <typename Make>
     const Value &find(const std::string &key, const Make &make)
     {

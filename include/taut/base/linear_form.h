@@ -9,7 +9,7 @@
 
 namespace taut
 {
-  /// A few entries of a long vector. Indices may repeat: their values add.
+  /// A linear form: a few entries of a long vector. Indices may repeat: their values add.
   struct LinearForm
   {
     std::vector<unsigned int> index;
@@ -21,7 +21,8 @@ namespace taut
       value.push_back(v);
     }
 
-    /// What makes it no form on vectors of @p n entries, as a part of a message; empty: nothing.
+    /// The fault that makes this no form on vectors of @p n entries, as a part of a message; empty:
+    /// none.
     std::string fault(const std::size_t n) const
     {
       if (index.size() != value.size())
@@ -75,7 +76,7 @@ namespace taut
     }
 
     /// Adds zeros until the window has a multiple of @p n entries, if the vector of length @p size
-    /// has room for them.
+    /// has room.
     void pad(const std::size_t n, const std::size_t size)
     {
       const std::size_t missing = (n - value.size() % n) % n, behind = size - first - value.size();
@@ -89,12 +90,12 @@ namespace taut
     }
   };
 
-  /// A sum of scalar products of windows with full vectors, and the sum of their absolute terms,
-  /// which it rounds with.
+  /// A sum of scalar products of windows with full vectors, and the sum of the absolute values of
+  /// the terms, the scale of its rounding error.
   class ScalarProduct
   {
   public:
-    /// Windows of a multiple of so many entries are the fastest.
+    /// Windows of a multiple of this number of entries are the fastest.
     static constexpr std::size_t lanes = 8;
 
     void add(const WindowedVector &window, const std::vector<double> &x)

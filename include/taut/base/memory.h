@@ -8,19 +8,18 @@ namespace taut
 {
   /**
    * For a program, not for a library: from now on memory_was_short() knows of every allocation that
-   * failed. Streams of the standard library swallow std::bad_alloc and end their text or input
-   * there, and other libraries make an error of their own of it: what they did then is wrong, or
-   * says the wrong thing.
+   * failed. Streams of the standard library swallow std::bad_alloc and end their text or input.
+   * Other libraries turn it into an error of their own. The output, or the message, is then wrong.
    */
   void watch_memory();
 
   /// True if an allocation has failed since the last call. False without watch_memory().
   bool memory_was_short();
 
-  /// Throws std::bad_alloc then.
+  /// Throws std::bad_alloc if memory_was_short().
   void check_memory();
 
-  /// True for std::bad_alloc and its like, also those of deal.II.
+  /// True for std::bad_alloc and similar exceptions, also of deal.II.
   bool is_memory_shortage(const std::exception &e);
 } // namespace taut
 

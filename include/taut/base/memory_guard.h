@@ -5,9 +5,9 @@
 namespace taut
 {
   /**
-   * Around code of a library that goes on with a null pointer where a stream swallowed
-   * std::bad_alloc: while an object of this class lives, and after watch_memory(), an allocation
-   * that fails ends the program by std::terminate.
+   * Put an object of this class around calls of a library that go on with a null pointer after a
+   * stream swallowed std::bad_alloc. While the object lives, and after watch_memory(), an
+   * allocation that fails ends the program by std::terminate.
    */
   class MemoryGuard
   {

@@ -9,8 +9,8 @@
 
 namespace taut
 {
-  /// Number of letters to insert, delete or replace to turn one word into the other; upper and
-  /// lower case are one.
+  /// Number of letters to insert, delete or replace to turn one word into the other; case does not
+  /// count.
   inline std::size_t edit_distance(const std::string &a, const std::string &b)
   {
     std::vector<std::size_t> row(b.size() + 1);
@@ -49,7 +49,7 @@ namespace taut
     return best;
   }
 
-  /// End of a message about an unknown name: the nearest known one, or all that are known.
+  /// End of a message about an unknown name: the nearest known name, or all known names.
   inline std::string suggestion(const std::string &name, const std::vector<std::string> &known)
   {
     const std::string nearest = nearest_name(name, known);

@@ -7,20 +7,21 @@
 namespace taut
 {
   /**
-   * How the ranks of a program end after an error, which may be that of all of them or of one that
-   * the others know nothing of and wait for. Made by all ranks together, before anything may fail.
+   * Ends the ranks of a program after an error. The error may be that of all ranks, or of one rank
+   * for which the others wait without knowing. All ranks make the object together, before anything
+   * may fail.
    */
   class RankAbort
   {
   public:
-    /// @p processes live as long as this.
+    /// @p processes must live as long as this object.
     explicit RankAbort(const Communicator &processes);
 
-    /// True if this rank is the one to say what went wrong: the first of all ranks if all of them
-    /// come here, and each that does come otherwise. Needs no memory of its own.
+    /// True if this rank has to report the error: the first rank if all ranks call the function,
+    /// otherwise each rank that calls it. Needs no memory of its own.
     bool are_own();
 
-    /// Ends the ranks that did not come to are_own(), and this one with them, with this exit code.
+    /// Ends the ranks that did not call are_own(), and this rank, with this exit code.
     void end_others(int code) const;
 
   private:

@@ -14,8 +14,8 @@
 namespace taut
 {
   /**
-   * Named implementations of one interface. An implementation, in this library or in a shared
-   * library of the user's, registers itself with one static object:
+   * Named implementations of one interface, such as bodies, observers, schemes and generators. An
+   * implementation, in this library or in a plugin, registers itself with one static object:
    *
    *     static const taut::Register<SceneGenerator, MyGenerator> entry("my name", "one line for the
    * help");
@@ -33,7 +33,8 @@ namespace taut
       return registry;
     }
 
-    /// Adds an implementation; a name that is taken is a mistake of the one who wrote the plugin.
+    /// Adds an implementation. A name that is taken throws std::logic_error: it is a mistake of the
+    /// author of the plugin.
     void add(const std::string &name, const std::string &description, Factory factory)
     {
       if (!entries.emplace(name, std::make_pair(description, std::move(factory))).second)
@@ -43,7 +44,7 @@ namespace taut
     bool knows(const std::string &name) const { return entries.count(name) > 0; }
 
     /// A new object of the named implementation; an unknown name is a UserError that lists the
-    /// known ones.
+    /// known names.
     std::unique_ptr<Interface> create(const std::string &name) const
     {
       const auto entry = entries.find(name);
@@ -70,7 +71,7 @@ namespace taut
       return list;
     }
 
-    /// One line "name: description" an entry.
+    /// One line "name: description" per entry.
     std::string descriptions() const
     {
       std::string text;

@@ -11,7 +11,7 @@
 
 namespace taut
 {
-  /// Entries of a sparse matrix, in any order; those of one position add.
+  /// Entries of a sparse matrix, in any order; entries of one position add.
   struct MatrixEntries
   {
     std::vector<int> row, column;
@@ -26,7 +26,7 @@ namespace taut
 
     std::size_t size() const { return value.size(); }
 
-    /// Orders by row and column, with each position once.
+    /// Orders the entries by row and column, with each position once.
     void compress();
   };
 
@@ -42,8 +42,8 @@ namespace taut
     void vmult_add(const std::vector<double> &x, std::vector<double> &y) const;
   };
 
-  /// Several sparse vectors that share their rows: value[lanes * e + l] is that of vector l in the
-  /// row index[e], ascending, each once.
+  /// Several sparse vectors with common rows: value[lanes * e + l] is the value of vector l in the
+  /// row index[e]. Rows ascend, each once.
   struct SparseHalves
   {
     static constexpr std::size_t lanes = 8;
@@ -61,15 +61,15 @@ namespace taut
 
   /**
    * Factor of a sparse symmetric positive definite matrix by CHOLMOD with a fill-reducing order.
-   * The order and the pattern of the factor are kept as long as the pattern of the matrix stays the
-   * same, explicit zeros included.
+   * Order and pattern of the factor are kept while the pattern of the matrix is the same, explicit
+   * zeros included.
    */
   class SparseCholesky
   {
   public:
     /// Operations per entry of the factor from which `automatic` is supernodal. With the reference
-    /// BLAS, which Debian installs, supernodal factors and solves are slower below; CHOLMOD's own
-    /// 40 would make the solves of small bodies take twice as long
+    /// BLAS, which Debian installs, supernodal factors and solves are slower below this value. With
+    /// CHOLMOD's default of 40 solves of small bodies would take twice as long
     /// (doc/results/local_solvers.md).
     static constexpr double least_supernodal_flops = 300.;
 
@@ -81,7 +81,7 @@ namespace taut
     /**
      * Factors a matrix of @p n rows. Returns n, or the row whose pivot is not larger than @p
      * smallest_pivot times its diagonal entry: the matrix is then not definite to working
-     * precision, and not factored.
+     * precision, and is not factored.
      */
     std::size_t factor(std::size_t n, const SymmetricEntries &entries, double smallest_pivot);
 
@@ -92,16 +92,16 @@ namespace taut
      * Halves of solutions for the matrix factored last: y(b) = D^-1/2 L^-1 P b with the order P and
      * the factor L D L^T, so that a^T A^-1 b = y(a) . y(b), for up to SparseHalves::lanes
      * right-hand sides @p b at once. They have entries only on the paths of the elimination tree
-     * from the rows of b to the root, which is all that is computed (T. A. Davis, Direct Methods
-     * for Sparse Linear Systems (2006), 3.2 and 4.1).
+     * from the rows of b to the root, and only these are computed (T. A. Davis, Direct Methods for
+     * Sparse Linear Systems (2006), 3.2 and 4.1).
      */
     void half_solutions(const std::vector<const LinearForm *> &b, SparseHalves &y) const;
 
-    /// Of the matrix factored last: true if its factor is supernodal.
+    /// True if the factor of the matrix factored last is supernodal.
     bool is_supernodal() const;
 
-    /// Operations of the factorisation over entries of the factor: the mean length of its columns,
-    /// long ones counted more. 0: nothing is factored.
+    /// Operations of the factorisation over entries of the factor: a mean length of its columns,
+    /// with more weight for long columns. 0: nothing is factored.
     double flops_per_entry() const;
 
     /// Numbers stored in the factor, the zeros in dense blocks included.

@@ -16,8 +16,8 @@ namespace taut
     return out << p.x << ", " << p.y << ", " << p.z;
   }
 
-  /// The parts one behind the other, as a stream writes them: numbers with six digits unless
-  /// std::setprecision stands before them.
+  /// The parts one after the other, as a stream writes them: numbers with six digits unless
+  /// std::setprecision comes before them.
   template <typename... Parts>
   std::string to_text(const Parts &...parts)
   {

@@ -4,8 +4,8 @@
 
 namespace taut
 {
-  /// Whether the BLAS of this process is one for its processor, OpenBLAS, BLIS or MKL, and not the
-  /// reference implementation: then a supernodal factor of a large solid takes an eighth of the
+  /// True if the BLAS of this process is tuned for its processor (OpenBLAS, BLIS or MKL), not the
+  /// reference implementation. A supernodal factor of a large solid then takes an eighth of the
   /// time (doc/results/decomposition.md).
   bool has_tuned_blas();
 } // namespace taut

@@ -6,7 +6,7 @@
 
 namespace taut
 {
-  /// Something that a run went beyond, and its model, contacts or steps are not good for.
+  /// A warning of a run: a value beyond the limits of the model, the contacts or the steps.
   struct Warning
   {
     std::string kind; ///< an identifier: "slope", "distance", "speed", "filter", "turn" ...

@@ -6,12 +6,13 @@
 
 namespace taut
 {
-  /// Puts a file with these bytes in the place of @p path: if the program ends meanwhile or fails,
-  /// the file is the old one or the new one. A device or pipe is written as it is. Throws UserError
-  /// if it could not be written; the old one stays then.
+  /// Replaces the file @p path by a file with these bytes. If the program ends meanwhile or fails,
+  /// the file is the old file or the new file. A device or pipe is written directly. Throws
+  /// UserError if the file could not be written; the old file then remains.
   void write_file(const std::string &path, const std::string &bytes);
 
-  /// The same if the machine ends meanwhile: waits until the new file is on the disk.
+  /// As write_file(), and safe if the machine ends meanwhile: waits until the new file is on the
+  /// disk.
   void replace_file(const std::string &path, const std::string &bytes);
 } // namespace taut
 

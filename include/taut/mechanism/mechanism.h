@@ -9,22 +9,23 @@
 
 namespace taut
 {
-  /// Masses that springs and dampers connect: one DoF a motion of a mass, x, y, rotation and z in
-  /// this order as far as the mass has them [m, rad], mass after mass in the order of the members.
+  /// A mechanism: lumped masses that springs and dampers connect, for example a pantograph. Each
+  /// motion of a mass has one DoF [m, rad]. Motions are in the order x, y, rotation and z, as far
+  /// as the mass has them; masses are in the order of the members.
   class Mechanism : public Substructure
   {
   public:
     /// @p members are indices of scene.masses.
     Mechanism(const Scene &scene, const std::vector<std::size_t> &members);
 
-    /// For messages and files: that of the first mass, "... and others".
+    /// Name for messages and files: the name of the first mass, "... and others".
     static std::string name_of(const Scene &scene, const std::vector<std::size_t> &members);
 
     void initial_state(std::vector<double> &U, std::vector<double> &V) const override;
     bool is_lumped() const override { return true; }
 
-    /// Of the mass whose number among those of this body is place[0], counted from 0. Throws
-    /// UserError for a number that it does not have.
+    /// Displacement of a mass; place[0] is the number of the mass in this body, counted from 0.
+    /// Throws UserError for a number without a mass.
     LinearForm displacement(const Coordinates &place, const Coordinates &direction) const override;
     NullSpace null_space() const override;
 

@@ -13,7 +13,7 @@
 
 namespace taut
 {
-  /// What a rigid body is made of, in the place and the direction where it is undeformed.
+  /// The data of a rigid body in its undeformed position.
   struct RigidBodyData
   {
     std::string name;
@@ -22,35 +22,36 @@ namespace taut
     Coordinates centre; ///< of mass [m]
     std::array<Coordinates, 3> axes = {
         {{1., 0., 0.}, {0., 1., 0.}, {0., 0., 1.}}}; ///< principal: unit vectors, right-handed
-    std::array<double, 3> moments = {{0., 0., 0.}};  ///< of inertia about these [kg m^2]
+    std::array<double, 3> moments = {{0., 0., 0.}};  ///< of inertia about the axes [kg m^2]
     Coordinates gravity;                             ///< [m/s^2]
     Coordinates velocity, angular_velocity;          ///< at t = 0, with Start = given [m/s, rad/s]
     std::vector<Coordinates> outline;                ///< places that a line joins in pictures [m]
   };
 
   /**
-   * A rigid body in space that moves and turns by any amount, in natural coordinates (P. Betsch, P.
-   * Steinmann, Computer Methods in Applied Mechanics and Engineering 191 (2001), 467-488):
-   * the place c of its centre and three vectors d_i along its principal axes, as long as its radius
-   * of gyration l. The mass matrix is constant, and every place on the body is a linear function of
-   * them,
+   * A rigid body in space that moves and turns by any amount (finite rotations). Take it for a part
+   * that hardly deforms. It has natural coordinates (P. Betsch, P. Steinmann, Computer Methods in
+   * Applied Mechanics and Engineering 191 (2001), 467-488): the place c of the centre and three
+   * vectors (directors) d_i along the principal axes, as long as the radius of gyration l. The mass
+   * matrix is constant, and every place on the body is a linear function of the coordinates,
    *
    *     x = c + sum_i (xi_i / l) d_i,
    *
-   * so that links, loads and contacts act on it as on any other body. U is the change of these
-   * twelve [m], c, d_1, d_2, d_3, and six multipliers s [1] of the conditions that keep the d_i
-   * orthogonal and of equal length, in the order 11, 22, 33, 12, 13, 23,
+   * so that links, loads and contacts act as on any other body. U has the change of these twelve
+   * coordinates [m], c, d_1, d_2, d_3, and six Lagrange multipliers s [1]. The multipliers belong
+   * to the conditions that keep the d_i orthogonal and of equal length, in the order 11, 22, 33,
+   * 12, 13, 23,
    *
    *     g_ij = (d_i . d_j - D_i . D_j) / l^2 = 0, half of it for i = j,    f = Lambda (G^T s, g).
    *
-   * Lambda [N m] gives s the size of ordinary numbers. The internal force does no work. Its mean
-   * over a step has G in the middle and the s of the step, so that G_mean dq = g_1 - g_0 exactly:
-   * energy, momentum and angular momentum stay (P. Betsch, P. Steinmann, Multibody System Dynamics
-   * 8 (2002), 367-391), and g does not drift.
+   * Lambda [N m] scales s to ordinary numbers. The internal force does no work. The mean force over
+   * a step has G in the middle of the step and the s of the step, so that G_mean dq = g_1 - g_0
+   * exactly. Energy, momentum and angular momentum are kept (P. Betsch, P. Steinmann, Multibody
+   * System Dynamics 8 (2002), 367-391), and g does not drift.
    *
    * Impulses meet the mass matrix with the same conditions, see mass_at(). At rest the tangent is
-   * the geometric stiffness of s without what would turn the body over, and some of the mass, less
-   * and less as the iteration settles: the body needs no support of its own.
+   * the geometric stiffness of s, without the part that would turn the body over, and a part of the
+   * mass, which falls as the iteration settles. So the body needs no support of its own.
    */
   class RigidBody : public Substructure, public ConstrainedBody
   {
@@ -58,10 +59,11 @@ namespace taut
     /// Throws EntryError for data that make no body.
     explicit RigidBody(const RigidBodyData &data);
 
-    /// At a place in the undeformed position, on the body or not, along any direction in space.
+    /// The displacement at a place of the undeformed position, on the body or outside, along any
+    /// direction in space.
     LinearForm displacement(const Coordinates &place, const Coordinates &direction) const override;
 
-    /// l above [m].
+    /// The radius of gyration l [m].
     double radius_of_gyration() const { return length; }
 
     /// The displaced centre of mass, in the coordinates of the scene [m].
@@ -70,7 +72,7 @@ namespace taut
     /// The rotation from the undeformed position, along its axis, at most pi long [rad].
     Coordinates rotation(const std::vector<double> &U) const;
 
-    /// The largest of |g_ij| [1].
+    /// The largest |g_ij|, the error of rigidity [1].
     double deformation(const std::vector<double> &U) const;
 
     bool is_lumped() const override { return true; }
@@ -91,7 +93,7 @@ namespace taut
 
     void initial_state(std::vector<double> &U, std::vector<double> &V) const override;
 
-    /// Its outline, or its principal axes, with the displacement.
+    /// The outline of the body, or its principal axes, with the displacement.
     bool has_fields() const override { return true; }
     void write_vtu(const std::string &path, const std::vector<double> &U) const override;
 

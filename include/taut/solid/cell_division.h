@@ -12,13 +12,14 @@
 
 namespace taut
 {
-  /// The cells of an FEBody as a DivisibleBody wants them: the active ones of its triangulation, by
-  /// their number.
+  /// The cells of an FEBody for a DivisibleBody: active cells of the triangulation, by their
+  /// number. Use it in BodyType::division() of a body of deal.II.
   template <int dim>
   class CellDivision
   {
   public:
-    /// @p dof_handler and @p mapping are kept by reference; @p constraints are those of the body.
+    /// @p dof_handler and @p mapping are kept by reference; @p constraints are the constraints of
+    /// the body.
     CellDivision(const dealii::DoFHandler<dim> &dof_handler, const dealii::Mapping<dim> &mapping,
                  const dealii::AffineConstraints<double> &constraints);
 

@@ -10,7 +10,7 @@
 
 namespace taut
 {
-  /// How an ElasticSolid is cut along the faces of its cells.
+  /// Cuts an ElasticSolid along the faces of its cells.
   template <int dim>
   class DivisibleSolid : public DivisibleBody
   {
@@ -23,7 +23,7 @@ namespace taut
     const BodyCells &cells() const override { return division.cells(); }
     std::size_t cell_at(const Coordinates &place) const override { return division.cell_at(place); }
 
-    /// Of SolidMesh::whole_surface().
+    /// A cell at a node of SolidMesh::whole_surface().
     std::size_t cell_at_node(unsigned int node) const override;
 
     std::unique_ptr<Substructure> make_part(const BodySetting &setting,

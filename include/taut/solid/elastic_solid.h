@@ -13,7 +13,7 @@
 
 namespace taut
 {
-  /// Isotropic, linear elastic.
+  /// An isotropic, linear elastic material.
   struct ElasticMaterial
   {
     double youngs_modulus = 0.; ///< E [Pa]
@@ -21,16 +21,16 @@ namespace taut
     double density = 0.;        ///< [kg/m^3]
   };
 
-  /// How a body in the plane is thick: strain, it cannot expand out of the plane; stress, it is
-  /// free to.
+  /// Plane strain: a body in the plane cannot expand out of the plane. Plane stress: it is free to
+  /// expand.
   enum class PlaneState
   {
     strain,
     stress
   };
 
-  /// How the mass of an element is integrated, see MassMatrix: exactly; at the nodes; by one Gauss
-  /// point less in each direction than the element has nodes.
+  /// How the mass of an element is integrated, see MassMatrix: exactly; at the nodes; with one
+  /// Gauss point less in each direction than the element has nodes.
   enum class SolidMass
   {
     consistent,
@@ -39,20 +39,21 @@ namespace taut
   };
 
   /**
-   * A solid that moves by small amounts: linear elasticity, discretised by deal.II,
+   * A solid of linear elasticity that moves by small amounts, discretised by deal.II. Take it for a
+   * part whose stresses or contact surfaces matter:
    *
    *     stress = lambda tr(strain) 1 + 2 mu strain,
    *     lambda = E nu / ((1 + nu) (1 - 2 nu)),    mu = E / (2 (1 + nu)),
    *
-   * in the plane (a body of some thickness) or in space, where it is. In plane stress 2 lambda mu /
-   * (lambda + 2 mu) takes the place of lambda. Tension is positive. DoFs are those of
-   * SolidMesh::dof_handler() [m].
+   * in the plane (a body with a thickness) or in space. In plane stress 2 lambda mu / (lambda + 2
+   * mu) takes the place of lambda. Tension is positive. DoFs are those of SolidMesh::dof_handler()
+   * [m].
    */
   template <int dim>
   class ElasticSolid : public FEBody<dim>
   {
   public:
-    /// An id that no cell has, see Options::materials.
+    /// A material id without cells, see Options::materials.
     static constexpr dealii::types::material_id other_materials =
         dealii::numbers::invalid_material_id;
 
@@ -60,18 +61,20 @@ namespace taut
     {
       std::string origin = {}; ///< path of its section in the parameter file, for messages
 
-      /// By material id of the cells; that of other_materials is for all ids without one.
+      /// Materials by material id of the cells. The material of other_materials is that of all
+      /// missing ids.
       std::map<dealii::types::material_id, ElasticMaterial> materials;
 
-      /// Of cells of this id; throws UserError if none is given.
+      /// Material of the cells with this id; throws UserError if the material is missing.
       const ElasticMaterial &material(dealii::types::material_id id) const;
 
       PlaneState plane_state = PlaneState::strain; ///< if dim = 2
       double thickness = 1.;                       ///< if dim = 2 [m]
       SolidMass mass = SolidMass::consistent;
 
-      /// Parts of the boundary whose nodes have no mass: those next to them have it instead,
-      /// such that the total mass stays, or also its centre and its moments of inertia.
+      /// Mass redistribution: parts of the boundary whose nodes have no mass. The nodes next to
+      /// them take the mass. The total mass is kept, and with keeps_inertia also the centre of mass
+      /// and the moments of inertia.
       std::set<dealii::types::boundary_id> without_mass = {};
       bool keeps_inertia = false;
       double mass_damping = 0.;      ///< C = mass_damping M + stiffness_damping K [1/s]
@@ -79,16 +82,17 @@ namespace taut
       Coordinates gravity = {};      ///< [m/s^2]
       std::vector<BoundaryCondition> conditions;
 
-      /// Of all points at t = 0, for Start::given; displacements are zero then [m/s].
+      /// Velocity of all points at t = 0, for Start::given; displacements are zero then [m/s].
       Coordinates initial_velocity = {};
     };
 
-    /// Throws UserError for a material that is missing or is none, for a boundary that the mesh
-    /// does not have, and for lumped masses of degree 2 on simplices, which have none at corners.
+    /// Throws UserError for a missing or impossible material, for a boundary that the mesh does not
+    /// have, and for lumped masses of degree 2 on simplices, whose corners would have no mass.
     ElasticSolid(const std::string &name, std::shared_ptr<const SolidMesh<dim>> mesh,
                  const Options &options);
 
-    /// A part of a solid, of these cells; @p conditions and mass_factors() are those of the whole.
+    /// The part of a solid with these cells; @p conditions and mass_factors() are those of the
+    /// uncut solid.
     using typename FEBody<dim>::Cell;
     ElasticSolid(const std::string &name, std::shared_ptr<const SolidMesh<dim>> mesh,
                  const Options &options, const SolidConditions<dim> &conditions,
@@ -99,14 +103,14 @@ namespace taut
     static std::vector<double> mass_factors(const SolidMesh<dim> &mesh, const Options &options,
                                             const SolidConditions<dim> &conditions);
 
-    /// Of a node of SolidMesh::surface().
+    /// Displacement of a node of SolidMesh::surface().
     LinearForm node_displacement(unsigned int node, const Coordinates &direction) const override;
 
     bool has_definite_mass() const override { return options.mass != SolidMass::reduced; }
 
-    /// Displacements; stresses [Pa], from the Gauss points of least error (J. Barlow, Int. J.
-    /// Numer. Meth. Engng 10 (1976)) and averaged at the nodes among cells of one material; their
-    /// principal values, the largest first, and von Mises' stress.
+    /// Writes displacements, stresses [Pa], principal stresses, the largest first, and von Mises'
+    /// stress. Stresses are from the Gauss points of least error (J. Barlow, Int. J. Numer. Meth.
+    /// Engng 10 (1976)), averaged at the nodes among cells of one material.
     void write_vtu(const std::string &path, const std::vector<double> &U) const override;
 
   private:

@@ -8,7 +8,7 @@
 
 namespace taut
 {
-  /// A rigid obstacle that does not move.
+  /// A rigid obstacle at rest, for obstacle_constraints(). Derive from it to bring another shape.
   class RigidObstacle
   {
   public:
@@ -16,7 +16,7 @@ namespace taut
 
     struct Distance
     {
-      double value = 0.;  ///< from the obstacle's surface; negative inside it [m]
+      double value = 0.;  ///< from the surface of the obstacle; negative inside [m]
       Coordinates normal; ///< unit vector out of the obstacle: the gradient of the distance
     };
 
@@ -28,7 +28,7 @@ namespace taut
   class PlaneObstacle : public RigidObstacle
   {
   public:
-    /// @p normal points out of the obstacle and has any length but zero (else: UserError).
+    /// @p normal points out of the obstacle; a length of zero is a UserError.
     PlaneObstacle(const Coordinates &point, const Coordinates &normal);
     Distance distance(const Coordinates &x) const override;
 
@@ -36,11 +36,11 @@ namespace taut
     Coordinates point, normal;
   };
 
-  /// Where the body is.
+  /// The side of the obstacle that the body is on.
   enum class ObstacleSide
   {
     outside, ///< of a solid ball or cylinder
-    inside   ///< of a hollow one: a socket, a bore
+    inside   ///< of a hollow ball or cylinder: a socket, a bore
   };
 
   /// A ball or a spherical socket; in the plane a disc or a round hole.
@@ -61,8 +61,8 @@ namespace taut
   class CylinderObstacle : public RigidObstacle
   {
   public:
-    /// A point of the axis, its direction of any length but zero, and a positive radius [m] (else:
-    /// UserError).
+    /// A point of the axis, the direction of the axis, and the radius [m]. A direction of length
+    /// zero, or a radius that is not positive, is a UserError.
     CylinderObstacle(const Coordinates &axis_point, const Coordinates &axis_direction,
                      double radius, ObstacleSide side);
     Distance distance(const Coordinates &x) const override;
@@ -74,30 +74,30 @@ namespace taut
   };
 
   /**
-   * All below a graph: x is in the obstacle if up . x < height(foot of x), with the foot of x its
-   * projection onto the plane through the origin across @p up. In the plane with up = (0, 1, 0)
-   * that is y < f(x). For an obstacle above the body, up points down and heights are measured
-   * downwards.
+   * The region below a graph: x is in the obstacle if up . x < height(foot of x). The foot of x is
+   * the projection of x onto the plane through the origin across @p up. In the plane with up = (0,
+   * 1, 0) the obstacle is y < f(x). For an obstacle above the body, up points down and heights are
+   * measured downwards.
    *
-   * The distance is that of the closest point of the graph, found by Gauss-Newton iterations that
-   * begin at the foot; where these do not converge (at kinks, or further away than the radius of
-   * curvature) it is that of the tangent plane at the foot.
+   * The distance is that of the closest point of the graph, found by Gauss-Newton iterations from
+   * the foot. If these do not converge (at kinks, or farther away than the radius of curvature),
+   * the distance is that of the tangent plane at the foot.
    */
   class HeightObstacle : public RigidObstacle
   {
   public:
-    /// Height above the origin along @p up [m]; called with feet.
+    /// Height above the origin along @p up [m], at the foot of a point.
     using Height = std::function<double(const Coordinates &foot)>;
 
     /// Derivatives of the height with respect to x, y, z of the foot [1].
     using Gradient = std::function<Coordinates(const Coordinates &foot)>;
 
-    /// @p up has any length but zero. Derivatives by central differences with the step
-    /// @p difference [m], about 1e-5 of the length over which heights change; their error is
-    /// 1e-10. UserError if one of the two is zero; distance() throws one if a height is no number.
+    /// Derivatives are central differences with the step @p difference [m]. Take about 1e-5 of the
+    /// length over which heights change; the error of derivatives is then 1e-10. Throws UserError
+    /// if @p up or @p difference is zero; distance() throws it if a height is not a number.
     HeightObstacle(unsigned int dim, const Coordinates &up, Height height, double difference);
 
-    /// The same with given derivatives.
+    /// An obstacle with given derivatives of the height.
     HeightObstacle(unsigned int dim, const Coordinates &up, Height height, Gradient gradient);
 
     Distance distance(const Coordinates &x) const override;

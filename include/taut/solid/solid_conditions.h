@@ -16,15 +16,15 @@
 
 namespace taut
 {
-  /// What is given on a part of the boundary.
+  /// A boundary condition of a solid: a prescribed displacement, a symmetry, or a load.
   struct BoundaryCondition
   {
     enum class Kind
     {
-      displacement, ///< of the components that are held [m]
+      displacement, ///< prescribed, of the held components [m]
       symmetry,     ///< no motion along the normal of faces across the axes
       traction,     ///< force per area, along x, y, z [Pa]
-      pressure      ///< against the outward normal, the x of the value [Pa]
+      pressure      ///< against the outward normal, x of the value [Pa]
     };
     Kind kind = Kind::displacement;
     std::set<dealii::types::boundary_id> boundaries;
@@ -37,20 +37,22 @@ namespace taut
     std::string origin = {}; ///< path of its section in the parameter file, for messages
   };
 
-  /// The DoFs of a mesh that hang between others or whose displacement is given.
+  /// The constraints of a solid: hanging nodes of the mesh, and DoFs whose displacement is
+  /// prescribed.
   template <int dim>
   class SolidConditions
   {
   public:
-    /// @p conditions are kept by reference. Throws EntryError about one with a boundary that the
-    /// mesh does not have, and about two that give one boundary's displacement along one axis.
+    /// @p conditions are kept by reference. Throws EntryError about a condition on a boundary that
+    /// the mesh does not have, and about two conditions for the displacement of one boundary along
+    /// one axis.
     SolidConditions(const SolidMesh<dim> &mesh, const std::vector<BoundaryCondition> &conditions);
 
-    /// Homogeneous (see prescribed() for what is not zero) and not closed, so that hanging nodes go
-    /// on to depend on nodes whose displacement is given.
+    /// Homogeneous constraints (see prescribed() for values that are not zero). They are not
+    /// closed, so that hanging nodes still depend on nodes whose displacement is prescribed.
     const dealii::AffineConstraints<double> &constraints() const { return all; }
 
-    /// A DoF whose displacement is not zero, and what gives it.
+    /// A DoF with a prescribed displacement that is not zero, and the condition that prescribes it.
     struct Prescribed
     {
       dealii::types::global_dof_index dof;

@@ -30,14 +30,14 @@ namespace taut
   }
 
   /**
-   * A mesh with displacements of degree 1 or 2 on it: quadrilaterals and hexahedra with hanging
-   * nodes, or triangles and tetrahedra.
+   * The mesh of an ElasticSolid, with displacements of degree 1 or 2: quadrilaterals and hexahedra
+   * with hanging nodes, or triangles and tetrahedra. Make it from any triangulation of deal.II.
    */
   template <int dim>
   class SolidMesh
   {
   public:
-    /// Throws UserError for a mesh without cells or of mixed shapes, and for another degree.
+    /// Throws UserError for a mesh without cells, a mesh of mixed shapes, and another degree.
     SolidMesh(std::unique_ptr<dealii::Triangulation<dim>> triangulation, unsigned int degree);
 
     const dealii::DoFHandler<dim> &dof_handler() const { return handler; }
@@ -53,16 +53,16 @@ namespace taut
     /// Ids of the parts of the boundary that the mesh has.
     std::set<dealii::types::boundary_id> boundary_ids() const;
 
-    /// A message that it does not have this one.
+    /// A message that the mesh does not have this boundary.
     std::string no_boundary(dealii::types::boundary_id id) const;
 
-    /// Where each DoF is [m], and along which axis it moves.
+    /// Position of each DoF [m]; component() is the axis along which it moves.
     const std::vector<dealii::Point<dim>> &points() const { return support_points; }
     unsigned int component(dealii::types::global_dof_index dof) const { return components[dof]; }
 
-    /// The boundary for contact, and the DoFs of its nodes: nodes of the whole boundary, faces of
-    /// the parts with these ids, of all if there are none. Throws UserError for an id that the mesh
-    /// does not have.
+    /// The contact surface of the mesh, and the DoFs of its nodes. It has the nodes of the whole
+    /// boundary, and the faces of the parts with these ids, or all faces without ids. Throws
+    /// UserError for an id that the mesh does not have.
     struct Surface
     {
       ContactSurface surface;
@@ -70,7 +70,7 @@ namespace taut
     };
     Surface surface(const std::set<dealii::types::boundary_id> &boundaries) const;
 
-    /// The same of the whole boundary.
+    /// The contact surface of the whole boundary.
     const Surface &whole_surface() const { return boundary; }
 
     /// All active cells, by their number.
