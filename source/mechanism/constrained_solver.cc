@@ -11,7 +11,7 @@ namespace taut
 {
   namespace
   {
-    /// Part of a row of G that has to be its own, and of the largest pivot that a pivot has to be.
+    /// Smallest independent part of a row of G, and smallest pivot over the largest pivot.
     constexpr double independent = 1e-10, smallest_pivot = 1e-15;
   } // namespace
 
@@ -146,7 +146,7 @@ namespace taut
         sum += Q[i * n + j] * y[i];
       return sum;
     };
-    // What G prescribes.
+    // The part of the solution that G prescribes.
     for (unsigned int k = 0; k < r; ++k)
     {
       double sum = is_held[n + rows[k]] ? 0. : x[n + rows[k]];
@@ -158,7 +158,7 @@ namespace taut
     }
     std::vector<double> left = b;
     add_product(left, q);
-    // What it allows.
+    // The part of the solution that G allows.
     std::vector<double> y(f);
     for (unsigned int i = 0; i < f; ++i)
     {

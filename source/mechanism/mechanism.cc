@@ -12,7 +12,7 @@ namespace taut
 {
   namespace
   {
-    /// The first member, if all of them are masses of the scene.
+    /// The first member, if all members are masses of the scene.
     const Mass &first_of(const Scene &scene, const std::vector<std::size_t> &members)
     {
       if (members.empty())
@@ -141,8 +141,8 @@ namespace taut
 
   Substructure::NullSpace Mechanism::null_space() const
   {
-    // Eigenvectors of zero eigenvalue of the stiffness scaled to a unit diagonal; a DoF without any
-    // stiffness is one.
+    // Eigenvectors to the eigenvalue zero of the stiffness scaled to a unit diagonal; a DoF without
+    // stiffness is such an eigenvector.
     const int n = dofs.size();
     std::vector<double> a(n * n, 0.), scale(n, 1.), eigenvalues(n), work(8 * n + 64);
     K->visit([&](unsigned int i, unsigned int j, double value)

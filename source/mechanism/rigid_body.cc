@@ -26,12 +26,12 @@ namespace taut
       return 3 + 3 * director;
     }
 
-    /// Least part of all of the inertia along an axis: bodies may be flat.
+    /// Smallest part of the inertia along an axis: bodies may be flat.
     constexpr double least_inertia = 1e-12;
 
-    /// At rest the mass resists motions of the size of the body by this many times the forces on
-    /// it: at first, and then that many times the rotation of the last iteration, between two
-    /// bounds.
+    /// At rest the mass resists motions of the size of the body by this factor times the forces on
+    /// the body. The first factor is for the first iteration. Later the factor is proportional to
+    /// the rotation of the last iteration, between two bounds.
     constexpr double part_at_first = 5., part_of_rotation = 4., least_part = 1e-4, most_part = 2.;
   } // namespace
 
@@ -218,7 +218,7 @@ namespace taut
       f[n_coordinates + k] = scale * g[k];
   }
 
-  /// The conditions are differences of squares of the directors.
+  /// The conditions are differences of squares of the directors, which round with these squares.
   double RigidBody::rounding_of_force(const unsigned int kind) const
   {
     constexpr double operations = 8.;
@@ -242,8 +242,8 @@ namespace taut
   }
 
   /**
-   * Lambda s_ij / l^2 between the directors i and j, which resists rotations as the matrix tr(s) -
-   * s does. @p definite: without the negative part of this.
+   * Geometric stiffness Lambda s_ij / l^2 between the directors i and j. It resists rotations as
+   * the matrix tr(s) - s. @p definite leaves out the negative part of this matrix.
    */
   void RigidBody::add_geometric(const std::vector<double> &U, const bool definite,
                                 SymmetricMatrix &A) const

@@ -58,7 +58,7 @@ namespace taut
 
     std::unique_ptr<Substructure> RigidBodyType::make(const BodySetting &setting) const
     {
-      /// Cosine of an angle that rounding in an entry leaves of a right one.
+      /// Largest cosine of an angle that counts as a right angle, as entries are rounded.
       constexpr double right_angle = 1e-5;
       RigidBodyData data;
       data.name = setting.name;

@@ -21,7 +21,7 @@ namespace taut
       return result;
     }
 
-    /// Groups of cells of one part that hang together, in the order of their first cells.
+    /// Connected groups of cells of one part, in the order of their first cells.
     std::vector<std::vector<unsigned int>> groups(const FaceNeighbours &neighbours,
                                                   const std::vector<unsigned int> &part)
     {

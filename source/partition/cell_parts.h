@@ -9,14 +9,14 @@
 
 namespace taut
 {
-  /// Of each cell the cells with which it has DoFs in common, and how many.
+  /// For each cell the cells with common DoFs, and the number of these DoFs.
   std::vector<std::map<unsigned int, unsigned int>> cell_neighbours(const BodyCells &cells);
 
   /**
-   * Makes the cells of each part hang together by faces, as parts that touch in a corner only would
-   * move like a mechanism: of each part the largest group stays, the others go to the part with
-   * which they share the most faces. A group without a neighbour becomes a part of its own; @p
-   * n_parts then grows.
+   * Makes each part connected by faces of its cells: a part whose groups of cells touch in a corner
+   * only would move like a mechanism. The largest group of a part is kept. Every other group goes
+   * to the part with which it shares the most faces. A group without a neighbour becomes a part of
+   * its own; @p n_parts then grows.
    */
   void connect_parts(const BodyCells &cells, std::vector<unsigned int> &part,
                      unsigned int &n_parts);

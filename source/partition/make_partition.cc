@@ -20,8 +20,8 @@ namespace taut
 {
   namespace
   {
-    /// DoFs of a solid in space from which parts cost less than the whole, with the reference BLAS
-    /// and with a tuned one, solutions up to which they do, and DoFs of a part
+    /// Smallest number of DoFs of a solid in space for which parts cost less than the uncut solid,
+    /// with the reference BLAS and with a tuned BLAS; largest number of solutions; DoFs of a part
     /// (doc/results/decomposition.md).
     constexpr std::size_t least_cut_dofs = 10000, least_with_tuned_blas = 100000,
                           dofs_per_part = 500;
@@ -53,8 +53,8 @@ namespace taut
       std::vector<std::size_t> first;         ///< vertex of the first node of each wire
       std::vector<std::vector<char>>
           is_attachment; ///< a link, support, mass or load is on the node
-      std::vector<std::shared_ptr<const DivisibleBody>> bodies; ///< none: it stays whole
-      std::vector<std::size_t> first_cell;                      ///< vertex of the first of each
+      std::vector<std::shared_ptr<const DivisibleBody>> bodies; ///< none: not cut
+      std::vector<std::size_t> first_cell; ///< vertex of the first cell of each body
 
     private:
       /// Elements hold their ends together more than links do.
@@ -137,7 +137,7 @@ namespace taut
           }
           catch (const UserError &)
           {
-            // Where the bodies are made, the error names the link.
+            // The error that names the link comes when the bodies are made.
           }
       if (ends.size() == 2)
         connect(ends[0], ends[1], link_weight);
@@ -184,8 +184,8 @@ namespace taut
       return part;
     }
 
-    /// A node between `low` and `high`, both excluded, that carries nothing; the nearest one to
-    /// `wanted`.
+    /// The node nearest to `wanted` without a link, support, mass or load, between `low` and
+    /// `high`, both excluded.
     std::size_t free_node(const std::vector<char> &is_attachment, const std::size_t wanted,
                           const std::size_t low, const std::size_t high)
     {
@@ -222,7 +222,7 @@ namespace taut
         for (std::size_t i = 1; i < n; ++i)
           if (p[i] != p[i - 1])
           {
-            // No piece without an element, none beyond the end.
+            // No piece may lack an element or begin beyond the end.
             const std::size_t node =
                 free_node(graph.is_attachment[w], i, pieces.back().first, n - 1);
             if (node > pieces.back().first && node < n - 1)

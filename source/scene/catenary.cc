@@ -220,7 +220,7 @@ namespace taut
     {
       Probe probe;
       probe.origin = "Catenary/Uplift positions";
-      // With as many decimals each, no two are the same but for the point.
+      // All names have the same number of decimals, so that no two names differ by the point alone.
       std::ostringstream name;
       name << std::fixed << std::setprecision(whole ? 0 : 3) << "contact wire at " << x << " m";
       probe.name = name.str();
@@ -251,7 +251,8 @@ namespace taut
         link.kind = LinkKind::dropper;
         link.origin = "Catenary/Droppers";
         const double x = span * span_length + dropper_positions[i];
-        // As many digits each: 1.11 and 11.1 are one name to programs that drop the point.
+        // All names have the same number of digits: 1.11 and 11.1 are one name to programs that
+        // drop the point.
         std::string index = std::to_string(i + 1);
         index.insert(0, std::to_string(dropper_positions.size()).size() - index.size(), '0');
         link.name = "dropper " + std::to_string(span + 1) + "." + index;

@@ -10,10 +10,11 @@
 namespace taut
 {
   /**
-   * Scene generator `catenary`: a tension length of a railway overhead line, equal spans, a contact
-   * wire under a messenger wire on droppers, and pantographs under it. x runs from the first mast;
-   * the contact wire lies at y = 0. In space both wires move along z, too: stagger holds them to
-   * one side and the other of z = 0, wind blows along z, droppers hang where the wires are.
+   * Scene generator `catenary`: a tension length of a railway overhead line with equal spans. A
+   * contact wire hangs on droppers under a messenger wire, with pantographs below. x runs from the
+   * first mast; the contact wire is at y = 0. In space both wires move along z, too. Stagger holds
+   * them in turn on both sides of z = 0, wind blows along z, and droppers hang between the
+   * displaced wires.
    */
   class Catenary : public SceneGenerator
   {

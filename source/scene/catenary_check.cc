@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: LGPL-2.1-or-later
-// What a line and its pantographs need beyond any scene, in words of their own entries.
+// SPDX-License-Identifier: LGPL-2.1-or-later Checks of an overhead line and its pantographs beyond
+// those of any scene, with messages about their entries.
 #include "catenary.h"
 
 #include <taut/base/exceptions.h>
@@ -13,7 +13,7 @@
 
 namespace taut
 {
-  /// What a line needs beyond a scene of any wires.
+  /// Checks of an overhead line beyond those of any scene.
   void Catenary::check_line() const
   {
     if (!(span_length > 0.))

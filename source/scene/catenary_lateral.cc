@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: LGPL-2.1-or-later
-// What a line in space has beyond one in the plane: lateral motion, stagger, wind.
+// SPDX-License-Identifier: LGPL-2.1-or-later Parts of an overhead line in space beyond a line in
+// the plane: lateral motion, stagger, wind.
 #include "catenary.h"
 
 #include <string>
@@ -18,7 +18,7 @@ namespace taut
            !messenger.wind_load("Messenger wire").is_zero();
   }
 
-  /// Supports along z at all masts, each with its own name, as each has its own place.
+  /// Supports along z at all masts, each with its own name and place.
   void Catenary::hold_aside(const std::size_t wire, const WireItem &item, const std::string &name,
                             Scene &scene) const
   {

@@ -20,7 +20,7 @@ namespace taut
     if (end.kind == Attachment::Kind::ground)
       return false;
     if (end.kind == Attachment::Kind::body)
-      return !rotational; // which of its points move is known to the body alone
+      return !rotational; // only the body knows which of its points move
     if (end.kind == Attachment::Kind::mass)
     {
       const Mass &mass = scene.masses[end.index];
@@ -63,7 +63,7 @@ namespace taut
       if (!(length / wire.element_size <= most_elements))
         fail(wire, "Element size", what, length / wire.element_size,
              " elements are too many; make them larger");
-      // The nodes are places in space: they have to be distinct there.
+      // Nodes are places in space, and have to be distinct there.
       constexpr double least_ratio = 1e-10;
       double farthest = 0.;
       for (const Coordinates &end : {wire.a, wire.b})
@@ -119,7 +119,7 @@ namespace taut
              "' has no slope to hold; a moment or an angular gap needs the component beam");
     }
 
-    /// A motion of a point that is held can be held once.
+    /// A motion of a point can be held only once.
     void check_held_once(const Scene &scene)
     {
       struct Held
@@ -213,7 +213,8 @@ namespace taut
       }
     }
 
-    /// Whether an end of a link can, along its direction or, if it turns, at all.
+    /// Whether an end of a link can move: along the direction of the link or, if the link turns, at
+    /// all.
     bool can_move(const Scene &scene, const Link &link, const Attachment &end)
     {
       if (!link.turns)
@@ -235,7 +236,7 @@ namespace taut
     {
       if (link.to.kind == Attachment::Kind::body &&
           scene.bodies[link.to.index].type_name == "cable")
-        return; // its length is known when it is made
+        return; // the length of the body is known when the body is made
       if (link.to.kind != Attachment::Kind::wire)
         fail(link, "To", what, "a sliding contact slides on a wire or a cable, 'wire @ start'");
       const double end = link.to.position + link.speed * end_time;
@@ -253,8 +254,8 @@ namespace taut
       }
     }
 
-    /// Two links of one section between the same points along the same direction: a position that
-    /// was written twice.
+    /// Two links of one section between the same points along the same direction come from a
+    /// position that was written twice.
     void check_repeated(const Scene &scene)
     {
       const auto key = [](const Link &link)

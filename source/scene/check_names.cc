@@ -20,7 +20,7 @@ namespace taut
                "'; names are unique and not empty");
     }
 
-    /// A link says where it acts by a name alone.
+    /// A link names its ends by a name alone.
     void check_body_names(const Scene &scene)
     {
       for (const CustomBody &body : scene.bodies)
@@ -33,7 +33,7 @@ namespace taut
       }
     }
 
-    /// What numpy's genfromtxt(names=True) makes of a name in the head of a table.
+    /// The column name that numpy's genfromtxt(names=True) makes of a name in the head of a table.
     std::string name_in_tables(const std::string &name)
     {
       const std::string dropped = "~!@#$%^&*()-=+\\|]}[{';:/?.>,<\"";
@@ -44,7 +44,7 @@ namespace taut
       return result;
     }
 
-    /// Names that become one in the head of a table are one too many.
+    /// Two names must not become one column name in the head of a table.
     class TableNames
     {
     public:
@@ -62,7 +62,7 @@ namespace taut
 
     private:
       std::string kind;
-      std::map<std::string, std::string> names; ///< as written, by what is left of them
+      std::map<std::string, std::string> names; ///< as written, by their column names
     };
 
     void check_names_in_tables(const Scene &scene)

@@ -10,12 +10,12 @@
 
 namespace taut
 {
-  /// Throws an EntryError for an entry of an item; an item made without a parameter file has no
-  /// path.
+  /// Throws an EntryError about an entry of an item; the path is empty for an item without a
+  /// parameter file.
   template <typename Item, typename... Parts>
   void fail(const Item &item, const std::string &entry, const Parts &...parts)
   {
-    // A position that is outside by little has to look so.
+    // The message must show that a position is outside, even by little.
     throw EntryError(item.origin.empty() || entry.empty() ? item.origin : item.origin + "/" + entry,
                      to_text(std::setprecision(12), parts...));
   }

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: LGPL-2.1-or-later
-// What a parameter file cannot say, and a generator of a plugin or a program can.
+// SPDX-License-Identifier: LGPL-2.1-or-later Checks of values that a parameter file cannot have,
+// but a generator of a plugin or a program can.
 #include "check_parts.h"
 
 #include <algorithm>
@@ -10,9 +10,10 @@ namespace taut
 {
   namespace
   {
-    constexpr unsigned int most_degree = 4; ///< blocks of a wire's matrices have up to 4 DoFs
+    constexpr unsigned int most_degree = 4; ///< blocks of the matrices of a wire have up to 4 DoFs
 
-    /// Of the length of a direction from one: far above rounding, far below what a result shows.
+    /// Largest deviation of the length of a direction from one: far above rounding, far below the
+    /// accuracy of results.
     constexpr double same_length = 1e-8;
 
     bool is_finite(const Coordinates &x)
@@ -20,7 +21,7 @@ namespace taut
       return std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z);
     }
 
-    /// The values of one item, with its kind and name in front of each message.
+    /// Checks the values of one item; messages begin with its kind and name.
     template <typename Item>
     class Values
     {

@@ -17,7 +17,7 @@ namespace taut
 {
   namespace
   {
-    /// deal.II's parser says what is wrong on std::cerr, and only there: "Message:  <...>".
+    /// The parser of deal.II writes the error to std::cerr only: "Message: <...>".
     class CaughtErrorOutput
     {
     public:
@@ -68,7 +68,7 @@ namespace taut
       }
     }
 
-    /// What no formula of this entry can be; empty if nothing.
+    /// The fault of a formula of this entry; empty if there is none.
     std::string objection(const std::string &formula, const Expression::Variables variables)
     {
       if (std::regex_search(formula, std::regex("^[^()+*,]*\\.[A-Za-z]{2}[A-Za-z0-9]*$")))
@@ -96,7 +96,8 @@ namespace taut
 
   namespace
   {
-    /// A formula of dim coordinates and the time, which deal.II keeps as a state of the function.
+    /// A formula of dim coordinates and the time; deal.II keeps the time as a state of the
+    /// function.
     template <int dim>
     class ParserOf : public Expression::Parser
     {
@@ -104,7 +105,7 @@ namespace taut
       ParserOf(const std::string &variables, const std::string &text)
       {
         function.initialize(variables, text, {{"pi", dealii::numbers::PI}}, true);
-        // The formula is compiled at the first evaluation: here, where the mistake is.
+        // The formula is compiled at the first evaluation. This one reports a mistake at its entry.
         value({}, 0.);
       }
       double value(const Coordinates &x, const double t) override

@@ -15,14 +15,15 @@ namespace taut
 {
   namespace
   {
-    /// Part of a unit vector and of a tension that is rounding.
+    /// Rounding of a unit vector, and of a tension over its size.
     constexpr double rounding = 1e-9;
 
-    /// By how much of the length of a wire, and by how much at most [m], a place may miss its end:
-    /// it is written with few digits.
+    /// Largest distance of a place from the end of a wire, over the length of the wire, and in [m]:
+    /// places are written with few digits.
     constexpr double near_end = 1e-3, nearest = 1e-3;
 
-    using End = std::pair<std::size_t, bool>; ///< of a wire: its number, and whether it is the last
+    using End =
+        std::pair<std::size_t, bool>; ///< number of the wire, and whether it is the last end
 
     /// Whether a place is an end of a wire under tension.
     bool find_end(const Scene &scene, const Attachment &at, End &end)
@@ -44,7 +45,8 @@ namespace taut
       return add_scaled({}, end.second ? -wire.tension : wire.tension, wire.tangent());
     }
 
-    /// The part of a unit vector that is across all others, as one; false if there is none.
+    /// The part of a unit vector orthogonal to all others, scaled to length 1; false if there is
+    /// none.
     bool across(const std::vector<Coordinates> &others, Coordinates &direction)
     {
       for (const Coordinates &other : others)
@@ -98,7 +100,7 @@ namespace taut
         pulls.push_back({last ? link.to : link.from, last ? link.from : link.to, direction,
                          add_scaled({}, dot(force, direction), direction)});
       }
-      // Along one direction both ends move alike, and the sum counts.
+      // Along a common direction both ends move alike, and the sum of their pulls counts.
       if (pulls.size() == 2 && norm(pulls[0].direction - pulls[1].direction) <= rounding)
       {
         pulls[1].force = add_scaled(pulls[0].force, 1., pulls[1].force);

@@ -7,10 +7,10 @@
 namespace taut
 {
   /**
-   * Where rigid joints hold ends of wires under tension together, their pull is a load of the
-   * scene: the sum of T t, t the tangent into each wire, along the directions that are held. It
-   * vanishes where a wire goes on straight with the same tension. What a joint leaves free stays
-   * held from outside, as at the end of a wire alone.
+   * Adds the pull of wires under tension whose ends rigid joints hold together as a load of the
+   * scene. The load is the sum of T t along the held directions, with the tangent t into each wire.
+   * It vanishes where a wire goes straight on with the same tension. Directions that a joint leaves
+   * free are held from outside, as at the end of a single wire.
    */
   void add_pulls_of_kinks(Scene &scene);
 } // namespace taut

@@ -63,7 +63,7 @@ namespace taut
                                     "range; a dead zone is a Gap");
       }
 
-      /// Of the range: where the formula is looked at.
+      /// Points of the range at which the formula is checked.
       static std::vector<double> parts()
       {
         constexpr int n_equal = 1000;

@@ -45,7 +45,7 @@ namespace taut
 
   namespace
   {
-    /// Whether an end is at a body in the plane, which shows as much by its surface.
+    /// Whether an end is at a body in the plane; the surface of the body says so.
     bool is_in_plane(const Scene &scene, const Attachment &end)
     {
       if (end.kind != Attachment::Kind::body)
@@ -55,14 +55,14 @@ namespace taut
       {
         return body.type->surface({body.name, body.origin, scene.gravity}, {}).dim == 2;
       }
-      catch (const UserError &) // no surface, or none yet: the body itself says what is wrong
+      catch (const UserError &) // no surface, or none yet: the body reports the error
       {
         return false;
       }
     }
 
-    /// A joint along each of x, y, z that one of its ends moves along. Across its plane a body
-    /// stands, and the joint holds the other end to the ground.
+    /// Joints along each of x, y, z in which an end moves. A body in the plane does not move across
+    /// its plane; there the joint holds the other end to the ground.
     void add_ball_joint(const Link &all, Scene &scene)
     {
       const std::pair<const char *, Coordinates> axes[] = {
@@ -80,7 +80,7 @@ namespace taut
       }
     }
 
-    /// What a link that turns cannot be, and what no other link has.
+    /// Checks entries of links that turn, and entries that only links that turn may have.
     void check_turns(const Network::LinkItem &item, const Link &link, const bool is_ball_joint,
                      const std::string &title)
     {
@@ -131,7 +131,7 @@ namespace taut
       wire.origin = title;
       wire.a = parse_coordinates(item.from, title + "/From");
       wire.b = parse_coordinates(item.to, title + "/To");
-      // Links ask for its direction before the whole scene is checked.
+      // Links need its direction before the whole scene is checked.
       if (!(wire.length() > 0.))
         throw EntryError(title + "/To", "its two ends are at one place; give it a length");
       wire.mass_per_length = item.mass_per_length;
@@ -246,7 +246,7 @@ namespace taut
 
   namespace
   {
-    /// Throws EntryError for ends on bodies that make no link.
+    /// Throws EntryError for ends on bodies between which no link is possible.
     void check_ends(const Link &link, const Scene &scene, const std::string &title,
                     const bool has_direction)
     {

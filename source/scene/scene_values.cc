@@ -9,7 +9,7 @@ namespace taut
 {
   namespace
   {
-    /// Writes the members of the scene's parts, each part with all of its members.
+    /// Writes all members of each part of the scene.
     class Writer
     {
     public:
@@ -44,7 +44,7 @@ namespace taut
       void write(const std::string &value) { archive << value; }
       void write(const std::vector<double> &values) { archive << values; }
       void write(const Coordinates &c) { all(c.x, c.y, c.z); }
-      /// The entry that its messages name is in the section that the part comes from.
+      /// Messages name an entry in the section of the part.
       void write(const Expression &e) { all(e.formula(), e.depends_on_time()); }
       void write(const InitialMotion &m) { all(m.displacement, m.velocity); }
       void write(const Attachment &a) { all(a.kind, a.index, a.position, a.place, a.has_place); }

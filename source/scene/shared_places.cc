@@ -9,8 +9,8 @@ namespace taut
 {
   namespace
   {
-    /// Part of a place that digits which were not written may change: a short element on purpose
-    /// is a larger part of it. And part of the length of a wire that is no element of any use.
+    /// Largest part of a place that missing digits may change: an intended short element is longer.
+    /// Largest part of the length of a wire that is too short for a useful element.
     constexpr double part_of_place = 1e-6, part_of_length = 1e-8;
   } // namespace
 
@@ -63,7 +63,7 @@ namespace taut
       const double length = scene.wires[w].length(), same = same_place(scene.wires[w]);
       const auto move = [&](double &s, const double to)
       {
-        // The grid takes what differs by rounding for one node as it is.
+        // The grid takes places that differ by rounding for one node anyway.
         const double distance = std::fabs(s - to), rounding = 1e-12 * length;
         const bool are_one =
             distance <= std::min(same, std::max(part_of_place * to, part_of_length * length));

@@ -64,7 +64,7 @@ namespace taut
              a.height.formula() == b.height.formula();
     }
 
-    /// Whether nodes would have two constraints for one contact, which share its force out.
+    /// Whether nodes would have two constraints for one contact, which would share its force.
     bool have_same_sides(const SurfaceContact &a, const SurfaceContact &b)
     {
       if (a.obstacle.shape != ObstacleSetting::Shape::none ||

@@ -40,7 +40,7 @@ namespace taut
     }
   }
 
-  /// Those of the last case, changed, or read anew.
+  /// Changes the parameters of the last case, or reads them anew.
   void CaseRunner::set_parameters(const std::vector<std::string> &entries)
   {
     if (parameters && parameters->change(entries))

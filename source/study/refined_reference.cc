@@ -46,7 +46,7 @@ namespace taut
       QuantityReference reference;
       reference.quantity = levels[n - 1];
       reference.error = std::max(change, before);
-      // Slower than the square root of the step, the sum of the changes is a guess.
+      // If the changes fall more slowly than the square root of the step, their sum is a guess.
       constexpr double slowest = .75;
       if (n > 2 && change < slowest * before)
       {

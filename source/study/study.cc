@@ -49,7 +49,7 @@ namespace taut
     }
   } // namespace
 
-  /// What one run gave.
+  /// The result of one run.
   struct Study::Run
   {
     std::vector<StudyQuantity> quantities;
@@ -122,8 +122,8 @@ namespace taut
         run_setting(setting, repeat == 0);
   }
 
-  /// Of a study that ends early. A setting without a run for its cost alone has that of its run
-  /// with output; costs of both kinds are not compared.
+  /// Keeps the measured settings of a study that ends early. A setting without a run for its cost
+  /// alone has the cost of its run with output; costs of both kinds are not compared.
   void Study::keep_measured_settings()
   {
     std::vector<StudySetting> &settings = result.settings;
@@ -335,7 +335,7 @@ namespace taut
     }
     catch (const NotWritten &)
     {
-      throw; // so would the next setting
+      throw; // the next setting would fail, too
     }
     catch (const UserError &e)
     {

@@ -44,8 +44,8 @@ namespace taut
           << result.end_time / setting.seconds_with_output << " |\n"
           << std::defaultfloat;
     }
-    /// The values on the parameter lists that are not refined, "BDF2, string": what settings are
-    /// compared by.
+    /// The values of a setting on the parameter lists that are not refined, "BDF2, string": the
+    /// table compares these groups of settings.
     std::string kind(const StudyResult &result, const StudySetting &setting)
     {
       std::string text;
@@ -55,7 +55,7 @@ namespace taut
       return text;
     }
 
-    /// For each kind of setting the cheapest one for each accuracy.
+    /// The cheapest setting of each group for each accuracy.
     void print_kinds(const StudyResult &result, const std::vector<double> &accuracies,
                      std::ostream &out)
     {

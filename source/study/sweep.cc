@@ -30,14 +30,14 @@ namespace taut
     }
 
     /**
-     * Time that a batch of cases takes about [s]: a sweep that is killed loses that much of each
-     * worker, and a worker that waits for the slowest one at its end waits for a small part of it,
-     * as the differences between many cases average out.
+     * Approximate time of a batch of cases [s]. A killed sweep loses this time of each worker. At
+     * the end of a batch workers wait for the slowest worker, for a small part of this time:
+     * differences between many cases average out.
      */
     constexpr double batch_seconds = 10.;
 
-    /// The lines of all workers in the order of the cases, which they have in turn; up to the first
-    /// one that is missing.
+    /// The lines of all workers in the order of the cases, which workers have in turn, up to the
+    /// first missing line.
     std::vector<std::string> in_order(const std::vector<std::string> &texts)
     {
       std::vector<std::istringstream> of_workers(texts.begin(), texts.end());
@@ -74,7 +74,7 @@ namespace taut
                                            : parameters.sweep.folder;
   }
 
-  /// Of the scene as it is written.
+  /// Column names from the scene in the file.
   void Sweep::name_columns()
   {
     header = csv_cell("case");
@@ -119,7 +119,7 @@ namespace taut
     write_file(table, header);
   }
 
-  /// Counts its complete lines and drops what follows them.
+  /// Counts the complete lines of the table and drops the bytes behind them.
   void Sweep::continue_table(const std::string &table)
   {
     std::ifstream in(table, std::ios::binary);
@@ -184,7 +184,7 @@ namespace taut
     log << "Sweep in " << sweep_folder() << '\n';
   }
 
-  /// What the root knows of the table, on all workers.
+  /// Gives all workers the data of the table that the root has.
   void Sweep::share_columns()
   {
     std::string shared = std::to_string(n_done);
@@ -229,8 +229,8 @@ namespace taut
     return lines.size();
   }
 
-  /// The line of a case; empty if the run was asked to stop. A disk that is full is no fault of the
-  /// case and ends the sweep: it goes on from here when there is room.
+  /// The line of a case; empty if the run was asked to stop. A full disk is no fault of the case
+  /// and ends the sweep; --resume goes on from here when there is room.
   std::string Sweep::run_case(const std::size_t number)
   {
     std::string text = std::to_string(number + 1);
@@ -287,7 +287,7 @@ namespace taut
            csv_number(result.worst.balance);
   }
 
-  /// A sweep that is killed within it leaves an incomplete last line.
+  /// A sweep that is killed in this function leaves an incomplete last line.
   void Sweep::append(const std::string &lines) const
   {
     const std::string path = sweep_folder() + "/" + table_name;

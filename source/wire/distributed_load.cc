@@ -13,8 +13,9 @@
 
 namespace taut
 {
-  /// Throws EntryError for stretches of a load that are narrower than what is seen at once of it
-  /// wherever it is. Those at the ends of the wire's piece may come in or leave.
+  /// Throws EntryError for stretches of a load that are narrower than the width that the
+  /// integration sees anywhere. Stretches at the ends of the piece of the wire may enter or leave,
+  /// and are not checked.
   class WireComponent::DistributedLoad::WidthCheck
   {
   public:
@@ -57,7 +58,7 @@ namespace taut
       is_fine = false;
     }
 
-    /// The wire's piece ends.
+    /// The piece of the wire ends.
     void end()
     {
       if (!was_on)
@@ -113,7 +114,7 @@ namespace taut
           const ElementLoad fine = integral.over(element.begin, element.length, element.places, t,
                                                  LoadIntegral::fine_pieces, typical);
           if (!fine.is_resolved)
-            break; // as the run says, if it comes to this time
+            break; // the run reports this error if it comes to this time
           if (!fine.is_cubic)
             continue;
           const ElementLoad at_once =
@@ -124,7 +125,7 @@ namespace taut
       }
       catch (const UserError &)
       {
-        // A time at which the formula has no value may be one that the run never comes to.
+        // The run may never come to a time at which the formula has no value.
       }
   }
 

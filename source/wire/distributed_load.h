@@ -15,9 +15,10 @@ namespace taut
   /**
    * A force per length f(s, t), integrated at each call over each element, see LoadIntegral.
    *
-   * Of a load that changes with time an element is looked at in one piece, so that what moves has
-   * to be as wide as is seen at once: narrower ones throw EntryError. What is narrower and stands
-   * is found at the set-up, at a few times; its elements are looked at in fine pieces from then on.
+   * For a load that changes with time an element is looked at in one piece, so that a moving load
+   * has to be as wide as this piece sees; a narrower moving load throws EntryError. A narrower load
+   * at rest is found at the set-up, at a few times. Its elements are looked at in fine pieces from
+   * then on.
    */
   class WireComponent::DistributedLoad : public TimeLoad
   {

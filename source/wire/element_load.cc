@@ -11,7 +11,7 @@ namespace taut
     constexpr unsigned int n_points = 9, n_moments = 4;
 
     /// Places on (-1, 1): the Gauss points, the middle, and points that leave no gap wider than
-    /// 0.34. The outer ones are off the ends, where a formula need not have a value.
+    /// 0.34. The outer points are not at the ends, where a formula need not have a value.
     constexpr double end = 1. - 2e-9, inner = 0.33998104358485626, outer = 0.86113631159405258;
     constexpr double places[n_points] = {-end, -outer, -.6, -inner, 0., inner, .6, outer, end};
     constexpr unsigned int gauss_points[ElementLoad::n_points] = {1, 3, 5, 7};
@@ -26,12 +26,12 @@ namespace taut
                                                 0., 0.32607257743127307, 0., 0.17392742256872693,
                                                 0.};
 
-    /// What counts of errors of moments. The first one is that about the middle over a half of the
-    /// length; the higher ones change no sum of forces and none of moments.
+    /// Weights of errors of moments. The first moment is that about the middle over half of the
+    /// length; higher moments change neither the sum of forces nor the sum of moments.
     constexpr double parts_of_moments[] = {1., .25, 1e-3, 1e-3};
 
-    /// Errors over the tolerance's size: of an element that keeps its values, of a piece over its
-    /// part of the element, and of a piece that holds a jump.
+    /// Accepted errors over the tolerance: of an element that keeps its values, of a piece over its
+    /// part of the element, and of a piece with a jump.
     constexpr double kept = .5 * LoadIntegral::tolerance, smooth = .2 * LoadIntegral::tolerance,
                      jump = 4e-3 * LoadIntegral::tolerance;
     constexpr double narrowest_piece = 1e-13;
@@ -44,7 +44,7 @@ namespace taut
       return {1., x, .5 * (3. * x * x - 1.), .5 * x * (5. * x * x - 3.)};
     }
 
-    /// What the two rules make of a value at each point differ by this.
+    /// Difference of the weights of the two rules at each point.
     constexpr std::array<Moments, n_points> weighted_differences()
     {
       std::array<Moments, n_points> result = {};
@@ -85,13 +85,13 @@ namespace taut
     double error = 0., size = 0.;
   };
 
-  /// What the accepted pieces add up to.
+  /// The sums of the accepted pieces.
   struct LoadIntegral::Sums
   {
     ElementLoad load;
     Moments moments = {};
     unsigned int n_pieces = 0;
-    double error = 0., scale = 0.; ///< of what is accepted, and what this is measured by
+    double error = 0., scale = 0.; ///< of the accepted pieces, and the scale of this error
 
     void add(const Piece &piece)
     {
@@ -165,7 +165,8 @@ namespace taut
 
   namespace
   {
-    /// Puts the cubic of these moments in the place of values whose moments differ by more.
+    /// Replaces values by the cubic of these moments if their own moments differ by more than the
+    /// tolerance.
     void take_cubic(const Moments &moments, const double difference, ElementLoad &load)
     {
       Moments by_values = {};

@@ -9,9 +9,9 @@
 namespace taut
 {
   /**
-   * A load over one element as values at its four Gauss points: those of the load, where the rule
-   * of these points gives its sum and first moment, otherwise those of the cubic with the moments
-   * of the load against all cubics.
+   * A load over one element as values at its four Gauss points. They are values of the load if the
+   * Gauss rule gives its sum and first moment. Otherwise they are values of the cubic that has the
+   * moments of the load against all cubics.
    */
   struct ElementLoad
   {
@@ -19,22 +19,22 @@ namespace taut
     using Values = std::array<double, n_points>;
 
     Values values = {};
-    bool is_cubic = false;   ///< not the load's own values
-    double size = 0.;        ///< integral of its absolute value, of an element of length 1
+    bool is_cubic = false;   ///< values of the cubic, not of the load
+    double size = 0.;        ///< integral of the absolute value on an element of length 1
     double largest = 0.;     ///< absolute value
-    bool begins = false;     ///< it is not zero at the first end
-    bool ends = false;       ///< nor at the last one
+    bool begins = false;     ///< the load is not zero at the first end
+    bool ends = false;       ///< the load is not zero at the last end
     bool is_resolved = true; ///< sum and first moment are within the tolerance
     double narrowest = 1.;   ///< length of the smallest piece that was looked at
     double narrowest_at = 0.;
 
-    /// Of a block as high and as large.
+    /// Width of a block of the same height and the same integral.
     double width() const { return largest > 0. ? size / largest : 0.; }
   };
 
   /**
-   * A mean of the absolute value of a load along a wire, from below, at one time: a quarter of what
-   * a quarter of the wire has at least, by a few values. Found when it is asked for.
+   * A lower bound of the mean absolute value of a load along a wire at one time, from a few values:
+   * a quarter of the value that a quarter of the wire exceeds. Computed at the first use.
    */
   class TypicalLoad
   {
@@ -52,8 +52,8 @@ namespace taut
 
   /**
    * Integrates a force per length q(s, t) over elements. An element is looked at in pieces, each
-   * with the Gauss rule of four points and a rule of nine that has these among them; pieces on
-   * which the two differ are bisected. Nothing is allocated.
+   * with the Gauss rule of four points and a nested rule of nine points. Pieces on which the two
+   * rules differ are bisected. Nothing is allocated.
    */
   class LoadIntegral
   {
@@ -61,8 +61,8 @@ namespace taut
     /// Error of sum and first moment over the integral of |q|.
     static constexpr double tolerance = 1e-6;
 
-    /// With one piece to begin with, a detail of a fifth of an element is seen wherever it is; with
-    /// the fine ones that of a sixty-fourth.
+    /// With one initial piece a detail of a fifth of an element is seen anywhere; with fine pieces
+    /// a detail of a sixty-fourth.
     static constexpr unsigned int fine_pieces = 12;
     static constexpr double seen_at_once = 1. / 5., seen_by_fine_pieces = 1. / 64.;
 

@@ -19,7 +19,8 @@ namespace taut
 {
   namespace
   {
-    /// deal.II's basis (both values, then both slopes) in the order of our DoFs.
+    /// Basis functions of deal.II (both values, then both slopes) in the order of the DoFs of this
+    /// element.
     dealii::TensorProductPolynomials<1> reference_polynomials()
     {
       using dealii::Polynomials::HermiteInterpolation;
@@ -58,8 +59,8 @@ namespace taut
       }
     }
 
-    /// From the slope DoFs of the reference cell, d/dxi = h d/ds, to ours. What was not asked for
-    /// has an empty table.
+    /// Scales slope DoFs of the reference cell, d/dxi = h d/ds, to DoFs of this element. Quantities
+    /// that were not asked for have empty tables.
     template <typename Output>
     void scale_slope_derivatives(const double h, Output &output_data)
     {
@@ -68,7 +69,7 @@ namespace taut
       scale_slope_rows(h, output_data.shape_3rd_derivatives);
     }
 
-    /// Whether vertices and midpoint of the mapped cell are those of a straight line at its place.
+    /// True if the mapped vertices and midpoint are those of a straight cell.
     template <int dim, int spacedim>
     [[maybe_unused]] bool
     is_affine(const dealii::Mapping<dim, spacedim> &mapping,
@@ -272,14 +273,15 @@ namespace taut
                "FE_CubicHermite needs a mapping that is affine on each cell and keeps the "
                "vertices of the triangulation."));
 
-    // For similar cells the base class would keep what it wrote last, which has been scaled since
-    // and would be scaled twice: all derivatives have to be new.
+    // For similar cells the base class would keep the derivatives that it wrote last. These have
+    // been scaled since, and would be scaled twice: all derivatives have to be new.
     dealii::FE_Poly<dim, spacedim>::fill_fe_values(cell, dealii::CellSimilarity::none, quadrature,
                                                    mapping, mapping_internal, mapping_data,
                                                    fe_internal, output_data);
     scale_slope_derivatives(h, output_data);
 
-    // The base class wrote the values only once, before it saw a cell: these are set, not scaled.
+    // The base class wrote the values only once, before it saw a cell: values are set here, not
+    // scaled.
     for (unsigned int q = 0; q < output_data.shape_values.size(1); ++q)
     {
       const auto value = hermite_shape(h, quadrature.point(q)[0]).value;

@@ -173,7 +173,7 @@ namespace taut
       {
         if (end.kind != Attachment::Kind::wire || end.index != wire)
           continue;
-        // Where two pieces meet, both have a share of the mass.
+        // At a node where two pieces meet, each piece has a share of the mass.
         for (std::size_t i = 0; i < nodes.size(); ++i)
           if (std::fabs(nodes[i] - end.position) <= 1e-12 * wire_length)
             massless_dofs[dofs_per_node * i + (link.rotational ? 1 : 0)] = link.origin;
@@ -183,11 +183,12 @@ namespace taut
   }
 
   /**
-   * The DoFs of an element as the kinetic energy sees them: a DoF without mass is extrapolated from
-   * its neighbours on the element's side. If a constant motion is extrapolated exactly, the total
-   * mass stays; if a linear one is, so do its centre and its moment of inertia (the conditions of
-   * H. B. Khenous, P. Laborde, Y. Renard, European Journal of Mechanics A 27 (2008), 918-932).
-   * T^T M T is definite on the other DoFs if M is.
+   * Mass redistribution: the DoFs of an element in its kinetic energy. A DoF without mass is
+   * extrapolated from its neighbours on the side of the element. If a constant motion is
+   * extrapolated exactly, the total mass is kept; if a linear motion is, the centre of mass and the
+   * moment of inertia are kept, too (the conditions of H. B. Khenous, P. Laborde, Y. Renard,
+   * European Journal of Mechanics A 27 (2008), 918-932). T^T M T is definite on the other DoFs if M
+   * is.
    */
   std::vector<LinearForm> WireComponent::inertial_forms(const std::size_t e) const
   {
@@ -227,7 +228,7 @@ namespace taut
       for (unsigned int i = 0; i < n; ++i)
         if (massless_dofs.count(dofs[i]) > 0)
         {
-          // The parabola through the other three: w_1 - w_0 = h (slope_0 + slope_1) / 2.
+          // The parabola through the other three DoFs: w_1 - w_0 = h (slope_0 + slope_1) / 2.
           const unsigned int other = i % 2 == 0 ? 2 - i : 4 - i;
           const double sign = i == 0 ? -.5 * h : .5 * h;
           if (!keeps_inertia)
@@ -248,8 +249,8 @@ namespace taut
       return forms;
     }
 
-    // The next DoF with mass, or Lagrange's polynomial through them all; of a linear element these
-    // are its other node and the one behind it.
+    // The next DoF with mass, or Lagrange's polynomial through all DoFs with mass. On a linear
+    // element these are the other node and the node behind it.
     std::vector<std::pair<unsigned int, double>> support;
     for (const unsigned int i : with_mass)
       support.emplace_back(dofs[i], places[i]);

@@ -11,7 +11,7 @@
 
 namespace taut
 {
-  /// What deal.II knows of a wire; its headers are for the sources of WireComponent alone.
+  /// The deal.II objects of a wire; only sources of WireComponent include these headers.
   struct WireComponent::Discretisation
   {
     dealii::Triangulation<1, 3> triangulation;

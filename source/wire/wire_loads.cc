@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: LGPL-2.1-or-later
-// What acts on a wire: supports, point masses, loads.
+// SPDX-License-Identifier: LGPL-2.1-or-later Supports, point masses and loads of a wire.
 #include "distributed_load.h"
 
 #include <algorithm>
@@ -65,7 +64,7 @@ namespace taut
     return dot(direction, rotational ? rotation_axis : axis);
   }
 
-  /// A point force that travels; it acts while it is on the wire.
+  /// A moving point force; it acts while it is on the wire.
   class WireComponent::MovingLoad : public TimeLoad
   {
   public:

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: LGPL-2.1-or-later
-// How a wire moves: its displacement at a point, the start, motions that nothing resists.
+// SPDX-License-Identifier: LGPL-2.1-or-later The motion of a wire: displacement at a point, initial
+// state, rigid body modes.
 #include "wire_discretisation.h"
 
 #include <taut/base/exceptions.h>
@@ -116,8 +116,8 @@ namespace taut
 
   Substructure::NullSpace WireComponent::null_space() const
   {
-    // Rigid motions q0 + q1 (s - middle)/(L/2) that cost nothing: q1 only for a beam without
-    // tension. Each held DoF of the supports is one condition on (q0, q1).
+    // Rigid body modes q0 + q1 (s - middle)/(L/2), with q1 only for a beam without tension. Each
+    // DoF that supports hold is one condition on (q0, q1).
     const double half = .5 * (nodes.back() - nodes.front()), middle = nodes.front() + half;
     const unsigned int n_rigid = bends_freely ? 2 : 1;
     std::vector<std::pair<double, double>> conditions;
@@ -167,7 +167,8 @@ namespace taut
       add(.5, .5, last);
       return null_space;
     }
-    // One independent condition leaves the motion orthogonal to it; a second one leaves none.
+    // One independent condition leaves the orthogonal motion; a second independent condition leaves
+    // no motion.
     const auto [c0, c1] = conditions.front();
     const bool held =
         std::any_of(conditions.begin(), conditions.end(),
