@@ -12,11 +12,11 @@ namespace
 } // namespace
 
 /**
- * Of the program, in a library of its own: taut itself leaves this to its host. Vectors of DoFs
- * begin at a cache line, so that no register that a loop loads or stores straddles two of them: a
- * step of a catenary then takes a tenth less time. What AddressSanitizer or a preloaded library
- * puts in the place of this function stays there. The operator delete of the standard library frees
- * both kinds of blocks by std::free.
+ * operator new of the program, in a library of its own; the library taut leaves it to its host.
+ * Vectors of DoFs begin at a cache line, so that no register of a loop straddles two lines. A step
+ * of a catenary then takes a tenth less time. AddressSanitizer or a preloaded library may replace
+ * this function. The operator delete of the standard library frees both kinds of blocks by
+ * std::free.
  */
 void *operator new(const std::size_t size)
 {

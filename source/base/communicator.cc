@@ -13,7 +13,7 @@ namespace taut
 {
   namespace
   {
-    /// What was thrown, in a form that can be sent.
+    /// An exception in a form that can be sent.
     struct Failure
     {
       enum Kind : int
@@ -97,7 +97,7 @@ namespace taut
 
   bool started_in_parallel()
   {
-    // Starting MPI without need costs as much as a short run.
+    // Starting MPI costs as much as a short run.
     for (const char *name : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "PMI_SIZE"})
       if (std::getenv(name))
         return true;
@@ -128,7 +128,7 @@ namespace taut
   {
     if (n_ranks == 1)
       return value;
-    // MPI_MAX leaves open what becomes of not-a-number.
+    // MPI_MAX does not define the result for not-a-number.
     double both[2] = {std::isnan(value) ? 0. : value, std::isnan(value) ? 1. : 0.};
     MPI_Allreduce(MPI_IN_PLACE, both, 2, MPI_DOUBLE, MPI_MAX, processes);
     return both[1] > 0. ? std::numeric_limits<double>::quiet_NaN() : both[0];

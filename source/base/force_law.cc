@@ -15,7 +15,7 @@ namespace taut
   {
     if (a == b)
       return force(a);
-    // The energy is even: of two signs, what is stored between the two sizes counts.
+    // The energy is even: with two signs, only the energy between the two absolute values counts.
     const double u = std::fabs(a), v = std::fabs(b), low = std::min(u, v), high = std::max(u, v);
     if (low == high)
       return 0.;

@@ -51,7 +51,7 @@ namespace taut
       n_bytes += bytes.size();
       return;
     }
-    // A device has no length; its error is the one to tell of.
+    // A device has no length; its own error is reported.
     const int error = errno;
     if (::ftruncate(descriptor, static_cast<off_t>(n_bytes)) == 0)
       ::lseek(descriptor, static_cast<off_t>(n_bytes), SEEK_SET);
@@ -98,7 +98,8 @@ namespace taut
       fail(errno);
   }
 
-  /// At the current position. True if all of it was written, otherwise errno says why not.
+  /// Writes at the current position. Returns true if all bytes were written; otherwise errno has
+  /// the reason.
   bool GrowingFile::write(const std::string &bytes)
   {
     for (std::size_t done = 0; done < bytes.size();)

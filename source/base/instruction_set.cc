@@ -21,7 +21,7 @@ namespace taut
     {
       InstructionSet set;
       const char *name;
-      bool is_there; ///< this processor has it, and this build
+      bool is_there; ///< this processor and this build have it
     };
 
     /// From the plainest to the best.

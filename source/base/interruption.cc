@@ -12,7 +12,7 @@ namespace taut
     volatile std::sig_atomic_t requested = 0;
     bool is_heard = false;
 
-    /// Calls only what a signal handler may.
+    /// Calls only functions that a signal handler may call.
     void request_end(const int signal)
     {
       if (requested != 0)
@@ -21,7 +21,7 @@ namespace taut
       static const char text[] = "\ntaut: ending; what is computed is written first. "
                                  "A second signal ends at once.\n";
       if (is_heard && write(STDERR_FILENO, text, sizeof text - 1) < 0)
-        return; // no one reads it
+        return; // no one reads the message
     }
   } // namespace
 

@@ -8,14 +8,15 @@ namespace taut
 {
   namespace
   {
-    /// An error of all ranks reaches them within the work that one does more than another.
+    /// Waiting time: an error of all ranks reaches them within the additional work of one rank.
     constexpr std::chrono::seconds patience{5};
     constexpr std::chrono::milliseconds pause{10};
   } // namespace
 
   RankAbort::RankAbort(const Communicator &all) : is_root(all.is_root())
   {
-    // Messages of its own, which those of interrupted work cannot be taken for.
+    // A communicator of its own, so that messages of interrupted work are not mistaken for its
+    // messages.
     if (all.size() > 1)
       MPI_Comm_dup(MPI_COMM_WORLD, &processes);
   }

@@ -63,7 +63,7 @@ namespace taut
       cholmod_finish(&common);
     }
 
-    /// True if @p other has its entries where the last matrix had them.
+    /// True if @p other has the pattern of the last matrix.
     bool has_pattern_of(const cholmod_sparse &other) const
     {
       if (!matrix || matrix->nrow != other.nrow)
@@ -141,7 +141,7 @@ namespace taut
       has_tree = true;
     }
 
-    /// What column k of a factor leaves to the rows below.
+    /// Eliminates column k of a factor from the rows below.
     void eliminate(const int *const row, const double *const entry, const int n, double *const from)
     {
       for (int e = 0; e < n; ++e)
@@ -153,7 +153,7 @@ namespace taut
       }
     }
 
-    /// Column k of LDL^T: its entries of y, and what it leaves.
+    /// Column k of LDL^T: its entries of y, and the elimination from the rows below.
     void eliminate_column(const int k, SparseHalves &y)
     {
       const int begin = static_cast<const int *>(factors->p)[k];
@@ -165,7 +165,7 @@ namespace taut
       add(k, 1. / std::sqrt(*value), from, y);
     }
 
-    /// The same of block s of LL^T.
+    /// Block s of LL^T: its entries of y, and the elimination from the rows below.
     void eliminate_block(const int s, SparseHalves &y)
     {
       const auto *first = static_cast<const int *>(factors->super);
@@ -183,7 +183,7 @@ namespace taut
       }
     }
 
-    /// Takes row k out of what is left of the right-hand sides.
+    /// Takes row k out of the remaining right-hand sides.
     void take(const int k, const double factor, double *const to)
     {
       double *const from = rest.data() + lanes * k;

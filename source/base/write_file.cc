@@ -17,7 +17,7 @@ namespace taut
   {
     namespace fs = std::filesystem;
 
-    /// The new name in a folder, too.
+    /// Brings the new name in the folder to the disk, too.
     bool sync_folder(const fs::path &folder)
     {
       const int directory = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -38,7 +38,7 @@ namespace taut
       file.close();
     }
 
-    /// Written beside its place and renamed.
+    /// Writes the file beside its place, and renames it.
     void put_in_place(const fs::path &path, const std::string &bytes, const bool syncs)
     {
       const std::string next = path.string() + ".tmp";

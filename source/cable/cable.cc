@@ -19,11 +19,11 @@ namespace taut
     {
       return data.origin.empty() ? name : data.origin + "/" + name;
     }
-    /// A held end that starts so much of the length from its place, or a clamped one that starts so
-    /// far from its direction, is none that is held there [1].
+    /// Largest distance of a held end from its place at the start, over the length, and largest
+    /// deviation of a clamped end from its direction [1].
     constexpr double same_start = 1e-5;
 
-    /// Throws EntryError if the straight line that a cable starts in does not fit what holds it.
+    /// Throws EntryError if the straight start of a cable does not fit its held and clamped ends.
     void check_start(const CableData &data, const CableElements &element, const CableShape &found)
     {
       const Coordinates along =
@@ -70,7 +70,7 @@ namespace taut
     finish();
   }
 
-  /// In a shape that is known.
+  /// A cable with a known shape.
   Cable::Cable(const CableData &given, const CableShape &shape)
       : Substructure(given.name, given.origin), data(given),
         element(make_elements(given, given.length)), found(shape),
@@ -149,8 +149,8 @@ namespace taut
             "it has no length");
   }
 
-  /// Whether one end alone is held, and the other is as near below it as the cable is long: between
-  /// these places it would fold, and its shape is that with the other end free.
+  /// True if only one end is held, and the other end is below it by less than the length of the
+  /// cable. Between these places the cable would fold. Its shape is that with the other end free.
   bool Cable::hangs_freely() const
   {
     const Coordinates load = force_per_length(data);
@@ -218,7 +218,7 @@ namespace taut
           constrained.push_back({i});
         if (!data.clamped)
           continue;
-        const unsigned int along = dofs[0] + 3; // r' along the cable; then the two across it
+        const unsigned int along = dofs[0] + 3; // r' along the cable; then two components across it
         frames->add(along, element.tangent(found.positions, last ? data.length : 0.));
         constrained.push_back({along + 1});
         constrained.push_back({along + 2});

@@ -66,7 +66,7 @@ namespace taut
       return {{{eta * (eta - xi), 4. * xi * eta, xi * (xi - eta), 0.}},
               {{(xi - 3. * eta) / h, 4. * (eta - xi) / h, (3. * xi - eta) / h, 0.}},
               {{4. / (h * h), -8. / (h * h), 4. / (h * h), 0.}}};
-    // Value and slope of the first node, of the second one.
+    // Value and slope of the first node, then of the second node.
     return {{{eta * eta * (1. + 2. * xi), h * xi * eta * eta, xi * xi * (1. + 2. * eta),
               -h * xi * xi * eta}},
             {{-6. * xi * eta / h, eta * (1. - 3. * xi), 6. * xi * eta / h, xi * (1. - 3. * eta)}},
@@ -74,8 +74,8 @@ namespace taut
               (6. * xi - 2.) / h}}};
   }
 
-  /// Its DoFs, with positions from its first node: small differences of large numbers are taken
-  /// once.
+  /// The DoFs of an element, with positions relative to its first node: small differences of large
+  /// numbers are taken once.
   CableElements::Local CableElements::local(const std::vector<double> &q,
                                             const unsigned int e) const
   {
@@ -103,7 +103,7 @@ namespace taut
         f[dofs_per_node * e + i] += sum[i];
   }
 
-  /// The element with s, and xi there.
+  /// The element that contains s, and xi of s.
   std::pair<unsigned int, double> CableElements::find(const double s) const
   {
     const double place = std::clamp(s / h, 0., double(n));

@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: LGPL-2.1-or-later
-// Energies and forces of cables, several elements at a time. Where points of an integral lie at the
-// ends of elements (ANCF), r' is a DoF there, and both elements have the same: a node counts once.
+// SPDX-License-Identifier: LGPL-2.1-or-later Energies and forces of cables, several elements at a
+// time. Where integration points are at the ends of elements (ANCF), r' is a DoF of the node, and
+// both elements have the same value: a node counts once.
 #include "element_vectors.h"
 
 #include <taut/base/instruction_set.h>
@@ -15,7 +15,7 @@ namespace taut
 {
   namespace
   {
-    /// |r'|; its arguments are no infinities.
+    /// |r'|, for finite arguments.
     double stretch_of(const Coordinates &u)
     {
       return std::sqrt(dot(u, u));
@@ -29,8 +29,8 @@ namespace taut
     }
   } // namespace
 
-  /// Elements from @p first on, without the first node, which is their origin; after the last node
-  /// to and fro, so that no element lacks a length.
+  /// Elements from @p first on. The first node is their origin and left out. Behind the last node
+  /// the batch goes to and fro, so that no element lacks a length.
   inline ElementBatch CableElements::batch(const std::vector<double> &q,
                                            const unsigned int first) const
   {
@@ -46,7 +46,7 @@ namespace taut
       }
       own = copies;
     }
-    // Strided reads: values that are stored one by one are late for vector instructions.
+    // Strided reads: vector instructions would wait for values that are stored one by one.
     ElementBatch x;
     const double relative = kind == CableElement::bar ? 1. : 0.;
     for (unsigned int c = 0; c < 3; ++c)
@@ -113,7 +113,7 @@ namespace taut
   }
 
   /// Sets the axial forces of a batch, axial(weight, r' of @p x, r' of @p y) at each point; later
-  /// ones are to be added.
+  /// points add to them.
   template <typename Force>
   inline void CableElements::set_axial_forces(const unsigned int first, const ElementBatch &x,
                                               const ElementBatch &y, const Force &axial,
@@ -138,7 +138,8 @@ namespace taut
       put(inner_axial_points[k], std::true_type());
   }
 
-  /// f = the sum of what @p integrand (first element of a batch, its forces, those of nodes) sets.
+  /// f = the sum of the forces that @p integrand sets (arguments: first element of a batch, forces
+  /// of elements, forces of nodes).
   template <typename Integrand>
   void CableElements::integrate_force(std::vector<double> &f, const Integrand &integrand) const
   {
@@ -146,7 +147,8 @@ namespace taut
     vectorised(
         [this, &integrand, all = f.data()]
         {
-          std::array<double, dofs_per_node> of_element_before{}; // on its second node
+          std::array<double, dofs_per_node>
+              of_element_before{}; // forces of the element before on its second node
           for (unsigned int first = 0; first <= n; first += ElementBatch::size)
           {
             ElementBatch sum;

@@ -18,7 +18,7 @@ namespace taut
       throw EntryError(origin.empty() ? "Geometry" : origin + "/Geometry", reason);
     }
 
-    /// The loads of a body that change with time.
+    /// The time-dependent loads of another body.
     class LoadsOf : public TimeLoad
     {
     public:
@@ -39,7 +39,7 @@ namespace taut
     };
   } // namespace
 
-  /// With the tangent at a displacement.
+  /// A cable that is linearised, with the tangent at a displacement.
   Cable::Cable(const Cable &nonlinear, const std::shared_ptr<const Substructure> &self,
                const std::vector<double> &U)
       : Substructure(nonlinear.name(), nonlinear.origin()), data(nonlinear.data),
@@ -68,7 +68,7 @@ namespace taut
     return std::shared_ptr<Substructure>(new Cable(*this, self, U));
   }
 
-  /// From where it is linearised.
+  /// The displacement from the state at which the cable is linearised.
   void Cable::set_way(const std::vector<double> &U) const
   {
     work = U;
@@ -82,7 +82,7 @@ namespace taut
     return is_linearised() ? tangent_at : found.positions;
   }
 
-  /// Leaves of the load what the found shape does not balance.
+  /// Reduces the load to the part that the found shape does not balance.
   void Cable::straighten()
   {
     std::vector<double> f, load(element.n_dofs(), 0.);
@@ -93,8 +93,8 @@ namespace taut
     constant_force = load;
   }
 
-  /// Along the chord, stretched so far that the tangent has the string's stiffness across it: per
-  /// unstressed length N / |r'| = T (length / chord), with N = EA (|r'| - 1).
+  /// Positions along the chord, stretched so that the tangent across the chord has the stiffness of
+  /// the string: N / |r'| = T (length / chord) per unstressed length, with N = EA (|r'| - 1).
   std::vector<double> Cable::straight_line() const
   {
     const Coordinates chord = data.to - data.from;

@@ -30,7 +30,7 @@ namespace taut
     }
 
     /// Blocks (a, b) += slope[a] (uu slope[b] + uv curvature[b]) + curvature[a] (uv^T slope[b] + vv
-    /// curvature[b]); only those with a >= b, as the rest follows from symmetry.
+    /// curvature[b]); only blocks with a >= b, as the others follow from symmetry.
     template <typename LocalMatrix>
     void distribute(const std::array<double, 4> &slope, const std::array<double, 4> &curvature,
                     const Matrix &uu, const Matrix &uv, const Matrix &vv, LocalMatrix &K)
@@ -87,7 +87,7 @@ namespace taut
       Matrix uu, uv, vv;
       if (definite)
       {
-        // That of a vector k = u x v / a with a gradient that is kept: its square alone.
+        // The semidefinite part: the square of the gradient of the vector k = u x v / a alone.
         const Vector k = cross_product_3d(u, v) / a;
         const Matrix by_u = (-1. / a) * (cross_matrix(v) + 2. * outer_product(k, u)),
                      by_v = cross_matrix(u) / a;

@@ -16,9 +16,9 @@ namespace taut
     /// Strain of the differences that make the linear tension, whose relative error is its square.
     constexpr double small_strain = 1e-4;
 
-    /// Angle between the middle of the last element and a free end above which this is a kink
-    /// [rad], and tension of the end over that of the middle below which there is none. A cable
-    /// that hangs from one end is straight at the other.
+    /// Angle [rad] between the middle of the last element and a free end above which the end is a
+    /// kink. Tension of the end over the tension of the middle below which the end has no tension.
+    /// A cable that hangs from one end is straight at the other end.
     constexpr double kink = .1, no_tension = 1e-3;
 
     constexpr unsigned int pieces = 4; ///< of an element, in pictures and of a linear tension
@@ -29,9 +29,10 @@ namespace taut
     }
   } // namespace
 
-  /// Over the unstressed arc length. Of a cable that is linear T0 + EA t . u', t the tangent of
-  /// the positions of its K and u from where the tension is T0: linear in U as its forces are, by
-  /// differences so that it is taken at the points of the integral, too. @p q is kept by reference.
+  /// The tension over the unstressed arc length. A linear cable has T0 + EA t . u', with the
+  /// tangent t of the positions of its K, and the displacement u from the state with tension T0.
+  /// This is linear in U like the forces of the cable. It is computed by differences, so that it is
+  /// taken at the integration points, too. @p q is kept by reference.
   std::function<double(double)> Cable::tension_at(const std::vector<double> &q) const
   {
     const std::vector<double> &from = linear_from();
@@ -89,7 +90,7 @@ namespace taut
           check_free_end(q, last);
   }
 
-  /// Where an ANCF element has neither tension nor bending stiffness nothing decides its direction,
+  /// Without tension and bending stiffness nothing determines the direction of an ANCF element,
   /// nor, by a part of its length, the place of the end.
   void Cable::check_free_end(const std::vector<double> &q, const bool last) const
   {

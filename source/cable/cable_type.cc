@@ -182,8 +182,8 @@ namespace taut
       return std::make_unique<Cable>(result);
     }
 
-    /// Its nodes, with edges. In the plane their outer side is where weight and wind point: what it
-    /// lies down on.
+    /// The nodes of the cable, with edges. In the plane the outer side of an edge is the side that
+    /// weight and wind point to, on which the cable comes to rest.
     ContactSurface CableType::surface(const BodySetting &setting,
                                       const std::vector<unsigned int> &boundaries) const
     {

@@ -21,11 +21,11 @@ namespace taut
     static constexpr unsigned int size = 8;
     std::array<std::array<double, size>, 12> dof; ///< not set: zeros for each batch take time
 
-    /// The second half of the first node's DoFs: r' of ANCF.
+    /// The second half of the DoFs of the first node: r' of ANCF.
     Coordinates derivative(const unsigned int l) const { return {dof[3][l], dof[4][l], dof[5][l]}; }
   };
 
-  /// Of the first nodes of these elements what belongs to their derivatives r'.
+  /// Forces on the derivatives r' of the first nodes of these elements.
   struct NodeBatch
   {
     std::array<std::array<double, ElementBatch::size>, 3> dof;
@@ -49,8 +49,8 @@ namespace taut
     return r;
   }
 
-  /// The same of element l of a batch, whose first node is the origin. By components: loops over
-  /// arrays in it are none over l.
+  /// The vector of element l of a batch, whose first node is the origin. It is written by
+  /// components: with loops over arrays the loop over l would not be vectorised.
   inline Coordinates combine(const std::array<double, 4> &shape, const ElementBatch &x,
                              const unsigned int l)
   {
@@ -84,8 +84,8 @@ namespace taut
         f[3 * a + c] += shape[a] * g[c];
   }
 
-  /// The same of element l of a batch, but for its first node: no force moves the element as a
-  /// whole. @p adds: false: = instead of +=.
+  /// As above for element l of a batch without its first node: no force moves the element as a
+  /// whole. Without @p adds, = instead of +=.
   template <bool adds = true>
   inline void distribute(const std::array<double, 4> &shape, const Coordinates &g, ElementBatch &f,
                          const unsigned int l)

@@ -15,9 +15,9 @@ namespace taut
   struct Coordinates;
 
   /**
-   * Axes of their own for the derivatives r' of clamped ends of a cable, with the first one along
-   * the cable: a clamp holds the other two and leaves the strain free. The axes are mirror images
-   * of x, y, z (Householder), so that the way there is also the way back.
+   * Local axes for the derivatives r' of clamped ends of a cable, with the first axis along the
+   * cable. A clamp holds the other two components and leaves the strain free. The axes are mirror
+   * images of x, y, z (Householder), so that the transformation is its own inverse.
    */
   class EndFrames
   {
@@ -27,7 +27,7 @@ namespace taut
 
     bool empty() const { return mirrors.empty(); }
 
-    /// From x, y, z to these axes, or back.
+    /// Transforms from x, y, z to these axes, or back.
     void turn(std::vector<double> &x) const;
     LinearForm turn(const LinearForm &form) const;
     std::unique_ptr<SymmetricMatrix> turn(std::unique_ptr<SymmetricMatrix> A) const;

@@ -22,7 +22,7 @@ namespace taut
       return cable.element() == CableElement::ancf && dof % 6 > 2;
     }
 
-    /// Of forces, and of moments over the length of an element.
+    /// The largest force, and moment over the length of an element.
     double largest(const CableElements &cable, const std::vector<double> &forces)
     {
       double result = 0.;
@@ -30,13 +30,13 @@ namespace taut
       {
         const double size =
             std::fabs(forces[i]) / (is_slope(cable, i) ? cable.element_length() : 1.);
-        if (!(size <= result)) // NaN stays
+        if (!(size <= result)) // not-a-number remains
           result = size;
       }
       return result;
     }
 
-    /// What rounding leaves of forces that are in balance.
+    /// Rounding error of forces that are in balance.
     double rounding(const CableElements &cable, const std::vector<double> &q)
     {
       double size = 0.;
@@ -79,7 +79,7 @@ namespace taut
     return false;
   }
 
-  /// The forces that are not balanced, and the largest of them.
+  /// The unbalanced forces, and the largest of them.
   double EquilibriumSearch::find_residual(const CableElements &cable, const std::vector<double> &q)
   {
     cable.internal_force(q, {}, r);
@@ -135,7 +135,7 @@ namespace taut
     return false;
   }
 
-  /// One step; false if there is none.
+  /// Makes one step; returns false if there is no step.
   bool EquilibriumSearch::step(const CableElements &cable, const bool downhill, double &size,
                                std::vector<double> &q)
   {
@@ -162,14 +162,14 @@ namespace taut
         continue;
       if (!downhill || energy(cable, q) <= start_energy - enough * length * slope)
         return true;
-      // Beside the equilibrium the energy is level to rounding.
+      // Close to the equilibrium the energy is constant to rounding.
       if (length == 1. && slope < 1e-9 * std::fabs(start_energy) && size < start_size)
         return true;
     }
     return false;
   }
 
-  /// Steps that only rounding ends.
+  /// Makes steps until rounding ends them.
   void EquilibriumSearch::polish(const CableElements &cable, double size, std::vector<double> &q)
   {
     std::vector<double> best = q;

@@ -18,13 +18,14 @@ namespace taut
     EquilibriumSearch(const CableElements &cable, const std::vector<unsigned int> &held,
                       const std::vector<double> &load);
 
-    /// From @p q on; false, and q as it was, if there is no stable equilibrium within reach.
+    /// Searches from @p q on. Returns false, with q unchanged, if there is no stable equilibrium
+    /// within reach.
     bool solve(const CableElements &cable, double relative_tolerance, std::vector<double> &q);
 
     unsigned int iterations() const { return n_iterations; }
     double residual() const { return last_residual; }
 
-    /// True if the last equilibrium was one, stable or not.
+    /// True if the last search ended in an equilibrium, stable or not.
     bool is_balanced() const { return balanced; }
 
   private:

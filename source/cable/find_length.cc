@@ -15,7 +15,8 @@ namespace taut
 {
   namespace
   {
-    /// The length at which @p quantity, which falls with it or rises, is zero; @p guess is near.
+    /// The length at which @p quantity, a monotonic function of the length, is zero; @p guess is
+    /// near.
     template <typename Quantity>
     double find_length(const Quantity &quantity, const double guess, const std::string &name)
     {
@@ -76,7 +77,7 @@ namespace taut
         [&](const double length)
         {
           const CableElements cable = make(length);
-          // Compressed: less than any tension.
+          // A compressed cable counts as less than any tension.
           const double H = horizontal_tension(cable, hang(cable, from, to, force), force);
           return std::log(std::max(H / tension, 1e-300));
         },

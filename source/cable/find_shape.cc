@@ -13,10 +13,12 @@ namespace taut
 {
   namespace
   {
-    /// Part of the length by which a cable that is just as long as the way between its ends rounds.
+    /// Rounding of the length of a cable that is as long as the distance of its ends, over the
+    /// length.
     constexpr double exactly_taut = 1e-12;
 
-    /// Of the softest cable of a search, 2 to 20 times the tension unless EA is less.
+    /// Axial stiffness of the softest cable of a search: 2 to 20 times the tension unless EA is
+    /// less.
     double first_stiffness(const double EA, const double tension)
     {
       double stiffness = EA;
@@ -34,7 +36,7 @@ namespace taut
     CableShape result;
     result.positions = start;
     const double EA = cable.section().axial_stiffness;
-    // A stage that fails is left out: the next one may be within reach.
+    // A stage that fails is left out: the next stage may succeed.
     for (double stiffness = tension > 0. ? first_stiffness(EA, tension) : EA; stiffness < .9 * EA;
          stiffness *= 10.)
       search.solve(cable.with_axial_stiffness(stiffness), 1e-3, result.positions);
@@ -70,7 +72,7 @@ namespace taut
     const Coordinates chord = to - from, down = unit_or_zero(force);
     const double distance = norm(chord), length = cable.length(), w = norm(force),
                  span = norm(add_scaled(chord, -dot(chord, down), down));
-    // Tension of a line without slack that its own stretch lets down.
+    // Tension of a line without slack that sags by its own elongation.
     const double EA = cable.section().axial_stiffness,
                  of_stretch = std::cbrt(EA * std::pow(w * span, 2) / 24.);
     if (EA * (distance / length - 1.) > of_stretch)
@@ -91,7 +93,7 @@ namespace taut
           "no stable equilibrium of the cable: along weight and wind its ends are above "
           "each other, and it is slack between them, with no plane to hang in. Move "
           "one of them to the side, or let Held ends leave the lower one free");
-    // Stretched by its tension: without any, nothing would hold the first step.
+    // The start is stretched by its tension: without tension nothing would hold the first step.
     const double tension = .5 * w * length + of_slack,
                  stretched = length * (1. + tension / first_stiffness(EA, tension));
     return find_shape(cable, parabola(chord, down, stretched).positions(cable, from), held, load,
@@ -110,7 +112,7 @@ namespace taut
     const double length = cable.length(),
                  strain = norm(force) * length / cable.section().axial_stiffness;
     const Coordinates down = unit_or_zero(force);
-    // Way from the held end, and its derivative by s.
+    // Distance from the held end, and its derivative with respect to s.
     const auto way = [&](const double s)
     {
       const double x = from_last ? length - s : s;

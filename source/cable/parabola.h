@@ -11,7 +11,8 @@ namespace taut
   /// A unit vector along @p a, or zero.
   Coordinates unit_or_zero(const Coordinates &a);
 
-  /// A parabola over t in [0, 1] from its first point on: where cables start to be searched for.
+  /// A parabola over t in [0, 1] from its first point on: the start of searches for the shape of a
+  /// cable.
   struct Parabola
   {
     Coordinates chord, down;
@@ -24,11 +25,11 @@ namespace taut
     /// Arc length at n + 1 values of t [m].
     std::vector<double> arc_lengths(unsigned int n) const;
 
-    /// Positions of a cable from @p from on that is drawn out along it evenly.
+    /// Positions of a cable that lies evenly stretched along the parabola, starting at @p from.
     std::vector<double> positions(const CableElements &cable, const Coordinates &from) const;
   };
 
-  /// The parabola of this length between two points, or the line if that is longer.
+  /// The parabola of this length between two points, or the straight line if the line is longer.
   Parabola parabola(const Coordinates &chord, const Coordinates &down, double length);
 } // namespace taut
 

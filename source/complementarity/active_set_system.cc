@@ -9,12 +9,13 @@ namespace taut
 {
   namespace
   {
-    /// An iteration ends at this part of the gaps that are wanted, while the set changes and when
-    /// it stays: some rows are much smaller than the largest, and s_i is an upper bound only. From
-    /// half on, a rough solution may cost another set; a tenth costs iterations and spares none.
+    /// An iteration ends at this part of the required gaps, while the active set changes and when
+    /// it repeats. Some rows are much smaller than the largest row, and s_i is an upper bound only.
+    /// From half on, a rough solution may cost another active set; a tenth costs iterations and
+    /// saves no set.
     constexpr double rough_part = .3, exact_part = 1e-3;
 
-    /// Gaps that are nothing but rounding, over their terms.
+    /// Gaps that are rounding, over their terms.
     constexpr double rounding = 1e-16;
 
     /// Largest |D_i| / s_i on the set; not-a-number if one is.
@@ -38,14 +39,14 @@ namespace taut
       return largest;
     }
 
-    /// Of one correction.
+    /// The result of one correction.
     struct Sizes
     {
       double gap;  ///< see largest_gap()
       double step; ///< see largest_step(); 0 without a shift
     };
 
-    /// Not amplitudes that something resists: an operator knows G N = -e only.
+    /// False for amplitudes with a resistance: an operator knows G N = -e only.
     bool solves_with_null_space(const MixedComplementarityProblem &problem,
                                 const ComplementarityOperator &matrix)
     {
@@ -91,12 +92,11 @@ namespace taut
         terms = terms_before;
         break;
       }
-      // Contradictory rows grow by the same step in each correction, and so do the terms that gaps
-      // are measured with: with a shift, gaps are small only if the steps are getting small, too.
+      // Multipliers of contradictory rows grow by the same step in each correction, and so do the
+      // terms of the gaps. With a shift, gaps are therefore small only if the steps get small, too.
       const bool steps_shrink = shift == 0. || (correction > 0 && now.step <= .5 * last.step);
       is_solved = is_solved || !is_exact || (now.gap <= tolerance && steps_shrink);
-      // A shift leaves more in the gaps than rounding does, and rows that nearly depend on each
-      // other make much of it.
+      // A shift leaves more error in the gaps than rounding, and nearly dependent rows amplify it.
       if (is_solved && (!is_exact || shift == 0. || now.gap <= rounding))
         break;
       if (correction > 0 && !(now.gap < .5 * last.gap && steps_shrink))
@@ -136,8 +136,8 @@ namespace taut
     gap_terms(problem, matrix, solution.multiplier, solution.mode_amplitude, terms);
   }
 
-  /// Gaps round with the amplitudes, however small the loads are: the last correction is one of the
-  /// balance alone, which moves no gap of the set.
+  /// Gaps round with the amplitudes, however small the loads are. The last correction is therefore
+  /// one of the balance alone, which changes no gap of the set.
   void ActiveSetSystem::balance(const MixedComplementarityProblem &problem,
                                 const ComplementarityOperator &matrix,
                                 const std::vector<std::size_t> &set,
@@ -180,7 +180,7 @@ namespace taut
     return true;
   }
 
-  /// The same where the operator solves for multipliers and amplitudes at once.
+  /// One correction with an operator that solves for multipliers and amplitudes at once.
   bool ActiveSetSystem::correct_with_null_space(const MixedComplementarityProblem &problem,
                                                 ComplementarityOperator &matrix,
                                                 const std::vector<std::size_t> &set,
@@ -229,7 +229,8 @@ namespace taut
     null_space_is_ready = true;
   }
 
-  // step solves F x = -D on the set: with the amplitudes' share it also brings G N + e to zero.
+  // step solves F x = -D on the set. With the share of the amplitudes it also brings G N + e to
+  // zero.
   bool ActiveSetSystem::correct_null_space(const MixedComplementarityProblem &problem,
                                            const std::vector<std::size_t> &set,
                                            MixedComplementaritySolution &solution)

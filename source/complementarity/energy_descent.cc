@@ -87,8 +87,8 @@ namespace taut
     return row;
   }
 
-  /// Lets a row in; false if it contradicts the closed ones. A row that rounding throws out at once
-  /// has to wait.
+  /// Closes a row; returns false if the row contradicts the closed rows. A row that rounding opens
+  /// at once has to wait.
   bool EnergyDescent::close(std::size_t row)
   {
     closed_rows.push_back(row);
@@ -104,7 +104,7 @@ namespace taut
     return true;
   }
 
-  /// The same for a row that depends on the closed ones: one of them has to open for it.
+  /// Closes a row that depends on the closed rows: one of them has to open.
   bool EnergyDescent::exchange(std::size_t row)
   {
     if (is_rounding(row, find_null_direction(row)))
@@ -131,14 +131,15 @@ namespace taut
     return true;
   }
 
-  /// To the minimum on the closed rows, or on those of them that stay closed; true if multipliers
-  /// have changed.
+  /// Moves to the minimum on the closed rows, or on the rows that remain closed; returns true if
+  /// multipliers have changed.
   bool EnergyDescent::minimize()
   {
     bool has_moved = false;
     for (unsigned int refinement = 0; refinement < options.max_corrections && !closed_rows.empty();)
     {
-      // The shift serves rows at the edge of dependence. With it, too, the direction goes downhill.
+      // The shift is for nearly dependent rows. The direction is one of descent with the shift,
+      // too.
       if (!matrix->solve(closed_rows, rhs, 0., direction))
         matrix->solve(closed_rows, rhs, options.redundancy_shift, direction);
       const std::size_t leaving = first_zero(1.);
@@ -155,7 +156,7 @@ namespace taut
     return has_moved;
   }
 
-  /// Position of the unilateral row whose multiplier gets to zero first on a way shorter than @p
+  /// Position of the unilateral row whose multiplier reaches zero first on a path shorter than @p
   /// length; or the end.
   std::size_t EnergyDescent::first_zero(double length) const
   {
@@ -172,8 +173,7 @@ namespace taut
     return position;
   }
 
-  /// Goes along the direction; true, and nothing is blocked any more, if that is more than
-  /// rounding.
+  /// Moves along the direction. If the move exceeds rounding, returns true and unblocks all rows.
   bool EnergyDescent::move(double length)
   {
     bool is_motion = false;
@@ -189,9 +189,9 @@ namespace taut
   }
 
   /**
-   * Multipliers that are nothing but rounding of the largest terms become zeros: they may be all
-   * there is in a row next to them, whose gap is then no better than this rounding. Kept unless
-   * some row gets worse by it.
+   * Sets multipliers that are rounding of the largest terms to zero. Such a multiplier may be the
+   * only term of a neighbouring row, whose gap is then no better than this rounding. The change is
+   * kept unless a row gets worse.
    */
   void EnergyDescent::round_off()
   {
@@ -246,9 +246,9 @@ namespace taut
   }
 
   /**
-   * The direction z with F z = 0, z_row = 1 (left out of @p direction) and entries on the closed
-   * rows, of which this row is a combination. Notes the rows of z and returns sum_i |z_i| s_i: the
-   * terms of its gap in that combination.
+   * Finds the direction z with F z = 0, z_row = 1 (left out of @p direction) and entries on the
+   * closed rows, of which this row is a combination. Notes the rows of z and returns sum_i |z_i|
+   * s_i, the terms of the gap of the row in this combination.
    */
   double EnergyDescent::find_null_direction(std::size_t row)
   {

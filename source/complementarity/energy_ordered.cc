@@ -9,18 +9,18 @@ namespace taut
 {
   namespace
   {
-    /// c of F + c G^T R G: each update of alpha gains about three digits of balance, for three
-    /// digits of rounding.
+    /// The factor c of F + c G^T R G: each update of alpha gains about three digits of balance, and
+    /// costs three digits of rounding.
     constexpr double null_space_factor = 1e3;
 
-    /// Updates of alpha; some five are enough where the bodies are held well.
+    /// Largest number of updates of alpha; some five are enough for bodies that are held well.
     constexpr unsigned int max_updates = 60;
 
-    /// Balance at which alpha is not updated any more.
+    /// Balance below which alpha is no longer updated.
     constexpr double balanced = 1e-14;
 
-    /// Unbalanced part of a load that nothing can balance: a descent finds zero as the root of its
-    /// rounding.
+    /// Unbalanced part of a load above which nothing can balance the load: a descent finds zero as
+    /// the root of its rounding.
     constexpr double not_held = 1e-7;
 
     void add(std::vector<double> &y, double factor, const std::vector<double> &x)
@@ -29,7 +29,8 @@ namespace taut
         y[i] += factor * x[i];
     }
 
-    /// 1 if F has entries; else the length over force that gives the penalty the size of the gaps.
+    /// 1 if F has entries; otherwise the ratio of length and force that gives the penalty the size
+    /// of the gaps.
     double compliance(const MixedComplementarityProblem &problem, const DenseOperator &matrix,
                       const std::vector<double> &multiplier)
     {
@@ -45,8 +46,9 @@ namespace taut
     }
 
     /**
-     * alpha carries rounding of the penalty's size. Where the gaps of the closed rows tell it, they
-     * tell it better; where they do not, an amplitude that is nothing but this rounding is zero.
+     * alpha has rounding errors of the size of the penalty. The gaps of the closed rows determine
+     * alpha more accurately, if they determine it at all. Otherwise an amplitude that is rounding
+     * is set to zero.
      */
     void settle_amplitude(const MixedComplementarityProblem &problem, const DenseOperator &matrix,
                           NullSpacePenalty &penalty, double factor,
@@ -66,8 +68,8 @@ namespace taut
     }
 
     /**
-     * Solves the set that was found as one system with alpha in it, which is exact wherever the set
-     * holds the bodies; kept if it is better. @p held has the same solutions with d + c G^T R e.
+     * Solves the active set as one system with alpha, which is exact if the set holds the bodies.
+     * The solution is kept if it is better. @p held has the same solutions with d + c G^T R e.
      */
     void polish(const MixedComplementarityProblem &problem, const DenseOperator &matrix,
                 NullSpacePenalty &penalty, double factor, DenseOperator &held,
@@ -146,8 +148,8 @@ namespace taut
     return is_consistent ? Outcome::finished : Outcome::contradictory;
   }
 
-  /// Amplitudes that something resists are eliminated, alpha = E^-1 (G N + e); the set that this
-  /// finds is then solved with them, because F is small beside G^T E^-1 G.
+  /// Eliminates amplitudes with a resistance, alpha = E^-1 (G N + e). The active set found so is
+  /// then solved with these amplitudes as unknowns, because F is small beside G^T E^-1 G.
   EnergyOrderedActiveSet::Outcome
   EnergyOrderedActiveSet::minimize_with_resistance(const MixedComplementarityProblem &problem,
                                                    DenseOperator &matrix,
@@ -219,13 +221,14 @@ namespace taut
                                                    DenseOperator &matrix,
                                                    MixedComplementaritySolution &solution)
   {
-    // Gaps are as accurate as the penalty's terms allow; the dead band must not get wider by them.
+    // Gaps are as accurate as the terms of the penalty allow; these terms must not widen the dead
+    // band.
     ComplementarityOptions null_space_options = options;
     null_space_options.dead_band /= null_space_factor;
     EnergyDescent descent(null_space_options);
     NullSpacePenalty penalty(problem, matrix, std::vector<char>(problem.size(), 1));
 
-    // N >= 0 with the least unbalance: the same descent with G^T R G and G^T R e alone.
+    // N >= 0 with the least unbalance: a descent with G^T R G and G^T R e alone.
     DenseOperator projector(problem.size());
     penalty.add_to(projector, 1.);
     const std::vector<double> zeros(problem.size(), 0.);

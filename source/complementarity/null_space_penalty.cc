@@ -9,7 +9,7 @@ namespace taut
 {
   namespace
   {
-    /// A diagonal entry of a pseudo-inverse's F below this, relative to the mean, is rounding.
+    /// A diagonal entry of F of a pseudo-inverse below this, relative to the mean, is rounding.
     constexpr double smallest_diagonal = 1e-6;
 
     /// W_i.

@@ -7,8 +7,7 @@ namespace taut
 {
   namespace
   {
-    /// One 64-bit number for a set: the sum of a well-mixed number (splitmix64) for each of its
-    /// rows.
+    /// A 64-bit hash of an active set: the sum of a well-mixed number (splitmix64) for each row.
     std::uint64_t hash(const std::vector<std::size_t> &set)
     {
       std::uint64_t sum = 1;

@@ -102,8 +102,8 @@ namespace taut
                         failed);
     if (result.residual.max <= options.tolerance)
       return;
-    // Newton's method solves small multipliers beside large gaps apart from these. It starts from
-    // the set that was found, or from all rows where that leaves a body free.
+    // Newton's method solves for small multipliers separately from large gaps. It starts from the
+    // active set found, or from all rows if this set leaves a body free.
     const double missed = result.residual.max;
     result.used_fallback = !use_newton;
     if (solve_with_newton(problem, matrix))

@@ -99,7 +99,7 @@ namespace taut
     multiply(size, y, [](const double entry) { return std::abs(entry); });
   }
 
-  /// Open rows keep their place with their diagonal alone, so that the pattern stays the same.
+  /// Open rows keep their place with their diagonal alone, so that the pattern does not change.
   bool SparseOperator::update(Factor &used, const std::vector<char> &active,
                               const double shift) const
   {

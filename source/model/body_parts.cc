@@ -66,7 +66,7 @@ namespace taut
     }
   }
 
-  /// The parts of a divided body, numbered anew without those that have no cell of it.
+  /// The parts of a divided body, numbered anew without parts that have no cell of the body.
   std::vector<std::size_t> SceneBodies::add_parts(const Scene &scene, const std::size_t body,
                                                   const std::vector<unsigned int> &owner)
   {
@@ -175,7 +175,7 @@ namespace taut
     }
   }
 
-  /// That all points at custom bodies are on them and move, on all ranks alike.
+  /// Checks that all points at custom bodies are on the bodies and move, on all ranks alike.
   void SceneBodies::check_places(const Scene &scene) const
   {
     const auto check = [&](const Attachment &end, const Coordinates &direction,

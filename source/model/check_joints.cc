@@ -30,10 +30,10 @@ namespace taut
       return {link.direction};
     }
 
-    /// Whether a form has a part on DoFs that are free or have a given motion.
+    /// Whether a form has a part on DoFs that are free or have a prescribed motion.
     bool moves(const Substructure &body, const LinearForm &form)
     {
-      /// Part of a form that rounding of a place at an end leaves on the DoFs beside it.
+      /// Rounding of a form at an end of a cable, on DoFs beside the end.
       constexpr double rounding = 1e-10;
       std::vector<char> stands(body.n_dofs(), 0);
       for (const ConstrainedDof &held : body.constraints())
@@ -48,7 +48,7 @@ namespace taut
       return free > rounding * all;
     }
 
-    /// On how many directions a place moves, as far as its body is on this rank.
+    /// Number of directions in which a place moves, if its body is on this rank.
     double n_motions(const SceneBodies &bodies, const Attachment &end, const bool rotational,
                      const std::vector<Coordinates> &along)
     {
@@ -71,7 +71,7 @@ namespace taut
 
   std::vector<std::string> check_held_ends(const Scene &scene, const SceneBodies &bodies)
   {
-    // Of each link and load that may be at a held end: the motions of its ends.
+    // The motions of the ends of each link and load that may be at a held end.
     std::vector<double> n;
     const auto is_checked = [&](const Link &link)
     {
@@ -117,13 +117,13 @@ namespace taut
 
   namespace
   {
-    /// Distance of the two places of a ball joint over the length of the shorter body. A force has
-    /// so much lever that nothing balances, and a body is out of its direction by so many rad: as
-    /// much as places that are written with three digits are.
+    /// Largest distance of the two places of a ball joint over the length of the shorter body. This
+    /// distance is an unbalanced lever of the force, and the error of direction of a body in rad.
+    /// Places that are written with three digits have this error.
     constexpr double same_place = 1e-3;
 
-    /// The same of two points over their distance from the origin: their places are numbers that
-    /// are written alike.
+    /// Largest distance of two points over their distance from the origin: both places should be
+    /// written alike.
     constexpr double written_alike = 1e-6;
 
     bool is_point(const Attachment &end)
@@ -131,7 +131,7 @@ namespace taut
       return end.kind == Attachment::Kind::mass || end.kind == Attachment::Kind::ground;
     }
 
-    /// The diagonal of the box around the surface of a body [m]; 0 if its type shows none.
+    /// The diagonal of the box around the surface of a body [m]; 0 for a body without a surface.
     double size_of_surface(const Scene &scene, const CustomBody &body)
     {
       ContactSurface surface;
@@ -154,8 +154,8 @@ namespace taut
       return std::sqrt(squares);
     }
 
-    /// Over the length of which a force at a place turns a body [m]; infinite for points and for
-    /// bodies whose size is not known.
+    /// The length over which a force at a place turns a body [m]; infinite for points and for
+    /// bodies of unknown size.
     double length_of(const Scene &scene, const SceneBodies &bodies, const Attachment &end)
     {
       constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -11,8 +11,9 @@ namespace taut
 {
   namespace
   {
-    /// Elements a step up to which the elements beside a node without mass are a spring that no
-    /// scheme rings on (measured on the bar that hits a wall, doc/accuracy.md).
+    /// Largest number of elements that a wave crosses in a step, for which the elements of a node
+    /// without mass are a spring on which no scheme rings (measured on the bar that hits a wall,
+    /// doc/accuracy.md).
     constexpr double most_courant_number = 4. * (1. + 1e-6);
 
     bool is_on_wire(const Link &link)
@@ -70,8 +71,8 @@ namespace taut
     Scene lighter = scene;
     for (const std::size_t i : stops)
       lighter.links[i].contact_mass = ContactMass::keeps_total;
-    // Links with a stiffness may act as rigid, too, and so does a node that something with mass is
-    // joined to: that depends on the bodies.
+    // Links with a stiffness may act as rigid, too, and so may a node to which a mass is joined:
+    // this depends on the bodies.
     const SceneBodies structure(lighter);
     const Constraints constraints = scene_constraints(lighter, structure);
     const ContactResolution resolution(structure, constraints, parameters, step, step, 0.);

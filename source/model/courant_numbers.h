@@ -9,15 +9,16 @@
 
 namespace taut
 {
-  /// How far waves get in a step [s] at the ends of links on wires, on the elements of the grid.
+  /// Courant numbers: the number of elements that waves cross in a step [s], at the ends of links
+  /// on wires.
   class CourantNumbers
   {
   public:
     /// @p scene is kept by reference.
     CourantNumbers(const Scene &scene, double step);
 
-    /// Elements that the fastest waves cross in a step which the link's motion starts at one of its
-    /// ends on a wire: wave speed times step over the shortest element beside the end [1].
+    /// Elements that the fastest waves of the motion of a link cross in a step, from an end on a
+    /// wire: wave speed times step over the shortest adjacent element [1].
     double at(const Link &link, const Attachment &end) const;
 
     /// Index in grid(scene, wire) of the node nearest to an attachment on a wire.

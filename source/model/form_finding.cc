@@ -20,8 +20,8 @@ namespace taut
 {
   namespace
   {
-    /// Vectors from end to end of undeformed links [m]. Where places of a body are is known to the
-    /// body alone.
+    /// Vectors from end to end of undeformed links [m]. Only a body knows the positions of its
+    /// places.
     std::vector<Coordinates> between_ends(const Scene &scene, const std::vector<Link> &links)
     {
       const bool is_on_body = std::any_of(links.begin(), links.end(),
@@ -40,7 +40,7 @@ namespace taut
       return result;
     }
 
-    /// Half of a dropper's mass on each of its ends.
+    /// Half of the mass of a dropper on each of its ends.
     void add_mass(const Link &link, Scene &scene)
     {
       if (link.mass_per_length == 0.)
@@ -151,7 +151,7 @@ namespace taut
       return result;
     }
 
-    /// Across a dropper and the wire that it hangs from.
+    /// The direction across a dropper and the wire from which it hangs.
     Coordinates sideways(const Scene &scene, const Link &dropper)
     {
       return unit(cross(dropper.direction, scene.wires[dropper.from.index].tangent()),
@@ -159,11 +159,12 @@ namespace taut
     }
 
     /**
-     * The droppers under their tensions. Of one whose direction is found, `tension` is the part of
-     * it along the prescribed height, V. The rest follows from its direction: V/h times its extent
-     * sideways, with h the distance along the height, which no lateral force changes. That is a
-     * spring of stiffness V/h (a force density, H.-J. Schek, Computer Methods in Applied Mechanics
-     * and Engineering 3 (1974), 115-134), so that the static state is that of a linear scene.
+     * The droppers under their tensions. If the direction of a dropper is found, `tension` is the
+     * part V of its tension along the prescribed height. The lateral part follows from the
+     * direction: V/h times the lateral extent of the dropper, with the distance h along the height,
+     * which no lateral force changes. This is a spring of stiffness V/h (a force density, H.-J.
+     * Schek, Computer Methods in Applied Mechanics and Engineering 3 (1974), 115-134), so that the
+     * static state is that of a linear scene.
      */
     DropperForm form_under(const Scene &base, const std::vector<Link> &droppers,
                            const std::vector<Coordinates> &between,
@@ -260,7 +261,7 @@ namespace taut
       }
     }
 
-    /// What acts on a scene while its lengths are found.
+    /// The loads of a scene during form finding.
     Scene while_built(Scene scene)
     {
       scene.loads.erase(std::remove_if(scene.loads.begin(), scene.loads.end(),
@@ -269,7 +270,7 @@ namespace taut
       return without_sliding_contacts(std::move(scene));
     }
 
-    /// All that decides about a form.
+    /// All data that determine a form.
     std::string key(const Scene &part, const SolverParameters &parameters)
     {
       return values_of(part) + archived([&](OutputArchive &archive) { archive << parameters; });
@@ -308,7 +309,7 @@ namespace taut
       }
     if (droppers.empty())
       return scene;
-    // Nothing else: what is not connected with the droppers does not change a bit of their form.
+    // Only the connected part: other parts do not change a bit of the form.
     ScenePart part = connected_part(while_built(scene), ends);
     for (Link &dropper : droppers)
     {

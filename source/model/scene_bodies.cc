@@ -68,7 +68,7 @@ namespace taut
       return rank;
     }
 
-    /// A piece of the wire of a wire_part(), made or found.
+    /// A piece of the wire of a wire_part(), new or from the shared parts.
     std::shared_ptr<Substructure> make_piece(const Scene &part, const WireMotion motion,
                                              const std::vector<double> &nodes,
                                              const std::size_t first, const std::size_t last,

@@ -87,7 +87,8 @@ namespace taut
         return slope;
       }
 
-      /// Displacements of a cable count from its shape at rest, along which the contact rises.
+      /// A contact on a cable: displacements count from the shape at rest, whose height the contact
+      /// follows.
       double gap(const double t) const override
       {
         return link.gap + link.profile(position(t), t) + (height(t) - start);
@@ -103,13 +104,13 @@ namespace taut
     private:
       Attachment place(const double t) const { return SceneBodies::moved(link.to, position(t)); }
 
-      /// Of the place on a cable at rest along the direction of the contact [m].
+      /// Height of the place on the cable at rest, along the direction of the contact [m].
       double height(const double t) const
       {
         return is_on_wire() ? 0. : dot(link.direction, bodies.position(scene, place(t)));
       }
 
-      /// The cable alone knows its length.
+      /// Only the cable knows its length.
       std::vector<Term> terms_on_cable(const double t) const
       {
         try
@@ -126,7 +127,7 @@ namespace taut
 
       bool is_on_wire() const { return link.to.kind == Attachment::Kind::wire; }
 
-      /// A step that ends on the end of the wire up to rounding is on the wire.
+      /// A step that ends at the end of the wire, up to rounding, is on the wire.
       void check(const double t) const
       {
         const Wire &wire = scene.wires[link.to.index];
@@ -142,8 +143,8 @@ namespace taut
       const double start;
     };
 
-    /// One with this speed in space, on a cable that slides by as it moves: where it is at the end
-    /// of a step follows from the motion at its start.
+    /// A contact with this speed in space, on a cable that moves along under it. The place at the
+    /// end of a step follows from the motion at the start of the step.
     class StraightPlace : public SlidingPlace
     {
     public:
@@ -183,7 +184,7 @@ namespace taut
         const double before = position(start), way = known.origin + link.speed * end,
                      enough = same_place * (length + std::fabs(way)),
                      first_error = reached(motion, before, end) - way;
-        // On this leg of the cable.
+        // A place on this leg of the cable.
         const double a = std::max(0., before - difference * element_length),
                      b = std::min(length, before + difference * element_length),
                      leg = (reached(motion, b, end) - reached(motion, a, end)) / (b - a);
@@ -228,7 +229,7 @@ namespace taut
 
     private:
       static constexpr double nearly_across = 1e-6; ///< sine of an angle
-      static constexpr double same_place = 1e-13;   ///< over length of the cable and way
+      static constexpr double same_place = 1e-13;   ///< over length of the cable and path
       static constexpr double difference = 1e-3;    ///< over the length of an element
       static constexpr int most_searches = 50;      ///< a secant method takes five
 
@@ -239,7 +240,7 @@ namespace taut
         return bodies.position(scene, SceneBodies::moved(link.to, s));
       }
 
-      /// How far along the way a place of the cable is at a time [m].
+      /// Position along the path of a place of the cable at a time [m].
       double reached(const Motion &motion, const double s, const double t) const
       {
         std::vector<Term> form;
@@ -257,12 +258,12 @@ namespace taut
                     "earlier, lengthen the cable, or take a smaller step"));
       }
 
-      Coordinates along; ///< the way
+      Coordinates along; ///< direction of the path
       double length = 0., element_length = 0.;
 
       struct Course
       {
-        double origin;                ///< along the way at t = 0 [m]
+        double origin;                ///< along the path at t = 0 [m]
         double time, position, speed; ///< along the cable [s, m, m/s]
       };
       Course known = {};

@@ -37,7 +37,7 @@ namespace taut
                                                      : n_wires + n_masses);
       }
 
-      /// What stands for all that an item is connected with.
+      /// The representative of all items that an item is connected with.
       std::size_t root(std::size_t item) const
       {
         while (parent[item] != item)

@@ -42,7 +42,8 @@ namespace taut
       }
     }
 
-    /// A line and a surface in the plane: the line is in it, too. EntryError for other pairs.
+    /// Takes a line beside a surface in the plane as a line in this plane. Throws EntryError for
+    /// other pairs.
     void lay_into_plane(const SurfaceContact &contact, ContactSurface &slave,
                         ContactSurface &master)
     {
@@ -86,12 +87,12 @@ namespace taut
       return node_to_segment_constraints(slave, master, slave.thickness, distance);
     }
 
-    /// Sine of the angle between two normals above which they are not those of one plane: so much
-    /// of what a body slides along it a gap is wrong by.
+    /// Largest sine of the angle between two normals of one plane: the error of a gap over the
+    /// sliding of a body along the plane.
     constexpr double same_normal = 1e-6;
 
-    /// Whether a body moves by large amounts, as far as it is on this rank. One that has small
-    /// motions about its reference position from the start on does not.
+    /// True if a body is on this rank and moves by large amounts. A body with small motions about
+    /// its reference position from the start on does not.
     bool moves_far(const Scene &scene, const SceneBodies &bodies, const std::size_t body)
     {
       for (const std::size_t k : bodies.indices_of_body(body))
@@ -112,8 +113,9 @@ namespace taut
                          { return norm(row.normal - rows.front().normal) <= same_normal; });
     }
 
-    /// Rows keep normals and distances of the reference position, which hold for large motions on
-    /// planes only. Throws EntryError for a body that moves by large amounts on anything else.
+    /// Constraints keep normals and distances of the reference position, which hold for large
+    /// motions on planes only. Throws EntryError for a body that moves by large amounts on another
+    /// surface.
     void check_large_motions(const Scene &scene, const SceneBodies &bodies,
                              const SurfaceContact &contact,
                              const std::vector<SurfaceConstraint> &rows)
@@ -140,8 +142,8 @@ namespace taut
                            small);
     }
 
-    /// The distance that an automatic search has left out is a mean along a face: it may be less
-    /// than the search distance by this factor.
+    /// A distance beyond the automatic search is a mean along a face: it may be less than the
+    /// search distance by this factor.
     constexpr double part_of_search = .5;
 
     /// Of the box around all faces of surfaces [m].
@@ -160,7 +162,8 @@ namespace taut
       return norm(upper - lower);
     }
 
-    /// Gives the areas of hanging nodes to the nodes that they depend on, as their forces go.
+    /// Gives the areas of hanging nodes to the nodes that they depend on, in the proportion of
+    /// their forces.
     void condense(const ContactSurface &slave, std::vector<SurfaceConstraint> &constraints)
     {
       std::map<unsigned int, std::size_t> of_node;
@@ -188,7 +191,7 @@ namespace taut
       constraints.resize(n);
     }
 
-    /// The form of weights of the nodes of a body, as far as its parts are on this rank.
+    /// The linear form of weights of the nodes of a body, restricted to its parts on this rank.
     void append(const SceneBodies &bodies, const std::size_t body,
                 const std::vector<NodeWeight> &weights, std::vector<Term> &terms)
     {
