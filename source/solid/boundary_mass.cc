@@ -13,14 +13,14 @@ namespace taut
 {
   namespace
   {
-    /// Newton's method for D ends where the integrals are off by this part of themselves.
+    /// Newton's method for D ends where the relative error of the integrals is below this.
     constexpr double converged = 1e-14;
     constexpr unsigned int most_iterations = 30;
 
-    /// Smallest entry of D: the mass of a node is not taken as good as whole.
+    /// Smallest entry of D: a node must keep a part of its mass.
     constexpr double smallest_factor = .1;
 
-    /// Of each DoF the number of layers of cells between it and the boundary, 0 on it.
+    /// For each DoF the number of layers of cells to the boundary, 0 on the boundary.
     template <int dim>
     std::vector<unsigned int>
     layers(const SolidMesh<dim> &mesh, const std::set<dealii::types::boundary_id> &boundaries,
@@ -93,7 +93,7 @@ namespace taut
           }
       }
 
-      /// Number of those up to a degree.
+      /// Number of monomials up to a degree.
       static unsigned int size(const unsigned int degree)
       {
         return degree == 0 ? 1 : degree == 1 ? 1 + dim : (dim + 1) * (dim + 2) / 2;
@@ -123,7 +123,7 @@ namespace taut
       return c;
     }
 
-    /// D with the integrals up to a degree; empty if there is none with positive entries.
+    /// D that keeps the integrals up to a degree; empty if there is no D with positive entries.
     template <int dim>
     std::vector<double> find_factors(const dealii::SparseMatrix<double> &M, const Monomials<dim> &p,
                                      const std::vector<unsigned int> &layer,
@@ -190,7 +190,7 @@ namespace taut
           if (!(D[i] > smallest_factor))
             return {};
         }
-        // At rounding.
+        // The error is rounding.
         if (iteration > 0 && largest_step <= converged)
           return D;
       }
@@ -214,7 +214,7 @@ namespace taut
       D = find_factors(M, monomials, layer, degree);
       if (D.empty())
         continue;
-      // All components of a node alike: those of other DoFs at its place.
+      // All components of a node get the value of other DoFs at its place.
       const auto &handler = mesh.dof_handler();
       const dealii::FiniteElement<dim> &element = handler.get_fe();
       std::vector<dealii::types::global_dof_index> dofs(element.n_dofs_per_cell());

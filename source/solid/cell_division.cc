@@ -21,7 +21,7 @@ namespace taut
       for (const auto dof : FEBody<dim>::part_dofs({cell}, constraints))
         body_cells.dofs.push_back(dof);
       body_cells.begin.push_back(body_cells.dofs.size());
-      // A face between cells of different size is that of the smaller one.
+      // A face between cells of different size is the face of the smaller cell.
       for (const unsigned int f : cell->face_indices())
         if (!cell->at_boundary(f) && cell->neighbor(f)->is_active() &&
             (cell->neighbor_is_coarser(f) || cell->neighbor(f)->active_cell_index() < number))

@@ -10,11 +10,12 @@ namespace taut
 {
   namespace
   {
-    /// Change of a reference coordinate that ends Newton's method, whose next one is its square.
+    /// Change of a reference coordinate that ends Newton's method; the next change would be its
+    /// square.
     constexpr double converged = 1e-11;
     constexpr unsigned int most_iterations = 50;
 
-    /// Starts along a line, besides its ends.
+    /// Number of starts along a line, beside its ends.
     constexpr double starts[] = {.5, .2, .8};
 
     std::array<unsigned int, 2> key(const unsigned int a, const unsigned int b)
@@ -124,7 +125,7 @@ namespace taut
       const double g[2] = {dot(d, p.tangent_x), dot(d, p.tangent_y)};
       double a = dot(p.tangent_x, p.tangent_x), b = dot(p.tangent_x, p.tangent_y),
              c = dot(p.tangent_y, p.tangent_y);
-      // Without second derivatives (Gauss-Newton) where with them there is no minimum.
+      // Without second derivatives (Gauss-Newton) if the full Hessian has no minimum.
       const double h[3] = {a + dot(d, xx), b + dot(d, xy), c + dot(d, yy)};
       if (h[0] > 0. && h[0] * h[2] - h[1] * h[1] > 0.)
       {

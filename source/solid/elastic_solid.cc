@@ -62,7 +62,8 @@ namespace taut
   template <int dim>
   struct ElasticSolid<dim>::Assembled
   {
-    /// Of the cells only, with mass_factors() of the whole; of none, of all.
+    /// Assembles these cells only, with mass_factors() of the uncut solid; without cells it
+    /// assembles all cells.
     Assembled(const SolidMesh<dim> &mesh, const Options &options,
               const dealii::AffineConstraints<double> &constraints, std::vector<Cell> part,
               const std::vector<double> *part_factors);
@@ -174,7 +175,7 @@ namespace taut
     }
   }
 
-  /// The mass, and the weight, which is consistent whatever the mass is.
+  /// The mass, and the weight, which is consistent for every kind of mass matrix.
   template <int dim>
   void ElasticSolid<dim>::Assembled::add_mass(const SolidMesh<dim> &mesh, const Options &options)
   {
@@ -227,8 +228,8 @@ namespace taut
           share += density * weights.shape_value(i, q) * weights.JxW(q);
         load[rows[i]] += options.gravity[c] * share;
       }
-      // The diagonal, scaled so that the cell keeps its mass (E. Hinton, T. Rock, O. C.
-      // Zienkiewicz, Earthquake Engineering and Structural Dynamics 4 (1976)).
+      // The diagonal of the mass matrix, scaled so that the cell keeps its mass (E. Hinton, T.
+      // Rock, O. C. Zienkiewicz, Earthquake Engineering and Structural Dynamics 4 (1976)).
       if (lumped && diagonal_mass > 0.)
         for (unsigned int i = 0; i < n; ++i)
           M.add(rows[i], rows[i], diagonal[i] * cell_mass / diagonal_mass);

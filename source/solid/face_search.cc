@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "face_search.h"
 
-// The R-tree includes a deprecated header of Boost, which every build would be told.
+// The R-tree includes a deprecated header of Boost, of which every build would warn.
 #define BOOST_ALLOW_DEPRECATED_HEADERS
 #include <boost/geometry.hpp>
 #include <boost/geometry/geometries/box.hpp>
@@ -36,8 +36,8 @@ namespace taut
       return {lower, upper};
     }
 
-    /// Faces by shells around a point, each twice as far as the one before. The tree's own
-    /// queries for nearest entries one by one sort all that they have seen again and again.
+    /// Visits faces by shells around a point, each twice as far as the shell before. The queries of
+    /// the tree for nearest entries would sort all visited entries again and again.
     template <std::size_t dim, typename Visit>
     void visit_shells(const Tree<dim> &tree, const Point<dim> &x, const double first_radius,
                       const Visit &visit)
@@ -45,8 +45,8 @@ namespace taut
       std::vector<std::pair<double, std::size_t>> shell;
       std::size_t n_seen = 0;
       double inner = -1., outer = std::max(first_radius, bg::distance(x, tree.bounds()));
-      // A face as far away as the shell ends must not be lost to rounding of the corners of its
-      // box: no other shell would have it.
+      // A face at the end of the shell must not be lost by rounding of the corners of its box: no
+      // other shell would have this face.
       constexpr double rounding = 8. * std::numeric_limits<double>::epsilon();
       const double size = bg::distance(x, Point<dim>());
       while (n_seen < tree.size())
@@ -67,7 +67,7 @@ namespace taut
     }
   } // namespace
 
-  /// One of the two is empty.
+  /// One of the two trees is empty.
   struct FaceSearch::Trees
   {
     Tree<2> plane;

@@ -21,8 +21,8 @@ namespace taut
     /// Faces whose boxes meet the convex hull of some points of the plane, in ascending order.
     std::vector<std::size_t> meet_hull(const std::vector<Coordinates> &points) const;
 
-    /// Calls @p visit with faces and the distances of their boxes from @p x [m], which ascend, as
-    /// long as it returns true.
+    /// Calls @p visit with faces and the distances of their boxes from @p x [m], in ascending
+    /// order, as long as @p visit returns true.
     void visit_nearest(const Coordinates &x,
                        const std::function<bool(std::size_t face, double distance)> &visit) const;
 

@@ -29,7 +29,7 @@ namespace taut
     triangle
   };
 
-  /// The form of a face with so many nodes.
+  /// The form of a face with this number of nodes.
   FaceForm face_form(unsigned int dim, unsigned int degree, std::size_t n_nodes);
 
   /// Shape functions of a face of up to nine nodes and their first and second derivatives.
@@ -42,8 +42,8 @@ namespace taut
 
   ReferencePoint centre(FaceForm form);
 
-  /// A line, straight on the reference face, with nodes of the face as its ends; @p middle is that
-  /// between them if the degree is 2.
+  /// A straight line on the reference face with nodes of the face as its ends; @p middle is the
+  /// node between them if the degree is 2.
   struct FaceEdge
   {
     ReferencePoint begin, end;

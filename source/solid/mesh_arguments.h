@@ -14,7 +14,7 @@
 
 namespace taut
 {
-  /// A mesh with more cells is a mistake.
+  /// Largest number of cells; a mesh with more cells is a mistake.
   constexpr double most_cells = 1e7;
 
   /// The arguments of a generator of meshes: lists of numbers with colons between them, read one
@@ -85,7 +85,7 @@ namespace taut
       return result;
     }
 
-    /// That nothing is left.
+    /// Checks that no argument is left.
     void finish() const
     {
       if (next != parts.size())

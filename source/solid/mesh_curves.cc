@@ -16,8 +16,8 @@ namespace taut
 {
   namespace
   {
-    /// Part of the radius by which nodes of a curved boundary may be beside it: files have few
-    /// digits, and what is more is another shape.
+    /// Largest distance of the nodes of a curved boundary from its curve, over the radius: files
+    /// have few digits, and a larger distance means another shape.
     constexpr double on_curve = 1e-3;
 
     /// A circle or sphere about a centre, or a cylinder about an axis.
@@ -105,7 +105,7 @@ namespace taut
             entry, to_text("nodes of ", what, " are ", least, " to ", most,
                            " m away from there, on no one radius; check the place and the id"));
       }
-      // Its edges in space have ids of their own, which a file does not give.
+      // Edges in space have ids of their own, which a file does not give.
       const dealii::types::manifold_id id = curve.id;
       for (const auto &face : cells.active_face_iterators())
         if (face->at_boundary() && face->boundary_id() == curve.id)

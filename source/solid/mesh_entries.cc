@@ -22,7 +22,7 @@ namespace taut
   {
     namespace Patterns = dealii::Patterns;
 
-    /// What an error of deal.II says, without where it was raised.
+    /// The message of an error of deal.II, without the place in the source.
     std::string reason(const std::exception &e)
     {
       const std::string all = e.what();
@@ -34,8 +34,8 @@ namespace taut
       return std::regex_replace(text, std::regex("^\\s+|\\s+$"), "");
     }
 
-    /// What to do about a mesh of gmsh that deal.II refuses; empty: its own reason says it. Types
-    /// of gmsh's elements to 7 and 15 are of first order.
+    /// The remedy for a mesh of gmsh that deal.II refuses; empty if the message of deal.II is
+    /// enough. Element types of gmsh up to 7, and 15, are of first order.
     std::string remedy(const std::string &reason)
     {
       std::smatch found;
@@ -55,7 +55,7 @@ namespace taut
     constexpr double flat = 1e-8;
 
     /// The smallest determinant of the edges at a corner of a cell, over their lengths: 1 for a
-    /// box, 0 for a flat corner, negative for one that is turned inside out.
+    /// box, 0 for a flat corner, negative for a corner that is turned inside out.
     template <typename Cell, int dim = Cell::AccessorType::dimension>
     double smallest_corner(const Cell &cell)
     {

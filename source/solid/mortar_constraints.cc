@@ -15,11 +15,12 @@ namespace taut
 {
   namespace
   {
-    /// Integral of a polynomial of degree 2 over the hull, over the covered length, below which
-    /// multipliers become linear: at holes. It is 1/6 on a straight edge without any.
+    /// Multipliers become linear, because of holes, if the integral of a polynomial of degree 2
+    /// over the hull, over the covered length, is below this. The integral is 1/6 on a straight
+    /// edge without holes.
     constexpr double small_integral = .02;
 
-    /// Part of an edge below which what is not covered is rounding of the places of nodes.
+    /// An uncovered part of an edge below this is rounding of the places of nodes.
     constexpr double covered = 1e-6;
 
     using Small = std::array<double, 3>;
@@ -67,8 +68,8 @@ namespace taut
       return result;
     }
 
-    /// Functions on the covered part of an edge, biorthogonal to the Lagrange polynomials L_i of
-    /// its hull: int psi_i L_j = delta_ij int L_i, and their sum is 1.
+    /// Functions psi_i on the covered part of an edge, biorthogonal to the Lagrange polynomials L_i
+    /// of its hull: int psi_i L_j = delta_ij int L_i. The sum of the psi_i is 1.
     class DualBasis
     {
     public:

@@ -10,13 +10,13 @@ namespace taut
 {
   namespace
   {
-    /// Rows of a sliver that differ by less in all weights become one.
+    /// Rows of a sliver become one row if they differ by less than this in all weights.
     constexpr double small_difference = .1;
 
-    /// On a sliver, areas below this part of the largest have no row of their own.
+    /// On a sliver, nodes with areas below this part of the largest area have no row of their own.
     constexpr double small_area = .1;
 
-    /// Weights below this part of the largest are rounding.
+    /// Weights below this part of the largest weight are rounding.
     constexpr double rounding = 1e-14;
 
     /// Largest vector of s a - t b.
@@ -40,7 +40,8 @@ namespace taut
                       largest_difference(a.master, 1. / a.area, b.master, 1. / b.area));
     }
 
-    /// Weights of a mean. Those that are rounding go to the largest, so that their sum stays.
+    /// Weights of a mean. Weights that are rounding are added to the largest weight, so that the
+    /// sum is kept.
     std::vector<NodeWeight> weights(const NodeVectors &integrals, const double area)
     {
       double largest = 0.;
@@ -133,7 +134,7 @@ namespace taut
       changed = false;
       for (std::vector<unsigned int> &nodes : slivers)
       {
-        // Those whose row an edge next door has merged are gone.
+        // Rows that an adjacent edge has merged are gone.
         nodes.erase(std::remove_if(nodes.begin(), nodes.end(),
                                    [this](const unsigned int node)
                                    { return !(rows[node].area > 0.); }),

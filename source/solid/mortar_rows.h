@@ -31,7 +31,7 @@ namespace taut
     NodeVectors slave, master;
   };
 
-  /// The rows of the slave's nodes.
+  /// The rows of the nodes of the slave.
   class MortarRows
   {
   public:
@@ -46,11 +46,11 @@ namespace taut
     void add_sliver(std::vector<unsigned int> nodes) { slivers.push_back(std::move(nodes)); }
 
     /**
-     * Makes one row of several of the nodes of a sliver; its function is the sum of theirs, and its
-     * node that of the largest area. If one of the areas is less than a tenth of the largest, as
-     * beside an edge that is covered as a whole, all become one: the multiplier is constant on the
-     * sliver. Else pairs do whose rows, as means, differ by less than 0.1 in all weights: they
-     * could not be told from each other by displacements.
+     * Merges rows of nodes of a sliver. The function of a merged row is the sum of their functions,
+     * and its node is that of the largest area. If an area is less than a tenth of the largest
+     * area, as beside a completely covered edge, all rows become one: the multiplier is constant on
+     * the sliver. Otherwise pairs become one if their rows, as means, differ by less than 0.1 in
+     * all weights: displacements could not distinguish them.
      */
     void merge_slivers();
 

@@ -13,11 +13,12 @@ namespace taut
     /// Cosine between the normals of two edges at a node below which they make a corner.
     constexpr double corner = .5;
 
-    /// Cosine between a slave's and the opposite of a master's normal from which on they face each
-    /// other.
+    /// Smallest cosine between the normal of a slave edge and the opposite normal of a master edge
+    /// for which the edges face each other.
     constexpr double facing = .1;
 
-    /// By how much of an edge's length a line of sight may pass a point on it.
+    /// Largest distance at which a line of sight may pass a point of an edge, over the length of
+    /// the edge.
     constexpr double hit = 1e-6;
 
     /// Part of an edge below which a segment is rounding.
@@ -60,8 +61,7 @@ namespace taut
       return x;
     }
 
-    /// The function of the points of an edge of degree 2 that the control polygon of Bernstein
-    /// polynomials has: the edge is in its hull.
+    /// Control points of an edge of degree 2 (Bernstein polynomials): the edge is in their hull.
     Coordinates control_point(const Coordinates &first, const Coordinates &second,
                               const Coordinates &middle)
     {
@@ -124,7 +124,7 @@ namespace taut
     return r;
   }
 
-  /// Place on the slave edge that sees a point, or the end nearest to it: 0 or 1.
+  /// Place on the slave edge that sees a point, or the end nearest to the point: 0 or 1.
   double MortarSegments::slave_of(const std::size_t face, const Coordinates &x) const
   {
     const auto side = [this, face, &x](const double at)
@@ -141,8 +141,8 @@ namespace taut
       return 1.;
     if ((first < 0.) != (second < 0.))
       return bracketed_root(side);
-    // Both ends see past it on the same side. At the place itself the side falls or rises with the
-    // orientation of the edge.
+    // The lines of sight of both ends pass the point on the same side. At the place that sees the
+    // point this side falls or rises with the orientation of the edge.
     const Ray r = ray(face, .5);
     return (first > 0.) == (cross_z(r.tangent, r.direction) > 0.) ? 1. : 0.;
   }
@@ -160,7 +160,7 @@ namespace taut
     const double first = side(0.).first, second = side(1.).first;
     if ((first < 0.) != (second < 0.))
       return bracketed_root(side);
-    return std::fabs(first) < std::fabs(second) ? 0. : 1.; // an end, but for rounding
+    return std::fabs(first) < std::fabs(second) ? 0. : 1.; // an end, up to rounding
   }
 
   std::vector<std::size_t> MortarSegments::candidates(const std::size_t face) const
@@ -174,7 +174,7 @@ namespace taut
       x[2] = control_point(x[0], x[1], x[2]);
       n.push_back(control_point(n[0], n[1], normals[face][2]));
     }
-    // All that the edge sees is in the hull of what the control points see.
+    // All points that the edge sees are in the hull of the points that the control points see.
     std::vector<Coordinates> hull;
     for (std::size_t i = 0; i < x.size(); ++i)
       for (const double s : {-distance, distance})
@@ -182,8 +182,9 @@ namespace taut
     return search.meet_hull(hull);
   }
 
-  /// Distance of what a place on the slave edge sees of a master edge [m], infinite if the two do
-  /// not face each other, it is too far, or it is further behind than the longer of the two edges.
+  /// Distance of the point of a master edge that a place on the slave edge sees [m]. It is infinite
+  /// if the edges do not face each other, if the point is too far, or if the point is farther
+  /// behind than the length of the longer edge.
   double MortarSegments::gap_of(const std::size_t face, const double at,
                                 const std::size_t other) const
   {

@@ -18,10 +18,10 @@ namespace taut
   };
 
   /**
-   * Segments of two surfaces in the plane. Points of a slave edge see along its nodal normals,
-   * interpolated between its nodes, which are averaged over the edges that meet there unless these
-   * make a corner. Of the master edges on that line which face the slave, in front or behind (there
-   * by the longer of the two edges at most), the nearest counts.
+   * Segments of two surfaces in the plane (segment-to-segment). Points of a slave edge see along
+   * nodal normals, interpolated between the nodes. Nodal normals are averaged over the edges that
+   * meet at a node, unless the edges make a corner. The nearest master edge on this line counts, if
+   * it faces the slave. It is in front, or behind by at most the length of the longer edge.
    */
   class MortarSegments
   {

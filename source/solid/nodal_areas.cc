@@ -10,10 +10,10 @@ namespace taut
 {
   namespace
   {
-    /// What a vertex gets of the functions of the middles beside it.
+    /// Part of the functions of the adjacent middles that a vertex gets.
     constexpr double share = .2;
 
-    /// A face counts for a node if its cosine is at least this part of the largest.
+    /// A face counts for a node if its cosine is at least this part of the largest cosine.
     constexpr double part_of_largest = .5;
   } // namespace
 

@@ -14,14 +14,14 @@ namespace taut
 {
   namespace
   {
-    /// Cosine between a slave's and the opposite of a master's normal from which on they face each
-    /// other.
+    /// Smallest cosine between the normal of a slave face and the opposite normal of a master face
+    /// for which the faces face each other.
     constexpr double facing = .1;
 
-    /// What such a cosine may differ by between the nodes of a face.
+    /// Largest difference of this cosine between the nodes of a face.
     constexpr double margin = .5;
 
-    /// How far beside the master a node may be, as part of the distance plus the size of the face.
+    /// Largest distance of a node beside the master, over the distance plus the size of the face.
     constexpr double beside = 1e-6;
 
     /// Distance over the size of a face below which its direction is rounding.
@@ -37,8 +37,8 @@ namespace taut
       {
       }
 
-      /// Sets what part of the faces at its node has nodes without a constraint: the area of the
-      /// node counts them as a whole.
+      /// Sets the part of the faces of a node that has nodes without a constraint: the area of the
+      /// node counts these faces completely.
       void find_overhang(const std::vector<char> &is_constrained, SurfaceConstraint &c) const
       {
         for (const std::size_t face : areas.faces_along(c.node, c.normal))
@@ -81,8 +81,8 @@ namespace taut
       }
 
     private:
-      /// The normal of a constraint, out of the master: that of the face, or at an edge or a corner
-      /// of it the direction @p d to the node.
+      /// The normal of a constraint, out of the master: the normal of the face, or at an edge or
+      /// corner of the face the direction @p d to the node.
       Coordinates normal_at(const ClosestPoint &found, const FacePoint &p,
                             const Coordinates &d) const
       {
@@ -92,13 +92,14 @@ namespace taut
         return scaled((dot(d, normal) < 0. ? -1. : 1.) / norm(d), d);
       }
 
-      /// Whether the node faces what is across a normal out of the master.
+      /// True if the node faces a face with this normal out of the master.
       bool faces(const unsigned int node, const Coordinates &normal) const
       {
         return areas.largest_cosine(node, scaled(-1., normal)) >= facing;
       }
 
-      /// Of the faces that the node faces, and has not penetrated by more than an element.
+      /// The closest point of faces that the node faces, and has not penetrated by more than an
+      /// element.
       std::optional<ClosestPoint> closest(const unsigned int node, const Coordinates &x) const
       {
         std::optional<ClosestPoint> best;
@@ -126,7 +127,7 @@ namespace taut
         return best;
       }
 
-      /// Whether some place of the face may face the node, from normals at nodes.
+      /// True if a place of the face may face the node, from normals at nodes.
       bool may_face(const unsigned int node, const std::size_t face) const
       {
         for (std::size_t i = 0; i < master.nodes(face).size(); ++i)

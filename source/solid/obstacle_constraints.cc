@@ -12,7 +12,7 @@ namespace taut
 {
   namespace
   {
-    /// Cosine from which on a face faces an obstacle.
+    /// Smallest cosine of a face that faces an obstacle.
     constexpr double facing = .01;
 
     [[noreturn]] void complain_about_reach(const ContactSurface &surface, const double reach,
@@ -25,7 +25,7 @@ namespace taut
                       "distance");
     }
 
-    /// Of the nodes of a line in space, which has no side of its own: all of it faces the obstacle,
+    /// Areas of the nodes of a line in space. A line has no side: it faces the obstacle completely,
     /// and a node has half of the lengths of its edges.
     std::vector<SurfaceConstraint> of_line(const ContactSurface &line,
                                            const RigidObstacle &obstacle, const double thickness,

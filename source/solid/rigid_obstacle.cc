@@ -11,8 +11,8 @@ namespace taut
 {
   namespace
   {
-    /// Most Gauss-Newton iterations for the closest point of a graph, and their last step over the
-    /// distance from the foot, plus what coordinates are rounded with.
+    /// Largest number of Gauss-Newton iterations for the closest point of a graph, and their last
+    /// step over the distance from the foot, plus the rounding of coordinates.
     constexpr unsigned int most_iterations = 50;
     constexpr double converged = 1e-12, rounding = 1e-15;
 

@@ -13,10 +13,10 @@ namespace taut
 {
   namespace
   {
-    /// As far as a normal may be from an axis for a boundary along it.
+    /// Largest deviation of a normal from an axis on a symmetry boundary.
     constexpr double along_axis = 1e-8;
 
-    /// The axis that a face is across.
+    /// The axis along the normal of a face.
     template <int dim>
     unsigned int axis_of(const std::vector<dealii::Tensor<1, dim>> &normals)
     {
@@ -99,8 +99,7 @@ namespace taut
         cell->face(f)->get_dof_indices(dofs);
         for (const auto dof : dofs)
         {
-          // The first condition that is written counts where two boundaries meet, as do hanging
-          // nodes.
+          // Where two boundaries meet, the first written condition counts; so do hanging nodes.
           if (!held[mesh.component(dof)] || all.is_constrained(dof))
             continue;
           all.add_line(dof);

@@ -45,7 +45,7 @@ namespace taut
       return result;
     }
 
-    /// At commas outside of brackets; empty parts stay.
+    /// Splits a text at commas outside of brackets; empty parts are kept.
     std::vector<std::string> split(const std::string &text)
     {
       std::vector<std::string> parts(1);
@@ -75,7 +75,7 @@ namespace taut
       }
     }
 
-    /// Formulas of the components; those without one are not held.
+    /// Formulas of the components; a component without a formula is not held.
     BoundaryCondition vector_condition(const BoundaryCondition::Kind kind, const unsigned int id,
                                        const std::string &formulas, const unsigned int dimension,
                                        const std::string &entry)

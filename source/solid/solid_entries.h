@@ -21,7 +21,7 @@ namespace taut
   {
     void declare(dealii::ParameterHandler &prm);
 
-    /// Throws EntryError for what makes no mesh, below @p origin, the section of the body.
+    /// Throws EntryError for entries that make no mesh, below @p origin, the section of the body.
     template <int dim>
     std::unique_ptr<dealii::Triangulation<dim>> make(const std::string &origin) const;
 
@@ -48,7 +48,7 @@ namespace taut
   {
     void declare(dealii::ParameterHandler &prm);
 
-    /// Throws EntryError for what cannot be, on this mesh.
+    /// Throws EntryError for entries that are impossible on this mesh.
     template <int dim>
     typename ElasticSolid<dim>::Options options(const BodySetting &setting,
                                                 const SolidMesh<dim> &cells) const;

@@ -28,7 +28,7 @@ namespace taut
       return std::sqrt(1.5 * (d * d));
     }
 
-    /// An element that is not continuous, with nodes where those of the displacements are.
+    /// A discontinuous element with nodes at the nodes of the displacements.
     template <int dim>
     std::unique_ptr<dealii::FiniteElement<dim>> discontinuous(const SolidMesh<dim> &mesh)
     {
@@ -105,7 +105,7 @@ namespace taut
   {
     const dealii::FiniteElement<dim> &element = mesh.dof_handler().get_fe();
     const std::vector<dealii::Point<dim>> &nodes = node_element->get_unit_support_points();
-    // Where stresses are taken, and how they are continued to the nodes.
+    // Points at which stresses are taken, and their extrapolation to the nodes.
     const dealii::Quadrature<dim> points =
         mesh.is_simplicial() ? dealii::Quadrature<dim>(nodes) : mesh.quadrature(mesh.degree());
     std::vector<std::vector<double>> weight(nodes.size(), std::vector<double>(points.size(), 0.));

@@ -9,7 +9,7 @@
 
 namespace taut
 {
-  /// Tractions and pressures, which are integrated once if they do not change.
+  /// Tractions and pressures. Constant loads are integrated once.
   template <int dim>
   void ElasticSolid<dim>::add_boundary_loads()
   {

@@ -12,7 +12,7 @@ namespace taut
 {
   namespace
   {
-    /// What a solid of either dimension is to a scene.
+    /// The body type of a solid of either dimension.
     class SolidOf
     {
     public:
@@ -72,7 +72,7 @@ namespace taut
         }
         catch (const UserError &)
         {
-          return 0; // make() says what is wrong, and where
+          return 0; // make() reports the error
         }
       }
 

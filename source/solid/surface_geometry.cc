@@ -13,15 +13,15 @@ namespace taut
 {
   namespace
   {
-    /// Area at the centre of a face over the square of its diameter (in the plane: length over
-    /// diameter) below which the face is none.
+    /// A face is degenerate if its area at the centre over the square of its diameter (in the
+    /// plane: length over diameter) is below this.
     constexpr double no_area = 1e-12;
 
-    /// Cosine between outward direction and normal at the centre from which on sides are clear.
+    /// Smallest cosine between outward direction and normal at the centre for a clear outer side.
     constexpr double clear_side = .01;
 
-    /// Between its nodes a face of degree 2 leaves their box by at most so many of its lengths:
-    /// (c - 1) / 2 with c = 5/3 the largest sum of absolute values of the shape functions.
+    /// A face of degree 2 leaves the box of its nodes by at most this part of the lengths of the
+    /// box: (c - 1) / 2, with the largest sum c = 5/3 of absolute values of the shape functions.
     constexpr double overshoot = 1. / 3.;
 
     bool is_finite(const Coordinates &x)

@@ -41,7 +41,7 @@ namespace taut
     Coordinates normal() const { return normalised(area); }
   };
 
-  /// Faces of a contact surface as maps from their reference faces, with outer sides.
+  /// Faces of a contact surface as mappings from their reference faces, with outer sides.
   class SurfaceGeometry
   {
   public:
@@ -59,7 +59,7 @@ namespace taut
 
     FacePoint at(std::size_t face, const ReferencePoint &reference) const;
 
-    /// Contains the face.
+    /// A box that contains the face.
     Box box(std::size_t face) const;
 
     /// Of all faces.
@@ -80,11 +80,12 @@ namespace taut
   /// Throws UserError if @p thickness is no positive number.
   void check_thickness(double thickness);
 
-  /// What a search distance means for a pair of surfaces; UserError if it is negative or no number.
+  /// The search distance for a pair of surfaces, with the automatic distance resolved; UserError if
+  /// it is negative or no number.
   double search_distance(const SurfaceGeometry &slave, const SurfaceGeometry &master,
                          double distance);
 
-  /// Throws the UserError of two surfaces that do not face each other anywhere.
+  /// Throws the UserError for two surfaces that do not face each other anywhere.
   [[noreturn]] void complain_about_search(const SurfaceGeometry &slave,
                                           const SurfaceGeometry &master, double distance);
 } // namespace taut

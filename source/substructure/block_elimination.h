@@ -38,7 +38,8 @@ namespace taut
     double v[b];
   };
 
-  /// The same in a vector of GCC and Clang; deal.II's have one number in Debian's build.
+  /// The DoFs of one node in a vector type of GCC and Clang; the vectors of deal.II have one number
+  /// in Debian's build.
   template <typename Vector>
   class VectorNode
   {
@@ -48,7 +49,7 @@ namespace taut
     double operator[](const int i) const { return v[i]; }
     void add(const double factor, const double *column)
     {
-      Vector values; // no function returns one: where, depends on the instruction set
+      Vector values; // no function returns a vector: its register depends on the instruction set
       std::memcpy(&values, column, sizeof(values));
       v += factor * values;
     }
@@ -165,7 +166,7 @@ namespace taut
     return sum;
   }
 
-  /// What the elimination from one end leaves at a node; whole cache lines.
+  /// The data of the elimination from one end at a node, in whole cache lines.
   template <typename AnyBlock>
   struct alignas(64) Elimination
   {
@@ -175,8 +176,8 @@ namespace taut
   };
 
   /**
-   * The eliminations of all nodes. Where elements are alike, their recurrence comes to rest:
-   * equal neighbours are stored once, and a solve reads them from the nearest cache.
+   * The eliminations of all nodes. Where elements are alike, the recurrence becomes stationary.
+   * Equal neighbours are stored once, and a solve reads them from the nearest cache.
    */
   template <typename AnyBlock>
   class Eliminations

@@ -9,7 +9,7 @@
 /// Both halves of a block-tridiagonal solve, from both ends to the middle node and back.
 namespace taut
 {
-  /// Eliminations of @p n nodes from the left and from the right, each up to node @p middle or
+  /// @p n nodes, with eliminations from the left and from the right, each up to node @p middle or
   /// further.
   template <typename AnyBlock>
   struct BothEliminations
@@ -33,7 +33,7 @@ namespace taut
       right.read(r);
     }
 
-    /// Steps that both ends have, the first one is step 1; the middle is left out.
+    /// Steps of both ends, from step 1 on, without the middle.
     std::ptrdiff_t n_steps() const { return std::min(n_left, n_right) - 1; }
 
     void step(const std::ptrdiff_t k)
@@ -57,7 +57,7 @@ namespace taut
     const Elimination<AnyBlock> *const *from_left, *const *from_right;
     double *l, *r;
     std::ptrdiff_t n_left, n_right;
-    NodeOf<AnyBlock> left, right; ///< the last nodes that each end came to
+    NodeOf<AnyBlock> left, right; ///< the last node of each end
   };
 
   /// The second half: substitution from the middle to both ends.
@@ -75,7 +75,7 @@ namespace taut
       right = left;
     }
 
-    /// Steps that both ends have, the first one is step 1.
+    /// Steps of both ends, from step 1 on.
     std::ptrdiff_t n_steps() const { return std::min(n_left, n_right); }
 
     void step(const std::ptrdiff_t k)

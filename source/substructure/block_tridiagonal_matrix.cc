@@ -48,7 +48,7 @@ namespace taut
             return false;
       return true;
     };
-    constexpr std::size_t least = 4 * lanes / b; // fewer nodes are read as fast as repeated
+    constexpr std::size_t least = 4 * lanes / b; // for fewer nodes repetition is no faster
     const std::size_t last = n / b - std::min<std::size_t>(n / b, 2);
     for (std::size_t begin = 2; begin < last;)
     {
@@ -97,7 +97,7 @@ namespace taut
         [=] { product(begin, end, x, y - begin, [](double, const double sum) { return sum; }); });
   }
 
-  /// The same for one of the first or last rows.
+  /// The product for one of the first or last rows.
   template <int b>
   template <typename Result>
   void BlockTridiagonalMatrix<b>::product_at_end(const std::size_t i, const double *x, double *y,
@@ -151,7 +151,7 @@ namespace taut
         repeat(std::integral_constant<int, n_directions>(), repetition.rows);
       else
       {
-        const auto rows = repetition.rows; // in registers, as what is written cannot be one of them
+        const auto rows = repetition.rows; // a copy in registers: writes cannot change it
         repeat(std::integral_constant<int, 1>(), rows);
       }
     }

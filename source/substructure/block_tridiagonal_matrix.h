@@ -14,8 +14,8 @@
 namespace taut
 {
   /**
-   * Blocks of b x b on the diagonal and beside it: the matrices of a wire, b DoFs a node. Where
-   * elements are alike, rows repeat themselves from node to node: a product there reads them once.
+   * A block-tridiagonal matrix of b x b blocks: the matrices of a wire with b DoFs per node. Where
+   * elements are alike, rows repeat from node to node, and a product reads them once.
    */
   template <int b>
   class BlockTridiagonalMatrix : public SymmetricMatrix
@@ -50,8 +50,8 @@ namespace taut
     static constexpr int n_directions = 3;                       ///< of cables
     static constexpr int lanes = b % n_directions == 0 ? 24 : 8; ///< whole nodes
 
-    /// Rows begin to end - 1 are those of `lanes` rows, again and again; whole nodes. Of cables
-    /// only where directions are apart: other rows are read as fast.
+    /// Rows begin to end - 1 repeat `lanes` rows, which are whole nodes. For cables only if
+    /// directions are uncoupled: other rows are read as fast without repetition.
     struct Repetition
     {
       std::size_t begin, end;

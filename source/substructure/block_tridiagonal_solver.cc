@@ -8,8 +8,8 @@ namespace taut
 {
   namespace
   {
-    /// Of cables: a motion in the plane of x and y and one along z that do not act on each other
-    /// are solved apart, with blocks of 4 x 4 and 2 x 2.
+    /// The solver of cables. Motions in the plane of x and y and along z that do not act on each
+    /// other are solved apart, with blocks of 4 x 4 and 2 x 2.
     class CableSolver : public LocalSolver
     {
     public:

@@ -14,10 +14,10 @@
 namespace taut
 {
   /**
-   * With D_i and L_i the blocks of A (L_i couples node i to i - 1), the elimination from the left
-   * has pivots Dl_i = D_i - L_i Dl_{i-1}^-1 L_i^T and multipliers G_i = L_i Dl_{i-1}^-1; the one
-   * from the right Dr_i = D_i - L_{i+1}^T Dr_{i+1}^-1 L_{i+1} and H_i = L_{i+1}^T Dr_{i+1}^-1. A
-   * solve runs both to the middle node.
+   * Twisted block LDL^T. With the blocks D_i and L_i of A (L_i couples node i to i - 1), the
+   * elimination from the left has pivots Dl_i = D_i - L_i Dl_{i-1}^-1 L_i^T and multipliers G_i =
+   * L_i Dl_{i-1}^-1. The elimination from the right has Dr_i = D_i - L_{i+1}^T Dr_{i+1}^-1 L_{i+1}
+   * and H_i = L_{i+1}^T Dr_{i+1}^-1. A solve runs both to the middle node.
    */
   template <typename AnyBlock>
   class BlockTridiagonalSolver : public LocalSolver
@@ -130,7 +130,7 @@ namespace taut
     return i + 1 == n ? D[i] : symmetric_difference(D[i], multiply(H, L[i + 1]));
   }
 
-  /// Nodes begin to end - 1, after those before them.
+  /// Eliminates nodes begin to end - 1, after the nodes before them.
   template <typename AnyBlock>
   void BlockTridiagonalSolver<AnyBlock>::eliminate_from_left(const std::size_t begin,
                                                              const std::size_t end) const
@@ -146,7 +146,7 @@ namespace taut
     }
   }
 
-  /// Nodes begin - 1 down to end, after those behind them.
+  /// Eliminates nodes begin - 1 down to end, after the nodes behind them.
   template <typename AnyBlock>
   void BlockTridiagonalSolver<AnyBlock>::eliminate_from_right(const std::size_t begin,
                                                               const std::size_t end) const
@@ -162,8 +162,8 @@ namespace taut
     }
   }
 
-  /// The halves that only columns need. False if one of them has a pivot that is rounding, where
-  /// the elimination to the middle has none.
+  /// Factors the halves that only columns need. Returns false if a pivot is rounding, although the
+  /// elimination to the middle has no such pivot.
   template <typename AnyBlock>
   bool BlockTridiagonalSolver<AnyBlock>::complete() const
   {
@@ -270,8 +270,8 @@ namespace taut
     multiply(from_left[node].inverse, r0, x);
   }
 
-  /// The element that @p rhs lives on, by its first node, and the entries there; false if it is
-  /// more than one.
+  /// Finds the element on which @p rhs acts, by its first node, and the entries there; returns
+  /// false if @p rhs acts on several elements.
   template <typename AnyBlock>
   bool BlockTridiagonalSolver<AnyBlock>::element_of(const LinearForm &rhs, unsigned int &node,
                                                     std::array<double, 2 * b> &r) const
@@ -353,9 +353,8 @@ namespace taut
     }
     if (first == 0 && last + 1 == n)
     {
-      // Without decay the matrix may be as good as singular (statics): then the columns have to
-      // round like the displacements that solve() gives, or the contact forces pay for the
-      // difference.
+      // Without decay the matrix may be nearly singular (statics). The columns then have to round
+      // like the displacements of solve(): the difference would be an error of the contact forces.
       std::fill(full.begin(), full.end(), 0.);
       rhs.add_to(1., full);
       solve(full);

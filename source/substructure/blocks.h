@@ -108,7 +108,7 @@ namespace taut
   /// Of blocks that hold a whole node.
   inline constexpr int all_dofs[] = {0, 1, 2, 3, 4, 5};
 
-  /// Smallest accepted ratio of a pivot to the diagonal entry it came from.
+  /// Smallest accepted ratio of a pivot to its diagonal entry before elimination.
   constexpr double smallest_pivot = 1e-15;
 
   /// Inverse of a definite block through its Cholesky factor. @p original has the diagonal before

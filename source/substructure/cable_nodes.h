@@ -11,8 +11,8 @@
 namespace taut
 {
   /**
-   * Entries of a block-tridiagonal matrix of a cable, node by node: what acts in the plane of x and
-   * y, what acts along z, and, only if there is any, what couples the two.
+   * Entries of a block-tridiagonal matrix of a cable, node by node: entries in the plane of x and
+   * y, entries along z, and couplings of the two if there are any.
    */
   class CableNodes
   {
@@ -24,7 +24,7 @@ namespace taut
 
     bool decouples() const { return couplings.empty(); }
 
-    /// To the entry (@p row, @p column) with column <= row, and to its mirror image.
+    /// Adds to the entry (@p row, @p column) with column <= row, and to its mirror image.
     void add(const std::size_t row, const std::size_t column, const double value)
     {
       const int r = row % b, c = column % b;
@@ -34,7 +34,7 @@ namespace taut
         add_coupling(row / b, row / b == column / b, r, c, value);
     }
 
-    /// With column <= row; zero outside the band.
+    /// The entry with column <= row; zero outside the band.
     double operator()(const std::size_t row, const std::size_t column) const
     {
       const std::size_t node = row / b;
@@ -69,8 +69,8 @@ namespace taut
           add_coupling_to(factor, couplings[i], D[i], L[i]);
     }
 
-    /// y_i = result(y_i, (A x)_i) in the rows from @p from to @p to - 1, which are whole nodes
-    /// between others.
+    /// y_i = result(y_i, (A x)_i) in the rows from @p from to @p to - 1, which are whole inner
+    /// nodes.
     template <typename Result>
     void product(const std::size_t from, const std::size_t to, const double *x, double *y,
                  const Result &result) const

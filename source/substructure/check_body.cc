@@ -18,18 +18,18 @@ namespace taut
 
     constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-    /// Part of the length that differences reach: their error, its fourth power, is then about that
-    /// of rounding over it.
+    /// Step of differences over the length: their error, the fourth power of the step, is then
+    /// about the rounding error over the step.
     constexpr double part_of_length = 1e-3;
 
-    /// Part of the largest value that is a discrepancy: mistakes are larger, and differences of
-    /// sound bodies are a thousand times closer.
+    /// Smallest discrepancy over the largest value: mistakes are larger, and differences of sound
+    /// bodies are a thousand times smaller.
     constexpr double discrepancy = 1e-6;
 
-    /// Operations that round in a sum of energies or forces.
+    /// Number of rounding operations in a sum of energies or forces.
     constexpr double operations = 1e3;
 
-    /// A difference quotient at zero, how far it may be from the derivative, and the size of the
+    /// A difference quotient at zero, its error against the derivative, and the size of the
     /// function.
     struct Slope
     {
@@ -49,7 +49,7 @@ namespace taut
       return result;
     }
 
-    /// Central differences of fourth order over two distances, by which their error is known.
+    /// Central differences of fourth order over two distances, which give their error.
     Slope slope(const std::function<Vector(double)> &function, const double length)
     {
       const double h = part_of_length * length;
@@ -183,7 +183,8 @@ namespace taut
                 });
       }
 
-      /// Columns of a matrix against @p factor times differences of a force, the worst one.
+      /// Compares columns of a matrix with @p factor times differences of a force; notes the worst
+      /// column.
       void compare_columns(const std::string &name, const SymmetricMatrix &A,
                            const std::string &function, const double factor,
                            const std::function<Vector(const Vector &, const Vector &)> &force)
@@ -232,7 +233,7 @@ namespace taut
             check_work(.1 * size * length);
       }
 
-      /// Over a step that moves all DoFs, each by another amount of about @p size.
+      /// Checks a step that moves all DoFs, each by a different amount of about @p size.
       void check_work(const double size)
       {
         Vector x = U, d(U.size());

@@ -7,7 +7,7 @@
 /// Blocks of cables whose motions in the plane of x and y and along z do not act on each other.
 namespace taut
 {
-  /// Of a node with the DoFs x, y, z and their derivatives along the cable.
+  /// A block of a node with the DoFs x, y, z and their derivatives along the cable.
   struct DecoupledBlock
   {
     static constexpr int n_dofs = 6;
@@ -16,7 +16,7 @@ namespace taut
 
     static constexpr bool is_lateral(const int dof) { return dof % 3 == 2; }
 
-    /// Where a DoF of the node is within the DoFs of the plane, or the lateral ones.
+    /// Index of a DoF of the node among the DoFs of the plane, or among the lateral DoFs.
     static constexpr int place(const int dof)
     {
       constexpr int places[] = {0, 1, 0, 2, 3, 1};
@@ -36,7 +36,8 @@ namespace taut
     }
   };
 
-  /// @p operation with the part of the plane or the lateral one, and the DoF's place there.
+  /// Calls @p operation with the part of the plane or the lateral part, and the index of the DoF
+  /// there.
   template <typename AnyBlock, typename Operation>
   inline void with_part(AnyBlock &A, const int dof, const Operation &operation)
   {

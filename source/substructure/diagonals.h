@@ -25,13 +25,13 @@ namespace taut
         entries.assign(n + width, 0.);
     }
 
-    /// To the entry (@p row, @p column) with column <= row, and to its mirror image.
+    /// Adds to the entry (@p row, @p column) with column <= row, and to its mirror image.
     void add(const std::size_t row, const std::size_t column, const double value)
     {
       diagonals[row - column][row] += value;
     }
 
-    /// With column <= row <= column + width.
+    /// The entry with column <= row <= column + width.
     double operator()(const std::size_t row, const std::size_t column) const
     {
       return diagonals[row - column][row];
@@ -54,7 +54,7 @@ namespace taut
         }
     }
 
-    /// y_i = result(y_i, (A x)_i) in the rows from @p from to @p to - 1, all of them with whole
+    /// y_i = result(y_i, (A x)_i) in the rows from @p from to @p to - 1, all with complete
     /// diagonals on both sides.
     template <typename Result>
     void product(const std::size_t from, const std::size_t to, const double *x, double *y,

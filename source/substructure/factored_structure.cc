@@ -32,7 +32,7 @@ namespace taut
       return held;
     }
 
-    /// Smallest singular value, of columns of length 1, from which vectors are independent.
+    /// Smallest singular value of independent vectors, for columns of length 1.
     constexpr double independent = 1e-8;
 
     /// True if no combination of the vectors is zero, to working precision, on all of the DoFs.
@@ -56,7 +56,7 @@ namespace taut
       return restricted.singular_value(vectors.size() - 1) > independent;
     }
 
-    /// Rows of the inverse of the matrix of the vectors' values on the DoFs, a row for each vector.
+    /// Rows of the inverse of the matrix of values of the vectors on the DoFs; one row per vector.
     std::vector<std::vector<double>> inverse_on(const std::vector<unsigned int> &dofs,
                                                 const std::vector<std::vector<double>> &vectors)
     {
@@ -78,16 +78,16 @@ namespace taut
         y[i] += factor * x[i];
     }
 
-    /// Part of a motion that rounding may lose.
+    /// Largest part of a motion that rounding may lose.
     constexpr double largest_loss = 1e-6;
 
-    /// The same of a body that is not linear: the next iteration of Newton's method corrects it.
+    /// Largest part for a nonlinear body: the next iteration of Newton's method corrects the loss.
     constexpr double largest_loss_of_iteration = 1e-2;
 
-    /// The same where the rigid body modes of a body can be unknowns of their own.
+    /// Largest part for a body whose rigid body modes can be unknowns.
     constexpr double largest_loss_beside_amplitudes = 1e-8;
 
-    /// E over R^T J R, from which rigid body modes stand out against elastic ones.
+    /// Smallest E over R^T J R for which rigid body modes are separate from elastic motions.
     constexpr double least_part_of_inertia = .5;
   } // namespace
 
@@ -132,8 +132,8 @@ namespace taut
     }
   }
 
-  /// A^-1 A x = x for a rigid translation x: springs inside the body cost nothing then, but round
-  /// by their size, and what resists the motion has to stand out against that.
+  /// Measures the error of A^-1 A x = x for a rigid translation x. Inner springs have no force
+  /// then, but round by their size, and the resistance to the motion must exceed this rounding.
   double FactoredStructure::lost_digits(const std::size_t k, const LocalSolver &solver,
                                         const std::vector<ScaledMatrix> &summands) const
   {
@@ -207,9 +207,9 @@ namespace taut
     check_digits(k, loss);
   }
 
-  /// False if the rigid body modes cannot be unknowns, or need not, as the next iteration of
-  /// Newton's method corrects what rounding loses of them; where they only may not, says what
-  /// allows it.
+  /// Returns false if the rigid body modes cannot be unknowns. Returns false, too, if the next
+  /// iteration of Newton's method corrects their rounding. If only the representation of F forbids
+  /// them, throws an error that names the remedy.
   bool FactoredStructure::take_apart(const std::size_t k, const bool use_amplitudes)
   {
     const Substructure &body = bodies[k];
@@ -225,7 +225,8 @@ namespace taut
     return true;
   }
 
-  /// False if elastic motions resist the inertia less than the free ones, so that E would cancel.
+  /// Returns false if elastic motions resist the inertia less than rigid body modes, so that E
+  /// would cancel.
   bool FactoredStructure::set_rigid_body_modes(const std::size_t k)
   {
     const Substructure &body = bodies[k];
@@ -317,7 +318,7 @@ namespace taut
     }
   }
 
-  /// A matrix that was set takes the place of M_k, with all of its DoFs.
+  /// A matrix that was set takes the place of M_k, with all DoFs.
   void FactoredStructure::factor_mass()
   {
     kind = Kind::mass;

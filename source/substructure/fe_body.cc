@@ -20,7 +20,7 @@
 
 namespace taut
 {
-  /// A load that changes in time, on the DoFs that are kept.
+  /// A time-dependent load on the kept DoFs.
   template <int dim>
   class FEBody<dim>::Load : public TimeLoad
   {
@@ -121,15 +121,15 @@ namespace taut
                       std::to_string(forms.size()) + " DoFs");
   }
 
-  /// Of the right size, and symmetric, which shows in y . A x = x . A y for two vectors that know
-  /// nothing of the matrix.
+  /// Checks that a matrix has the right size and is symmetric: y . A x = x . A y for two vectors
+  /// that do not depend on the matrix.
   template <int dim>
   void FEBody<dim>::check_matrix(const dealii::SparseMatrix<double> &A,
                                  const std::string &what) const
   {
     check_size(A.empty() ? 0 : A.m(), what);
     check_size(A.n(), what);
-    constexpr double rounding = 1e-8; // of what an assembly may leave, far below what matters
+    constexpr double rounding = 1e-8; // asymmetry of an assembly by rounding, far below any effect
     dealii::Vector<double> x(A.m()), y(A.m()), Ax(A.m()), Ay(A.m());
     for (std::size_t i = 0; i < x.size(); ++i)
     {

@@ -11,7 +11,7 @@ namespace taut
 {
   namespace
   {
-    /// Part of itself below which a vector is a combination of others.
+    /// A vector is a combination of others if less than this part of it remains.
     constexpr double dependent = 1e-10;
   } // namespace
 
@@ -81,10 +81,10 @@ namespace taut
   }
 
   /**
-   * The combinations of the candidates that vanish on all prescribed DoFs and cost no energy, and
-   * DoFs that fix them. The candidates are reduced by their values there and by the work that K
-   * does on them, largest pivots first (a rank-revealing LU of a few columns); those that are left
-   * have none.
+   * Finds the combinations of the candidates that vanish on all prescribed DoFs and cost no energy,
+   * and DoFs that fix them. The candidates are reduced by their values on prescribed DoFs and by
+   * the work of K on them, largest pivots first (a rank-revealing LU of a few columns). The
+   * remaining candidates have neither values nor work.
    */
   template <int dim>
   void FEBody<dim>::find_null_space(const Options &options)
@@ -100,8 +100,8 @@ namespace taut
       else if (forms[i].index == std::vector<unsigned int>{i})
         prescribed.push_back(i);
 
-    /// Takes the mode and the DoF of the largest value out of the list; none above the bound:
-    /// false.
+    /// Takes the mode and the DoF of the largest value out of the list; returns false if no value
+    /// exceeds the bound.
     const auto eliminate = [](std::vector<std::vector<double>> &list,
                               const std::vector<unsigned int> &dofs, unsigned int &dof,
                               std::vector<double> &pivot_mode)
@@ -137,7 +137,7 @@ namespace taut
       for (unsigned int i = 0; i < mode.size(); ++i)
         if (is_constrained[i])
           mode[i] = 0.;
-    // Only the combinations that K does not resist: those whose forces do no work on any of them.
+    // Keeps only combinations that K does not resist: their forces do no work on any combination.
     std::vector<double> diagonal(forms.size(), 0.);
     K->visit(
         [&](const unsigned int i, const unsigned int j, const double value)

@@ -14,8 +14,8 @@ namespace taut
 
     constexpr std::size_t lanes = SparseHalves::lanes;
 
-    /// Adds the products of all vectors of @p sparse with @p lanes full ones whose rows lie beside
-    /// each other; a row of @p to for each of the former.
+    /// Adds the products of all vectors of @p sparse with @p lanes full vectors, whose rows are
+    /// interleaved; @p to has a row for each vector of @p sparse.
     void add_products(const SparseHalves &sparse, const double *const full, double *const to)
     {
       double sums[lanes][lanes] = {};

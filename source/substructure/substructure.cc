@@ -12,7 +12,7 @@ namespace taut
 {
   namespace
   {
-    /// Rows that are zero in all of the matrices.
+    /// Rows that are zero in all matrices.
     std::vector<unsigned int> zero_rows(const std::vector<const SymmetricMatrix *> &matrices)
     {
       std::vector<char> is_zero(matrices.front()->size(), 1);
@@ -155,7 +155,7 @@ namespace taut
     time_loads.push_back(std::move(load));
   }
 
-  /// Of what a derived class fills.
+  /// Checks sizes of the members that a derived class fills.
   void Substructure::check_sizes() const
   {
     const std::pair<const char *, const SymmetricMatrix *> matrices[] = {
