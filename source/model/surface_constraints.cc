@@ -146,7 +146,7 @@ namespace taut
     /// search distance by this factor.
     constexpr double part_of_search = .5;
 
-    /// Of the box around all faces of surfaces [m].
+    /// Diagonal of the box around all faces of surfaces [m].
     double diagonal(const std::vector<const ContactSurface *> &surfaces)
     {
       constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -62,7 +62,7 @@ namespace taut
     /// A box that contains the face.
     Box box(std::size_t face) const;
 
-    /// Of all faces.
+    /// The box of all faces.
     Box bounding_box() const;
 
   private:

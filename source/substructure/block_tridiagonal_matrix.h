@@ -41,7 +41,7 @@ namespace taut
       entries.add_to(factor, D, L);
     }
 
-    /// Of cables: nothing couples the plane of x and y with z.
+    /// For cables: true if nothing couples the plane of x and y with z.
     bool decouples() const { return entries.decouples(); }
 
   private:

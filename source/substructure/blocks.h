@@ -105,7 +105,7 @@ namespace taut
     return C;
   }
 
-  /// Of blocks that hold a whole node.
+  /// For blocks of a whole node.
   inline constexpr int all_dofs[] = {0, 1, 2, 3, 4, 5};
 
   /// Smallest accepted ratio of a pivot to its diagonal entry before elimination.

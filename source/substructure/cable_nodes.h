@@ -55,7 +55,7 @@ namespace taut
                      : (own ? coupling.diagonal : coupling.plane_before)[q][p];
     }
 
-    /// Of blocks that may couple or not; of those that may not, only if decouples().
+    /// For blocks with or without couplings; for blocks without couplings only if decouples().
     template <typename AnyBlock>
     void add_to(const double factor, std::vector<AnyBlock> &D, std::vector<AnyBlock> &L) const
     {

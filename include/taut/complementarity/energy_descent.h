@@ -70,7 +70,7 @@ namespace taut
 
     ComplementarityOptions options;
 
-    /// Of the current call.
+    /// Problem and matrix of the current call.
     const MixedComplementarityProblem *problem = nullptr;
     DenseOperator *matrix = nullptr;
 

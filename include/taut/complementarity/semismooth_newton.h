@@ -37,7 +37,7 @@ namespace taut
     Outcome solve(const MixedComplementarityProblem &problem, ComplementarityOperator &matrix,
                   MixedComplementaritySolution &solution);
 
-    /// Of the last call.
+    /// Iterations and residual of the last call.
     unsigned int n_iterations() const { return iterations; }
     const ComplementarityResidual &residual() const { return final_residual; }
 

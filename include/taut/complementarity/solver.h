@@ -21,7 +21,7 @@ namespace taut
     /// True if the other method, not the chosen one, found the solution.
     bool used_fallback = false;
 
-    /// At most the tolerance.
+    /// The residual, at most the tolerance.
     ComplementarityResidual residual;
   };
 

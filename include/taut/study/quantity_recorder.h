@@ -36,7 +36,7 @@ namespace taut
 
     void record(const StepView &step) override;
 
-    /// In the order of the study.
+    /// The quantities, in the order of the study.
     std::vector<StudyQuantity> quantities() const;
 
     const Certificate &worst_certificate() const { return statistics.worst_certificate(); }
