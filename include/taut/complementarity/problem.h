@@ -2,6 +2,7 @@
 #ifndef taut_problem_h
 #define taut_problem_h
 
+#include <taut/complementarity/cone.h>
 #include <taut/complementarity/operator.h>
 
 #include <cstddef>
@@ -13,8 +14,8 @@ namespace taut
    * The mixed linear complementarity problem of one step, without its matrix F:
    *
    *     D = F N + d + G^T alpha,    G N - E alpha = -e,
-   *     D_i = 0                             on bilateral rows,
-   *     N_i >= 0, D_i >= 0, N_i D_i = 0     on unilateral rows.
+   *     D_i = 0                             on bilateral rows, whose cone is free,
+   *     N_i >= 0, D_i >= 0, N_i D_i = 0     on unilateral rows, whose cone is a half line.
    *
    * Translations have N in N and D in m, rotations N in N m and D in rad. A row with F_ii = 0 that
    * no null space vector moves is inert: its gap is d_i whatever the multipliers, and its
@@ -22,11 +23,8 @@ namespace taut
    */
   struct MixedComplementarityProblem
   {
-    /// n rows: not 0 where the row is unilateral.
-    std::vector<char> unilateral;
-
-    /// Size n, or empty: not 0 on unilateral rows that take no part, N_i = 0 whatever D_i.
-    std::vector<char> held_open;
+    /// n rows: which multipliers each admits.
+    std::vector<Cone> cones;
 
     /// d, n rows: the gaps without multipliers [m, rad].
     std::vector<double> free_gap;
@@ -56,10 +54,8 @@ namespace taut
     /// Whether anything resists any of the null space vectors.
     bool has_resistance() const;
 
-    std::size_t size() const { return unilateral.size(); }
+    std::size_t size() const { return cones.size(); }
     std::size_t n_null_space() const { return null_space_load.size(); }
-
-    bool is_held_open(std::size_t i) const { return !held_open.empty() && held_open[i]; }
 
     /// Rows that a null space vector moves: not 0. Empty without null space vectors.
     std::vector<char> rows_in_null_space() const;
