@@ -32,7 +32,7 @@ namespace taut
 
     std::vector<std::size_t> dependent_rows;
     for (std::size_t i = 0; i < n; ++i)
-      if (!problem->unilateral[i] && matrix->diagonal(i) > 0.)
+      if (problem->cones[i].is_free() && matrix->diagonal(i) > 0.)
       {
         closed_rows.push_back(i);
         is_closed[i] = 1;
@@ -74,7 +74,7 @@ namespace taut
     std::size_t row = problem->size();
     double largest_release = 0.;
     for (std::size_t i = 0; i < problem->size(); ++i)
-      if (problem->unilateral[i] && !problem->is_held_open(i) && !is_closed[i] && !blocked[i] &&
+      if (problem->cones[i].may_open() && !is_closed[i] && !blocked[i] &&
           matrix->diagonal(i) > 0. && gap[i] < -options.dead_band * terms[i])
       {
         const double release = gap[i] * gap[i] / matrix->diagonal(i);
@@ -164,7 +164,8 @@ namespace taut
     for (std::size_t p = 0; p < closed_rows.size(); ++p)
     {
       const std::size_t i = closed_rows[p];
-      if (problem->unilateral[i] && direction[i] < 0. && multipliers[i] < length * -direction[i])
+      if (problem->cones[i].may_open() && direction[i] < 0. &&
+          multipliers[i] < length * -direction[i])
       {
         length = multipliers[i] / -direction[i];
         position = p;

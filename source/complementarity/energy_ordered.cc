@@ -56,7 +56,7 @@ namespace taut
     {
       std::vector<char> closed(problem.size());
       for (std::size_t i = 0; i < problem.size(); ++i)
-        closed[i] = !problem.unilateral[i] || solution.multiplier[i] > 0.;
+        closed[i] = problem.cones[i].is_closed(solution.multiplier[i]);
       gaps(problem, matrix, solution.multiplier, solution.mode_amplitude, solution.gap);
       NullSpacePenalty closed_rows(problem, matrix, closed);
       add(solution.mode_amplitude, 1., closed_rows.closing_amplitude(solution.gap));
@@ -132,7 +132,8 @@ namespace taut
     multiplier_weights(problem, matrix, solution.multiplier, terms, weights);
     taut::residual(problem, solution, terms, weights, final_residual);
     for (std::size_t i = 0; i < problem.size(); ++i)
-      solution.closed[i] = problem.unilateral[i] ? solution.multiplier[i] > 0. : weights[i] > 0.;
+      solution.closed[i] =
+          problem.cones[i].is_free() ? weights[i] > 0. : solution.multiplier[i] > 0.;
     return outcome;
   }
 

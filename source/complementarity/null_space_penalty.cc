@@ -146,8 +146,7 @@ namespace taut
                                        const std::vector<double> &amplitude) const
   {
     MixedComplementarityProblem result;
-    result.unilateral = problem.unilateral;
-    result.held_open = problem.held_open;
+    result.cones = problem.cones;
     result.free_gap = free_gap;
     result.gap_scale = gap_scale;
     for (std::size_t i = 0; i < problem.size(); ++i)

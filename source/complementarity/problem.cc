@@ -47,7 +47,6 @@ namespace taut
   {
     if (matrix.size() != size() || free_gap.size() != size() ||
         (!gap_scale.empty() && gap_scale.size() != size()) || null_space.size() != n_null_space() ||
-        (!held_open.empty() && held_open.size() != size()) ||
         (!null_space_resistance.empty() && null_space_resistance.size() != n_null_space()) ||
         std::any_of(null_space.begin(), null_space.end(),
                     [&](const LinearForm &vector)
@@ -154,8 +153,7 @@ namespace taut
     {
       const double force = weights[i] * solution.multiplier[i];
       const double gap = solution.gap[i];
-      const double violation =
-          problem.is_held_open(i) || (problem.unilateral[i] && force < gap) ? force : gap;
+      const double violation = problem.cones[i].violation(force, gap);
       result.rows[i] = relative(std::abs(violation), terms[i]);
       result.max = larger(result.max, result.rows[i]);
     }

@@ -71,7 +71,7 @@ namespace taut
     {
       const bool inert = matrix.diagonal(i) == 0. && (in_null_space.empty() || !in_null_space[i]);
       solution.closed[i] =
-          !inert && !problem.is_held_open(i) && (!problem.unilateral[i] || solution.closed[i]);
+          !inert && (problem.cones[i].may_open() ? solution.closed[i] : problem.cones[i].is_free());
       if (solution.closed[i])
         set.push_back(i);
     }
@@ -84,7 +84,7 @@ namespace taut
     bool flipped = false;
     for (std::size_t i = 0; i < problem.size(); ++i)
     {
-      if (!problem.unilateral[i] || problem.is_held_open(i) || weights[i] == 0.)
+      if (!problem.cones[i].may_open() || weights[i] == 0.)
         continue;
       const double band = dead_band * terms[i];
       const bool flips = solution.closed[i] ? weights[i] * solution.multiplier[i] < -band

@@ -62,7 +62,7 @@ namespace taut
     {
       const double d = problem.free_gap[i];
       const double scale = problem.gap_scale.empty() ? 0. : problem.gap_scale[i];
-      const bool is_open = problem.is_held_open(i) || (d > 0. && problem.unilateral[i]);
+      const bool is_open = problem.cones[i].rests_open(0., d);
       if (matrix.diagonal(i) == 0. && (in_null_space.empty() || !in_null_space[i]) && !is_open &&
           std::abs(d) > options.tolerance * (std::abs(d) + scale))
         violated.push_back(i);

@@ -21,15 +21,15 @@ namespace taut
 
   const std::vector<double> &AssembledSchurComplement::compute_moving()
   {
-    const std::size_t n = constraints.size(), n_fixed = constraints.n_fixed();
-    for (std::size_t i = n_fixed; i < n; ++i)
+    const std::size_t n = constraints.size(), n_fixed = constraints.fixed_rows().size();
+    for (const std::size_t i : constraints.varying_rows())
       columns.compute(i);
     shares.assign((n - n_fixed) * n, 0.);
-    for (std::size_t i = n_fixed; i < n; ++i)
+    for (const std::size_t i : constraints.varying_rows())
     {
       double *share = shares.data() + (i - n_fixed) * n;
       columns.visit_reached(i, [&](const std::size_t j) { share[j] = columns.entry(i, j); });
-      for (std::size_t j = n_fixed; j < n; ++j)
+      for (const std::size_t j : constraints.varying_rows())
         share[j] = columns.entry(i, j);
     }
     processes.sum(shares);
@@ -46,7 +46,7 @@ namespace taut
   {
     compliance = S;
     columns.setup();
-    for (std::size_t i = 0; i < constraints.n_fixed(); ++i)
+    for (const std::size_t i : constraints.fixed_rows())
     {
       shares.clear();
       for (std::size_t j = 0; j <= i; ++j)
@@ -60,9 +60,11 @@ namespace taut
   void DenseSchurComplement::update_moving()
   {
     const double *share = compute_moving().data();
-    for (std::size_t i = constraints.n_fixed(); i < constraints.size();
-         ++i, share += constraints.size())
+    for (const std::size_t i : constraints.varying_rows())
+    {
       set_row(i, share);
+      share += constraints.size();
+    }
   }
 
   void DenseSchurComplement::set_row(const std::size_t i, const double *entries)
@@ -88,7 +90,7 @@ namespace taut
   void CondensedSchurComplement::setup(const std::vector<double> &S)
   {
     compliance = S;
-    const std::size_t n = constraints.n_fixed();
+    const std::size_t n = constraints.fixed_rows().size();
     const std::size_t n_bodies = solvers.structure().size();
     std::vector<std::vector<std::size_t>> row(n_bodies);
     std::vector<std::vector<const LinearForm *>> forms(n_bodies);
@@ -125,7 +127,7 @@ namespace taut
                                                const Constraints &constraints)
       : AssembledSchurComplement(solvers, constraints)
   {
-    F.reinit(constraints.size(), constraints.size() - constraints.n_fixed());
+    F.reinit(constraints.size(), constraints.varying_rows().size());
   }
 
   void SparseSchurComplement::setup(const std::vector<double> &S)
@@ -133,8 +135,8 @@ namespace taut
     compliance = S;
     columns.setup();
     SymmetricEntries entries;
-    std::vector<std::size_t> last_visit(constraints.n_fixed(), constraints.size());
-    for (std::size_t i = 0; i < constraints.n_fixed(); ++i)
+    std::vector<std::size_t> last_visit(constraints.fixed_rows().size(), constraints.size());
+    for (const std::size_t i : constraints.fixed_rows())
     {
       columns.visit_reached(i,
                             [&](const std::size_t j)
@@ -149,7 +151,7 @@ namespace taut
     for (std::size_t e = 0; e < entries.size(); ++e)
       if (entries.row[e] == entries.column[e])
         of_bodies[entries.row[e]] = entries.value[e];
-    for (std::size_t i = 0; i < constraints.n_fixed(); ++i)
+    for (const std::size_t i : constraints.fixed_rows())
       entries.add(i, i, S[i]);
     F.set_interior(entries);
     update_moving();
@@ -166,13 +168,13 @@ namespace taut
   void SparseSchurComplement::update_moving()
   {
     const double *share = compute_moving().data();
-    for (std::size_t i = constraints.n_fixed(); i < constraints.size();
-         ++i, share += constraints.size())
+    for (const std::size_t i : constraints.varying_rows())
     {
       std::vector<double> border(share, share + constraints.size());
       of_bodies[i] = border[i];
       border[i] += compliance[i];
       F.set_border(i, border);
+      share += constraints.size();
     }
   }
 

@@ -12,12 +12,12 @@ namespace taut
 
   void BodyConstraints::update()
   {
-    if (constraints.n_fixed() == constraints.size())
+    if (constraints.varying_rows().empty())
       return;
     for (std::vector<Entry> &of_body : entries)
       while (!of_body.empty() && of_body.back().varies)
         of_body.pop_back();
-    for (std::size_t i = constraints.n_fixed(); i < constraints.size(); ++i)
+    for (const std::size_t i : constraints.varying_rows())
       add(i);
   }
 
@@ -26,7 +26,7 @@ namespace taut
     for (const auto &[k, form, of] : constraints[constraint].terms)
     {
       if (entries[k].empty() || entries[k].back().constraint != constraint)
-        entries[k].push_back({constraint, constraint >= constraints.n_fixed(), {}});
+        entries[k].push_back({constraint, !constraints.is_fixed(constraint), {}});
       for (std::size_t j = 0; j < form.index.size(); ++j)
         entries[k].back().form.add(form.index[j], form.value[j]);
     }

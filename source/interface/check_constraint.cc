@@ -15,43 +15,6 @@ namespace taut
       throw EntryError(constraint.origin, "constraint '" + constraint.name + "': " + message);
     }
 
-    bool is_finite(const Coordinates &place)
-    {
-      return std::isfinite(place.x) && std::isfinite(place.y) && std::isfinite(place.z);
-    }
-
-    void check_spring(const ConstraintData &constraint)
-    {
-      const double stiffness = constraint.stiffness, damping = constraint.damping;
-      if (!(stiffness > 0.))
-        refuse(constraint, "its stiffness is " + to_text(stiffness) +
-                               " N/m; take a positive one, or none for a rigid constraint");
-      if (constraint.law && stiffness != constraint.law->largest_stiffness())
-        refuse(constraint, "it has a law and a stiffness, " + to_text(stiffness) +
-                               " N/m; the law is that of the spring, so leave the stiffness out");
-      if (constraint.law && std::isinf(stiffness))
-        refuse(constraint, "the largest stiffness of its law is infinite; take a finite one");
-      if (!(damping >= 0.) || std::isinf(damping))
-        refuse(constraint, "its damping is " + to_text(damping) +
-                               " N s/m; take a finite one that is not negative");
-      if (damping > 0. && std::isinf(stiffness))
-        refuse(constraint, "its damping, " + to_text(damping) +
-                               " N s/m, is beside a spring, and it is rigid; give it a stiffness, "
-                               "or no damping");
-    }
-
-    template <typename Visitor>
-    bool visit_forms(const ConstraintData &constraint, const Visitor &visitor)
-    {
-      if (!constraint.direction)
-        return visitor(constraint.terms);
-      const auto &motion = constraint.direction->motion;
-      return std::any_of(motion.begin(), motion.end(), visitor);
-    }
-  } // namespace
-
-  namespace
-  {
     std::string fault_of_size(const std::vector<Term> &terms, const Structure &structure)
     {
       for (const auto &[k, form, of] : terms)
@@ -86,24 +49,16 @@ namespace taut
 
   void check_constraint(const ConstraintData &constraint, const Structure &structure)
   {
-    check_spring(constraint);
+    if (const std::string fault = constraint.spring.fault(); !fault.empty())
+      refuse(constraint, fault);
     if (!std::isfinite(constraint.gap))
       refuse(constraint, "its gap is " + to_text(constraint.gap) + " m; take a finite one");
-    if (const TurningDirection *const turning = constraint.direction.get())
-    {
-      if (!std::isfinite(turning->length))
-        refuse(constraint, "its length is " + to_text(turning->length) + " m; take a finite one");
-      if (!is_finite(turning->first.position) || !is_finite(turning->start))
-        refuse(constraint, "an end is at no finite place; give its position at U = 0");
-    }
-    visit_forms(constraint,
-                [&](const std::vector<Term> &terms)
-                {
-                  const std::string fault = fault_of(terms, structure);
-                  if (!fault.empty())
-                    refuse(constraint, "its linear form " + fault);
-                  return false;
-                });
+    if (const std::string fault = constraint.geometry ? constraint.geometry->fault() : "";
+        !fault.empty())
+      refuse(constraint, fault);
+    for (const std::vector<Term> *const terms : constraint.forms())
+      if (const std::string fault = fault_of(*terms, structure); !fault.empty())
+        refuse(constraint, "its linear form " + fault);
   }
 
   bool acts_here(const ConstraintData &constraint)
@@ -113,8 +68,11 @@ namespace taut
       return std::any_of(term.form.value.begin(), term.form.value.end(),
                          [](const double value) { return value != 0.; });
     };
-    return constraint.place ||
-           visit_forms(constraint, [&](const std::vector<Term> &terms)
-                       { return std::any_of(terms.begin(), terms.end(), is_not_zero); });
+    if (constraint.kind() == Geometry::Kind::sliding)
+      return true;
+    for (const std::vector<Term> *const form : constraint.forms())
+      if (std::any_of(form->begin(), form->end(), is_not_zero))
+        return true;
+    return false;
   }
 } // namespace taut

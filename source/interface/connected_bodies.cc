@@ -10,17 +10,10 @@ namespace taut
                                    const std::function<bool(std::size_t)> &connects)
   {
     MatrixEntries acts_on;
-    const auto add = [&](const std::size_t i, const std::vector<Term> &terms)
-    {
-      for (const Term &term : terms)
-        acts_on.add(i, structure.number(term.substructure), 1.);
-    };
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      if (constraints[i].direction)
-        for (const std::vector<Term> &motion : constraints[i].direction->motion)
-          add(i, motion);
-      else
-        add(i, constraints[i].terms);
+      for (const std::vector<Term> *const form : constraints[i].forms())
+        for (const Term &term : *form)
+          acts_on.add(i, structure.number(term.substructure), 1.);
     gather(structure.communicator(), acts_on);
 
     std::vector<std::size_t> root(structure.all_bodies().size());

@@ -9,43 +9,42 @@
 
 namespace taut
 {
-  double ConstraintData::compression(const double N) const
-  {
-    return law ? law->elongation(N) : N / stiffness;
-  }
-
-  double ConstraintData::stored_energy(const double u) const
-  {
-    return law ? law->energy(u) : std::isinf(stiffness) ? 0. : .5 * stiffness * u * u;
-  }
-
   Constraints::Constraints(const Structure &structure, std::vector<ConstraintData> all)
       : structure(structure), constraints(std::move(all))
   {
-    for (const ConstraintData &constraint : constraints)
-      if (constraint.place)
-        constraint.place->set_course({});
-    const auto check = [&](const bool moving)
+    const auto check = [&](const Rows &rows)
     {
       structure.communicator().agree(
           [&]
           {
-            for (const ConstraintData &constraint : constraints)
-              if ((constraint.place != nullptr) == moving)
-                check_constraint(constraint, structure);
+            for (const std::size_t i : rows)
+              check_constraint(constraints[i], structure);
           });
     };
-    check(false);
+    sort();
+    for (const std::size_t i : sliding_rows())
+      place(i).set_course({});
+    check({0, first_sliding});
     arrange();
-    check(true);
+    check(sliding_rows());
   }
 
-  /// Puts a constraint that moves where it is at time @p t.
-  void Constraints::place(const std::size_t i, const double t)
+  const TurningDirection &Constraints::turning(const std::size_t i) const
+  {
+    return static_cast<const TurningDirection &>(*constraints[i].geometry);
+  }
+
+  MovingPlace &Constraints::place(const std::size_t i) const
+  {
+    return static_cast<MovingPlace &>(*constraints[i].geometry);
+  }
+
+  /// Puts a constraint that slides where it is at time @p t.
+  void Constraints::move(const std::size_t i, const double t)
   {
     ConstraintData &constraint = constraints[i];
-    constraint.terms = constraint.place->terms(t);
-    constraint.gap = constraint.place->gap(t);
+    constraint.terms = place(i).terms(t);
+    constraint.gap = place(i).gap(t);
     check_terms(constraint, constraint.terms, structure);
     if (!std::isfinite(constraint.gap))
       throw EntryError(constraint.origin,
@@ -53,33 +52,38 @@ namespace taut
                            "': its place says no finite gap at t = " + std::to_string(t) + " s");
   }
 
+  void Constraints::sort()
+  {
+    std::stable_sort(constraints.begin(), constraints.end(),
+                     [](const ConstraintData &a, const ConstraintData &b)
+                     { return a.kind() < b.kind(); });
+    const auto n_up_to = [&](const Geometry::Kind last)
+    {
+      return std::count_if(constraints.begin(), constraints.end(),
+                           [&](const ConstraintData &constraint)
+                           { return constraint.kind() <= last; });
+    };
+    first_turning = n_up_to(Geometry::Kind::fixed);
+    first_sliding = n_up_to(Geometry::Kind::turning);
+  }
+
   void Constraints::arrange()
   {
     entries.clear();
     sizes.clear();
-    for (ConstraintData &constraint : constraints)
-      constraint.moving = constraint.place != nullptr;
-    const auto stay =
-        std::stable_partition(constraints.begin(), constraints.end(),
-                              [](const ConstraintData &constraint) { return !constraint.moving; });
-    first_with_place = stay - constraints.begin();
-    fixed = std::stable_partition(constraints.begin(), stay,
-                                  [](const ConstraintData &constraint)
-                                  { return constraint.direction == nullptr; }) -
-            constraints.begin();
+    for (const std::size_t i : turning_rows())
+      constraints[i].gap = turning(i).gap(turning(i).start);
+    for (const std::size_t i : sliding_rows())
+      move(i, 0.);
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
-      if (const TurningDirection *const turning = constraints[i].direction.get())
-        constraints[i].gap = turning->gap(turning->start);
-      if (i >= first_with_place)
-        place(i, 0.);
       if (constraints[i].link == no_link)
         continue;
       row_index.resize(std::max(row_index.size(), constraints[i].link + 1), no_link);
       row_index[constraints[i].link] = i;
     }
     begin.assign(1, 0);
-    for (std::size_t i = 0; i < fixed; ++i)
+    for (const std::size_t i : fixed_rows())
       append(i);
     std::sort(sizes.begin(), sizes.end(),
               [](const Size &a, const Size &b) {
@@ -116,23 +120,23 @@ namespace taut
 
   void Constraints::append_varying()
   {
-    begin.resize(fixed + 1);
+    begin.resize(first_turning + 1);
     entries.resize(begin.back());
     sizes.resize(n_fixed_sizes);
-    for (std::size_t i = fixed; i < constraints.size(); ++i)
+    for (const std::size_t i : varying_rows())
       append(i);
   }
 
   void Constraints::set_conserving(const std::vector<char> &conserving)
   {
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      constraints[i].conserving = conserving[i];
+      constraints[i].spring.conserving = conserving[i];
   }
 
   void Constraints::update(const double t)
   {
-    for (std::size_t i = first_with_place; i < constraints.size(); ++i)
-      place(i, t);
+    for (const std::size_t i : sliding_rows())
+      move(i, t);
     append_varying();
   }
 
@@ -145,29 +149,29 @@ namespace taut
       structure.communicator().sum(&sum, 1);
       return sum;
     };
-    for (std::size_t i = first_with_place; i < constraints.size(); ++i)
-      constraints[i].place->follow(motion, start, end);
+    for (const std::size_t i : sliding_rows())
+      place(i).follow(motion, start, end);
   }
 
   std::vector<std::vector<double>> Constraints::courses() const
   {
     std::vector<std::vector<double>> result;
-    for (std::size_t i = first_with_place; i < constraints.size(); ++i)
-      result.push_back(constraints[i].place->course());
+    for (const std::size_t i : sliding_rows())
+      result.push_back(place(i).course());
     return result;
   }
 
   void Constraints::set_courses(const std::vector<std::vector<double>> &courses)
   {
     for (std::size_t k = 0; k < courses.size(); ++k)
-      constraints[first_with_place + k].place->set_course(courses[k]);
+      place(first_sliding + k).set_course(courses[k]);
   }
 
   std::vector<Coordinates> Constraints::differences(const BodyVectors &U) const
   {
     std::vector<double> sums;
-    for (std::size_t i = fixed; i < first_with_place; ++i)
-      for (const std::vector<Term> &motion : constraints[i].direction->motion)
+    for (const std::size_t i : turning_rows())
+      for (const std::vector<Term> &motion : turning(i).motion)
         sums.push_back(evaluate(motion, U));
     structure.communicator().sum(sums);
     std::vector<Coordinates> result;
@@ -179,47 +183,47 @@ namespace taut
   std::vector<Coordinates> Constraints::differences(const BodyVectors &reference,
                                                     const BodyVectors &U) const
   {
-    if (!has_turning())
+    if (turning_rows().empty())
       return {};
     std::vector<Coordinates> result = differences(reference);
     const std::vector<Coordinates> motion = differences(U);
     for (std::size_t i = 0; i < result.size(); ++i)
-      result[i] = add_scaled(add_scaled(constraints[fixed + i].direction->start, 1., result[i]), 1.,
-                             motion[i]);
+      result[i] =
+          add_scaled(add_scaled(turning(first_turning + i).start, 1., result[i]), 1., motion[i]);
     return result;
   }
 
   std::array<Coordinates, 2> Constraints::ends(const std::size_t i, const BodyVectors &reference,
                                                const BodyVectors &U) const
   {
-    const LinkEnd &first = constraints[i].direction->first;
+    const LinkEnd &first = turning(i).first;
     double motion[3];
     for (unsigned int c = 0; c < 3; ++c)
       motion[c] = evaluate(first.motion[c], reference) + evaluate(first.motion[c], U);
     structure.communicator().sum(motion, 3);
     const Coordinates place = add_scaled(first.position, 1., {motion[0], motion[1], motion[2]});
-    return {place, add_scaled(place, 1., differences(reference, U)[i - fixed])};
+    return {place, add_scaled(place, 1., differences(reference, U)[turning_index(i)])};
   }
 
   void Constraints::turn(const std::vector<Coordinates> &directions)
   {
     for (std::size_t i = 0; i < directions.size(); ++i)
     {
-      const TurningDirection &turning = *constraints[fixed + i].direction;
+      const TurningDirection &link = turning(first_turning + i);
       const Coordinates &d = directions[i];
-      constraints[fixed + i].terms =
-          turning.along({turning.sign * d.x, turning.sign * d.y, turning.sign * d.z});
+      constraints[first_turning + i].terms =
+          link.along({link.sign * d.x, link.sign * d.y, link.sign * d.z});
     }
     append_varying();
   }
 
   void Constraints::turn_to(const BodyVectors &reference, const BodyVectors &U)
   {
-    if (!has_turning())
+    if (turning_rows().empty())
       return;
     std::vector<Coordinates> d = differences(reference, U);
     for (std::size_t i = 0; i < d.size(); ++i)
-      d[i] = constraints[fixed + i].direction->at(d[i]);
+      d[i] = turning(first_turning + i).at(d[i]);
     turn(d);
   }
 
@@ -229,42 +233,44 @@ namespace taut
     std::vector<ConstraintData> springs;
     for (std::size_t k = 0; k < motions.size(); ++k)
     {
-      ConstraintData &link = constraints[fixed + k];
-      const std::shared_ptr<const TurningDirection> turning = std::move(link.direction);
-      link.direction = nullptr;
-      const Coordinates ends = add_scaled(turning->start, 1., motions[k]), d = turning->at(ends);
-      link.terms = turning->along(add_scaled({}, turning->sign, d));
-      link.gap = turning->gap(ends) - turning->sign * dot(d, motions[k]);
-      if (!(turning->sign * N[fixed + k] < 0.))
+      const std::size_t i = first_turning + k;
+      ConstraintData &link = constraints[i];
+      const TurningDirection geometry = turning(i);
+      link.geometry = nullptr;
+      const Coordinates ends = add_scaled(geometry.start, 1., motions[k]), d = geometry.at(ends);
+      link.terms = geometry.along(add_scaled({}, geometry.sign, d));
+      link.gap = geometry.gap(ends) - geometry.sign * dot(d, motions[k]);
+      if (!(geometry.sign * N[i] < 0.))
         continue;
       for (const Coordinates &direction : across(d))
       {
         ConstraintData spring{link.name + " across", link.origin};
-        spring.stiffness = std::fabs(N[fixed + k]) / norm(ends);
-        spring.terms = turning->along(direction);
+        spring.spring.stiffness = std::fabs(N[i]) / norm(ends);
+        spring.terms = geometry.along(direction);
         spring.gap = -dot(direction, motions[k]);
         springs.push_back(std::move(spring));
       }
     }
-    constraints.insert(constraints.begin() + first_with_place, springs.begin(), springs.end());
+    constraints.insert(constraints.begin() + first_sliding, springs.begin(), springs.end());
+    sort();
     arrange();
   }
 
   double Constraints::share_of_convection(const std::size_t i, const double t,
                                           const BodyVectors &reference, const BodyVectors &U) const
   {
-    const std::vector<Term> slope = constraints[i].place->rates(t);
+    const std::vector<Term> slope = place(i).rates(t);
     check_terms(constraints[i], slope, structure);
     return evaluate(slope, reference) + evaluate(slope, U);
   }
 
   double Constraints::profile_rate(const std::size_t i, const double t, const double step) const
   {
-    const MovingPlace &place = *constraints[i].place;
+    const MovingPlace &moving = place(i);
     // Central differences of fourth order: their error is below rounding of what a step resolves.
     const double delta = 1e-2 * step;
-    return (8. * (place.gap(t + delta) - place.gap(t - delta)) -
-            (place.gap(t + 2. * delta) - place.gap(t - 2. * delta))) /
+    return (8. * (moving.gap(t + delta) - moving.gap(t - delta)) -
+            (moving.gap(t + 2. * delta) - moving.gap(t - 2. * delta))) /
            (12. * delta);
   }
 
@@ -275,7 +281,7 @@ namespace taut
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       const std::vector<unsigned int> dofs = (structure[k].*wanted)();
-      for (std::size_t e = 0, i = 0; e < begin[fixed]; ++e)
+      for (std::size_t e = 0, i = 0; e < begin[first_turning]; ++e)
       {
         while (e >= begin[i + 1])
           ++i;
@@ -283,13 +289,13 @@ namespace taut
           count[i] += std::binary_search(dofs.begin(), dofs.end(), entries[e].dof);
       }
       // Of what moves along a body, DoFs change; lumped masses at the other end stay.
-      for (std::size_t i = first_with_place; i < constraints.size() && structure[k].is_lumped();
-           ++i)
-        for (std::size_t e = begin[i]; e < begin[i + 1]; ++e)
-          if (entries[e].body == k)
-            count[i] += std::binary_search(dofs.begin(), dofs.end(), entries[e].dof);
-      for (std::size_t i = fixed; i < first_with_place; ++i)
-        for (const std::vector<Term> &motion : constraints[i].direction->motion)
+      if (structure[k].is_lumped())
+        for (const std::size_t i : sliding_rows())
+          for (std::size_t e = begin[i]; e < begin[i + 1]; ++e)
+            if (entries[e].body == k)
+              count[i] += std::binary_search(dofs.begin(), dofs.end(), entries[e].dof);
+      for (const std::size_t i : turning_rows())
+        for (const std::vector<Term> &motion : turning(i).motion)
           for (const Term &term : motion)
             if (term.substructure == k)
               for (const unsigned int dof : term.form.index)

@@ -29,8 +29,8 @@ namespace taut
     {
       std::vector<char> result;
       for (std::size_t i = 0; i < constraints.size(); ++i)
-        result.push_back(!constraints[i].unilateral && i < constraints.n_fixed() &&
-                         std::isinf(constraints[i].stiffness));
+        result.push_back(constraints[i].cone.is_free() && constraints.is_fixed(i) &&
+                         constraints[i].spring.is_rigid());
       return result;
     }
 
@@ -114,7 +114,7 @@ namespace taut
 
   void MatrixFreeSchurComplement::update_moving()
   {
-    if (constraints.n_fixed() == constraints.size())
+    if (constraints.varying_rows().empty())
       return;
     is_stale = true;
     std::set<std::size_t> touched; // before or after

@@ -11,7 +11,7 @@ namespace taut
       : solvers(solvers), constraints(constraints), columns(constraints.size()),
         reach(solvers.structure().size()), widest(solvers.structure().size(), 0)
   {
-    for (std::size_t i = 0; i < constraints.n_fixed(); ++i)
+    for (const std::size_t i : constraints.fixed_rows())
       for (const auto &[k, form, of] : constraints[i].terms)
       {
         if (form.index.empty())
@@ -28,7 +28,7 @@ namespace taut
   void ResponseColumns::setup()
   {
     std::size_t in_columns = 0;
-    for (std::size_t i = 0; i < constraints.n_fixed(); ++i)
+    for (const std::size_t i : constraints.fixed_rows())
     {
       compute(i);
       for (std::size_t p = 0; p < columns[i].substructure.size(); ++p)

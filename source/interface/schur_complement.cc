@@ -23,9 +23,9 @@ namespace taut
     {
       WindowedVector column;
       double sum = 0.;
-      const std::size_t n = std::min(n_samples, constraints.n_fixed());
+      const std::size_t n_fixed = constraints.fixed_rows().size(), n = std::min(n_samples, n_fixed);
       for (std::size_t s = 0; s < n; ++s)
-        for (const auto &[k, form, of] : constraints[s * constraints.n_fixed() / n].terms)
+        for (const auto &[k, form, of] : constraints[s * n_fixed / n].terms)
         {
           solvers[k].column(form, column);
           sum += column.value.size();

@@ -24,7 +24,7 @@ namespace taut
                          const Displacement &b)
   {
     data.name = name;
-    data.unilateral = unilateral;
+    data.cone = Cone::unilateral_if(unilateral);
     data.terms = a;
     for (Term term : b)
     {
@@ -51,7 +51,7 @@ namespace taut
     if (!place)
       throw UserError("constraint '" + name + "' moves, and has no place; hand one over");
     Constraint result(name, true, {}, {});
-    result.data.place = std::move(place);
+    result.data.geometry = std::move(place);
     return result;
   }
 
@@ -69,7 +69,7 @@ namespace taut
                       std::to_string(length) + " m");
     direction->length = length;
     Constraint result(name, unilateral, {}, {});
-    result.data.direction = std::move(direction);
+    result.data.geometry = std::move(direction);
     return result;
   }
 
@@ -93,7 +93,7 @@ namespace taut
 
   Constraint &Constraint::gap(const double value)
   {
-    if (data.direction)
+    if (data.geometry)
       throw UserError("constraint '" + data.name +
                       "': the gap of a rope, prop or rod follows from its length; change that");
     data.gap = value;
@@ -102,26 +102,26 @@ namespace taut
 
   Constraint &Constraint::stiffness(const double value)
   {
-    data.stiffness = value;
+    data.spring.stiffness = value;
     return *this;
   }
 
   Constraint &Constraint::law(std::shared_ptr<const ForceLaw> value)
   {
-    if (!data.unilateral)
+    if (data.cone.is_free())
       throw UserError("constraint '" + data.name +
                       "': a law is for a unilateral constraint; give this one a stiffness");
     if (!value)
       throw UserError("constraint '" + data.name +
                       "': it has no law; hand one over, or none at all");
-    data.stiffness = value->largest_stiffness();
-    data.law = std::move(value);
+    data.spring.stiffness = value->largest_stiffness();
+    data.spring.law = std::move(value);
     return *this;
   }
 
   Constraint &Constraint::damping(const double value)
   {
-    data.damping = value;
+    data.spring.damping = value;
     return *this;
   }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/text.h>
 #include <taut/interface/turning_direction.h>
 
 #include <algorithm>
@@ -19,6 +20,22 @@ namespace taut
           value = -value;
         motion[c].push_back(std::move(term));
       }
+  }
+
+  std::string TurningDirection::fault() const
+  {
+    const auto is_finite = [](const Coordinates &place)
+    { return std::isfinite(place.x) && std::isfinite(place.y) && std::isfinite(place.z); };
+    if (!std::isfinite(length))
+      return "its length is " + to_text(length) + " m; take a finite one";
+    if (!is_finite(first.position) || !is_finite(start))
+      return "an end is at no finite place; give its position at U = 0";
+    return "";
+  }
+
+  std::vector<const std::vector<Term> *> TurningDirection::forms() const
+  {
+    return {&motion[0], &motion[1], &motion[2]};
   }
 
   Coordinates TurningDirection::at(const Coordinates &difference) const

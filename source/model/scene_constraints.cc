@@ -32,7 +32,7 @@ namespace taut
     }
 
     /// The direction of a link that turns.
-    std::shared_ptr<const TurningDirection>
+    std::shared_ptr<TurningDirection>
     turning_direction(const Scene &scene, const SceneBodies &bodies, const Link &link)
     {
       auto result = std::make_shared<TurningDirection>(link_end(scene, bodies, link.from),
@@ -278,17 +278,15 @@ namespace taut
     {
       const Link &link = scene.links[i];
       ConstraintData constraint{link.name, link.origin, i};
-      constraint.unilateral = link.unilateral();
+      constraint.cone = Cone::unilateral_if(link.unilateral());
       constraint.rotational = link.rotational;
-      constraint.stiffness = link.stiffness;
-      constraint.law = link.law;
-      constraint.damping = link.damping;
+      constraint.spring = {link.stiffness, link.damping, link.law};
       constraint.gap = link.gap;
       if (link.moving())
-        constraint.place = link.straight ? std::make_shared<StraightPlace>(scene, bodies, link)
-                                         : std::make_shared<SlidingPlace>(scene, bodies, link);
+        constraint.geometry = link.straight ? std::make_shared<StraightPlace>(scene, bodies, link)
+                                            : std::make_shared<SlidingPlace>(scene, bodies, link);
       else if (link.turns)
-        constraint.direction = turning_direction(scene, bodies, link);
+        constraint.geometry = turning_direction(scene, bodies, link);
       else
         constraint.terms = link_terms(bodies, link, link.to);
       constraints.push_back(std::move(constraint));
@@ -297,7 +295,7 @@ namespace taut
       if (link.sideways_stiffness > 0.)
       {
         ConstraintData constraint{link.name + " sideways", link.origin};
-        constraint.stiffness = link.sideways_stiffness;
+        constraint.spring.stiffness = link.sideways_stiffness;
         constraint.gap = link.sideways_gap;
         bodies.motion(link.to, false, link.sideways, 1., constraint.terms);
         bodies.motion(link.from, false, link.sideways, -1., constraint.terms);

@@ -290,11 +290,11 @@ namespace taut
         ConstraintData data{contact.name + " node " + std::to_string(constraint.node),
                             contact.origin};
         data.contact = c;
-        data.unilateral = true;
+        data.cone = Cone::half_line();
         data.gap = constraint.gap;
         data.gap_size = geometry.size + std::fabs(contact.gap);
         if (contact.compliance > 0.)
-          data.stiffness = constraint.area / contact.compliance;
+          data.spring.stiffness = constraint.area / contact.compliance;
         append(bodies, contact.slave.body, constraint.slave, data.terms);
         if (contact.obstacle.shape == ObstacleSetting::Shape::none)
           append(bodies, contact.master.body, constraint.master, data.terms);

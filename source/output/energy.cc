@@ -58,7 +58,7 @@ namespace taut
     total.kinetic = sums[0];
     total.strain = sums[1];
     for (std::size_t i = 0; i < start.constraints.size(); ++i)
-      total.links += start.constraints[i].stored_energy(start.state.link_springs[i].u);
+      total.links += start.constraints[i].spring.energy(start.state.link_springs[i].u);
     start_energy = total.kinetic + total.strain + total.links;
     keep(start);
     has_begun = true;
@@ -158,14 +158,15 @@ namespace taut
   void Energy::add_moving_rows(const StepView &step, Balance &share) const
   {
     const State &state = step.state;
-    for (std::size_t i = step.constraints.n_fixed(); i < step.constraints.size(); ++i)
+    std::size_t k = 0;
+    for (const std::size_t i : step.constraints.varying_rows())
     {
       const ConstraintData &constraint = step.constraints[i];
       const double now = state.multiplier[i] * evaluate(constraint.terms, state.dU);
-      const double before = N0[i] * evaluate(terms0[i - step.constraints.n_fixed()], state.dU);
+      const double before = N0[i] * evaluate(terms0[k++], state.dU);
       if (!is_mean(step, i))
         share.contacts += .5 * (before + now);
-      else if (constraint.moving && step.scheme.velocity_projection)
+      else if (step.constraints.slides(i) && step.scheme.velocity_projection)
         share.contacts += step.scheme.alpha_f * before;
     }
   }
@@ -179,30 +180,30 @@ namespace taut
     {
       const ConstraintData &constraint = step.constraints[i];
       const State::LinkSpring &spring = state.link_springs[i];
-      total.links += constraint.stored_energy(spring.u);
+      total.links += constraint.spring.energy(spring.u);
       if (is_mean(step, i))
       {
         // What the spring does not store of the work on it is the contact's.
-        const double damper = constraint.damping * spring.du * spring.du / state.last_step;
+        const double damper = constraint.spring.damping * spring.du * spring.du / state.last_step;
         if (std::isfinite(damper))
           total.link_dampers += damper;
         total.contacts += state.constraint_work[i];
-        if (!std::isinf(constraint.stiffness))
+        if (!constraint.spring.is_rigid())
           total.contacts +=
-              constraint.stored_energy(spring.u) - constraint.stored_energy(springs0[i].u) + damper;
+              constraint.spring.energy(spring.u) - constraint.spring.energy(springs0[i].u) + damper;
         continue;
       }
       const double mean = .5 * (N0[i] + state.multiplier[i]);
       // Forces at the ends of a step do not do the work that a law stores.
-      if (constraint.law)
-        total.algorithmic +=
-            (.5 * (constraint.law->force(springs0[i].u) + constraint.law->force(spring.u)) -
-             constraint.law->mean_force(springs0[i].u, spring.u)) *
-            spring.du;
-      if (!std::isinf(constraint.stiffness))
-        total.link_dampers += constraint.damping * .5 * (springs0[i].v + spring.v) * spring.du;
-      const bool varies = constraint.moving || constraint.direction;
-      total.contacts += mean * (varies ? spring.du : state.gap[i] - gap0[i]);
+      if (constraint.spring.law)
+        total.algorithmic += (.5 * (constraint.spring.law->force(springs0[i].u) +
+                                    constraint.spring.law->force(spring.u)) -
+                              constraint.spring.law->mean_force(springs0[i].u, spring.u)) *
+                             spring.du;
+      if (!constraint.spring.is_rigid())
+        total.link_dampers +=
+            constraint.spring.damping * .5 * (springs0[i].v + spring.v) * spring.du;
+      total.contacts += mean * (step.constraints.is_fixed(i) ? state.gap[i] - gap0[i] : spring.du);
     }
   }
 
@@ -219,7 +220,7 @@ namespace taut
     gap0 = state.gap;
     springs0 = state.link_springs;
     terms0.clear();
-    for (std::size_t i = step.constraints.n_fixed(); i < step.constraints.size(); ++i)
+    for (const std::size_t i : step.constraints.varying_rows())
       terms0.push_back(step.constraints[i].terms);
   }
 

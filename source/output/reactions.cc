@@ -91,7 +91,7 @@ namespace taut
   {
     set_forces(reference, state);
     for (std::size_t i = 0; i < state.is_mean.size(); ++i)
-      if (state.is_mean[i] && !(constraints[i].moving && scheme.velocity_projection))
+      if (state.is_mean[i] && !(constraints.slides(i) && scheme.velocity_projection))
         subtract(constraints[i], state.multiplier[i]);
     structure.communicator().sum(values);
   }

@@ -37,13 +37,14 @@ namespace taut
 
   void Series::add_link(const ConstraintData &constraint)
   {
-    IntervalTable &table = constraint.moving ? sliding : links;
-    if (constraint.moving)
+    const bool slides = constraint.kind() == Geometry::Kind::sliding;
+    IntervalTable &table = slides ? sliding : links;
+    if (slides)
       table.add_value(constraint.name + " position", "m");
     table.add_quantity(constraint.name + (constraint.rotational ? " moment" : " force"),
                        constraint.rotational ? "N m" : "N");
     const std::string gap = constraint.name + " gap", unit = constraint.rotational ? "rad" : "m";
-    if (constraint.unilateral)
+    if (constraint.cone.may_open())
     {
       table.add_quantity(gap, unit);
       table.add_state(constraint.name);
@@ -59,13 +60,13 @@ namespace taut
     for (std::size_t i = 0; i < step.constraints.size(); ++i)
     {
       const ConstraintData &constraint = step.constraints[i];
-      if (constraint.moving != moving || !constraint.is_link())
+      if (step.constraints.slides(i) != moving || !constraint.is_link())
         continue;
       if (moving)
         values.push_back(step.constraints.position(i, state.time));
       values.push_back(state.multiplier[i]);
       values.push_back(state.geometric_gap[i]);
-      if (constraint.unilateral)
+      if (constraint.cone.may_open())
         values.push_back(state.multiplier[i] != 0.);
     }
     if (!values.empty())

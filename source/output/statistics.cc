@@ -139,12 +139,12 @@ namespace taut
   {
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
-      if (rows[i].moving)
+      if (rows.slides(i))
         contacts.push_back({rows[i].name, rows[i].link, {}, {}, {}});
       else if (rows[i].is_link())
       {
         link_names.push_back(rows[i].name);
-        link_unilateral.push_back(rows[i].unilateral);
+        link_unilateral.push_back(rows[i].cone.may_open());
         link_rotates.push_back(rows[i].rotational);
       }
     }
@@ -178,7 +178,7 @@ namespace taut
       contact.force.push_back(state.multiplier[row]);
       contact.mean_force.push_back(step.measures.mean_force(row));
     }
-    for (std::size_t i = 0, n = 0; i < rows->first_moving(); ++i)
+    for (std::size_t i = 0, n = 0; i < rows->size() && !rows->slides(i); ++i)
     {
       if (!(*rows)[i].is_link())
         continue;

@@ -63,7 +63,7 @@ namespace taut
         join(k, n);
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
-      if (constraints[i].unilateral && multiplier[i] == 0.)
+      if (!constraints[i].cone.is_closed(multiplier[i]))
         continue;
       std::set<std::size_t> ends;
       for (const Term &term : constraints[i].terms)
@@ -75,11 +75,9 @@ namespace taut
         join(*ends.begin(), k);
         if (k < n && !null_spaces[k].vectors.empty())
         {
-          extend(opposed[k], work(constraints[i].terms, k, null_spaces[k]));
           // Across itself a link that turns holds its ends like a pendulum.
-          if (const TurningDirection *const turning = constraints[i].direction.get())
-            for (const std::vector<Term> &motion : turning->motion)
-              extend(opposed[k], work(motion, k, null_spaces[k]));
+          for (const std::vector<Term> *const form : constraints[i].forms())
+            extend(opposed[k], work(*form, k, null_spaces[k]));
         }
       }
     }

@@ -49,8 +49,8 @@ namespace taut
     std::size_t n_unilateral = 0, n_rigid = 0;
     for (std::size_t i = 0; i < links.size(); ++i)
     {
-      n_unilateral += links[i].unilateral;
-      n_rigid += std::isinf(links[i].stiffness);
+      n_unilateral += links[i].cone.may_open();
+      n_rigid += links[i].spring.is_rigid();
     }
     const std::vector<Structure::Body> &all = bodies.all_bodies();
     log << "Scene '" << parameters.generator_name << "': " << counted(model.wires.size(), "wire")
@@ -71,7 +71,7 @@ namespace taut
     if (!bodies.cut_constraints().empty())
       log << "\n  cut in " << counted(bodies.cut_constraints().size(), "constraint");
     log << "\n  " << counted(links.size(), "multiplier") << ": " << n_unilateral << " unilateral, "
-        << links.size() - n_unilateral << " bilateral; " << links.size() - links.first_moving()
+        << links.size() - n_unilateral << " bilateral; " << links.sliding_rows().size()
         << " moving; " << n_rigid << " rigid\n";
 
     const auto any_wire = [&](const auto &has)
@@ -86,10 +86,10 @@ namespace taut
       log << "  no links: the bodies move independently\n";
     else if (n_unilateral == 0)
       log << "  only bilateral links: one linear solve a step, no active set\n";
-    if (links.has_turning())
-      log << "  " << counted(links.first_moving() - links.n_fixed(), "link")
+    if (!links.turning_rows().empty())
+      log << "  " << counted(links.turning_rows().size(), "link")
           << " with the direction from end to end at each time\n";
-    if (links.size() > 0 && links.n_fixed() == links.size())
+    if (links.size() > 0 && links.varying_rows().empty())
       log << "  no moving link: the interface operator is constant\n";
     if (!grounded_links.empty())
     {
@@ -182,10 +182,10 @@ namespace taut
     if (model.start != Start::equilibrium || probe_terms.empty())
       return;
     // Where nothing moves, the equilibrium is what there is to see.
-    if (parameters.end_time == 0. && links.first_moving() == links.size())
+    if (parameters.end_time == 0. && links.sliding_rows().empty())
       return;
     BodyVectors rest = reference.displacement;
-    if (links.first_moving() < links.size())
+    if (!links.sliding_rows().empty())
     {
       const Scene without = without_sliding_contacts(model);
       Constraints fixed_constraints = scene_constraints(without, bodies);

@@ -35,7 +35,7 @@ namespace taut
       bool has_one = false;
       for (std::size_t i = 0; i < constraints.size(); ++i)
       {
-        if (!constraints[i].unilateral || !std::isinf(constraints[i].stiffness))
+        if (constraints[i].cone.is_free() || !constraints[i].spring.is_rigid())
           continue;
         has_one = true;
         if (on_elements[i] > 0.)
@@ -71,7 +71,7 @@ namespace taut
     std::string link_with_law(const Constraints &constraints)
     {
       for (std::size_t i = 0; i < constraints.size(); ++i)
-        if (constraints[i].law)
+        if (constraints[i].spring.law)
           return constraints[i].name;
       return "";
     }
@@ -79,7 +79,9 @@ namespace taut
     /// Name of a link that turns; empty: none.
     std::string link_that_turns(const Constraints &constraints)
     {
-      return constraints.has_turning() ? constraints[constraints.n_fixed()].name : "";
+      for (const std::size_t i : constraints.turning_rows())
+        return constraints[i].name;
+      return "";
     }
 
     std::string nonlinear_body(const Structure &structure)
@@ -182,7 +184,7 @@ namespace taut
                          "force of a node without mass, here at link '" +
                              constraints[i].name + "'; take other Conditions, Theta > 1/2" +
                              anyway);
-      if (constraints[i].moving && std::isinf(constraints[i].stiffness))
+      if (constraints.slides(i) && constraints[i].spring.is_rigid())
         throw EntryError("Time/Moreau-Jean/Conditions",
                          "conditions on velocities let the gap of a moving rigid contact drift, "
                          "here of '" +

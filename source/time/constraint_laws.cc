@@ -31,11 +31,11 @@ namespace taut
   {
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
-      const ForceLaw *law = constraints[i].law.get();
-      if (!law && constraints[i].conserving)
+      const ForceLaw *law = constraints[i].spring.law.get();
+      if (!law && constraints[i].spring.conserving)
       {
         using Points = std::vector<std::pair<double, double>>;
-        linear.push_back(std::make_shared<TableLaw>(Points{{1., constraints[i].stiffness}}));
+        linear.push_back(std::make_shared<TableLaw>(Points{{1., constraints[i].spring.stiffness}}));
         law = linear.back().get();
       }
       if (law)
@@ -210,7 +210,7 @@ namespace taut
       if (row_of[i] < rows.size())
         of_spring = std::max(0., rows[row_of[i]].force(-gap));
       else if (S[i] > 0.)
-        of_spring = constraints[i].unilateral ? std::max(0., -gap / S[i]) : -gap / S[i];
+        of_spring = constraints[i].cone.project(-gap / S[i]);
       sum += change * (L - of_spring);
     }
     return sum;

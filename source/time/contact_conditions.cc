@@ -21,7 +21,7 @@ namespace taut
     problem.free_gap.resize(n);
     problem.gap_scale.resize(n);
     for (std::size_t i = 0; i < n; ++i)
-      problem.unilateral.push_back(constraints[i].unilateral);
+      problem.cones.push_back(constraints[i].cone);
   }
 
   void ContactConditions::prepare(const StepCoefficients &coefficients, const double tau)
@@ -32,13 +32,15 @@ namespace taut
     problem.null_space_load.clear();
     problem.null_space_resistance.clear();
     solved.mode_amplitude.clear();
-    problem.held_open.assign(c.velocity_level ? constraints.size() : 0, 0);
     for (std::size_t i = 0; i < constraints.size(); ++i)
+    {
+      problem.cones[i] = constraints[i].cone;
       mean[i] =
           c.mean_force &&
-          (std::isinf(constraints[i].stiffness) ||
-           (c.velocity_projection && (constraints[i].unilateral || constraints[i].direction))) &&
+          (constraints[i].spring.is_rigid() ||
+           (c.velocity_projection && (constraints[i].cone.may_open() || constraints.turns(i)))) &&
           !(c.velocity_projection && quasi_static[i]);
+    }
     gap_rates.prepare(c, step);
     link_springs.prepare(c, step, mean);
   }
@@ -58,7 +60,7 @@ namespace taut
       const double history = link_springs.begin(i, before), gap = gap_tracker.free_gap(i, before);
       problem.free_gap[i] = gap + gap_tracker.increments()[i] + history;
       problem.gap_scale[i] = gap_tracker.set_scale(i, before, std::fabs(history));
-      if (constraints[i].moving)
+      if (constraints.slides(i))
         gap_rates.set_convection(i, gap - before.geometric_gap[i]);
       if (on_velocities(i))
         set_velocity_condition(i, before);
@@ -68,14 +70,14 @@ namespace taut
   /// (1 - alpha_f) step (D' + e D'_0) without multipliers.
   void ContactConditions::set_velocity_condition(const std::size_t i, const State &before)
   {
-    const double theta = 1. - c.alpha_f, rebound = constraints[i].unilateral ? c.restitution : 0.;
+    const double theta = 1. - c.alpha_f, rebound = constraints[i].cone.restitution(c.restitution);
     problem.free_gap[i] =
         gap_tracker.increments()[i] - (1. - theta) * step * gap_rates.velocities()[i] +
         theta * (gap_rates.of_convection(i) + rebound * step * before.gap_rate[i]);
-    if (!constraints[i].unilateral)
+    if (constraints[i].cone.is_free())
       return;
     const bool is_near = before.geometric_gap[i] + .5 * step * before.gap_rate[i] <= 0.;
-    problem.held_open[i] = !is_near && !(before.multiplier[i] > 0.);
+    problem.cones[i] = is_near || before.multiplier[i] > 0. ? constraints[i].cone : Cone::zero();
   }
 
   void ContactConditions::find_multipliers(StepEquations &system, const StepCheck &check,
@@ -95,7 +97,7 @@ namespace taut
       if (!mean[i])
         continue;
       impulses[i] =
-          L[i] + (constraints[i].moving && c.velocity_projection ? previous_place[i] : 0.);
+          L[i] + (constraints.slides(i) && c.velocity_projection ? previous_place[i] : 0.);
       balanced[i] = 0.;
       state.multiplier[i] = (1. - c.alpha_f) * L[i];
     }
@@ -103,10 +105,10 @@ namespace taut
 
   const std::vector<double> &ContactConditions::forces_at_previous_place(const State &before)
   {
-    if (!c.velocity_projection || constraints.first_moving() == constraints.size())
+    if (!c.velocity_projection || constraints.sliding_rows().empty())
       return none;
     previous_place.assign(constraints.size(), 0.);
-    for (std::size_t i = constraints.first_moving(); i < constraints.size(); ++i)
+    for (const std::size_t i : constraints.sliding_rows())
       if (mean[i])
         previous_place[i] = -c.old_balance() * before.multiplier[i];
     return previous_place;
@@ -140,7 +142,7 @@ namespace taut
     constexpr double rounding = 1e-9;
     const bool is_inconsistent = is_first && std::fabs(gap_rates.before_step()[i]) >
                                                  rounding * gap_rates.velocity_sizes()[i];
-    return !is_inconsistent && constraints[i].direction && std::isinf(constraints[i].stiffness) &&
+    return !is_inconsistent && constraints.turns(i) && constraints[i].spring.is_rigid() &&
            state.geometric_gap[i] - turning.increment(i) <= rounding * turning.distance(i);
   }
 
@@ -148,7 +150,7 @@ namespace taut
   {
     double largest = 0.;
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      if (on_velocities(i) && !constraints[i].unilateral)
+      if (on_velocities(i) && constraints[i].cone.is_free())
         largest = std::max(largest, std::fabs(state.geometric_gap[i]));
     return largest;
   }
@@ -157,7 +159,7 @@ namespace taut
                                   const BodyVectors &left)
   {
     MixedComplementarityProblem remainder;
-    remainder.unilateral = problem.unilateral;
+    remainder.cones = problem.cones;
     system.interface().contact_free_predictor(left, remainder.free_gap, remainder.gap_scale);
     sum_together(structure.communicator(), {&remainder.free_gap, &remainder.gap_scale});
     if (system.has_modes())
@@ -166,7 +168,7 @@ namespace taut
     {
       remainder.free_gap[i] += state.gap[i];
       remainder.gap_scale[i] += std::fabs(state.gap[i]) + gap_tracker.term_sizes()[i];
-      if (constraints[i].moving)
+      if (constraints.slides(i))
         remainder.gap_scale[i] += std::fabs(constraints[i].gap);
     }
     return system.correct(remainder, solved, correction);

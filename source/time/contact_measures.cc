@@ -57,7 +57,7 @@ namespace taut
       forces[i].window = times[i];
       forces[i].mean = start.multiplier[i];
       forces[i].impulses.push_back({start.time, 0.});
-      if (constraints[i].unilateral)
+      if (constraints[i].cone.may_open())
         first_one_sided[energies.groups().of_constraint(i)] = i;
     }
     contact_gains.assign(n, 0.);
@@ -86,7 +86,7 @@ namespace taut
           }
         });
     structure.communicator().sum(sums);
-    for (std::size_t i = constraints.n_fixed(); i < constraints.first_moving(); ++i)
+    for (const std::size_t i : constraints.turning_rows())
       sums[groups.of_constraint(i)] += 1.;
     for (std::size_t g = 0; g < n; ++g)
       moves_far.push_back(sums[g] > 0.);
@@ -104,7 +104,7 @@ namespace taut
       const std::vector<double> omega = frequencies(structure[k]);
       for (std::size_t i = 0; i < constraints.size(); ++i)
         for (const Term &term : constraints[i].terms)
-          if (term.substructure == k && constraints[i].unilateral)
+          if (term.substructure == k && constraints[i].cone.may_open())
             for (const unsigned int dof : term.form.index)
               highest[i] = std::max(highest[i], omega[dof]);
     }
@@ -122,7 +122,7 @@ namespace taut
     ++n_steps;
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
-      if (!constraints[i].unilateral)
+      if (constraints[i].cone.is_free())
         continue;
       add_force(forces[i], state.time, state.last_step, state.multiplier[i]);
       add_gap(i, state, c);
@@ -201,7 +201,7 @@ namespace taut
 
   void ContactMeasures::add_gap(const std::size_t i, const State &state, const StepCoefficients &c)
   {
-    if (!std::isinf(constraints[i].stiffness))
+    if (!constraints[i].spring.is_rigid())
       return;
     const double gap = state.multiplier[i] > 0. ? std::fabs(state.gap[i]) : -state.gap[i];
     if (gap > found.gap)
@@ -224,7 +224,7 @@ namespace taut
     std::vector<std::size_t> row = first_one_sided;
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
-      if (!constraints[i].unilateral)
+      if (constraints[i].cone.is_free())
         continue;
       const LinkEnergies::Account account = energies.account(i);
       const std::size_t group = groups.of_constraint(i);

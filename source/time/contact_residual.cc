@@ -36,7 +36,7 @@ namespace taut
       else if (on_velocities(i))
       {
         const double rebound =
-            constraints[i].unilateral ? c.restitution * gap_rates.before_step()[i] : 0.;
+            constraints[i].cone.restitution(c.restitution) * gap_rates.before_step()[i];
         recomputed.at.gap[i] = (1. - c.alpha_f) * step * (state.gap_rate[i] + rebound);
       }
   }

@@ -78,7 +78,7 @@ namespace taut
       structure.communicator().sum(n_bodies);
       std::vector<std::size_t> result;
       for (std::size_t i = 0; i < constraints.size(); ++i)
-        if (i != but && (!constraints[i].unilateral || (unilateral && n_bodies[i] > 1.)))
+        if (i != but && (constraints[i].cone.is_free() || (unilateral && n_bodies[i] > 1.)))
           result.push_back(i);
       return result;
     }
@@ -99,7 +99,7 @@ namespace taut
           at_once(structure, constraints, parameters, short_step * step),
           wholes(structure, constraints,
                  [&](const std::size_t i)
-                 { return !constraints[i].unilateral && std::isinf(constraints[i].stiffness); }),
+                 { return constraints[i].cone.is_free() && constraints[i].spring.is_rigid(); }),
           closed(joins(structure, constraints, false, no_link))
     {
       const std::vector<double> of_bodies = total_masses(structure);
@@ -247,10 +247,10 @@ namespace taut
         at_once.column(i, closed, column);
         const double flexibility = column[i] * at_once.mass_factor();
         of[i].contact_time =
-            std::acos(-1.) / std::sqrt(constraints[i].stiffness * std::max(flexibility, 0.));
+            std::acos(-1.) / std::sqrt(constraints[i].spring.stiffness * std::max(flexibility, 0.));
         const double critical =
-            2. * std::sqrt(constraints[i].stiffness / std::max(flexibility, 0.));
-        of[i].damping_ratio = constraints[i].damping / critical;
+            2. * std::sqrt(constraints[i].spring.stiffness / std::max(flexibility, 0.));
+        of[i].damping_ratio = constraints[i].spring.damping / critical;
         of[i].comes_back_slowly =
             of[i].damping_ratio >= no_rebound && of[i].contact_time >= steps_of_a_contact * step;
         find_share(i, column[i]);
@@ -293,13 +293,13 @@ namespace taut
     for (std::size_t i = 0; i < of.size(); ++i)
     {
       const ConstraintData &constraint = constraints[i];
-      of[i].unilateral = constraint.unilateral;
-      of[i].elastic = !std::isinf(constraint.stiffness);
-      of[i].may_conserve = constraint.unilateral && of[i].elastic && !constraint.moving &&
-                           !constraint.direction && !without_mass[i];
-      if (constraint.unilateral && of[i].elastic)
-        (constraint.moving ? moving : elastic).push_back(i);
-      is_needed = is_needed || (constraint.unilateral && (of[i].elastic || without_mass[i]));
+      of[i].unilateral = constraint.cone.may_open();
+      of[i].elastic = !constraint.spring.is_rigid();
+      of[i].may_conserve = constraint.cone.may_open() && of[i].elastic && constraints.is_fixed(i) &&
+                           !without_mass[i];
+      if (constraint.cone.may_open() && of[i].elastic)
+        (constraints.slides(i) ? moving : elastic).push_back(i);
+      is_needed = is_needed || (constraint.cone.may_open() && (of[i].elastic || without_mass[i]));
     }
     if (!is_needed)
     {

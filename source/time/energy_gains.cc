@@ -54,14 +54,15 @@ namespace taut
     const ConstraintData &constraint = constraints[i];
     if (!conditions.mean_force(i))
       return 0.;
-    if (constraint.moving)
+    if (constraints.slides(i))
       return -state.constraint_work[i];
-    if (std::isinf(constraint.stiffness))
+    if (constraint.spring.is_rigid())
       return 0.;
     const State::LinkSpring &spring = state.link_springs[i];
     const double before = spring.u - spring.du;
-    return constraint.law ? constraint.law->mean_force(before, spring.u) * spring.du
-                          : .5 * constraint.stiffness * (spring.u * spring.u - before * before);
+    return constraint.spring.law
+               ? constraint.spring.law->mean_force(before, spring.u) * spring.du
+               : .5 * constraint.spring.stiffness * (spring.u * spring.u - before * before);
   }
 
   void EnergyGains::measure(const BalanceCertificate &balance, State &state,
@@ -101,7 +102,7 @@ namespace taut
     for (std::size_t g = 0; g < sums.size(); ++g)
       sums[g] -= lost[g];
     structure.communicator().sum(sums);
-    for (std::size_t i = constraints.n_fixed(); i < constraints.first_moving(); ++i)
+    for (const std::size_t i : constraints.turning_rows())
       sums[groups.of_constraint(i)] +=
           turning.surplus(i, state.multiplier[i], conditions.gaps().increments()[i]);
     state.energy_gains = sums;

@@ -33,13 +33,13 @@ namespace taut
   /// With the places of the moving constraints exact.
   void GapRates::measure_convection(const State &state)
   {
-    if (constraints.first_moving() == constraints.size())
+    if (constraints.sliding_rows().empty())
       return;
-    for (std::size_t i = constraints.first_moving(); i < constraints.size(); ++i)
+    for (const std::size_t i : constraints.sliding_rows())
       rate_of_place[i] =
           constraints.share_of_convection(i, state.time, reference.displacement, state.U);
     sum_together(structure.communicator(), {&rate_of_place});
-    for (std::size_t i = constraints.first_moving(); i < constraints.size(); ++i)
+    for (const std::size_t i : constraints.sliding_rows())
       rate_of_place[i] += constraints.profile_rate(i, state.time, step);
   }
 

@@ -30,7 +30,7 @@ namespace taut
     for (std::size_t i = 0; i < n; ++i)
     {
       reference_gap[i] += constraints[i].gap;
-      if (constraints[i].moving)
+      if (constraints.slides(i))
         gap_correction[i] = start.geometric_gap[i] - reference_gap[i] - motions[i];
       else if (!reference.gap.empty())
         reference_gap[i] = reference.gap[i];
@@ -47,7 +47,7 @@ namespace taut
     if (supports_move)
       for (std::size_t i = 0; i < constraints.size(); ++i)
         motion[i] += evaluate(constraints[i].terms, lift);
-    for (std::size_t i = constraints.first_moving(); i < constraints.size(); ++i)
+    for (const std::size_t i : constraints.sliding_rows())
     {
       const std::vector<Term> &terms = constraints[i].terms;
       position[i] = evaluate(terms, reference.displacement) + evaluate(terms, before.U);
@@ -63,17 +63,17 @@ namespace taut
 
   double GapTracker::free_gap(const std::size_t i, const State &before) const
   {
-    if (constraints[i].moving)
+    if (constraints.slides(i))
       return gap_of_place(i);
-    return constraints[i].direction ? before.geometric_gap[i] + turning.offset(i)
-                                    : before.geometric_gap[i];
+    return constraints.turns(i) ? before.geometric_gap[i] + turning.offset(i)
+                                : before.geometric_gap[i];
   }
 
   double GapTracker::set_scale(const std::size_t i, const State &before, const double other)
   {
-    double scale = constraints[i].moving ? std::fabs(constraints[i].gap) + terms_size[i]
+    double scale = constraints.slides(i) ? std::fabs(constraints[i].gap) + terms_size[i]
                                          : std::fabs(before.geometric_gap[i]);
-    if (constraints[i].direction)
+    if (constraints.turns(i))
       scale += turning.distance(i);
     scale += motion_size[i];
     scale += std::fabs(motion[i]) + other;
@@ -85,7 +85,7 @@ namespace taut
   {
     constraints.share_of_motions(state.dU, motion);
     constraints.share_of_motions(state.U, position, terms_size);
-    for (std::size_t i = constraints.first_moving(); i < constraints.size(); ++i)
+    for (const std::size_t i : constraints.sliding_rows())
       position[i] += evaluate(constraints[i].terms, reference.displacement);
     sum_together(structure.communicator(), {&motion, &position, &terms_size});
   }
@@ -93,9 +93,9 @@ namespace taut
   double GapTracker::new_gap(const std::size_t i, const State &state)
   {
     largest_scale[i] = std::max(largest_scale[i], scale_of_step[i]);
-    if (constraints[i].moving)
+    if (constraints.slides(i))
       return gap_of_place(i);
-    return state.geometric_gap[i] + (constraints[i].direction ? turning.increment(i) : motion[i]);
+    return state.geometric_gap[i] + (constraints.turns(i) ? turning.increment(i) : motion[i]);
   }
 
   void GapTracker::correct(const BodyVectors &dU, State &state)
@@ -120,7 +120,7 @@ namespace taut
   double GapTracker::stray(const State &state, std::size_t &worst)
   {
     double max = 0.;
-    for (std::size_t i = 0; i < constraints.n_fixed(); ++i)
+    for (const std::size_t i : constraints.fixed_rows())
     {
       gap_terms[i] = std::max(gap_terms[i], std::fabs(reference_gap[i]) + terms_size[i]);
       const double error = std::fabs(reference_gap[i] + position[i] - state.geometric_gap[i]),

@@ -16,20 +16,20 @@ namespace taut
     /// there are more of them.
     void linearise_links(const Structure &structure, Constraints &constraints, InitialState &result)
     {
-      const std::size_t n = constraints.first_moving();
       std::vector<double> &N = result.state.multiplier;
       bool others = false;
-      for (std::size_t i = constraints.n_fixed(); i < n; ++i)
+      for (const std::size_t i : constraints.turning_rows())
       {
-        const TurningDirection &turning = *constraints[i].direction;
+        const TurningDirection &turning = constraints.turning(i);
         others = others || turning.sign * N[i] > 0.;
         for (const std::vector<Term> &motion : turning.motion)
           for (const Term &term : motion)
             others = others || !result.linearised[structure.number(term.substructure)];
       }
-      if (!constraints.has_turning() || structure.communicator().any(others))
+      if (constraints.turning_rows().empty() || structure.communicator().any(others))
         return;
-      result.n_kept = n - constraints.n_fixed();
+      result.n_kept = constraints.turning_rows().size();
+      const std::size_t n = constraints.size() - constraints.sliding_rows().size();
       constraints.keep_directions(result.reference.displacement, N);
       N.insert(N.begin() + n, constraints.size() - N.size(), 0.);
       result.state.link_springs.resize(constraints.size());
@@ -86,9 +86,9 @@ namespace taut
       {
         const ConstraintData &constraint = constraints[i];
         size[i] += std::fabs(constraint.gap) + constraint.gap_size;
-        if (constraint.direction)
-          size[i] += norm(ends[i - constraints.n_fixed()]);
-        if (!constraint.unilateral || !(state.gap[i] < 0.) ||
+        if (constraints.turns(i))
+          size[i] += norm(ends[constraints.turning_index(i)]);
+        if (constraint.cone.is_free() || !(state.gap[i] < 0.) ||
             !(-state.gap[i] <= rounding_of_start * size[i]))
           continue;
         if (result.reference.gap.empty())
@@ -127,35 +127,31 @@ namespace taut
       for (std::size_t i = 0; i < constraints.size(); ++i)
       {
         const ConstraintData &constraint = constraints[i];
-        state.geometric_gap[i] = constraint.direction
-                                     ? constraint.direction->gap(ends[i - constraints.n_fixed()])
-                                     : constraint.gap + reference_motion[i] + motion[i];
+        state.geometric_gap[i] =
+            constraints.turns(i) ? constraints.turning(i).gap(ends[constraints.turning_index(i)])
+                                 : constraint.gap + reference_motion[i] + motion[i];
         // The spring of a link starts as compressed as its ends stand, and a compressed one as fast
         // as they move; a rigid one is not compressed.
-        double u = constraint.compression(state.multiplier[i]);
-        if (start != Start::equilibrium && !std::isinf(constraint.stiffness))
+        double u = constraint.spring.compression(state.multiplier[i]);
+        if (start != Start::equilibrium && !constraint.spring.is_rigid())
         {
-          u = constraint.unilateral ? std::max(0., -state.geometric_gap[i])
-                                    : -state.geometric_gap[i];
-          const double v = !constraint.unilateral || u > 0. ? -velocity[i] : 0.;
+          u = constraint.cone.project(-state.geometric_gap[i]);
+          const double v = constraint.cone.is_closed(u) ? -velocity[i] : 0.;
           state.link_springs[i].v = v;
           state.multiplier[i] =
-              (constraint.law ? constraint.law->force(u) : u * constraint.stiffness) +
-              v * constraint.damping;
-          if (constraint.unilateral)
-            state.multiplier[i] = std::max(0., state.multiplier[i]);
+              constraint.cone.project(constraint.spring.force(u) + v * constraint.spring.damping);
         }
         state.link_springs[i].u = u;
         // Rounding of the gap over a small compliance, or over what a short step moves, would be a
         // force.
-        if (start == Start::equilibrium && (!constraint.unilateral || state.multiplier[i] > 0.))
+        if (start == Start::equilibrium && constraint.cone.is_closed(state.multiplier[i]))
           state.geometric_gap[i] = -u;
         else if (start == Start::equilibrium)
           state.geometric_gap[i] = std::max(0., state.geometric_gap[i]);
         state.gap[i] = state.geometric_gap[i] + u;
-        if (constraint.direction &&
-            constraint.direction->vanishes(ends[i - constraints.n_fixed()]) &&
-            !(constraint.unilateral && state.gap[i] >= 0. && state.multiplier[i] == 0.))
+        if (constraints.turns(i) &&
+            constraints.turning(i).vanishes(ends[constraints.turning_index(i)]) &&
+            !constraint.cone.rests_open(state.multiplier[i], state.gap[i]))
           throw EntryError(
               constraints.origin(i),
               message_of_meeting(constraint.name, 0.,
@@ -166,7 +162,7 @@ namespace taut
       else
         close_rounded_gaps(structure, constraints, motion, ends, result);
       for (std::size_t i = 0; i < constraints.size(); ++i)
-        if (start != Start::equilibrium && state.gap[i] < 0. && constraints[i].unilateral)
+        if (start != Start::equilibrium && state.gap[i] < 0. && constraints[i].cone.may_open())
           complain_about_penetration(constraints, i, state.gap[i]);
     }
     /// Part of the terms of a gap, or of the distance of the ends, up to which a joint counts as
@@ -184,10 +180,10 @@ namespace taut
       for (std::size_t i = 0; i < constraints.size(); ++i)
       {
         const ConstraintData &joint = constraints[i];
-        const double gap = state.geometric_gap[i], terms = joint.direction
-                                                               ? joint.direction->length
+        const double gap = state.geometric_gap[i], terms = constraints.turns(i)
+                                                               ? constraints.turning(i).length
                                                                : size[i] + std::fabs(joint.gap);
-        if (joint.unilateral || !std::isinf(joint.stiffness) || joint.moving ||
+        if (joint.cone.may_open() || !joint.spring.is_rigid() || constraints.slides(i) ||
             std::fabs(gap) <= closed * terms)
           continue;
         throw EntryError(
@@ -196,7 +192,7 @@ namespace taut
                 "joint '", joint.name, "' starts with a gap of ", gap,
                 joint.rotational ? " rad" : " m",
                 ": a rigid one starts closed, or would close within the first step. Change its ",
-                joint.direction ? "Length" : "Gap", " or the start, or give it a Stiffness"));
+                constraints.turns(i) ? "Length" : "Gap", " or the start, or give it a Stiffness"));
       }
     }
   } // namespace

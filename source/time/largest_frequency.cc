@@ -27,9 +27,9 @@ namespace taut
       }
       const std::vector<double> motions = constraints.motions(X);
       for (std::size_t i = 0; i < constraints.size(); ++i)
-        if (std::isfinite(constraints[i].stiffness))
+        if (!constraints[i].spring.is_rigid())
           for (const Term &term : constraints[i].terms)
-            term.form.add_to(constraints[i].stiffness * motions[i], Y[term.substructure]);
+            term.form.add_to(constraints[i].spring.stiffness * motions[i], Y[term.substructure]);
     }
   } // namespace
 

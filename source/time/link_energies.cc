@@ -81,18 +81,18 @@ namespace taut
     const Row &row = rows[i];
     const double change = state.gap[i] - row.gap;
     const bool is_mean = c.mean_force && state.is_mean[i];
-    if (is_mean && !constraint.moving)
+    if (is_mean && !constraints.slides(i))
     {
-      if (std::isinf(constraint.stiffness))
+      if (constraint.spring.is_rigid())
         return state.constraint_work[i];
       const State::LinkSpring &spring = state.link_springs[i];
-      const double with_damper = state.constraint_work[i] + constraint.stored_energy(spring.u) -
-                                 constraint.stored_energy(row.u);
+      const double with_damper = state.constraint_work[i] + constraint.spring.energy(spring.u) -
+                                 constraint.spring.energy(row.u);
       // A contact with a damper ends where its force is zero: what its spring has left the damper
       // takes, and in part of a step that is as much as it is.
-      if (constraint.damping > 0. && !(row.multiplier > 0. && state.multiplier[i] > 0.))
+      if (constraint.spring.damping > 0. && !(row.multiplier > 0. && state.multiplier[i] > 0.))
         return std::max(0., with_damper);
-      return with_damper + constraint.damping * spring.du * spring.du / state.last_step;
+      return with_damper + constraint.spring.damping * spring.du * spring.du / state.last_step;
     }
     if (!(std::fabs(change) > row.noise))
       return 0.;
@@ -116,7 +116,7 @@ namespace taut
     const bool whole = c.mean_force && !c.velocity_level; // gains are those of groups
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
-      if (!constraints[i].unilateral)
+      if (constraints[i].cone.is_free())
         continue;
       Row &row = rows[i];
       const double N = state.multiplier[i];
@@ -124,7 +124,7 @@ namespace taut
       {
         if (!(row.multiplier > 0.))
           row.begin = state.time - state.last_step;
-        if (!std::isinf(constraints[i].stiffness))
+        if (!constraints[i].spring.is_rigid())
           row.closing += gain(i, state, c);
         else if (!whole)
           row.closing += std::max(0., gain(i, state, c));
@@ -182,7 +182,7 @@ namespace taut
     }
     structure.communicator().sum(sums);
     for (std::size_t i = 0; i < rows.size(); ++i)
-      springs[connected.of_constraint(i)] += constraints[i].stored_energy(state.link_springs[i].u);
+      springs[connected.of_constraint(i)] += constraints[i].spring.energy(state.link_springs[i].u);
     for (std::size_t g = 0; g < n; ++g)
     {
       energies[g].kinetic = std::max(energies[g].kinetic, sums[g]);

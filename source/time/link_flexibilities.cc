@@ -22,7 +22,7 @@ namespace taut
     structure.communicator().agree([&] { solvers.factor(c.mass_factor(), c.velocity); });
     S.resize(constraints.size());
     for (std::size_t i = 0; i < S.size(); ++i)
-      S[i] = 1. / (constraints[i].stiffness + c.velocity * constraints[i].damping);
+      S[i] = constraints[i].spring.compliance(c.velocity);
     schur->setup(S);
   }
 
@@ -84,7 +84,7 @@ namespace taut
   {
     std::vector<std::size_t> bilateral;
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      if (!constraints[i].unilateral && std::isinf(constraints[i].stiffness) && F.diagonal(i) > 0.)
+      if (constraints[i].cone.is_free() && constraints[i].spring.is_rigid() && F.diagonal(i) > 0.)
         bilateral.push_back(i);
     std::vector<double> result(constraints.size(), 0.), unit(constraints.size(), 0.), column, x;
     for (const std::size_t i : wanted)

@@ -19,17 +19,17 @@ namespace taut
     step = tau;
     mean = is_mean;
     for (std::size_t i = 0; i < S.size(); ++i)
-      S[i] = 1. / (constraints[i].stiffness + c.velocity * constraints[i].damping);
+      S[i] = constraints[i].spring.compliance(c.velocity);
   }
 
   double LinkSprings::begin(const std::size_t i, const State &before)
   {
     const ConstraintData &constraint = constraints[i];
     const State::LinkSpring &spring = before.link_springs[i];
-    const double damping = constraint.damping, theta = 1. - c.alpha_f,
+    const double damping = constraint.spring.damping, theta = 1. - c.alpha_f,
                  known = c.v_V * spring.v + c.v_A * spring.a + c.v_dU * spring.du;
     history[i] = 0.;
-    if (is_mean(i) && constraint.conserving)
+    if (is_mean(i) && constraint.spring.conserving)
       laws.begin_conserving(i, spring.u > 0. ? spring.u : -before.geometric_gap[i],
                             2. * damping / step);
     else if (laws.has(i) && is_mean(i))
@@ -39,8 +39,8 @@ namespace taut
     else if (is_mean(i))
     {
       const double rate = damping / step;
-      history[i] = -((1. - theta) * constraint.stiffness - rate) /
-                   (theta * constraint.stiffness + rate) * spring.u;
+      history[i] = -((1. - theta) * constraint.spring.stiffness - rate) /
+                   (theta * constraint.spring.stiffness + rate) * spring.u;
     }
     else if (damping > 0.)
       history[i] = S[i] * damping * (c.velocity * spring.u - known);
@@ -71,16 +71,16 @@ namespace taut
     const double known_v = c.v_V * spring.v + c.v_A * spring.a + c.v_dU * spring.du,
                  known_a = c.a_V * spring.v + c.a_A * spring.a + c.a_dU * spring.du;
     double u = compression(i, N);
-    if (is_mean(i) && constraints[i].conserving)
+    if (is_mean(i) && constraints[i].spring.conserving)
       u = std::max(0., conserving_compression(i, gap, N, scale));
-    else if (is_mean(i) && constraints[i].unilateral)
-      u = std::max(0., u);
+    else if (is_mean(i))
+      u = constraints[i].cone.project(u);
     spring.du = u - spring.u;
     spring.u = u;
     spring.v = c.velocity * spring.du + known_v;
     spring.a = c.acceleration * spring.du + known_a;
     const double D = gap + spring.u;
-    return constraints[i].law && !is_mean(i) ? D + laws.lack(i, u, N) : D;
+    return constraints[i].spring.law && !is_mean(i) ? D + laws.lack(i, u, N) : D;
   }
 
   void LinkSprings::correct(const std::size_t i, const double dN, State &state) const

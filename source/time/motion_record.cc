@@ -124,9 +124,9 @@ namespace taut
     }
     if (structure.communicator().is_root())
       for (std::size_t i = 0; i < constraints.size(); ++i)
-        if (!std::isinf(constraints[i].stiffness))
+        if (!constraints[i].spring.is_rigid())
           result[groups.of_constraint(i)][1] +=
-              constraints[i].stored_energy(state.link_springs[i].u);
+              constraints[i].spring.energy(state.link_springs[i].u);
     return result;
   }
 

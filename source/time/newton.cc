@@ -53,7 +53,7 @@ namespace taut
     if (turning.empty())
       return;
     const std::vector<char> without_mass = constraints.without_mass();
-    for (std::size_t i = constraints.n_fixed(); i < constraints.first_moving(); ++i)
+    for (const std::size_t i : constraints.turning_rows())
       if (without_mass[i])
         throw EntryError(constraints.origin(i),
                          "link '" + constraints[i].name +

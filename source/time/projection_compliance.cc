@@ -22,11 +22,11 @@ namespace taut
     std::vector<std::size_t> elastic;
     moving_elastic.clear();
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      if (constraints[i].unilateral && S[i] > 0.)
+      if (constraints[i].cone.may_open() && S[i] > 0.)
       {
         elastic.push_back(i);
-        has_laws = has_laws || constraints[i].law;
-        if (constraints[i].moving)
+        has_laws = has_laws || constraints[i].spring.law;
+        if (constraints.slides(i))
           moving_elastic.push_back(i);
       }
     has_softening = !elastic.empty();
@@ -50,11 +50,12 @@ namespace taut
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       relative_softening[i] = 0.;
-      if (!constraints[i].unilateral || S[i] == 0.)
+      if (constraints[i].cone.is_free() || S[i] == 0.)
         continue;
       const double ratio = S[i] / (fading * flexibility[i]);
-      relative_softening[i] =
-          constraints[i].conserving ? std::numeric_limits<double>::infinity() : ratio * ratio;
+      relative_softening[i] = constraints[i].spring.conserving
+                                  ? std::numeric_limits<double>::infinity()
+                                  : ratio * ratio;
     }
   }
 

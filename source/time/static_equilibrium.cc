@@ -190,7 +190,7 @@ namespace taut
           return true;
         bool touches = false;
         for (std::size_t i = 0; i < constraints.size(); ++i)
-          touches = touches || (constraints[i].unilateral && state.multiplier[i] > 0.);
+          touches = touches || (constraints[i].cone.may_open() && state.multiplier[i] > 0.);
         return (touches || !processes.any(!soft.are_in_tension(state.displacement))) &&
                !processes.any(!soft.are_indifferent(state.displacement));
       }
@@ -313,10 +313,10 @@ namespace taut
         for (std::size_t i = 0; i < constraints.size(); ++i)
         {
           const double gap = gaps[i];
-          if (std::isinf(constraints[i].stiffness))
+          if (constraints[i].spring.is_rigid())
             sum -= N[i] * gap;
-          else if (!constraints[i].unilateral || gap < 0.)
-            sum += constraints[i].stored_energy(gap);
+          else if (constraints[i].cone.is_closed(-gap))
+            sum += constraints[i].spring.energy(gap);
         }
         return sum;
       }
@@ -357,7 +357,7 @@ namespace taut
                                  const SolverParameters &parameters, const double t)
   {
     SofterBodies bodies(structure);
-    if (!constraints.has_turning() &&
+    if (constraints.turning_rows().empty() &&
         !structure.communicator().any(!bodies.nonlinear_bodies().empty()))
     {
       const BodyVectors undeformed = structure.zero();

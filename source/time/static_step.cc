@@ -43,7 +43,7 @@ namespace taut
         system(structure, constraints, parameters), laws(constraints), shift(constraints.size(), 0.)
   {
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      compliance.push_back(1. / constraints[i].stiffness);
+      compliance.push_back(constraints[i].spring.compliance());
     if (!soft.nonlinear_bodies().empty())
       system.set_nonlinear(soft.nonlinear_bodies(), [&](const std::size_t k, const int attempt)
                            { return soft.tangent(k, from[k], attempt); });
@@ -95,11 +95,11 @@ namespace taut
     processes.sum(motion_size);
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
-      problem.unilateral.push_back(constraints[i].unilateral);
+      problem.cones.push_back(constraints[i].cone);
       problem.gap_scale[i] += std::fabs(lifted[i]) + std::fabs(constraints[i].gap) +
                               std::fabs(moved[i]) + rounding_of_motions * motion_size[i];
       problem.free_gap[i] += lifted[i] + constraints[i].gap + moved[i];
-      if (constraints[i].law)
+      if (constraints[i].spring.law)
         laws.begin_at_end(i, std::max(0., -constraints[i].gap - moved[i]));
     }
     system.set_modes(P, problem);
@@ -146,7 +146,7 @@ namespace taut
       state.geometric_gap[i] += constraints[i].gap;
       const double u = compliance[i] * state.multiplier[i] + shift[i];
       state.gap[i] = state.geometric_gap[i] + u;
-      if (constraints[i].law)
+      if (constraints[i].spring.law)
         state.gap[i] += laws.lack(i, u, state.multiplier[i]);
     }
     return state;
@@ -244,7 +244,7 @@ namespace taut
         static_cast<std::ptrdiff_t>(constraints.size()))
       return;
     MixedComplementarityProblem remainder;
-    remainder.unilateral = problem.unilateral;
+    remainder.cones = problem.cones;
     double error = find_remainder(state, remainder);
     for (int refinement = 0; refinement < most_refinements && error > rounding; ++refinement)
     {

@@ -82,7 +82,7 @@ namespace taut
     for (std::size_t k = 0; k < run.structure.size(); ++k)
       n_nonlinear += !run.structure[k].is_linear();
     run.structure.communicator().sum(&n_nonlinear, 1);
-    const bool iterates = n_nonlinear > 0. || run.constraints.has_turning();
+    const bool iterates = n_nonlinear > 0. || !run.constraints.turning_rows().empty();
     return static_cast<double>(run.n_steps) *
                (work_of_step + n_dofs + static_cast<double>(run.constraints.size())) *
                (iterates ? work_of_newton : 1.) <=

@@ -263,10 +263,10 @@ namespace taut
     {
       const double N = applied.multiplier[i] + correction.multiplier[i];
       largest = std::max(largest, std::fabs(N));
-      if (!remainder.unilateral[i])
+      if (remainder.cones[i].is_free())
         continue;
       smallest = std::min(smallest, N);
-      if (!applied.closed[i] && !remainder.is_held_open(i) &&
+      if (!applied.closed[i] && remainder.cones[i].may_open() &&
           !(correction.gap[i] >= -admissible * terms[i]))
         is_admissible = false;
     }

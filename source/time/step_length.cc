@@ -50,8 +50,8 @@ namespace taut
       return;
     const std::vector<double> &S = conditions.springs().compliance();
     ComplementarityOperator &F = system->interface().matrix();
-    for (std::size_t i = constraints.first_moving(); i < constraints.size(); ++i)
-      if (constraints[i].unilateral && S[i] > 0. && F.diagonal(i) > 2. * S[i] &&
+    for (const std::size_t i : constraints.sliding_rows())
+      if (constraints[i].cone.may_open() && S[i] > 0. && F.diagonal(i) > 2. * S[i] &&
           flexibilities_of_whole_bodies(constraints, {i}, F)[i] > 2. * S[i])
       {
         throw EntryError(constraints.origin(i),

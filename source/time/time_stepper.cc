@@ -113,7 +113,7 @@ namespace taut
     }
     std::vector<double> N = current.multiplier;
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      if (conditions.mean_force(i) && !(projection && constraints[i].moving))
+      if (conditions.mean_force(i) && !(projection && constraints.slides(i)))
         N[i] = 0.;
     constraints.add_forces(N, current.balance);
     hold_quasi_static_dofs();
@@ -307,7 +307,7 @@ namespace taut
     std::vector<double> &moving = work_rows;
     moving = current.multiplier;
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      if (!constraints[i].moving || !conditions.mean_force(i))
+      if (!constraints.slides(i) || !conditions.mean_force(i))
         moving[i] = 0.;
     constraints.add_forces(moving, current.balance);
     hold_quasi_static_dofs();

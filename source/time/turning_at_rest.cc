@@ -49,8 +49,8 @@ namespace taut
     ConstraintData spring;
     spring.name = of.name;
     spring.origin = of.origin;
-    spring.stiffness = stiffness;
-    spring.terms = of.direction->along(direction);
+    spring.spring.stiffness = stiffness;
+    spring.terms = static_cast<const TurningDirection &>(*of.geometry).along(direction);
     spring.gap = -dot(direction, motion);
     list.push_back(std::move(spring));
   }
@@ -61,16 +61,15 @@ namespace taut
     for (std::size_t i = 0; i < all.size(); ++i)
     {
       list.push_back(all[i]);
-      list.back().place = nullptr;
-      list.back().direction = nullptr;
+      list.back().geometry = nullptr;
     }
     const std::vector<Coordinates> motions = all.differences(U);
     directions.clear();
     source.clear();
-    for (std::size_t k = 0; k < motions.size(); ++k)
+    for (const std::size_t i : all.turning_rows())
     {
-      const std::size_t i = all.n_fixed() + k;
-      const TurningDirection &turning = *all[i].direction;
+      const std::size_t k = all.turning_index(i);
+      const TurningDirection &turning = all.turning(i);
       const Coordinates difference = add_scaled(turning.start, 1., motions[k]),
                         d = turning.at(difference);
       directions.push_back(d);
@@ -92,8 +91,8 @@ namespace taut
   double TurningAtRest::largest_length() const
   {
     double largest = 0.;
-    for (std::size_t i = all.n_fixed(); i < all.first_moving(); ++i)
-      largest = std::max(largest, all[i].direction->length);
+    for (const std::size_t i : all.turning_rows())
+      largest = std::max(largest, all.turning(i).length);
     return largest;
   }
 
@@ -102,15 +101,15 @@ namespace taut
     const std::vector<Coordinates> motions = all.differences(state.displacement);
     double result = 0.;
     turned = 0.;
-    for (std::size_t k = 0; k < motions.size(); ++k)
+    for (const std::size_t i : all.turning_rows())
     {
-      const std::size_t i = all.n_fixed() + k;
-      const TurningDirection &turning = *all[i].direction;
+      const std::size_t k = all.turning_index(i);
+      const TurningDirection &turning = all.turning(i);
       const Coordinates difference = add_scaled(turning.start, 1., motions[k]);
       const double gap = turning.gap(difference),
                    change = norm(turning.at(difference) - directions[k]);
       turned = std::max(turned, change);
-      if (all[i].unilateral && state.multiplier[i] == 0. && gap >= 0.)
+      if (all[i].cone.rests_open(state.multiplier[i], gap))
         continue;
       const double miss =
           std::fabs(gap - state.geometric_gap[i]) / std::max(norm(difference), turning.length);
@@ -137,8 +136,8 @@ namespace taut
     for (std::size_t i = 0; i < all.size(); ++i)
       result[i] += all[i].gap;
     const std::vector<Coordinates> ends = all.differences(undeformed, U);
-    for (std::size_t k = 0; k < ends.size(); ++k)
-      result[all.n_fixed() + k] = all[all.n_fixed() + k].direction->gap(ends[k]);
+    for (const std::size_t i : all.turning_rows())
+      result[i] = all.turning(i).gap(ends[all.turning_index(i)]);
     return result;
   }
 
@@ -147,10 +146,10 @@ namespace taut
     std::vector<Across> springs;
     const std::vector<double> &N = state.multiplier;
     const std::vector<Coordinates> motions = all.differences(state.displacement);
-    for (std::size_t k = 0; k < motions.size(); ++k)
+    for (const std::size_t i : all.turning_rows())
     {
-      const std::size_t i = all.n_fixed() + k;
-      const TurningDirection &turning = *all[i].direction;
+      const std::size_t k = all.turning_index(i);
+      const TurningDirection &turning = all.turning(i);
       const double stiffness = N[i] / norm(add_scaled(turning.start, 1., motions[k]));
       if (turning.sign * N[i] > 0.)
         for (std::size_t spring = 1; spring < n_springs; ++spring)

@@ -29,7 +29,7 @@ namespace taut
     /// The arguments are kept by reference; @p load is the sum of the loads [N].
     TurningAtRest(const Structure &structure, const Constraints &constraints, double load);
 
-    bool empty() const { return !all.has_turning(); }
+    bool empty() const { return all.turning_rows().empty(); }
 
     /// Begins a search at displacements @p U.
     void begin(const BodyVectors &U);

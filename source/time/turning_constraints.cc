@@ -35,7 +35,7 @@ namespace taut
   {
     if (!empty() && c.mean_force && !c.velocity_projection)
       throw EntryError("Time/Moreau-Jean/Conditions",
-                       "link '" + constraints[constraints.n_fixed()].name +
+                       "link '" + constraints[constraints.turning_rows().front()].name +
                            "' turns, and its length would drift with conditions on velocities. "
                            "Take 'gaps then velocities', or 'Scheme = automatic'");
   }
@@ -51,8 +51,8 @@ namespace taut
   void TurningConstraints::face_start()
   {
     next.clear();
-    for (std::size_t k = 0; k < start.size(); ++k)
-      next.push_back(constraints[constraints.n_fixed() + k].direction->at(start[k]));
+    for (const std::size_t i : constraints.turning_rows())
+      next.push_back(constraints.turning(i).at(start[next.size()]));
     turn();
   }
 
@@ -74,10 +74,10 @@ namespace taut
     used = next;
     offsets = next_offsets;
     double result = 0.;
-    for (std::size_t k = 0; k < motion.size(); ++k)
+    for (const std::size_t i : constraints.turning_rows())
     {
-      const std::size_t i = constraints.n_fixed() + k;
-      const TurningDirection &turning = *constraints[i].direction;
+      const std::size_t k = constraints.turning_index(i);
+      const TurningDirection &turning = constraints.turning(i);
       end[k] = add_scaled(start[k], 1., motion[k]);
       const Coordinates sum = add_scaled(start[k], 1., end[k]);
       const double size = norm(end[k]), sizes = norm(start[k]) + size;
@@ -85,9 +85,9 @@ namespace taut
       increments[k] = sizes > 0. ? turning.sign * dot(sum, motion[k]) / sizes : 0.;
       const double linear = offsets[k] + turning.sign * dot(used[k], motion[k]),
                    gap = before.geometric_gap[i] + increments[k] + history[i];
-      const bool is_open = constraints[i].unilateral && N[i] == 0. && gap >= 0.;
+      const bool is_open = constraints[i].cone.rests_open(N[i], gap);
       if (!is_open)
-        check_turn(k, before);
+        check_turn(i, before);
       if (turning.vanishes(end[k]) || turning.vanishes(start[k]))
         continue;
       next[k] = is_mean ? scaled(1. / sizes, sum) : scaled(1. / size, end[k]);
@@ -103,10 +103,10 @@ namespace taut
   }
 
   /// Of one with a force: its ends neither meet nor pass each other.
-  void TurningConstraints::check_turn(const std::size_t k, const State &before) const
+  void TurningConstraints::check_turn(const std::size_t i, const State &before) const
   {
-    const std::size_t i = constraints.n_fixed() + k;
-    const TurningDirection &turning = *constraints[i].direction;
+    const std::size_t k = constraints.turning_index(i);
+    const TurningDirection &turning = constraints.turning(i);
     const Coordinates &a = start[k], &b = end[k], way = b - a;
     const bool vanishes = turning.vanishes(a) || turning.vanishes(b);
     if (!vanishes && !(dot(a, b) < largest_turn * norm(a) * norm(b)))

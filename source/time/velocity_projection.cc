@@ -44,8 +44,7 @@ namespace taut
     has_no_mass = constraints.without_mass();
     problem.free_gap.resize(n);
     problem.gap_scale.resize(n);
-    problem.unilateral.resize(n);
-    problem.held_open.resize(n);
+    problem.cones.assign(n, Cone::zero());
     std::size_t n_quasi_static = 0;
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
@@ -107,9 +106,9 @@ namespace taut
     {
       takes_part[i] = 0;
       p[i] = conditions.mean_force(i) ? step * state.multiplier[i] : 0.;
-      const bool is_spring = !constraints[i].unilateral && !std::isinf(constraints[i].stiffness);
+      const bool is_spring = constraints[i].cone.is_free() && !constraints[i].spring.is_rigid();
       if (!conditions.mean_force(i) || has_no_mass[i] || is_spring ||
-          (constraints[i].unilateral && !(p[i] > 0.)) || !std::isfinite(relative_softening[i]))
+          !constraints[i].cone.is_closed(p[i]) || !std::isfinite(relative_softening[i]))
         continue;
       takes_part[i] = 1;
       if (conditions.remains_in_contact(i, state))
@@ -118,7 +117,7 @@ namespace taut
                          rounding_of_rates *
                              (conditions.rates().velocity_sizes()[i] +
                               std::fabs(state.gap_rate[i] - conditions.rates().velocities()[i]));
-      acts = acts || (c.restitution > 0. && constraints[i].unilateral &&
+      acts = acts || (constraints[i].cone.restitution(c.restitution) > 0. &&
                       conditions.rates().before_step()[i] < 0.);
     }
     return acts;
@@ -147,8 +146,7 @@ namespace taut
         takes_part[i] = 0;
       if (!takes_part[i])
         p[i] = 0.;
-      problem.unilateral[i] = constraints[i].unilateral || !takes_part[i];
-      problem.held_open[i] = !takes_part[i];
+      problem.cones[i] = takes_part[i] ? constraints[i].cone : Cone::zero();
     }
     const double momentum = std::sqrt(2. * kinetic_energy(state));
     f.apply(p, change);
@@ -213,8 +211,8 @@ namespace taut
     q = impulses();
     bool rebounds = false;
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      if (takes_part[i] && constraints[i].unilateral && conditions.rates().before_step()[i] < 0. &&
-          c.restitution > 0. && softening[i] == 0.)
+      if (takes_part[i] && constraints[i].cone.may_open() &&
+          conditions.rates().before_step()[i] < 0. && c.restitution > 0. && softening[i] == 0.)
       {
         problem.free_gap[i] += c.restitution * conditions.rates().before_step()[i];
         rebounds = true;
@@ -248,7 +246,7 @@ namespace taut
     };
     const std::vector<double> of_plain = response(plain), of_rebounding = response(rebounding);
     double before = 0.;
-    for (std::size_t i = 0; i < constraints.first_moving(); ++i)
+    for (std::size_t i = 0; i < constraints.size() && !constraints.slides(i); ++i)
       before += p[i] * conditions.gaps().increments()[i] / step;
     const double a = .5 * dot(rebounding, of_rebounding),
                  b = dot(rebounding, state.gap_rate) + dot(rebounding, of_plain),

@@ -40,7 +40,7 @@ namespace
       for (std::size_t j = 0; j < i; ++j)
         F.set(i, j, compliance(double(i) - double(j), decay));
       F.set(i, i, 1.1);
-      problem.unilateral.push_back(1);
+      problem.cones.push_back(taut::Cone::unilateral_if(1));
       problem.free_gap.push_back(std::sin(.4 * i) - .9);
     }
     ComplementaritySolver solver;

@@ -155,7 +155,7 @@ namespace
       const auto schur = taut::make_schur_complement({}, solvers, constraints);
       schur->setup(std::vector<double>(constraints.size(), 0.));
       taut::MixedComplementarityProblem problem;
-      problem.unilateral.assign(constraints.size(), 0);
+      problem.cones.assign(constraints.size(), taut::Cone::free());
       schur->contact_free_predictor(U, problem.free_gap, problem.gap_scale);
       taut::ComplementaritySolver solver;
       constraints.add_forces(solver.solve(problem, schur->matrix()).solution.multiplier, U);

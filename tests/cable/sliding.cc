@@ -152,7 +152,7 @@ Load back: On = cable @ 39, 0; Direction = -1, 0
   /// Where the contact is along the cable.
   double place_of_contact(const taut::StepView &view)
   {
-    return view.constraints.position(view.constraints.first_moving(), view.state.time);
+    return view.constraints.position(view.constraints.sliding_rows().front(), view.state.time);
   }
 } // namespace
 
@@ -324,7 +324,7 @@ TEST(CableSliding, under_a_line_of_cables_as_under_straight_wires)
               [&](const taut::StepView &view)
               {
                 const double x = 40. + 250. / 3.6 * view.state.time,
-                             N = view.state.multiplier[view.constraints.first_moving()];
+                             N = view.state.multiplier[view.constraints.sliding_rows().front()];
                 if (x < 60. || x > 120.)
                   return;
                 result.mean += N;

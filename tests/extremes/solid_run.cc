@@ -306,7 +306,7 @@ namespace extremes
       answer.scheme = scheme_of(view.scheme);
       answer.conserving.clear();
       for (std::size_t k = 0; k < view.constraints.size(); ++k)
-        answer.conserving.push_back(view.constraints[k].conserving);
+        answer.conserving.push_back(view.constraints[k].spring.conserving);
       answer.certificate = std::max(answer.certificate, view.certificate.max());
       answer.iterations = std::max(answer.iterations, view.certificate.iterations);
       answer.n_fallbacks += view.certificate.fallback;

@@ -101,14 +101,14 @@ namespace hunt
   void LinearModel::add_rows(const taut::StepView &view)
   {
     for (std::size_t i = 0; i < view.constraints.size(); ++i)
-      has_moving = has_moving || view.constraints[i].moving || view.constraints[i].direction;
+      has_moving = has_moving || view.constraints.slides(i) || view.constraints.turns(i);
     if (has_moving)
       return;
     for (std::size_t i = 0; i < view.constraints.size(); ++i)
     {
       const taut::ConstraintData &data = view.constraints[i];
-      Row row = {Vector(size(), 0.), data.gap,     data.unilateral,
-                 data.stiffness,     data.damping, data.law};
+      Row row = {Vector(size(), 0.),  data.gap,       data.cone.may_open(), data.spring.stiffness,
+                 data.spring.damping, data.spring.law};
       for (const taut::Term &term : data.terms)
         for (std::size_t j = 0; j < term.form.index.size(); ++j)
           if (const int a = number[term.substructure][term.form.index[j]]; a >= 0)

@@ -157,8 +157,8 @@ namespace hunt
     Sample sample = {view.state.time, model->places(u), impulse,
                      model->kinetic(model->velocity(view)), model->potential(u)};
     for (std::size_t i = 0; i < m; ++i)
-      if (!std::isinf(view.constraints[i].stiffness))
-        sample.potential += view.constraints[i].stored_energy(view.state.link_springs[i].u);
+      if (!view.constraints[i].spring.is_rigid())
+        sample.potential += view.constraints[i].spring.energy(view.state.link_springs[i].u);
     history.push_back(sample);
   }
 

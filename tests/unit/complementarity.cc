@@ -64,7 +64,8 @@ namespace
   MixedComplementarityProblem problem(const std::vector<char> &unilateral, const Vector &free_gap)
   {
     MixedComplementarityProblem result;
-    result.unilateral = unilateral;
+    for (const char is_unilateral : unilateral)
+      result.cones.push_back(taut::Cone::unilateral_if(is_unilateral));
     result.free_gap = free_gap;
     return result;
   }
@@ -161,7 +162,7 @@ namespace
       ComplementaritySolver solver(method);
       MixedComplementarityProblem p = problem({1, 1}, {-1., -3.});
       EXPECT_GT(solver.solve(p, F).solution.multiplier[0], 0.);
-      p.held_open = {1, 0};
+      p.cones[0] = taut::Cone::zero();
       const auto &result = solver.solve(p, F);
       EXPECT_EQ(result.solution.multiplier[0], 0.);
       EXPECT_DOUBLE_EQ(result.solution.multiplier[1], 1.5);
@@ -798,7 +799,7 @@ namespace
     const std::size_t n = 30;
     DenseOperator F = string_compliance(n);
     auto step = problem(std::vector<char>(n, 1), Vector(n, -1.));
-    step.unilateral[0] = 0;
+    step.cones[0] = taut::Cone::free();
     ComplementaritySolver solver;
     solver.solve(step, F);
     const std::size_t before = n_allocations;

@@ -114,9 +114,9 @@ namespace
       default:
         set_product();
       }
-      problem.values.unilateral.resize(problem.n);
-      for (char &unilateral : problem.values.unilateral)
-        unilateral = uniform() >= bilateral;
+      problem.values.cones.resize(problem.n, taut::Cone::free());
+      for (taut::Cone &cone : problem.values.cones)
+        cone = taut::Cone::unilateral_if(uniform() >= bilateral);
       if (problem.kind == Kind::cycling)
         set_cycling_blocks();
     }
@@ -212,10 +212,10 @@ namespace
       const std::size_t n = problem.n = std::max(problem.n, 3 * n_blocks);
       set_product();
       problem.V.clear();
-      problem.values.unilateral.resize(n, 1);
+      problem.values.cones.resize(n, taut::Cone::half_line());
       for (std::size_t i = 0; i < 3 * n_blocks; ++i)
       {
-        problem.values.unilateral[i] = 1;
+        problem.values.cones[i] = taut::Cone::half_line();
         for (std::size_t j = 0; j < n; ++j)
           problem.F[i * n + j] = problem.F[j * n + i] = j / 3 == i / 3 ? block[i % 3][j % 3] : 0.;
       }
@@ -237,7 +237,7 @@ namespace
           gap = uniform() - .5;
       for (std::size_t i = 0; i < n; ++i)
         if (problem.F[i * n + i] == 0.)
-          d[i] = problem.values.unilateral[i] ? std::abs(d[i]) : 0.;
+          d[i] = problem.values.cones[i].may_open() ? std::abs(d[i]) : 0.;
 
       static const double cycling[] = {2., 1., -3.};
       const int sign = integer(2) ? 1 : -1;
@@ -255,7 +255,7 @@ namespace
       for (std::size_t i = 0; i < n; ++i)
       {
         const int state = integer(touches ? 3 : 2);
-        const bool unilateral = problem.values.unilateral[i];
+        const bool unilateral = problem.values.cones[i].may_open();
         N[i] = unilateral ? (state == 0 ? 1 + integer(8) : 0) : integer(15) - 7;
         problem.values.free_gap[i] = unilateral && state == 1 ? 1 + integer(8) : 0.;
         problem.touches |= unilateral && state == 2 && problem.F[i * n + i] > 0.;
@@ -275,7 +275,7 @@ namespace
       for (std::size_t i = 0; i < n; ++i)
       {
         problem.values.free_gap[i] = old.values.free_gap[order[i]];
-        problem.values.unilateral[i] = old.values.unilateral[order[i]];
+        problem.values.cones[i] = old.values.cones[order[i]];
         for (std::size_t j = 0; j < n; ++j)
           problem.F[i * n + j] = old.F[order[i] * n + order[j]];
       }
@@ -336,7 +336,7 @@ namespace
         terms += std::abs(term);
       }
       const long double force = problem.F[i * n + i] * solution.multiplier[i];
-      const long double violation = problem.values.unilateral[i] ? std::min(force, gap) : gap;
+      const long double violation = problem.values.cones[i].may_open() ? std::min(force, gap) : gap;
       const long double error = std::max(std::abs(violation), std::abs(gap - solution.gap[i]));
       if (!(error <= largest * terms))
         largest = error / terms;
@@ -564,7 +564,8 @@ namespace
       MixedComplementarityProblem problem;
       for (std::size_t row = 0; row < n; ++row)
       {
-        problem.unilateral.push_back(row == i || row == j ? !bilateral : generator.integer(2));
+        problem.cones.push_back(
+            taut::Cone::unilateral_if(row == i || row == j ? !bilateral : generator.integer(2)));
         problem.free_gap.push_back(generator.integer(9) - 4);
       }
       problem.free_gap[j] = factor * problem.free_gap[i] - 1.;
@@ -611,10 +612,11 @@ namespace
     for (std::size_t i = 0; i < n; ++i)
     {
       const int state = generator.integer(3);
-      values.unilateral.push_back(generator.integer(4) > 0);
-      N[i] = values.unilateral[i] ? (state == 0 ? 1 + generator.integer(8) : 0)
-                                  : generator.integer(15) - 7;
-      values.free_gap.push_back(values.unilateral[i] && state == 1 ? 1 + generator.integer(8) : 0.);
+      values.cones.push_back(taut::Cone::unilateral_if(generator.integer(4) > 0));
+      N[i] = values.cones[i].may_open() ? (state == 0 ? 1 + generator.integer(8) : 0)
+                                        : generator.integer(15) - 7;
+      values.free_gap.push_back(values.cones[i].may_open() && state == 1 ? 1 + generator.integer(8)
+                                                                         : 0.);
     }
     for (std::size_t i = 0; i < n; ++i)
     {

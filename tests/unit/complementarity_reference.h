@@ -214,7 +214,7 @@ namespace reference
     std::vector<std::size_t> bilateral, unilateral;
     for (std::size_t i = 0; i < n; ++i)
       if (F[i * n + i] > 0)
-        (problem.unilateral[i] ? unilateral : bilateral).push_back(i);
+        (problem.cones[i].may_open() ? unilateral : bilateral).push_back(i);
     Tableau reduced = scaled;
     std::vector<std::size_t> closed = pivot_all(reduced, bilateral);
 

@@ -90,7 +90,7 @@ namespace
       Vector load(n);
       for (std::size_t i = 0; i < n; ++i)
         load[i] = std::cos(9. * i / n) * lift - .2;
-      problem.unilateral.assign(n, 1);
+      problem.cones.assign(n, taut::Cone::half_line());
       F.apply(load, problem.free_gap);
     }
   };

@@ -184,8 +184,9 @@ namespace
         sum += .5 * (MV[i] * V[i] + KU[i] * U[i]);
     }
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      if (!std::isinf(constraints[i].stiffness))
-        sum += .5 * constraints[i].stiffness * std::pow(std::min(0., state.geometric_gap[i]), 2);
+      if (!constraints[i].spring.is_rigid())
+        sum += .5 * constraints[i].spring.stiffness *
+               std::pow(std::min(0., state.geometric_gap[i]), 2);
     return sum;
   }
 
@@ -254,7 +255,7 @@ namespace
       before = now;
       const std::vector<double> rates = constraints.motions(stepper.state().V);
       for (std::size_t r = 0; r < constraints.size(); ++r)
-        if (!constraints[r].unilateral)
+        if (constraints[r].cone.is_free())
           gain.projected = std::max(gain.projected, std::fabs(rates[r]));
     }
     return gain;

@@ -84,7 +84,7 @@ namespace
     {
       const std::vector<double> &N = step.state.multiplier;
       for (std::size_t i = 0; i < last.size(); ++i)
-        if (step.constraints[i].unilateral && !step.constraints[i].moving)
+        if (step.constraints[i].cone.may_open() && !step.constraints.slides(i))
           count += (N[i] == 0.) != (last[i] == 0.);
       last = N;
     }

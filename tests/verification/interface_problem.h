@@ -72,7 +72,8 @@ namespace verification
         solvers.factor_stiffness();
       std::vector<double> S(constraints.size());
       for (std::size_t i = 0; i < S.size(); ++i)
-        S[i] = 1. / (constraints[i].stiffness + (step > 0. ? constraints[i].damping / step : 0.));
+        S[i] = 1. / (constraints[i].spring.stiffness +
+                     (step > 0. ? constraints[i].spring.damping / step : 0.));
       const auto schur = taut::make_schur_complement(parameters, solvers, constraints);
       schur->setup(S);
       const double set_up = seconds_since(begin);
@@ -81,7 +82,7 @@ namespace verification
       for (std::size_t k = 0; k < P.size(); ++k)
         structure[k].external_force(0., P[k]);
       taut::MixedComplementarityProblem problem;
-      problem.unilateral.assign(constraints.size(), 0);
+      problem.cones.assign(constraints.size(), taut::Cone::free());
       schur->contact_free_predictor(P, problem.free_gap, problem.gap_scale);
       set_null_space(null_spaces, P, problem);
       const std::clock_t first = std::clock();
@@ -125,8 +126,8 @@ namespace verification
       taut::MixedComplementarityProblem problem;
       for (std::size_t i = 0; i < constraints.size(); ++i)
       {
-        S.push_back(1. / constraints[i].stiffness);
-        problem.unilateral.push_back(constraints[i].unilateral);
+        S.push_back(constraints[i].spring.compliance());
+        problem.cones.push_back(taut::Cone::unilateral_if(constraints[i].cone.may_open()));
       }
       schur->setup(S);
       schur->contact_free_predictor(P, problem.free_gap, problem.gap_scale);
@@ -143,7 +144,7 @@ namespace verification
       contact.statistics = schur->statistics();
       contact.n_sets = result.iterations;
       for (std::size_t i = 0; i < constraints.size(); ++i)
-        if (constraints[i].unilateral)
+        if (constraints[i].cone.may_open())
           ++(result.solution.closed[i] ? contact.n_closed : contact.n_open);
       return contact;
     }

@@ -68,7 +68,7 @@ Time: Step = 1e-4; End = 0.1
               [&](const taut::StepView &view)
               {
                 const double v = view.state.V[0][0];
-                const double energy = .5 * mass * v * v + view.constraints[0].stored_energy(
+                const double energy = .5 * mass * v * v + view.constraints[0].spring.energy(
                                                               view.state.link_springs[0].u);
                 result.gained = std::max(result.gained, (energy - last) / all);
                 last = energy;
@@ -208,7 +208,7 @@ namespace
               {
                 double energy = .5 * mass * view.state.V[0][0] * view.state.V[0][0];
                 for (std::size_t i = 0; i < 2; ++i)
-                  energy += view.constraints[i].stored_energy(view.state.link_springs[i].u);
+                  energy += view.constraints[i].spring.energy(view.state.link_springs[i].u);
                 least = std::min(least, energy);
                 largest = std::max(largest, (energy - least) / all);
               });
@@ -322,7 +322,7 @@ namespace
       const double N = view.reference.multiplier.empty() ? view.state.multiplier[i]
                                                          : view.reference.multiplier[i],
                    g = view.state.geometric_gap[i],
-                   law = g < 0. ? view.constraints[i].law->force(-g) : 0.;
+                   law = g < 0. ? view.constraints[i].spring.law->force(-g) : 0.;
       held += N;
       lack = std::max(lack, std::fabs(N - law));
     }
@@ -464,7 +464,7 @@ TEST(Laws, bump_stop)
               deepest = std::min(deepest, y);
               largest_force = std::max(largest_force, view.state.multiplier[0]);
               const double energy = 150. * v * v + 7500. * y * y +
-                                    view.constraints[0].stored_energy(view.state.link_springs[0].u);
+                                    view.constraints[0].spring.energy(view.state.link_springs[0].u);
               largest_gain = std::max(largest_gain, energy / 337.5 - 1.);
               if (before < 0. && y >= 0.)
                 rises.push_back(t_before + (t - t_before) * before / (before - y));

@@ -149,13 +149,13 @@ namespace
       for (const taut::Term &term : constraint.terms)
         for (std::size_t i = 0; i < term.form.index.size(); ++i)
           b[offsets[term.substructure] + term.form.index[i]] += term.form.value[i];
-      if (!std::isinf(constraint.stiffness))
+      if (!constraint.spring.is_rigid())
       {
         for (int i = 0; i < M.n; ++i)
           for (int j = 0; j < M.n; ++j)
           {
-            K(i, j) += constraint.stiffness * b[i] * b[j];
-            C(i, j) += constraint.damping * b[i] * b[j];
+            K(i, j) += constraint.spring.stiffness * b[i] * b[j];
+            C(i, j) += constraint.spring.damping * b[i] * b[j];
           }
         return;
       }

@@ -59,7 +59,8 @@ namespace
       solvers.factor_stiffness();
     std::vector<double> S(constraints.size());
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      S[i] = 1. / (constraints[i].stiffness + (step > 0. ? constraints[i].damping / step : 0.));
+      S[i] = 1. / (constraints[i].spring.stiffness +
+                   (step > 0. ? constraints[i].spring.damping / step : 0.));
     const auto schur = taut::make_schur_complement({"assembled dense"}, solvers, constraints);
     schur->setup(S);
     return condition_number(*schur, constraints.size());

@@ -2,6 +2,7 @@
 #ifndef taut_problem_h
 #define taut_problem_h
 
+#include <taut/complementarity/cone.h>
 #include <taut/complementarity/operator.h>
 
 #include <cstddef>
@@ -14,8 +15,8 @@ namespace taut
    * (ComplementarityOperator):
    *
    *     D = F N + d + G^T alpha,    G N - E alpha = -e,
-   *     D_i = 0                             on bilateral rows,
-   *     N_i >= 0, D_i >= 0, N_i D_i = 0     on unilateral rows.
+   *     D_i = 0                             on bilateral rows, whose cone is free,
+   *     N_i >= 0, D_i >= 0, N_i D_i = 0     on unilateral rows, whose cone is a half line.
    *
    * The multipliers N are contact forces, the Lagrange multipliers of the constraints; the rows are
    * constraints. Translations have N in N and D in m, rotations N in N m and D in rad. A row with
@@ -24,11 +25,8 @@ namespace taut
    */
   struct MixedComplementarityProblem
   {
-    /// Size n: not 0 for unilateral rows.
-    std::vector<char> unilateral;
-
-    /// Size n, or empty: not 0 for unilateral rows that take no part, N_i = 0 whatever D_i.
-    std::vector<char> held_open;
+    /// Size n: the cone of the multipliers that each row admits.
+    std::vector<Cone> cones;
 
     /// d, size n: the gaps without multipliers [m, rad].
     std::vector<double> free_gap;
@@ -58,10 +56,8 @@ namespace taut
     /// True if a null space vector has a resistance.
     bool has_resistance() const;
 
-    std::size_t size() const { return unilateral.size(); }
+    std::size_t size() const { return cones.size(); }
     std::size_t n_null_space() const { return null_space_load.size(); }
-
-    bool is_held_open(std::size_t i) const { return !held_open.empty() && held_open[i]; }
 
     /// Not 0 for rows that a null space vector moves. Empty without null space vectors.
     std::vector<char> rows_in_null_space() const;

@@ -2,13 +2,14 @@
 #ifndef taut_constraints_h
 #define taut_constraints_h
 
-#include <taut/base/force_law.h>
+#include <taut/complementarity/cone.h>
+#include <taut/interface/constraint_spring.h>
+#include <taut/interface/geometry.h>
 #include <taut/interface/turning_direction.h>
-#include <taut/substructure/structure.h>
+
+#include <boost/range/irange.hpp>
 
 #include <array>
-#include <cmath>
-#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
@@ -20,81 +21,49 @@ namespace taut
   constexpr std::size_t no_link = std::numeric_limits<std::size_t>::max();
   constexpr std::size_t no_contact = no_link;
 
-  /// Where a constraint is that moves: its linear form at each time. A place that depends on the
-  /// motion is that of one Stepper.
-  class MovingPlace
-  {
-  public:
-    virtual ~MovingPlace() = default;
-
-    /// Position on what it moves along at time @p t [s], for tables [m].
-    virtual double position(double t) const = 0;
-
-    /// B_i at time @p t [s]; throws an EntryError if the constraint has no place then.
-    virtual std::vector<Term> terms(double t) const = 0;
-
-    /// The derivative of B_i by time: what the motion of the place adds to D', but for that of the
-    /// gap [1/s].
-    virtual std::vector<Term> rates(double t) const = 0;
-
-    /// D at U = 0, N = 0 [m].
-    virtual double gap(double t) const = 0;
-
-    /// B U of a linear form at a time near the start of a step, over all ranks [m].
-    using Motion = std::function<double(const std::vector<Term> &form, double t)>;
-
-    /// Before a step from @p start to @p end [s], of a place that depends on the motion of the
-    /// bodies: takes the place that it will have. Called by all ranks together.
-    virtual void follow(const Motion &, double /*start*/, double /*end*/) {}
-
-    /// What follow() has found, for checkpoints and for steps that are taken back; empty: nothing
-    /// yet.
-    virtual std::vector<double> course() const { return {}; }
-    virtual void set_course(const std::vector<double> &) {}
-  };
-
-  /// One scalar condition with its multiplier, as a linear form B_i on the displacements.
+  /**
+   * One scalar condition with its multiplier N, made of three parts: the geometry says where it
+   * acts, the spring what is between the bodies and N, the cone which N are admitted. With the
+   * linear form B_i, D = B_i U + gap + compression of the spring, and N and D complement each
+   * other.
+   */
   struct ConstraintData
   {
     std::string name;
     std::string origin = {};          ///< path of its section in the parameter file, for messages
     std::size_t link = no_link;       ///< index of its source in the scene
     std::size_t contact = no_contact; ///< the same of one of many of a contact of surfaces
-    bool unilateral = false;          ///< 0 <= D _|_ N >= 0; otherwise D = 0
     bool rotational = false;          ///< slopes and moments
-    double stiffness = std::numeric_limits<double>::infinity(); ///< [N/m, N m/rad]
-    /// The law of N over the compression of the spring, of unilateral constraints; null: linear.
-    /// The stiffness is then its largest one.
-    std::shared_ptr<const ForceLaw> law = {};
-    double damping = 0.; ///< [N s/m, N m s/rad]
-    /// True if a mean force over a step works as much as its spring stores, closing and opening
-    /// included; see ContactResolution.
-    bool conserving = false;
-    double gap = 0.;      ///< D at U = 0, N = 0 [m, rad]
-    double gap_size = 0.; ///< of the terms that the gap is a sum of: what it rounds with [m, rad]
-    std::vector<Term> terms = {};            ///< B_i: D = terms . U + gap + N / stiffness
-    std::shared_ptr<MovingPlace> place = {}; ///< of a constraint that moves; sets terms and gap
-    bool moving = false;                     ///< has a place
 
-    /// Of a constraint that turns with its ends; sets terms and gap.
-    std::shared_ptr<const TurningDirection> direction = {};
+    Cone cone = Cone::free();                ///< bilateral, or unilateral: a half line
+    ConstraintSpring spring = {};            ///< rigid unless it is given
+    std::shared_ptr<Geometry> geometry = {}; ///< sets terms and gap; null: these are fixed
+    double gap = 0.;                         ///< D at U = 0, N = 0 [m, rad]
+    double gap_size = 0.; ///< of the terms that the gap is a sum of: what it rounds with [m, rad]
+    std::vector<Term> terms = {}; ///< B_i
 
     bool is_link() const { return link != no_link; }
 
     /// True of a rigid joint that no scene names: it holds parts of one body together.
     bool is_cut() const
     {
-      return !is_link() && contact == no_contact && !unilateral && std::isinf(stiffness);
+      return !is_link() && contact == no_contact && cone.is_free() && spring.is_rigid();
     }
 
-    /// Compression of the spring under a force, and the energy that it stores then; 0 of a rigid
-    /// one [m, rad; J].
-    double compression(double N) const;
-    double stored_energy(double compression) const;
+    Geometry::Kind kind() const { return geometry ? geometry->kind() : Geometry::Kind::fixed; }
+
+    /// The linear forms that B_i is combined from, wherever the bodies are: of most constraints B_i
+    /// itself.
+    std::vector<const std::vector<Term> *> forms() const
+    {
+      if (kind() == Geometry::Kind::turning)
+        return geometry->forms();
+      return {&terms};
+    }
   };
 
-  /// The constraints of a system: the fixed ones in their order, then those that turn, then the
-  /// moving ones.
+  /// The constraints of a system, in rows ordered by their geometry: the fixed constraints, then
+  /// the turning ones, then the sliding ones.
   class Constraints
   {
   public:
@@ -103,10 +72,24 @@ namespace taut
     Constraints(const Structure &structure, std::vector<ConstraintData> constraints);
 
     std::size_t size() const { return constraints.size(); }
-    std::size_t n_fixed() const { return fixed; }
-    std::size_t first_moving() const { return first_with_place; }
-    bool has_turning() const { return fixed < first_with_place; }
     const ConstraintData &operator[](std::size_t i) const { return constraints[i]; }
+
+    /// The rows of each kind of geometry, and of all but the fixed ones.
+    using Rows = boost::integer_range<std::size_t>;
+    Rows fixed_rows() const { return {0, first_turning}; }
+    Rows turning_rows() const { return {first_turning, first_sliding}; }
+    Rows sliding_rows() const { return {first_sliding, size()}; }
+    Rows varying_rows() const { return {first_turning, size()}; }
+    bool is_fixed(const std::size_t i) const { return i < first_turning; }
+    bool turns(const std::size_t i) const { return i >= first_turning && i < first_sliding; }
+    bool slides(const std::size_t i) const { return i >= first_sliding; }
+
+    /// Position of a row among the turning_rows().
+    std::size_t turning_index(const std::size_t i) const { return i - first_turning; }
+
+    /// The geometry of a constraint that turns, or slides.
+    const TurningDirection &turning(std::size_t i) const;
+    MovingPlace &place(std::size_t i) const;
 
     /// Which constraints are conserving: not 0, one entry a constraint.
     void set_conserving(const std::vector<char> &conserving);
@@ -125,8 +108,8 @@ namespace taut
     std::vector<std::vector<double>> courses() const;
     void set_courses(const std::vector<std::vector<double>> &courses);
 
-    /// Delta of each constraint that turns, from n_fixed() on, at U = @p reference + @p U, and the
-    /// part that is linear in U alone. Called by all ranks together [m].
+    /// Delta of each of the turning_rows() at U = @p reference + @p U, and the part that is linear
+    /// in U alone. Called by all ranks together [m].
     std::vector<Coordinates> differences(const BodyVectors &reference, const BodyVectors &U) const;
     std::vector<Coordinates> differences(const BodyVectors &U) const;
 
@@ -152,7 +135,7 @@ namespace taut
     void keep_directions(const BodyVectors &reference, const std::vector<double> &N);
 
     /// Position on its wire of a moving constraint at time t [m].
-    double position(std::size_t i, double t) const { return constraints[i].place->position(t); }
+    double position(std::size_t i, double t) const { return place(i).position(t); }
 
     /// B^T U of each constraint: the motion of the constraints, summed over all ranks [m, rad].
     std::vector<double> motions(const BodyVectors &U) const;
@@ -206,16 +189,17 @@ namespace taut
       unsigned int body, dof;
     };
 
+    void sort();
     void arrange();
     std::vector<char> acts_on(std::vector<unsigned int> (Substructure::*dofs)() const) const;
     void append(std::size_t i);
     void append_varying();
-    void place(std::size_t i, double t);
+    void move(std::size_t i, double t);
 
     const Structure &structure;
     std::vector<ConstraintData> constraints;
     std::vector<std::size_t> row_index;
-    std::size_t fixed = 0, first_with_place = 0;
+    std::size_t first_turning = 0, first_sliding = 0;
 
     std::vector<Entry> entries;     ///< of all constraints, one constraint after the other
     std::vector<std::size_t> begin; ///< of each constraint; one number more

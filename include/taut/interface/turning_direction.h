@@ -3,7 +3,7 @@
 #define taut_turning_direction_h
 
 #include <taut/base/coordinates.h>
-#include <taut/substructure/structure.h>
+#include <taut/interface/geometry.h>
 
 #include <array>
 #include <string>
@@ -19,15 +19,17 @@ namespace taut
   };
 
   /**
-   * The direction of a constraint from one of its ends to the other, wherever these are:
+   * The geometry of a constraint that turns with its ends, and acts from one of them to the other,
+   * wherever these are:
    *
    *     D = sign (|Delta| - length),    Delta = start + motion . U.
    *
    * B_i is then sign times a direction d . motion, with d = Delta / |Delta| where forces act at one
    * state.
    */
-  struct TurningDirection
+  class TurningDirection : public Geometry
   {
+  public:
     /// From end to end; the length is their distance at U = 0. @p push: as @ref sign.
     TurningDirection(const LinkEnd &first, const LinkEnd &second, double push);
 
@@ -38,6 +40,10 @@ namespace taut
     Coordinates start;  ///< Delta at U = 0, the same on all ranks [m]
     double length = 1.; ///< |Delta| at D = 0, positive [m]
     double sign = 1.;   ///< 1: N > 0 pushes the ends apart; -1: it pulls them together
+
+    Kind kind() const override { return Kind::turning; }
+    std::string fault() const override;
+    std::vector<const std::vector<Term> *> forms() const override;
 
     /// D without a spring, of ends so far from each other [m].
     double gap(const Coordinates &difference) const { return sign * (norm(difference) - length); }

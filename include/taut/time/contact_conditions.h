@@ -111,7 +111,8 @@ namespace taut
   private:
     bool on_velocities(const std::size_t i) const
     {
-      return mean[i] && !c.velocity_projection && (c.velocity_level || !constraints[i].unilateral);
+      return mean[i] && !c.velocity_projection &&
+             (c.velocity_level || constraints[i].cone.is_free());
     }
     void set_velocity_condition(std::size_t i, const State &before);
     void set_recomputed_gaps(const State &state);

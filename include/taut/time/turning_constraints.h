@@ -30,7 +30,7 @@ namespace taut
     /// The arguments are kept by reference.
     TurningConstraints(Constraints &constraints, const Reference &reference);
 
-    bool empty() const { return !constraints.has_turning(); }
+    bool empty() const { return constraints.turning_rows().empty(); }
 
     /// For steps with these coefficients from now on. Throws EntryError for a scheme without gaps
     /// at the ends of steps.
@@ -56,13 +56,13 @@ namespace taut
     void turn() { constraints.turn(next); }
 
     /// What the gap of the form B_i differs by from that of the state before, at dU = 0 [m].
-    double offset(const std::size_t i) const { return offsets[i - constraints.n_fixed()]; }
+    double offset(const std::size_t i) const { return offsets[constraints.turning_index(i)]; }
 
     /// D_1 - D_0 of the last guess, without a spring [m].
-    double increment(const std::size_t i) const { return increments[i - constraints.n_fixed()]; }
+    double increment(const std::size_t i) const { return increments[constraints.turning_index(i)]; }
 
     /// |Delta_0| [m].
-    double distance(const std::size_t i) const { return norm(start[i - constraints.n_fixed()]); }
+    double distance(const std::size_t i) const { return norm(start[constraints.turning_index(i)]); }
 
     /// Work of a force N on the bodies in the step, in which B^T dU is @p motion, beyond
     /// N (D_1 - D_0): 0 with mean forces [J].
@@ -70,7 +70,7 @@ namespace taut
 
   private:
     void face_start();
-    void check_turn(std::size_t k, const State &before) const;
+    void check_turn(std::size_t i, const State &before) const;
 
     Constraints &constraints;
     const Reference &reference;
