@@ -32,8 +32,8 @@ namespace taut
     }
 
     /// The direction of a link that turns.
-    std::shared_ptr<TurningDirection>
-    turning_direction(const Scene &scene, const SceneBodies &bodies, const Link &link)
+    std::shared_ptr<TurningDirection> turning_direction(const Scene &scene,
+                                                        const SceneBodies &bodies, const Link &link)
     {
       auto result = std::make_shared<TurningDirection>(link_end(scene, bodies, link.from),
                                                        link_end(scene, bodies, link.to),

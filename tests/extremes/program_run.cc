@@ -91,7 +91,8 @@ namespace extremes
       answer.steps.push_back(observe(view, points, group));
       answer.conserving.clear();
       for (std::size_t k = 0; k < group.size(); ++k)
-        answer.conserving.push_back(view.constraints[view.constraints.index_of_link(k)].spring.conserving);
+        answer.conserving.push_back(
+            view.constraints[view.constraints.index_of_link(k)].spring.conserving);
       answer.certificate = std::max(answer.certificate, view.certificate.max());
       answer.iterations = std::max(answer.iterations, view.certificate.iterations);
       answer.n_fallbacks += view.certificate.fallback;
