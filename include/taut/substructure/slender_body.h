@@ -27,6 +27,10 @@ namespace taut
     /// equilibrium that begin far from it begin with softer bodies.
     virtual std::unique_ptr<Substructure> with_axial_stiffness(double EA) const = 0;
 
+    /// The axial stiffnesses below @p EA that such a search goes through under a load [N]: the
+    /// softest is 2 to 20 times the load, and they rise by factors of ten. Empty: begin with EA.
+    static std::vector<double> softer_axial_stiffnesses(double EA, double load);
+
     /**
      * The body that takes the place of this one, which @p self owns, once the displacement U [m,
      * rad] is known that a run starts from: a linear one with the same DoFs, supports and loads,
