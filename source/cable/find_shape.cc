@@ -5,6 +5,7 @@
 #include <taut/base/exceptions.h>
 #include <taut/base/text.h>
 #include <taut/cable/find_shape.h>
+#include <taut/substructure/slender_body.h>
 
 #include <cmath>
 #include <string>
@@ -17,15 +18,6 @@ namespace taut
     /// length.
     constexpr double exactly_taut = 1e-12;
 
-    /// Axial stiffness of the softest cable of a search: 2 to 20 times the tension unless EA is
-    /// less.
-    double first_stiffness(const double EA, const double tension)
-    {
-      double stiffness = EA;
-      for (int decades = 0; decades < 15 && stiffness > 20. * tension; ++decades)
-        stiffness *= .1;
-      return stiffness;
-    }
   } // namespace
 
   CableShape find_shape(const CableElements &cable, const std::vector<double> &start,
@@ -37,8 +29,7 @@ namespace taut
     result.positions = start;
     const double EA = cable.section().axial_stiffness;
     // A stage that fails is left out: the next stage may succeed.
-    for (double stiffness = tension > 0. ? first_stiffness(EA, tension) : EA; stiffness < .9 * EA;
-         stiffness *= 10.)
+    for (const double stiffness : SlenderBody::softer_axial_stiffnesses(EA, tension))
       search.solve(cable.with_axial_stiffness(stiffness), 1e-3, result.positions);
     if (search.solve(cable, 1e-10, result.positions))
     {
@@ -93,9 +84,10 @@ namespace taut
           "no stable equilibrium of the cable: along weight and wind its ends are above "
           "each other, and it is slack between them, with no plane to hang in. Move "
           "one of them to the side, or let Held ends leave the lower one free");
-    // The start is stretched by its tension: without tension nothing would hold the first step.
-    const double tension = .5 * w * length + of_slack,
-                 stretched = length * (1. + tension / first_stiffness(EA, tension));
+    // Stretched by its tension: without any, nothing would hold the first step.
+    const double tension = .5 * w * length + of_slack;
+    const std::vector<double> softer = SlenderBody::softer_axial_stiffnesses(EA, tension);
+    const double stretched = length * (1. + tension / (softer.empty() ? EA : softer.front()));
     return find_shape(cable, parabola(chord, down, stretched).positions(cable, from), held, load,
                       tension);
   }

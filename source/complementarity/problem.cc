@@ -151,9 +151,8 @@ namespace taut
     result.max = 0.;
     for (std::size_t i = 0; i < n; ++i)
     {
-      const double force = weights[i] * solution.multiplier[i];
-      const double gap = solution.gap[i];
-      const double violation = problem.cones[i].violation(force, gap);
+      const double violation =
+          problem.cones[i].violation(weights[i], solution.multiplier[i], solution.gap[i]);
       result.rows[i] = relative(std::abs(violation), terms[i]);
       result.max = larger(result.max, result.rows[i]);
     }

@@ -9,6 +9,17 @@
 
 namespace taut
 {
+  ConstraintData geometric_spring(const std::string &name, const ConstraintData &link,
+                                  const Coordinates &direction, const double stiffness,
+                                  const Coordinates &motion)
+  {
+    ConstraintData result{name, link.origin};
+    result.spring.stiffness = stiffness;
+    result.terms = static_cast<const TurningDirection &>(*link.geometry).along(direction);
+    result.gap = -dot(direction, motion);
+    return result;
+  }
+
   Constraints::Constraints(const Structure &structure, std::vector<ConstraintData> all)
       : structure(structure), constraints(std::move(all))
   {
@@ -235,21 +246,14 @@ namespace taut
     {
       const std::size_t i = first_turning + k;
       ConstraintData &link = constraints[i];
-      const TurningDirection geometry = turning(i);
+      const TurningDirection::Linear linear = turning(i).linearised(motions[k]);
+      if (turning(i).sign * N[i] < 0.)
+        for (const Coordinates &direction : across(linear.direction))
+          springs.push_back(geometric_spring(link.name + " across", link, direction,
+                                             std::fabs(N[i]) / linear.distance, motions[k]));
+      link.terms = linear.terms;
+      link.gap = linear.gap;
       link.geometry = nullptr;
-      const Coordinates ends = add_scaled(geometry.start, 1., motions[k]), d = geometry.at(ends);
-      link.terms = geometry.along(add_scaled({}, geometry.sign, d));
-      link.gap = geometry.gap(ends) - geometry.sign * dot(d, motions[k]);
-      if (!(geometry.sign * N[i] < 0.))
-        continue;
-      for (const Coordinates &direction : across(d))
-      {
-        ConstraintData spring{link.name + " across", link.origin};
-        spring.spring.stiffness = std::fabs(N[i]) / norm(ends);
-        spring.terms = geometry.along(direction);
-        spring.gap = -dot(direction, motions[k]);
-        springs.push_back(std::move(spring));
-      }
     }
     constraints.insert(constraints.begin() + first_sliding, springs.begin(), springs.end());
     sort();
@@ -346,12 +350,17 @@ namespace taut
     }
   }
 
+  void Constraints::add_force(const std::size_t i, const double N, BodyVectors &P) const
+  {
+    for (std::size_t e = begin[i]; e < begin[i + 1]; ++e)
+      P[entries[e].body][entries[e].dof] += N * entries[e].value;
+  }
+
   void Constraints::add_forces(const std::vector<double> &N, BodyVectors &P) const
   {
     for (std::size_t i = 0; i < constraints.size(); ++i)
       if (N[i] != 0.)
-        for (std::size_t e = begin[i]; e < begin[i + 1]; ++e)
-          P[entries[e].body][entries[e].dof] += N[i] * entries[e].value;
+        add_force(i, N[i], P);
   }
 
   void Constraints::largest_forces(const std::vector<double> &N,

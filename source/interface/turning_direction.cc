@@ -45,6 +45,13 @@ namespace taut
     return {d.x / size, d.y / size, d.z / size};
   }
 
+  TurningDirection::Linear TurningDirection::linearised(const Coordinates &moved) const
+  {
+    const Coordinates difference = add_scaled(start, 1., moved), d = at(difference);
+    return {d, norm(difference), along({sign * d.x, sign * d.y, sign * d.z}),
+            gap(difference) - sign * dot(d, moved)};
+  }
+
   std::vector<Term> TurningDirection::along(const Coordinates &direction) const
   {
     std::vector<Term> terms;

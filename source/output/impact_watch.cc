@@ -40,7 +40,7 @@ namespace taut
     {
       const ConstraintData &constraint = step.constraints[i];
       const double N = step.state.multiplier[i];
-      if (constraint.cone.is_free() || !constraint.spring.is_rigid() || !(N > growth * force[i]))
+      if (!constraint.cone.may_open() || !constraint.spring.is_rigid() || !(N > growth * force[i]))
         continue;
       result.push_back(i);
       if (rate[i] < -rest * largest[constraint.rotational])

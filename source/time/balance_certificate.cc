@@ -38,10 +38,10 @@ namespace taut
     damping.resize(inertia.size());
   }
 
-  double BalanceCertificate::measure(const StepCoefficients &c, const StepForces &forces,
-                                     const std::vector<double> &in_balance,
-                                     const std::vector<double> &impulsive, State &state,
-                                     const SetRows &set_rows)
+  void BalanceCertificate::measure(const StepCoefficients &c, const StepForces &forces,
+                                   const std::vector<double> &in_balance,
+                                   const std::vector<double> &impulsive, State &state,
+                                   const SetRows &set_rows)
   {
     for (std::size_t k = 0; k < structure.size(); ++k)
       std::copy(forces.P[k].begin(), forces.P[k].end(), state.balance[k].begin());
@@ -55,7 +55,7 @@ namespace taut
     }
     constraints.largest_forces(state.multiplier, contact_force);
 
-    double result = 0.;
+    largest_residual = 0.;
     work_of_balance.assign(structure.size(), 0.);
     may_be_cancellation = true;
     worst = 0;
@@ -63,13 +63,12 @@ namespace taut
     {
       const Sizes sizes = measure_body(k, c, forces, has_impulses, state, set_rows);
       const double relative = relative_residual(k, c, forces, sizes, state.time);
-      if (!(relative <= result) && !std::isnan(result))
+      if (!(relative <= largest_residual) && !std::isnan(largest_residual))
       {
-        result = relative;
+        largest_residual = relative;
         worst = k;
       }
     }
-    return result;
   }
 
   BalanceCertificate::Sizes BalanceCertificate::measure_body(const std::size_t k,

@@ -35,7 +35,7 @@ namespace taut
       bool has_one = false;
       for (std::size_t i = 0; i < constraints.size(); ++i)
       {
-        if (constraints[i].cone.is_free() || !constraints[i].spring.is_rigid())
+        if (!constraints[i].cone.may_open() || !constraints[i].spring.is_rigid())
           continue;
         has_one = true;
         if (on_elements[i] > 0.)

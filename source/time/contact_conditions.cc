@@ -74,7 +74,7 @@ namespace taut
     problem.free_gap[i] =
         gap_tracker.increments()[i] - (1. - theta) * step * gap_rates.velocities()[i] +
         theta * (gap_rates.of_convection(i) + rebound * step * before.gap_rate[i]);
-    if (constraints[i].cone.is_free())
+    if (!constraints[i].cone.may_open())
       return;
     const bool is_near = before.geometric_gap[i] + .5 * step * before.gap_rate[i] <= 0.;
     problem.cones[i] = is_near || before.multiplier[i] > 0. ? constraints[i].cone : Cone::zero();

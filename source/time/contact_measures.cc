@@ -122,7 +122,7 @@ namespace taut
     ++n_steps;
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
-      if (constraints[i].cone.is_free())
+      if (!constraints[i].cone.may_open())
         continue;
       add_force(forces[i], state.time, state.last_step, state.multiplier[i]);
       add_gap(i, state, c);
@@ -224,7 +224,7 @@ namespace taut
     std::vector<std::size_t> row = first_one_sided;
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
-      if (constraints[i].cone.is_free())
+      if (!constraints[i].cone.may_open())
         continue;
       const LinkEnergies::Account account = energies.account(i);
       const std::size_t group = groups.of_constraint(i);

@@ -88,7 +88,7 @@ namespace taut
         size[i] += std::fabs(constraint.gap) + constraint.gap_size;
         if (constraints.turns(i))
           size[i] += norm(ends[constraints.turning_index(i)]);
-        if (constraint.cone.is_free() || !(state.gap[i] < 0.) ||
+        if (!constraint.cone.may_open() || !(state.gap[i] < 0.) ||
             !(-state.gap[i] <= rounding_of_start * size[i]))
           continue;
         if (result.reference.gap.empty())

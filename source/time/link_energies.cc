@@ -116,7 +116,7 @@ namespace taut
     const bool whole = c.mean_force && !c.velocity_level; // gains are those of groups
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
-      if (constraints[i].cone.is_free())
+      if (!constraints[i].cone.may_open())
         continue;
       Row &row = rows[i];
       const double N = state.multiplier[i];

@@ -50,7 +50,7 @@ namespace taut
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       relative_softening[i] = 0.;
-      if (constraints[i].cone.is_free() || S[i] == 0.)
+      if (!constraints[i].cone.may_open() || S[i] == 0.)
         continue;
       const double ratio = S[i] / (fading * flexibility[i]);
       relative_softening[i] = constraints[i].spring.conserving

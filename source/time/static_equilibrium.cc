@@ -4,7 +4,9 @@
 
 #include <taut/base/exceptions.h>
 #include <taut/base/text.h>
+#include <taut/substructure/slender_body.h>
 #include <taut/time/matrix_norms.h>
+#include <taut/time/newton_convergence.h>
 #include <taut/time/nonlinear_bodies.h>
 
 #include <algorithm>
@@ -18,9 +20,8 @@ namespace taut
 {
   namespace
   {
-    /// Newton's method for bodies that are not linear ends where the displacements change by this
-    /// part of themselves, or no longer by less and by no more than the second one.
-    constexpr double converged = 1e-12, stagnated = 1e-7;
+    /// Of the change of the displacements, relative to themselves.
+    constexpr NewtonConvergence::Limits limits = {1e-12, 1e-7, 1, 250};
 
     /// Displacements count as this part of the longest link that turns at least: where a structure
     /// is at rest as it is made, they are nothing but rounding.
@@ -29,9 +30,8 @@ namespace taut
     /// The same with bodies that are softer than their own, as a start for the next search.
     constexpr double near = 1e-3;
 
-    /// Its iterations: with full steps first, then with a line search, and how many of these do not
-    /// halve the least change.
-    constexpr int most_full_steps = 20, most_iterations = 1000, most_in_vain = 250;
+    /// Iterations: with full steps first, then with a line search.
+    constexpr int most_full_steps = 20, most_iterations = 1000;
 
     /// Part of the expected decrease of the energy that a step has to make (L. Armijo, 1966).
     constexpr double sufficient = 1e-4;
@@ -59,13 +59,13 @@ namespace taut
       {
         StaticState state;
         const BodyVectors undeformed = structure.zero();
-        if (iterate(false, converged, undeformed, state))
+        if (iterate(false, limits.converged, undeformed, state))
           return state;
         BodyVectors start = undeformed;
-        if (find_start(start) &&
-            (iterate(false, converged, start, state) || iterate(true, converged, start, state)))
+        if (find_start(start) && (iterate(false, limits.converged, start, state) ||
+                                  iterate(true, limits.converged, start, state)))
           return state;
-        if (!iterate(true, converged, undeformed, state))
+        if (!iterate(true, limits.converged, undeformed, state))
           fail();
         return state;
       }
@@ -75,12 +75,9 @@ namespace taut
       bool find_start(BodyVectors &start)
       {
         const double EA = structure.communicator().max(soft.largest_axial_stiffness());
-        double limit = EA;
-        for (int decades = 0; decades < 15 && limit > 20. * load; ++decades)
-          limit *= .1;
         bool is_found = false;
         // One that is not found is left out: the next one may be within reach.
-        for (; load > 0. && limit < .9 * EA; limit *= 10.)
+        for (const double limit : SlenderBody::softer_axial_stiffnesses(EA, load))
         {
           structure.communicator().agree([&] { soft.limit_axial_stiffness(limit); });
           StaticState state;
@@ -134,8 +131,7 @@ namespace taut
                   StaticState &state)
       {
         BodyVectors U = start;
-        double before = std::numeric_limits<double>::infinity(), least = before;
-        int in_vain = 0;
+        NewtonConvergence convergence(limits);
         turning.begin(U);
         for (int iteration = 0; iteration < (is_damped ? most_iterations : most_full_steps);
              ++iteration)
@@ -156,11 +152,12 @@ namespace taut
           change = relative_change(step.bodies(), U, state.displacement);
           if (!turning.empty())
             change = std::max(change, turning.change(state));
-          if (!std::isfinite(change))
-            return false;
-          if (tolerance > converged && change <= tolerance)
+          if (tolerance > limits.converged && change <= tolerance)
             return true;
-          if (change <= converged || (change <= stagnated && change >= .5 * before))
+          const NewtonConvergence::Verdict verdict = convergence.add(change);
+          if (verdict == NewtonConvergence::Verdict::failed)
+            return false;
+          if (verdict == NewtonConvergence::Verdict::converged)
           {
             if (!stays(step, state))
               return false;
@@ -168,11 +165,6 @@ namespace taut
             turning.finish(state);
             return is_stable(state);
           }
-          before = change;
-          in_vain = change <= .5 * least ? 0 : in_vain + 1;
-          least = in_vain == 0 ? change : least;
-          if (in_vain == most_in_vain)
-            return false;
           if (is_damped)
             shorten(U, state);
           U = state.displacement;

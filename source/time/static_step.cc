@@ -334,7 +334,8 @@ namespace taut
           }
           const NonlinearBodies undeformed_bodies(structure, undeformed);
           BalanceCertificate balance(structure, constraints, undeformed, undeformed_bodies);
-          own_balance = balance.measure(StepCoefficients(), forces, state.multiplier, {}, at_rest);
+          balance.measure(StepCoefficients(), forces, state.multiplier, {}, at_rest);
+          own_balance = balance.residual();
           found.worst_body = balance.worst_body();
         });
     found.balance = processes.max(own_balance);

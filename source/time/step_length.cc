@@ -6,15 +6,6 @@
 
 namespace taut
 {
-  void TimeStepper::set_step(const double length)
-  {
-    if (length == step)
-      return;
-    step = length;
-    segment_start = current.time;
-    n_in_segment = 0;
-  }
-
   /// A shorter step may have what this one misses.
   void TimeStepper::attempt(const std::function<void()> &work)
   {
@@ -33,15 +24,13 @@ namespace taut
   void TimeStepper::restore(const State &before)
   {
     current = before;
-    turning.follow(current);
+    newton.follow(current);
     errors.largest_motions = before_step.motion;
     conditions.gaps().set_sizes(before_step.of_gaps);
     constraints.set_courses(before_step.courses);
     if (projection && !before_step.rates.empty())
       projection->set_largest_rates(before_step.rates);
-    --n_steps;
-    segment_start = current.time;
-    n_in_segment = 0;
+    clock.take_back(current.time);
   }
 
   void TimeStepper::check_moving_contacts()
@@ -58,7 +47,7 @@ namespace taut
                          to_text("link '", constraints[i].name,
                                  "' acts as rigid at t = ", current.time,
                                  " s: there it is stiffer than the bodies in one step, which ",
-                                 integrator.description(),
+                                 clock.scheme(),
                                  " does not suit. Take 'Moreau-Jean', or a smaller step"));
       }
   }

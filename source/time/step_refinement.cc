@@ -10,41 +10,13 @@ namespace taut
    */
   bool TimeStepper::refine()
   {
-    const StepCoefficients &c = coefficients;
-    const double kappa = c.old_balance();
-    const double old = c.old_inertia(), now = c.new_inertia();
-    for (std::size_t k = 0; k < structure.size(); ++k)
-    {
-      const Substructure &body = structure[k];
-      system->bodies().remove_rounding(k, current.KU[k], current.balance[k]);
-      std::vector<double> &left = right_hand_side[k];
-      for (std::size_t i = 0; i < left.size(); ++i)
-      {
-        left[i] = current.balance[k][i] + kappa * forces.old_balance[k][i];
-        work_a[i] = now * current.A[k][i] + old * forces.old_A[k][i];
-      }
-      body.mass().vmult_add(-1., work_a.data(), left.data());
-      for (const ConstrainedDof &constraint : body.constraints())
-        left[constraint.dof] = 0.;
-    }
-    if (!conditions.correct(current, *system, right_hand_side))
+    history.set_lacking(coefficients, *system, current);
+    if (!conditions.correct(current, *system, history.loads()))
       return false;
     system->find_increments(conditions.corrections().multiplier,
-                            conditions.corrections().mode_amplitude, right_hand_side);
-    for (std::size_t k = 0; k < structure.size(); ++k)
-    {
-      std::vector<double> &dU = right_hand_side[k];
-      for (const ConstrainedDof &constraint : structure[k].constraints())
-        dU[constraint.dof] = 0.;
-      for (std::size_t i = 0; i < dU.size(); ++i)
-      {
-        current.U[k][i] += dU[i];
-        current.dU[k][i] += dU[i];
-        current.V[k][i] += c.velocity * dU[i];
-        current.A[k][i] += c.acceleration * dU[i];
-      }
-    }
-    conditions.add_correction(right_hand_side, current);
+                            conditions.corrections().mode_amplitude, history.increments());
+    history.add_correction(coefficients, current);
+    conditions.add_correction(history.increments(), current);
     return true;
   }
 } // namespace taut

@@ -8,7 +8,7 @@ namespace taut
   void TimeStepper::store(Archive &archive)
   {
     archive &current &last &coefficients &conditions.gaps();
-    archive &step &step_before &segment_start &n_in_segment &n_steps;
+    archive &clock;
     for (double &size : errors.largest_motions)
       archive &size;
     std::vector<std::vector<double>> courses = constraints.courses();
@@ -32,7 +32,7 @@ namespace taut
     std::vector<double> largest_rates;
     archive >> largest_rates;
     constraints.update(current.time);
-    turning.follow(current);
+    newton.follow(current);
     reset_caches(largest_rates);
   }
 
@@ -40,7 +40,7 @@ namespace taut
   {
     earlier_systems = interface_statistics();
     system = std::make_unique<StepEquations>(structure, constraints, parameters);
-    set_nonlinear();
+    newton.attach(*system);
     projection.reset();
     prepare(coefficients);
     if (projection && !largest_rates.empty())

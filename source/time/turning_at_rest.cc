@@ -42,19 +42,6 @@ namespace taut
       set(state.displacement, state.multiplier);
   }
 
-  void TurningAtRest::add_spring(const ConstraintData &of, const Coordinates &direction,
-                                 const double stiffness, const Coordinates &motion,
-                                 std::vector<ConstraintData> &list) const
-  {
-    ConstraintData spring;
-    spring.name = of.name;
-    spring.origin = of.origin;
-    spring.spring.stiffness = stiffness;
-    spring.terms = static_cast<const TurningDirection &>(*of.geometry).along(direction);
-    spring.gap = -dot(direction, motion);
-    list.push_back(std::move(spring));
-  }
-
   void TurningAtRest::set(const BodyVectors &U, const std::vector<double> &N, const bool is_check)
   {
     std::vector<ConstraintData> list;
@@ -70,19 +57,19 @@ namespace taut
     {
       const std::size_t k = all.turning_index(i);
       const TurningDirection &turning = all.turning(i);
-      const Coordinates difference = add_scaled(turning.start, 1., motions[k]),
-                        d = turning.at(difference);
-      directions.push_back(d);
-      list[i].terms = turning.along({turning.sign * d.x, turning.sign * d.y, turning.sign * d.z});
-      list[i].gap = turning.gap(difference) - turning.sign * dot(d, motions[k]);
-      const double size = std::max(norm(difference), turning.length),
+      const TurningDirection::Linear at = turning.linearised(motions[k]);
+      directions.push_back(at.direction);
+      list[i].terms = at.terms;
+      list[i].gap = at.gap;
+      const double size = std::max(at.distance, turning.length),
                    stand_in = load * std::clamp(turned, least_part, 1.) / size,
-                   geometric = is_check ? std::fabs(N[i]) / norm(difference)
+                   geometric = is_check ? std::fabs(N[i]) / at.distance
                                         : std::max(0., -turning.sign * N[i]) / size;
-      const auto [first, second] = across(d);
-      add_spring(all[i], d, stand_in, motions[k], list);
-      add_spring(all[i], first, geometric + stand_in, motions[k], list);
-      add_spring(all[i], second, geometric + stand_in, motions[k], list);
+      const auto add_spring = [&](const Coordinates &direction, const double stiffness)
+      { list.push_back(geometric_spring(all[i].name, all[i], direction, stiffness, motions[k])); };
+      add_spring(at.direction, stand_in);
+      for (const Coordinates &direction : across(at.direction))
+        add_spring(direction, geometric + stand_in);
       source.insert(source.end(), n_springs, i);
     }
     linear = std::make_unique<Constraints>(structure, std::move(list));

@@ -81,8 +81,6 @@ namespace taut
 
   private:
     void set(const BodyVectors &U, const std::vector<double> &N, bool is_check = false);
-    void add_spring(const ConstraintData &of, const Coordinates &direction, double stiffness,
-                    const Coordinates &motion, std::vector<ConstraintData> &list) const;
 
     const Structure &structure;
     const Constraints &all;

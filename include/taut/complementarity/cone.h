@@ -31,9 +31,6 @@ namespace taut
     /// N is not bounded by zero: D = 0 whatever N.
     constexpr bool is_free() const { return kind == Kind::free; }
 
-    /// N = 0 whatever D.
-    constexpr bool is_zero() const { return kind == Kind::zero; }
-
     /// The nearest admitted multiplier, or compression of a spring that may let go.
     constexpr double project(const double N) const
     {
@@ -49,11 +46,11 @@ namespace taut
     /// Whether a row with this multiplier has D = 0.
     constexpr bool is_closed(const double N) const { return kind == Kind::free || N > 0.; }
 
-    /// What the conditions lack, with a multiplier that is scaled to a gap: N minus its projection
-    /// along D, min(N, D) on the half line.
-    constexpr double violation(const double N, const double D) const
+    /// What the conditions lack, as a gap: w N minus the projection of w N - D, with a weight @p w
+    /// that makes multipliers comparable with gaps; min(w N, D) on the half line.
+    constexpr double violation(const double w, const double N, const double D) const
     {
-      return kind == Kind::zero || (kind == Kind::half_line && N < D) ? N : D;
+      return kind == Kind::zero || (kind == Kind::half_line && w * N < D) ? w * N : D;
     }
 
     /// Newton's restitution of an impact: contacts alone have one.

@@ -62,6 +62,15 @@ namespace taut
     }
   };
 
+  /**
+   * The geometric stiffness of a link that turns, as a spring of @p stiffness [N/m] along @p
+   * direction, without force where the ends have moved by @p motion [m]: a link that pulls holds
+   * its ends across itself by N / |Delta|.
+   */
+  ConstraintData geometric_spring(const std::string &name, const ConstraintData &link,
+                                  const Coordinates &direction, double stiffness,
+                                  const Coordinates &motion);
+
   /// The constraints of a system, in rows ordered by their geometry: the fixed constraints, then
   /// the turning ones, then the sliding ones.
   class Constraints
@@ -164,7 +173,8 @@ namespace taut
     /// The same of DoFs without mass and without damping.
     std::vector<char> quasi_static() const { return acts_on(&Substructure::quasi_static_dofs); }
 
-    /// P += B N.
+    /// P += B_i N, of one constraint and of all.
+    void add_force(std::size_t i, double N, BodyVectors &P) const;
     void add_forces(const std::vector<double> &N, BodyVectors &P) const;
 
     /// Largest force [N] and moment [N m] of a single constraint on each body, |B_i| |N_i|: their

@@ -59,6 +59,18 @@ namespace taut
     /// Delta / |Delta|; where it vanishes, the direction at U = 0.
     Coordinates at(const Coordinates &difference) const;
 
+    /// The constraint made linear about a state: D = terms . U + gap.
+    struct Linear
+    {
+      Coordinates direction; ///< of the link there
+      double distance;       ///< |Delta| there [m]
+      std::vector<Term> terms;
+      double gap; ///< [m]
+    };
+
+    /// About the state where Delta is start + @p motion [m].
+    Linear linearised(const Coordinates &motion) const;
+
     /// Motion along a direction, one term for each body of each end.
     std::vector<Term> along(const Coordinates &direction) const;
   };

@@ -28,6 +28,10 @@ namespace taut
     /// far from the equilibrium begins with softer bodies.
     virtual std::unique_ptr<Substructure> with_axial_stiffness(double EA) const = 0;
 
+    /// The axial stiffnesses below @p EA that such a search goes through under a load [N]: the
+    /// softest is 2 to 20 times the load, and they rise by factors of ten. Empty: begin with EA.
+    static std::vector<double> softer_axial_stiffnesses(double EA, double load);
+
     /**
      * The linear body that replaces this body, which @p self owns, once the displacement U [m, rad]
      * at the start of a run is known. It has the same DoFs, supports and loads, the internal force

@@ -40,16 +40,19 @@ namespace taut
     using SetRows = std::function<void(std::size_t k, std::size_t begin, std::size_t end)>;
 
     /**
-     * Forms K U and r = P + B N - C V - K U of the state of a step and returns the largest relative
-     * residual of this rank's bodies; not-a-number if one is. @p in_balance are the multipliers in
+     * Forms K U and r = P + B N - C V - K U of the state of a step, and the residual() of its
+     * equation of motion. @p in_balance are the multipliers in
      * r, @p impulsive those that are forces of this step only, empty: none. Coefficients of zero
      * are those of an equilibrium at rest. @p set_rows, if there is one, is called for all rows
      * just before they are read first: their caches serve both. Throws an EntryError on the section
      * of a body whose numbers are beyond largest_number.
      */
-    double measure(const StepCoefficients &c, const StepForces &forces,
-                   const std::vector<double> &in_balance, const std::vector<double> &impulsive,
-                   State &state, const SetRows &set_rows = {});
+    void measure(const StepCoefficients &c, const StepForces &forces,
+                 const std::vector<double> &in_balance, const std::vector<double> &impulsive,
+                 State &state, const SetRows &set_rows = {});
+
+    /// The largest relative residual of this rank's bodies after measure(); not-a-number if one is.
+    double residual() const { return largest_residual; }
 
     /// dU . [(1 - alpha_f) r + alpha_f r0] of this rank's bodies after measure(), with mean forces:
     /// the work of all forces but the means of this step [J].
@@ -85,6 +88,7 @@ namespace taut
     std::vector<double> mean_A;                 ///< accelerations that M acts on, of one body
     std::vector<double> inertia, damping;       ///< forces of a tile
     std::vector<double> work_of_balance;        ///< of each body
+    double largest_residual = 0.;
     std::size_t worst = 0;
     bool may_be_cancellation = true;
   };

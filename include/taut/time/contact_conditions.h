@@ -112,7 +112,7 @@ namespace taut
     bool on_velocities(const std::size_t i) const
     {
       return mean[i] && !c.velocity_projection &&
-             (c.velocity_level || constraints[i].cone.is_free());
+             (c.velocity_level || !constraints[i].cone.may_open());
     }
     void set_velocity_condition(std::size_t i, const State &before);
     void set_recomputed_gaps(const State &state);

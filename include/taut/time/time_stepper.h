@@ -11,12 +11,13 @@
 #include <taut/time/load_sampling.h>
 #include <taut/time/local_error.h>
 #include <taut/time/matrix_norms.h>
-#include <taut/time/nonlinear_bodies.h>
+#include <taut/time/newton_search.h>
 #include <taut/time/solver_parameters.h>
 #include <taut/time/state.h>
 #include <taut/time/step_check.h>
+#include <taut/time/step_clock.h>
 #include <taut/time/step_equations.h>
-#include <taut/time/turning_constraints.h>
+#include <taut/time/step_history.h>
 #include <taut/time/velocity_projection.h>
 
 #include <memory>
@@ -25,14 +26,18 @@
 namespace taut
 {
   /**
-   * Advances the bodies and the multipliers by steps:
+   * Advances the bodies and the multipliers by steps. A step
    *
-   *     moving constraints -> history P^_k -> contact-free predictor -> N -> U_k -> certificate
-   *     -> velocities, with schemes that project them.
+   *     places the constraints that slide            Constraints::follow(), update()
+   *     finds the right-hand sides P^_k              StepHistory
+   *     finds the multipliers N                      ContactConditions, StepEquations
+   *     finds the increments, A_k dU_k = P^_k + B_k N
+   *     accepts them                                 StepHistory, ContactConditions::update()
+   *     certifies them                               BalanceCertificate, ContactConditions
+   *     and projects the velocities, with schemes that do so   VelocityProjection.
    *
-   * Everything is in increments, A dU = P^ + B N; ContactConditions says what the constraints ask
-   * for. Where a body is not linear, Newton's method does so again and again, with the
-   * complementarity problem solved exactly each time (N. H. Josephy, 1979).
+   * Where a body is not linear or a constraint turns, NewtonSearch does the second to the fourth
+   * line again and again.
    */
   class TimeStepper
   {
@@ -51,7 +56,7 @@ namespace taut
     void advance();
 
     /// Length of the steps to come [s].
-    void set_step(double length);
+    void set_step(const double length) { clock.set_step(length, current.time); }
 
     /**
      * Stores all that later steps read beside the vectors of the bodies, the same on all ranks;
@@ -70,7 +75,7 @@ namespace taut
     /// Of the last step, see LocalError. Called by all ranks together.
     double local_error()
     {
-      return errors.measure(current, coefficients, step_before, forces.old_A);
+      return errors.measure(current, coefficients, clock.step_before(), history.forces().old_A);
     }
 
     /// True if the next step, of @p length [s], misses nothing of loads and given motions; see
@@ -93,11 +98,11 @@ namespace taut
 
     /// Of the last step.
     const StepCoefficients &scheme() const { return coefficients; }
-    long n_steps_done() const { return n_steps; }
+    long n_steps_done() const { return clock.n_steps(); }
 
     /// Solves of Newton's method so far; 0 if all bodies are linear and no constraint turns.
-    long n_newton_iterations() const { return n_iterations; }
-    bool is_linear() const { return bodies_are_linear && turning.empty(); }
+    long n_newton_iterations() const { return newton.n_iterations(); }
+    bool is_linear() const { return newton.is_linear(); }
 
     /// Form and size of the interface operator, for the log.
     std::string interface_description() const { return system->interface().description(); }
@@ -108,21 +113,15 @@ namespace taut
     template <typename Archive>
     void store(Archive &archive);
     void reset_caches(const std::vector<double> &largest_rates);
-    void set_external_force(std::size_t k);
-    void set_history(std::size_t k);
-    void set_loads();
-    void find_increments();
+    void begin_step(double end);
     void attempt(const std::function<void()> &work);
     void solve();
-    void iterate();
-    bool solve_by_newton();
-    void set_nonlinear();
-    void linearise();
-    void check_turning() const;
-    double set_guess();
-    void project_velocities();
+    void set_loads();
+    void find_increments();
     void accept_increments();
-    void accept(std::size_t k, std::size_t begin, std::size_t end);
+    void face_new_directions();
+    void project_velocities();
+    void measure_energy();
     void measure_balance(const BalanceCertificate::SetRows &set_rows = {});
     bool is_cancellation() const;
     void start_balance();
@@ -134,18 +133,11 @@ namespace taut
     const Structure &structure;
     Constraints &constraints;
     const SolverParameters parameters;
-    const TimeIntegrator &integrator;
-    double step, step_before = 0.;
     const Reference reference_state;
     State current;
     Certificate last;
-
-    StepCoefficients coefficients;
-    bool first_step_is_backward_euler;
-    long n_steps = 0;
-    long n_iterations = 0; ///< of Newton's method, of all steps
-    double segment_start;  ///< time since which steps have this length
-    long n_in_segment = 0;
+    StepClock clock;
+    StepCoefficients coefficients; ///< of the last step
 
     /// What restore() goes back to beside the state.
     struct Sizes
@@ -159,25 +151,15 @@ namespace taut
 
     std::unique_ptr<StepEquations> system;
     InterfaceStatistics earlier_systems; ///< of those before
-    TurningConstraints turning;
+    NewtonSearch newton;
     ContactConditions conditions;
-    NonlinearBodies nonlinear;
+    StepHistory history;
     LoadSampling loads;
     LocalError errors;
     EnergyGains energy_gains;
-    bool tangents_are_kept = false; ///< from step to step
-    bool bodies_are_linear = true;  ///< those of all ranks
     BalanceCertificate balance;
-    double own_balance = 0.; ///< of this rank
     StepCheck check;
     std::unique_ptr<VelocityProjection> projection; ///< of schemes with one
-
-    StepForces forces;
-    BodyVectors right_hand_side;        ///< then the increments
-    BodyVectors lift;                   ///< increments of moving supports
-    std::vector<double> work_v, work_a; ///< as long as the longest body
-    std::vector<double> damping_of_tile, inertia_of_tile;
-    std::vector<double> work_rows;
   };
 } // namespace taut
 

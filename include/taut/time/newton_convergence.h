@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_newton_convergence_h
+#define taut_newton_convergence_h
+
+#include <cmath>
+#include <limits>
+
+namespace taut
+{
+  /// When the iterations of Newton's method have come to their end, judged by the relative change
+  /// of the unknowns in each.
+  class NewtonConvergence
+  {
+  public:
+    struct Limits
+    {
+      double converged; ///< change that ends the iterations
+
+      /// Changes below this end them, too, after so many iterations that did not halve the change
+      /// before: rounding keeps them up.
+      double stagnated;
+      int most_stagnant;
+
+      /// So many iterations that do not halve the least change so far are in vain.
+      int most_in_vain = std::numeric_limits<int>::max();
+    };
+
+    explicit NewtonConvergence(const Limits &limits) : limits(limits) {}
+
+    enum class Verdict
+    {
+      goes_on,
+      converged,
+      failed
+    };
+
+    /// Takes the change of one more iteration.
+    Verdict add(const double change)
+    {
+      n_stagnant = change >= .5 * last ? n_stagnant + 1 : 0;
+      last = change;
+      if (change <= limits.converged ||
+          (change <= limits.stagnated && n_stagnant >= limits.most_stagnant))
+        return Verdict::converged;
+      n_in_vain = change <= .5 * least ? 0 : n_in_vain + 1;
+      least = n_in_vain == 0 ? change : least;
+      return !std::isfinite(change) || n_in_vain == limits.most_in_vain ? Verdict::failed
+                                                                        : Verdict::goes_on;
+    }
+
+  private:
+    const Limits limits;
+    double last = std::numeric_limits<double>::infinity(), least = last;
+    int n_stagnant = 0, n_in_vain = 0;
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_step_clock_h
+#define taut_step_clock_h
+
+#include <taut/time/integrator.h>
+
+#include <string>
+
+namespace taut
+{
+  /// Times and coefficients of the steps. Steps of one length count from where the first of them
+  /// began, so that their times do not drift.
+  class StepClock
+  {
+  public:
+    /// The scheme is kept by reference. Steps of length @p step [s] begin at @p start [s]. Of a
+    /// start that is not at rest the first step is backward Euler, unless the scheme needs no
+    /// initial acceleration either.
+    StepClock(const TimeIntegrator &integrator, double step, double start, bool at_rest);
+
+    /// Length of the steps to come [s].
+    double step() const { return length; }
+
+    /// The scheme with its parameters, for messages.
+    std::string scheme() const { return integrator.description(); }
+
+    /// Of a step to come after one of length @p last_step [s]; 0: none.
+    StepCoefficients coefficients(double last_step) const;
+
+    /// Begins a step after one of length @p last_step [s]; returns its end [s].
+    double advance(double last_step);
+
+    /// Length of the step before the last one; 0: none [s].
+    double step_before() const { return before; }
+
+    /// Changes the length of the steps from @p time on [s].
+    void set_step(double length, double time);
+
+    /// Takes the last step back, which began at @p time [s].
+    void take_back(double time);
+
+    long n_steps() const { return n_all; }
+
+    template <typename Archive>
+    void serialize(Archive &archive, unsigned int)
+    {
+      archive &length &before &segment_start &n_in_segment &n_all;
+    }
+
+  private:
+    const TimeIntegrator &integrator;
+    double length, before = 0.;
+    bool first_is_backward_euler;
+    double segment_start; ///< time since which steps have this length
+    long n_in_segment = 0, n_all = 0;
+  };
+} // namespace taut
+
+#endif

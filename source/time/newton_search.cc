@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
+#include <taut/base/text.h>
+#include <taut/time/newton_convergence.h>
+#include <taut/time/newton_search.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace taut
+{
+  namespace
+  {
+    /// What a guess of the increments may miss, see NonlinearBodies::set_guess(). Where rounding
+    /// keeps it above, the balance of the step says what it is worth.
+    constexpr NewtonConvergence::Limits limits = {1e-9, 1e-5, 2};
+
+    /// A tangent is kept while the rate at which changes fall promises no more iterations than
+    /// this, and for the next step if this one took no more: a tangent and its factors cost as much
+    /// as two or three, and spare some, but not all of those.
+    constexpr int most_with_a_kept_tangent = 5;
+    constexpr int most_iterations = 30;
+
+    /// Whether a change that follows one @p before needs more, at the same rate.
+    bool is_slow(const double change, const double before)
+    {
+      return !(change * std::pow(change / before, most_with_a_kept_tangent) <= limits.converged);
+    }
+  } // namespace
+
+  NewtonSearch::NewtonSearch(const Structure &structure, Constraints &constraints,
+                             const Reference &reference)
+      : structure(structure), nonlinear(structure, reference), turning(constraints, reference),
+        bodies_are_linear(!structure.communicator().any(!nonlinear.indices().empty()))
+  {
+    check_masses(constraints);
+  }
+
+  /// Inertia has to resist the force of a constraint that turns whatever its direction is.
+  void NewtonSearch::check_masses(const Constraints &constraints) const
+  {
+    if (turning.empty())
+      return;
+    const std::vector<char> without_mass = constraints.without_mass();
+    for (const std::size_t i : constraints.turning_rows())
+      if (without_mass[i])
+        throw EntryError(constraints.origin(i),
+                         "link '" + constraints[i].name +
+                             "' turns, and an end of it has no mass. Give that a mass, or a "
+                             "'Mass matrix' that is not 'reduced'");
+  }
+
+  void NewtonSearch::attach(StepEquations &equations) const
+  {
+    if (!nonlinear.indices().empty())
+      equations.set_nonlinear(nonlinear.indices(), [this](const std::size_t k, const int attempt)
+                              { return nonlinear.tangent(k, attempt); });
+  }
+
+  void NewtonSearch::prepare(const StepCoefficients &coefficients, const double step,
+                             const State &state)
+  {
+    turning.prepare(coefficients);
+    c = coefficients;
+    length = step;
+    tangents_are_kept = false;
+    nonlinear.begin(state, c, length);
+  }
+
+  /// Tangents and F anew.
+  void NewtonSearch::linearise(StepEquations &equations) const
+  {
+    if (bodies_are_linear)
+      equations.interface().update_moving();
+    else
+      equations.linearise();
+  }
+
+  /// The largest change of the increments of all ranks.
+  double NewtonSearch::set_guess(const Step &step)
+  {
+    double change = 0.;
+    BodyVectors &dU = step.history.increments();
+    step.history.impose_lift(dU);
+    structure.communicator().agree(
+        [&]
+        {
+          for (const std::size_t k : nonlinear.indices())
+          {
+            const double own = nonlinear.set_guess(k, dU[k], step.equations.bodies().stiffness(k));
+            if (!(own <= change) && !std::isnan(change))
+              change = own;
+          }
+        });
+    const double of_bodies = structure.communicator().max(
+        std::isnan(change) ? std::numeric_limits<double>::infinity() : change);
+    if (turning.empty())
+      return of_bodies;
+    return std::max(of_bodies,
+                    turning.set_guess(dU, step.state, step.conditions.applied().multiplier,
+                                      step.conditions.springs().histories()));
+  }
+
+  void NewtonSearch::find_increments(const Step &step)
+  {
+    if (iterate(step))
+      return;
+    if (tangents_are_kept)
+    {
+      tangents_are_kept = false;
+      if (iterate(step))
+        return;
+    }
+    throw UserError(to_text("at t = ", step.state.time,
+                            " s: Newton's method does not converge in a step of ", length,
+                            " s. Take a smaller step"));
+  }
+
+  /// From dU = 0 on; a new tangent is that of the last guess.
+  bool NewtonSearch::iterate(const Step &step)
+  {
+    const std::vector<double> multiplier = step.state.multiplier;
+    nonlinear.begin(step.state, c, length);
+    turning.begin(c);
+    if (!tangents_are_kept)
+      linearise(step.equations);
+    else if (!turning.empty())
+      step.equations.interface().update_moving();
+    step.set_loads();
+    const BodyVectors loads = step.history.loads();
+    NewtonConvergence convergence(limits);
+    double before = std::numeric_limits<double>::infinity();
+    for (int iteration = 1; iteration <= most_iterations; ++iteration)
+    {
+      BodyVectors &P = step.history.loads();
+      P = loads;
+      for (const std::size_t k : nonlinear.indices())
+        for (std::size_t i = 0; i < P[k].size(); ++i)
+          P[k][i] += nonlinear.remainder(k)[i];
+      step.state.multiplier = multiplier;
+      step.find_increments();
+      ++iterations;
+      const double change = set_guess(step);
+      const NewtonConvergence::Verdict verdict = convergence.add(change);
+      if (verdict == NewtonConvergence::Verdict::converged)
+      {
+        tangents_are_kept = iteration <= most_with_a_kept_tangent;
+        return true;
+      }
+      if (verdict == NewtonConvergence::Verdict::failed)
+        return false;
+      turning.turn();
+      if (iteration > 1 && is_slow(change, before))
+      {
+        tangents_are_kept = false;
+        linearise(step.equations);
+        for (const std::size_t k : nonlinear.indices())
+          nonlinear.set_tangent(k, step.equations.bodies().stiffness(k));
+      }
+      else if (!turning.empty())
+        step.equations.interface().update_moving();
+      before = change;
+    }
+    return false;
+  }
+} // namespace taut

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "cache_tiles.h"
+
+#include <taut/base/instruction_set.h>
+#include <taut/time/step_history.h>
+
+#include <algorithm>
+
+namespace taut
+{
+  namespace
+  {
+    /// What is known of velocity and acceleration at the end of a step before its increment is.
+    class Predictor
+    {
+    public:
+      Predictor(const StepCoefficients &c, const std::vector<double> &V,
+                const std::vector<double> &A, const std::vector<double> &dU,
+                const std::vector<double> &V_old)
+          : c(c), V(V.data()), A(A.data()), dU(dU.data()), V_old(V_old.data())
+      {
+      }
+
+      /// Calls visit(i, v*, a*) for DoFs begin to end - 1 and reads only what the scheme needs.
+      template <typename Visitor>
+      void visit(const std::size_t begin, const std::size_t end, const Visitor &visitor) const
+      {
+        if (c.looks_back())
+#pragma omp simd
+          for (std::size_t i = begin; i < end; ++i)
+            visitor(i, c.v_V * V[i] + c.v_A * A[i] + c.v_dU * dU[i],
+                    c.a_V * V[i] + c.a_A * A[i] + c.a_dU * dU[i] + c.a_V_old * V_old[i]);
+        else if (c.v_A != 0. || c.a_A != 0.)
+#pragma omp simd
+          for (std::size_t i = begin; i < end; ++i)
+            visitor(i, c.v_V * V[i] + c.v_A * A[i], c.a_V * V[i] + c.a_A * A[i]);
+        else
+#pragma omp simd
+          for (std::size_t i = begin; i < end; ++i)
+            visitor(i, c.v_V * V[i], c.a_V * V[i]);
+      }
+
+    private:
+      const StepCoefficients c;
+      const double *V, *A, *dU, *V_old;
+    };
+  } // namespace
+
+  StepHistory::StepHistory(const Structure &structure, const Reference &reference)
+      : structure(structure), reference(reference)
+  {
+    for (BodyVectors *v :
+         {&step_forces.P, &shared, &prescribed, &step_forces.old_A, &step_forces.old_balance})
+      *v = structure.zero();
+    step_forces.external_size.resize(structure.size());
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      const Substructure &body = structure[k];
+      for (std::vector<double> *v : {&known_v, &mean_a})
+        v->resize(std::max<std::size_t>(v->size(), body.n_dofs()));
+      for (std::vector<double> *v : {&damping_of_tile, &inertia_of_tile})
+        v->resize(std::max(v->size(), tile_size(body)));
+    }
+  }
+
+  void StepHistory::set_external_forces(const double time)
+  {
+    for (std::size_t k = 0; k < structure.size(); ++k)
+      set_external_force(k, time);
+  }
+
+  void StepHistory::set_external_force(const std::size_t k, const double time)
+  {
+    const Substructure &body = structure[k];
+    std::vector<double> &P = step_forces.P[k];
+    body.external_force(time, P);
+    const double *f = reference.force[k].data();
+    for (std::size_t i = 0; i < P.size(); ++i)
+      P[i] -= f[i];
+    step_forces.external_size[k] = largest(body, P);
+  }
+
+  void StepHistory::set_loads(const StepCoefficients &c, const StepEquations &equations,
+                              State &state)
+  {
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      const Substructure &body = structure[k];
+      if (body.external_force_varies())
+        set_external_force(k, state.time);
+      equations.bodies().remove_rounding(k, state.KU[k], state.balance[k]);
+      set_load(k, c, state);
+      if (!body.has_moving_constraints())
+        continue;
+      std::vector<double> &L = prescribed[k];
+      for (const ConstrainedDof &constraint : body.constraints())
+        L[constraint.dof] = constraint.at(state.time) - (reference.displacement[k][constraint.dof] +
+                                                         state.U[k][constraint.dof]);
+      equations.lift(k, L, shared[k]);
+    }
+  }
+
+  void StepHistory::set_load(const std::size_t k, const StepCoefficients &c, const State &state)
+  {
+    const Substructure &body = structure[k];
+    const Predictor known(c, state.V[k], state.A[k], state.dU[k], state.V_old[k]);
+    const bool old_forces_count = c.alpha_m != 0. || c.alpha_f != 0.,
+               velocity_is_known = c.v_V != 0. || c.v_A != 0. || c.v_dU != 0.;
+    const double kappa = c.old_balance(), old = c.old_inertia(), now = c.new_inertia();
+    const double *A = state.A[k].data(), *p = step_forces.P[k].data(), *KU = state.KU[k].data(),
+                 *r = state.balance[k].data();
+    double *v = known_v.data(), *a = mean_a.data(), *Cv = damping_of_tile.data(),
+           *Ma = inertia_of_tile.data(), *R = shared[k].data();
+    std::size_t done = 0;
+    visit_tiles(body,
+                [&](const std::size_t begin, const std::size_t end, const std::size_t reached)
+                {
+                  vectorised(
+                      [=]
+                      {
+                        known.visit(done, reached,
+                                    [=](const std::size_t i, const double v0, const double a0)
+                                    {
+                                      v[i] = v0;
+                                      a[i] = old_forces_count ? now * a0 + old * A[i] : a0;
+                                    });
+                      });
+                  done = reached;
+                  if (velocity_is_known)
+                    body.damping().vmult_rows(begin, end, v, Cv);
+                  body.mass().vmult_rows(begin, end, a, Ma);
+                  vectorised(
+                      [=]
+                      {
+#pragma omp simd
+                        for (std::size_t i = begin; i < end; ++i)
+                        {
+                          double sum = p[i] - KU[i];
+                          if (old_forces_count)
+                            sum += kappa * r[i];
+                          if (velocity_is_known)
+                            sum -= Cv[i - begin];
+                          R[i] = sum - Ma[i - begin];
+                        }
+                      });
+                });
+  }
+
+  void StepHistory::impose_lift(BodyVectors &dU) const
+  {
+    for (std::size_t k = 0; k < structure.size(); ++k)
+      if (structure[k].has_moving_constraints())
+        for (const ConstrainedDof &constraint : structure[k].constraints())
+          dU[k][constraint.dof] = prescribed[k][constraint.dof];
+  }
+
+  void StepHistory::exchange(State &state)
+  {
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      state.dU[k].swap(shared[k]);
+      state.V_old[k].swap(state.V[k]);
+      step_forces.old_A[k].swap(state.A[k]);
+      step_forces.old_balance[k].swap(state.balance[k]);
+    }
+    impose_lift(state.dU);
+  }
+
+  /// The increments of the step before are where those of this step were, and the velocity that a
+  /// scheme looks back at is where the new one will be.
+  void StepHistory::accept(const StepCoefficients &c, const std::size_t k, const std::size_t begin,
+                           const std::size_t end, State &state) const
+  {
+    const double velocity = c.velocity, acceleration = c.acceleration;
+    const double *dU = state.dU[k].data();
+    double *U = state.U[k].data(), *V = state.V[k].data(), *A = state.A[k].data();
+    const auto visitor = [=](const std::size_t i, const double v, const double a)
+    {
+      U[i] += dU[i];
+      V[i] = velocity * dU[i] + v;
+      A[i] = acceleration * dU[i] + a;
+    };
+    const std::vector<double> &old_dU = shared[k], &older_V = state.V[k];
+    const Predictor known(c, state.V_old[k], step_forces.old_A[k], old_dU, older_V);
+    vectorised([=] { known.visit(begin, end, visitor); });
+  }
+
+  void StepHistory::set_lacking(const StepCoefficients &c, const StepEquations &equations,
+                                State &state)
+  {
+    const double kappa = c.old_balance(), old = c.old_inertia(), now = c.new_inertia();
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      const Substructure &body = structure[k];
+      equations.bodies().remove_rounding(k, state.KU[k], state.balance[k]);
+      std::vector<double> &left = shared[k];
+      for (std::size_t i = 0; i < left.size(); ++i)
+      {
+        left[i] = state.balance[k][i] + kappa * step_forces.old_balance[k][i];
+        mean_a[i] = now * state.A[k][i] + old * step_forces.old_A[k][i];
+      }
+      body.mass().vmult_add(-1., mean_a.data(), left.data());
+      for (const ConstrainedDof &constraint : body.constraints())
+        left[constraint.dof] = 0.;
+    }
+  }
+
+  void StepHistory::add_correction(const StepCoefficients &c, State &state)
+  {
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      std::vector<double> &dU = shared[k];
+      for (const ConstrainedDof &constraint : structure[k].constraints())
+        dU[constraint.dof] = 0.;
+      for (std::size_t i = 0; i < dU.size(); ++i)
+      {
+        state.U[k][i] += dU[i];
+        state.dU[k][i] += dU[i];
+        state.V[k][i] += c.velocity * dU[i];
+        state.A[k][i] += c.acceleration * dU[i];
+      }
+    }
+  }
+} // namespace taut
