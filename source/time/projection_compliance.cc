@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// How elastic constraints take part in the projection of velocities.
 #include <taut/time/contact_resolution.h>
-#include <taut/time/velocity_projection.h>
+#include <taut/time/projection_compliance.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -14,12 +14,18 @@ namespace taut
     constexpr double fading = .3;
   } // namespace
 
-  void VelocityProjection::prepare(const StepCoefficients &coefficients, const double tau,
-                                   const std::vector<double> &S, ComplementarityOperator &F)
+  ProjectionCompliance::ProjectionCompliance(const Constraints &constraints)
+      : constraints(constraints)
   {
-    c = coefficients;
-    step = tau;
-    std::vector<std::size_t> elastic;
+    for (std::vector<double> *v : {&flexibility, &of_mass, &relative, &softening})
+      v->assign(constraints.size(), 0.);
+  }
+
+  void ProjectionCompliance::prepare(const double weight, const std::vector<double> &S,
+                                     ComplementarityOperator &F)
+  {
+    theta = weight;
+    elastic.clear();
     moving_elastic.clear();
     for (std::size_t i = 0; i < constraints.size(); ++i)
       if (constraints[i].cone.may_open() && S[i] > 0.)
@@ -29,70 +35,93 @@ namespace taut
         if (constraints.slides(i))
           moving_elastic.push_back(i);
       }
-    has_softening = !elastic.empty();
     find_flexibilities(elastic, S, F);
-    set_relative_softening(S);
-    if (is_set_up)
-      setup();
+    set_relative(S);
   }
 
-  void VelocityProjection::find_flexibilities(const std::vector<std::size_t> &elastic,
-                                              const std::vector<double> &S,
-                                              ComplementarityOperator &F)
+  void ProjectionCompliance::find_flexibilities(const std::vector<std::size_t> &rows,
+                                                const std::vector<double> &S,
+                                                ComplementarityOperator &F)
   {
-    const std::vector<double> diagonal = flexibilities_of_whole_bodies(constraints, elastic, F);
-    for (const std::size_t i : elastic)
-      flexibility[i] = (diagonal[i] - S[i]) / (1. - c.alpha_f);
+    const std::vector<double> diagonal = flexibilities_of_whole_bodies(constraints, rows, F);
+    for (const std::size_t i : rows)
+      flexibility[i] = (diagonal[i] - S[i]) / theta;
   }
 
-  void VelocityProjection::set_relative_softening(const std::vector<double> &S)
+  void ProjectionCompliance::set_relative(const std::vector<double> &S)
   {
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
-      relative_softening[i] = 0.;
+      relative[i] = 0.;
       if (!constraints[i].cone.may_open() || S[i] == 0.)
         continue;
       const double ratio = S[i] / (fading * flexibility[i]);
-      relative_softening[i] = constraints[i].spring.conserving
-                                  ? std::numeric_limits<double>::infinity()
-                                  : ratio * ratio;
+      relative[i] = constraints[i].spring.conserving ? std::numeric_limits<double>::infinity()
+                                                     : ratio * ratio;
     }
   }
 
-  /// f has no softening on the diagonals of what is wanted.
-  void VelocityProjection::find_mass_flexibilities(const std::vector<std::size_t> &elastic)
+  void ProjectionCompliance::follow(const std::vector<double> &S, ComplementarityOperator &F,
+                                    SchurComplement *const f)
+  {
+    if (!moving_elastic.empty())
+      find_flexibilities(moving_elastic, S, F);
+    if (!has_laws && moving_elastic.empty())
+      return;
+    set_relative(S);
+    if (f)
+      set(*f);
+  }
+
+  bool ProjectionCompliance::takes_part(const std::size_t i) const
+  {
+    return std::isfinite(relative[i]);
+  }
+
+  /// f has no softening on the diagonals of the rows.
+  void ProjectionCompliance::find_mass_flexibilities(const std::vector<std::size_t> &rows,
+                                                     SchurComplement &f)
   {
     const std::vector<double> diagonal =
-        flexibilities_of_whole_bodies(constraints, elastic, schur->matrix());
-    for (const std::size_t i : elastic)
+        flexibilities_of_whole_bodies(constraints, rows, f.matrix());
+    for (const std::size_t i : rows)
       of_mass[i] = diagonal[i];
   }
 
-  void VelocityProjection::set_softening()
+  void ProjectionCompliance::set(SchurComplement &f)
   {
+    // Infinite: a constraint without flexibility of its own takes no part.
     for (std::size_t i = 0; i < constraints.size(); ++i)
-    {
-      const double f = of_mass[i];
-      // Infinite: a constraint without flexibility of its own takes no part.
-      softening[i] =
-          f > 0. && std::isfinite(relative_softening[i]) ? f * relative_softening[i] : 0.;
-    }
-    schur->set_compliance(softening);
+      softening[i] = of_mass[i] > 0. && takes_part(i) ? of_mass[i] * relative[i] : 0.;
+    f.set_compliance(softening);
   }
 
-  /// Softening follows the places, too.
-  void VelocityProjection::update_moving()
+  void ProjectionCompliance::setup(SchurComplement &f)
+  {
+    std::fill(softening.begin(), softening.end(), 0.);
+    f.setup(softening);
+    if (elastic.empty())
+      return;
+    std::vector<std::size_t> softened;
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      if (relative[i] > 0.)
+        softened.push_back(i);
+    find_mass_flexibilities(softened, f);
+    set(f);
+  }
+
+  void ProjectionCompliance::update_moving(SchurComplement &f)
   {
     if (moving_elastic.empty())
     {
-      schur->update_moving();
+      f.update_moving();
       return;
     }
     for (const std::size_t i : moving_elastic)
       softening[i] = 0.;
-    schur->set_compliance(softening);
-    schur->update_moving();
-    find_mass_flexibilities(moving_elastic);
-    set_softening();
+    f.set_compliance(softening);
+    f.update_moving();
+    find_mass_flexibilities(moving_elastic, f);
+    set(f);
   }
 } // namespace taut

@@ -195,15 +195,17 @@ namespace taut
   /// at.
   void TimeStepper::project_velocities()
   {
+    VelocityProjection::Residual of_rates;
     check.solve(
-        [&] {
-          projection->project(conditions, conditions.rates(), current,
-                              system->interface().matrix());
+        [&]
+        {
+          of_rates = projection->project(conditions, conditions.rates(), current,
+                                         system->interface().matrix());
         });
-    if (!(projection->residual() <= last.complementarity))
+    if (!(of_rates.largest <= last.complementarity))
     {
-      last.complementarity = projection->residual();
-      last.worst_constraint = projection->worst_constraint();
+      last.complementarity = of_rates.largest;
+      last.worst_constraint = of_rates.worst;
     }
     check.check_constraints(last);
     for (std::size_t i = 0; i < constraints.size(); ++i)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/dot.h>
-#include <taut/substructure/constrained_body.h>
 #include <taut/time/velocity_projection.h>
 
 #include <algorithm>
@@ -17,28 +16,17 @@ namespace taut
     /// Part of the largest terms of a rate so far, and of the rate that the kinetic energy could
     /// make, below which smaller ones count as rest.
     constexpr double rest = 1e-3;
-
-    /// Systems with M are well-conditioned: nothing has to be taken from the bodies' other solvers.
-    InterfaceParameters for_mass(InterfaceParameters parameters)
-    {
-      parameters.preconditioner = "diagonal";
-      parameters.coarse_space = "none";
-      return parameters;
-    }
-
   } // namespace
 
   VelocityProjection::VelocityProjection(const Structure &structure, const Constraints &constraints,
                                          const SolverParameters &parameters,
                                          const Reference &reference)
-      : structure(structure), constraints(constraints), reference(reference),
-        solvers(structure, parameters.local_solver),
-        schur(make_schur_complement(for_mass(parameters.interface), solvers, constraints)),
+      : structure(structure), constraints(constraints),
+        masses(structure, constraints, parameters, reference), softening(constraints),
         complementarity(parameters.complementarity), dV(structure.zero())
   {
     const std::size_t n = constraints.size();
-    for (std::vector<double> *v : {&flexibility, &of_mass, &relative_softening, &softening, &p, &q,
-                                   &change, &rate, &work_of_rows, &largest_scale})
+    for (std::vector<double> *v : {&p, &q, &change, &rate, &work_of_rows, &largest_scale})
       v->assign(n, 0.);
     takes_part.assign(n, 0);
     has_no_mass = constraints.without_mass();
@@ -55,46 +43,18 @@ namespace taut
       std::set_difference(all.begin(), all.end(), constrained.begin(), constrained.end(),
                           std::back_inserter(quasi_static.back()));
       n_quasi_static += quasi_static.back().size();
-      if (dynamic_cast<const ConstrainedBody *>(&body))
-        with_constraints.push_back(k);
     }
     some_quasi_static = structure.communicator().any(n_quasi_static > 0);
-    some_with_constraints = structure.communicator().any(!with_constraints.empty());
   }
 
-  /// f and its diagonal; the mass matrices are factored at the first call.
-  void VelocityProjection::setup()
+  void VelocityProjection::prepare(const StepCoefficients &coefficients, const double tau,
+                                   const std::vector<double> &S, ComplementarityOperator &F)
   {
-    if (!is_set_up)
-      structure.communicator().agree([&] { solvers.factor_mass(); });
-    is_set_up = true;
-    std::fill(softening.begin(), softening.end(), 0.);
-    schur->setup(softening);
-    if (!has_softening)
-      return;
-    std::vector<std::size_t> softened;
-    for (std::size_t i = 0; i < constraints.size(); ++i)
-      if (relative_softening[i] > 0.)
-        softened.push_back(i);
-    find_mass_flexibilities(softened);
-    set_softening();
-  }
-
-  /// Of bodies with constraints inside, at the displacements of the state.
-  void VelocityProjection::factor_masses(const State &state)
-  {
-    structure.communicator().agree(
-        [&]
-        {
-          for (const std::size_t k : with_constraints)
-            solvers.set_tangent(k, dynamic_cast<const ConstrainedBody &>(structure[k])
-                                       .mass_at(taut::displacement(reference, state, k)));
-          if (!is_set_up)
-            solvers.factor_mass();
-          else
-            for (const std::size_t k : with_constraints)
-              solvers.factor_again(k);
-        });
+    c = coefficients;
+    step = tau;
+    softening.prepare(1. - c.alpha_f, S, F);
+    if (masses.is_set_up())
+      masses.setup(softening);
   }
 
   /// Sets the constraints that take part and their impulses. False if all their rates are as they
@@ -108,7 +68,7 @@ namespace taut
       p[i] = conditions.mean_force(i) ? step * state.multiplier[i] : 0.;
       const bool is_spring = constraints[i].cone.is_free() && !constraints[i].spring.is_rigid();
       if (!conditions.mean_force(i) || has_no_mass[i] || is_spring ||
-          !constraints[i].cone.is_closed(p[i]) || !std::isfinite(relative_softening[i]))
+          !constraints[i].cone.is_closed(p[i]) || !softening.takes_part(i))
         continue;
       takes_part[i] = 1;
       if (conditions.remains_in_contact(i, state))
@@ -139,7 +99,7 @@ namespace taut
   /// d = D'* - (f + softening) p on the constraints that take part.
   void VelocityProjection::set_problem(const State &state)
   {
-    const ComplementarityOperator &f = schur->matrix();
+    const ComplementarityOperator &f = masses.interface().matrix();
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       if (!(f.diagonal(i) > 0.))
@@ -162,40 +122,25 @@ namespace taut
     }
   }
 
-  void VelocityProjection::project(const ContactConditions &conditions, GapRates &rates,
-                                   State &state, ComplementarityOperator &F)
+  VelocityProjection::Residual VelocityProjection::project(const ContactConditions &conditions,
+                                                           GapRates &rates, State &state,
+                                                           ComplementarityOperator &F)
   {
-    found = 0.;
     std::fill(work_of_rows.begin(), work_of_rows.end(), 0.);
-    if (!moving_elastic.empty())
-      find_flexibilities(moving_elastic, conditions.springs().compliance(), F);
-    if (has_laws || !moving_elastic.empty())
-    {
-      set_relative_softening(conditions.springs().compliance());
-      if (is_set_up)
-        set_softening();
-    }
+    softening.follow(conditions.springs().compliance(), F,
+                     masses.is_set_up() ? &masses.interface() : nullptr);
     if (some_quasi_static)
     {
       move_quasi_static(state);
       rates.update(state);
     }
     if (!has_to_act(conditions, state))
-      return;
-    if (some_with_constraints)
-    {
-      factor_masses(state);
-      is_set_up = true;
-      setup();
-    }
-    else if (!is_set_up)
-      setup();
-    else
-      update_moving();
+      return {};
+    masses.update(state, softening);
     problem.gap_scale = rates.velocity_sizes();
     set_problem(state);
     solve(conditions, state);
-    set_velocities(rates, state);
+    return set_velocities(rates, state);
   }
 
   /// P - p.
@@ -203,7 +148,8 @@ namespace taut
   {
     const auto impulses = [&]()
     {
-      std::vector<double> P = complementarity.solve(problem, schur->matrix()).solution.multiplier;
+      std::vector<double> P =
+          complementarity.solve(problem, masses.interface().matrix()).solution.multiplier;
       for (std::size_t i = 0; i < P.size(); ++i)
         P[i] -= p[i];
       return P;
@@ -239,7 +185,7 @@ namespace taut
     const auto response = [&](const std::vector<double> &impulses)
     {
       std::vector<double> result;
-      schur->matrix().apply(impulses, result);
+      masses.interface().matrix().apply(impulses, result);
       for (std::size_t i = 0; i < result.size(); ++i)
         result[i] -= softening[i] * impulses[i];
       return result;
@@ -279,16 +225,17 @@ namespace taut
     }
   }
 
-  void VelocityProjection::set_velocities(GapRates &rates, State &state)
+  VelocityProjection::Residual VelocityProjection::set_velocities(GapRates &rates, State &state)
   {
     for (std::vector<double> &v : dV)
       std::fill(v.begin(), v.end(), 0.);
     constraints.add_forces(q, dV);
-    solvers.solve(dV);
+    masses.solve(dV);
     change_velocities(state);
     work_vector = rates.velocities();
     rates.update(state);
-    schur->matrix().apply(q, change);
+    masses.interface().matrix().apply(q, change);
+    Residual found;
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       work_of_rows[i] = .5 * q[i] * (work_vector[i] + rates.velocities()[i]);
@@ -298,12 +245,10 @@ namespace taut
                    size = problem.gap_scale[i] + std::fabs(rate[i]) + std::fabs(expected),
                    error = std::fabs(state.gap_rate[i] - expected),
                    relative = error == 0. ? 0. : error / size;
-      if (!(relative <= found) && !std::isnan(found))
-      {
-        found = relative;
-        worst = i;
-      }
+      if (!(relative <= found.largest) && !std::isnan(found.largest))
+        found = {relative, i};
       state.multiplier[i] = (p[i] + q[i]) / step;
     }
+    return found;
   }
 } // namespace taut

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/substructure/constrained_body.h>
+#include <taut/time/mass_equations.h>
+
+namespace taut
+{
+  namespace
+  {
+    /// Systems with M are well-conditioned: nothing has to be taken from the bodies' other solvers.
+    InterfaceParameters for_mass(InterfaceParameters parameters)
+    {
+      parameters.preconditioner = "diagonal";
+      parameters.coarse_space = "none";
+      return parameters;
+    }
+  } // namespace
+
+  MassEquations::MassEquations(const Structure &structure, const Constraints &constraints,
+                               const SolverParameters &parameters, const Reference &reference)
+      : structure(structure), reference(reference), solvers(structure, parameters.local_solver),
+        schur(make_schur_complement(for_mass(parameters.interface), solvers, constraints))
+  {
+    for (std::size_t k = 0; k < structure.size(); ++k)
+      if (dynamic_cast<const ConstrainedBody *>(&structure[k]))
+        with_constraints.push_back(k);
+    some_with_constraints = structure.communicator().any(!with_constraints.empty());
+  }
+
+  void MassEquations::setup(ProjectionCompliance &softening)
+  {
+    if (!set_up)
+      structure.communicator().agree([&] { solvers.factor_mass(); });
+    set_up = true;
+    softening.setup(*schur);
+  }
+
+  /// Bodies with constraints inside, at the displacements of the state.
+  void MassEquations::factor_at(const State &state)
+  {
+    structure.communicator().agree(
+        [&]
+        {
+          for (const std::size_t k : with_constraints)
+            solvers.set_tangent(k, dynamic_cast<const ConstrainedBody &>(structure[k])
+                                       .mass_at(taut::displacement(reference, state, k)));
+          if (!set_up)
+            solvers.factor_mass();
+          else
+            for (const std::size_t k : with_constraints)
+              solvers.factor_again(k);
+        });
+    set_up = true;
+  }
+
+  void MassEquations::update(const State &state, ProjectionCompliance &softening)
+  {
+    if (some_with_constraints)
+      factor_at(state);
+    if (some_with_constraints || !set_up)
+      setup(softening);
+    else
+      softening.update_moving(*schur);
+  }
+} // namespace taut
