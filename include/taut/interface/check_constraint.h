@@ -12,7 +12,7 @@ namespace taut
   /**
    * Throws EntryError, which names the constraint, for a stiffness that is not positive, a negative
    * damping, a gap or a length that is not finite, or forms that do not fit the bodies of @p
-   * structure or are on others. Each rank checks its own terms; those of a place that moves are the
+   * structure or are on others. Each rank checks its own terms; the terms of a moving place are the
    * last ones that it gave.
    */
   void check_constraint(const ConstraintData &constraint, const Structure &structure);

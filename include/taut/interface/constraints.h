@@ -135,7 +135,7 @@ namespace taut
     void turn_to(const BodyVectors &reference, const BodyVectors &U);
 
     /**
-     * Makes fixed constraints of those that turn, with the directions and gaps that they have at U
+     * Makes fixed constraints of the turning ones, with the directions and gaps that they have at U
      * = @p reference, so that no constraint turns any more. With a force N at the reference, one
      * entry a constraint, a link that pulls holds its ends across itself: two springs |N| / |Delta|
      * are added for it, without force there, before the moving constraints. Constraints that push

@@ -83,7 +83,7 @@ namespace taut
   class System
   {
   public:
-    /// One rank alone, or those of the communicator.
+    /// On one rank alone, or on the ranks of the communicator.
     explicit System(const Communicator &processes = Communicator());
 
     /// Adds the body that @p make returns on its owner, the rank with the fewest DoFs so far unless
@@ -115,8 +115,8 @@ namespace taut
     std::size_t n_bodies() const { return index.size(); }
     std::size_t n_constraints() const { return list.size(); }
 
-    /// A body if it is on this rank, otherwise nullptr; and its index among those of this rank.
-    /// Throws UserError for a number that no body has.
+    /// A body if it is on this rank, otherwise nullptr; and its index among the bodies of this
+    /// rank. Throws UserError for a number that no body has.
     const Substructure *body(std::size_t number) const;
     std::size_t index_here(std::size_t body) const;
 

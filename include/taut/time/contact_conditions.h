@@ -84,7 +84,8 @@ namespace taut
      */
     bool remains_in_contact(std::size_t i, const State &state) const;
 
-    /// Gaps, rates and springs of the state, whose displacements are those of the end of the step.
+    /// Gaps, rates and springs of the state, whose displacements are at the end of the step
+    /// already.
     void update(State &state);
 
     /**

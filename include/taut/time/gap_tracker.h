@@ -42,7 +42,7 @@ namespace taut
     /// @p other.
     double set_scale(std::size_t i, const State &before, double other);
 
-    /// The last of these, but for what came to rest.
+    /// The scale that set_scale() found last, without the least scale of constraints at rest.
     double scale(const std::size_t i) const { return scale_of_step[i]; }
 
     /// Sizes of the terms of B^T U at the end of the step.

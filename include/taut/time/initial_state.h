@@ -24,7 +24,7 @@ namespace taut
   /**
    * The start of a run at t = 0. An equilibrium is the reference itself, so that U = 0; otherwise
    * the reference is the undeformed system. Given displacements and velocities are those of
-   * Substructure::initial_state(); what is held at a place has no velocity.
+   * Substructure::initial_state(); prescribed DoFs start without velocity.
    *
    * Bodies that are to be linearised move by large amounts until the reference is found. Then
    * linear ones take their place in @p structure, see SlenderBody::linearised(). At an equilibrium

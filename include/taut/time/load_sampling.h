@@ -41,7 +41,7 @@ namespace taut
 
     const Structure &structure;
     std::vector<std::size_t> varying;  ///< bodies with loads that vary
-    std::vector<double> largest_loads; ///< of each of these so far [N]
+    std::vector<double> largest_loads; ///< largest load of each body so far [N]
     std::vector<double> largest_motions;
     bool is_constant = true; ///< on all ranks
     std::vector<double> values;

@@ -38,7 +38,7 @@ namespace taut
     void follow(const State &state) { turning.follow(state); }
 
     /// What a search works on: the state before the step, which gets its multipliers, P^ of the
-    /// step into StepHistory::loads(), and what makes increments of these.
+    /// step into StepHistory::loads(), and what makes increments of P^.
     struct Step
     {
       State &state;

@@ -22,7 +22,7 @@ namespace taut
     /// The structure and the reference are kept by reference.
     StepHistory(const Structure &structure, const Reference &reference);
 
-    /// External forces at the time of the state, minus those of the reference.
+    /// External forces at a time [s], minus the forces of the reference.
     void set_external_forces(double time);
 
     /**

@@ -34,7 +34,7 @@ namespace taut
    *     finds the increments, A_k dU_k = P^_k + B_k N
    *     accepts them                                 StepHistory, ContactConditions::update()
    *     certifies them                               BalanceCertificate, ContactConditions
-   *     and projects the velocities, with schemes that do so   VelocityProjection.
+   *     projects the velocities, with some schemes   VelocityProjection.
    *
    * Where a body is not linear or a constraint turns, NewtonSearch does the second to the fourth
    * line again and again.
@@ -150,7 +150,7 @@ namespace taut
     Sizes before_step;
 
     std::unique_ptr<StepEquations> system;
-    InterfaceStatistics earlier_systems; ///< of those before
+    InterfaceStatistics earlier_systems; ///< of the equations before reset_caches()
     NewtonSearch newton;
     ContactConditions conditions;
     StepHistory history;

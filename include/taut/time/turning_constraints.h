@@ -20,8 +20,8 @@ namespace taut
    *
    * which times Delta_1 - Delta_0 is |Delta_1| - |Delta_0|: gaps do not drift, and the work of the
    * force is that of its gap (O. Gonzalez, J. Nonlinear Sci. 6 (1996)). With forces at the ends of
-   * steps it is that of Delta_1, and D is linear about the last guess. Guesses are those of
-   * Newton's method. Indices are those of the constraints. All functions that take vectors of
+   * steps it is that of Delta_1, and D is linear about the last guess. Newton's method makes
+   * the guesses. Indices count all constraints. All functions that take vectors of
    * bodies are called by all ranks together.
    */
   class TurningConstraints
@@ -77,7 +77,7 @@ namespace taut
     bool is_mean = false;
     std::vector<Coordinates> start; ///< Delta_0
     std::vector<Coordinates> used;  ///< directions of B_i
-    std::vector<Coordinates> next;  ///< those of the guess
+    std::vector<Coordinates> next;  ///< directions of the guess
     std::vector<double> offsets, next_offsets, increments;
     std::vector<Coordinates> end; ///< Delta_1 of the last guess
   };
