@@ -156,7 +156,7 @@ namespace taut
     out << '\n';
   }
 
-  void Statistics::print(std::ostream &out) const
+  void Statistics::report(std::ostream &out, bool) const
   {
     const auto flags = out.flags();
     out << std::fixed << std::setprecision(2);

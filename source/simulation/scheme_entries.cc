@@ -38,18 +38,14 @@ namespace taut
     return largest;
   }
 
-  std::unique_ptr<TimeIntegrator>
-  Parameters::integrator(const std::string &name,
-                         const std::map<std::string, std::string> &entries) const
+  std::map<std::string, std::string> Parameters::time_entries() const
   {
     const std::string time = "Time/";
     std::map<std::string, std::string> values;
     for (const auto &[path, value] : entry_values)
       if (path.compare(0, time.size(), time) == 0)
         values[path.substr(time.size())] = value;
-    for (const auto &[path, value] : entries)
-      values[path] = value;
-    return make_integrator(name, values);
+    return values;
   }
 
   std::vector<std::string>

@@ -105,7 +105,7 @@ namespace taut
     const Certificate &worst_certificate() const { return worst; }
 
     /// The table, with the expected ranges beside the quantities.
-    void print(std::ostream &out) const;
+    void report(std::ostream &log, bool failed) const override;
 
     /// The same as JSON. Throws UserError if the file cannot be written.
     void write(const std::string &path, const RunDescription &run) const;

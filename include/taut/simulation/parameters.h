@@ -137,9 +137,8 @@ namespace taut
     /// 'automatic' takes [1].
     double restitution() const;
 
-    /// A scheme with the parameters that the file gives it, but for these entries of its section.
-    std::unique_ptr<TimeIntegrator>
-    integrator(const std::string &name, const std::map<std::string, std::string> &entries) const;
+    /// The values of all entries of section Time, with those of the schemes, by path in it.
+    std::map<std::string, std::string> time_entries() const;
 
     /// A new observer of this name with the entries that the file gives it.
     std::unique_ptr<Observer> make_observer(const std::string &name) const;

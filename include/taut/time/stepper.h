@@ -64,6 +64,9 @@ namespace taut
     /// Name of the scheme with its parameters, and why it was chosen.
     std::string scheme() const { return motion.scheme_and_reason(); }
 
+    /// Without the system, for observers: see ObservedRun (simulation/observed_run.h).
+    SteppedMotion &stepped() { return motion; }
+
   private:
     std::size_t row(std::size_t constraint) const;
 
