@@ -119,7 +119,7 @@ namespace taut
   {
     return {parameters.step,          parameters.step_parameters,
             parameters.end_time,      model.start,
-            parameters.scheme,        parameters.time_entries(),
+            parameters.scheme,        parameters.entries_below("Time/"),
             parameters.restitution(), parameters.allow_unsuitable_scheme,
             parameters.solver};
   }
