@@ -11,9 +11,8 @@ namespace taut
   ObservedRun::ObservedRun(Stepper &stepper, const std::string &folder, const double interval)
       : own_scene(std::make_unique<Scene>()),
         own_bodies(std::make_unique<SceneBodies>(stepper.stepped().bodies())),
-        motion(stepper.stepped()), named(*own_scene), bodies(*own_bodies),
-        processes(bodies.communicator()), folder(folder), interval(interval),
-        reactions(named, bodies)
+        motion(stepper.stepped()), named(*own_scene), bodies(*own_bodies), folder(folder),
+        interval(interval), reactions(named, bodies)
   {
     for (const Structure::Body &body : bodies.all_bodies())
       own_scene->bodies.push_back({body.name, "", "", nullptr});
@@ -21,8 +20,8 @@ namespace taut
 
   ObservedRun::ObservedRun(SteppedMotion &motion, const Scene &scene, const SceneBodies &structure,
                            const std::string &folder, const double interval)
-      : motion(motion), named(scene), bodies(structure), processes(bodies.communicator()),
-        folder(folder), interval(interval), reactions(scene, structure)
+      : motion(motion), named(scene), bodies(structure), folder(folder), interval(interval),
+        reactions(scene, structure)
   {
     for (const Probe &probe : scene.probes)
     {
@@ -50,7 +49,7 @@ namespace taut
     probe_rest.clear();
     for (const std::vector<Term> &terms : probe_terms)
       probe_rest.push_back(evaluate(terms, rest));
-    processes.sum(probe_rest);
+    processes().sum(probe_rest);
   }
 
   void ObservedRun::observe(std::unique_ptr<Observer> observer)
@@ -69,7 +68,7 @@ namespace taut
   void ObservedRun::each(const std::function<void(Observer &)> &call) const
   {
     for (Observer *observer : observers)
-      processes.agree([&] { call(*observer); });
+      processes().agree([&] { call(*observer); });
   }
 
   void ObservedRun::open()
@@ -78,13 +77,13 @@ namespace taut
       observers.push_back(checkpoints);
     is_open = true;
     if (own_scene)
-      processes.agree(
+      processes().agree(
           [&]
           {
-            if (processes.is_root())
+            if (processes().is_root())
               std::filesystem::create_directories(folder);
           });
-    const RunView run = {folder, interval, processes, checkpoints && checkpoints->is_found()};
+    const RunView run = {folder, interval, processes(), checkpoints && checkpoints->is_found()};
     each([&](Observer &observer) { observer.begin(run); });
   }
 
@@ -169,9 +168,9 @@ namespace taut
     // Whether to stop goes with them: one message for both, and all ranks stop at the same step.
     const int asked = stop_asked ? stop_asked() : 0;
     probe_values.push_back(asked);
-    processes.sum(probe_values);
+    processes().sum(probe_values);
     if (probe_values.back() > 0.)
-      stop_signal = static_cast<int>(processes.max(asked));
+      stop_signal = static_cast<int>(processes().max(asked));
     probe_values.pop_back();
     for (std::size_t i = 0; i < probe_terms.size(); ++i)
       probe_values[i] -= probe_rest[i];

@@ -101,6 +101,7 @@ namespace taut
   private:
     using Clock = std::chrono::steady_clock;
 
+    const Communicator &processes() const { return bodies.communicator(); }
     void each(const std::function<void(Observer &)> &call) const;
     void show(const State &state);
     void update_probes(const State &state);
@@ -112,7 +113,6 @@ namespace taut
     SteppedMotion &motion;
     const Scene &named;
     const SceneBodies &bodies;
-    const Communicator &processes;
     const std::string folder;
     const double interval;
     Reactions reactions;
