@@ -49,47 +49,18 @@ namespace
               << "Run it with 'taut " << default_file << "'; see 'taut --help'.\n";
   }
 
-  void run(const po::variables_map &arguments, const taut::Communicator &processes)
+  using Names = std::vector<std::string>;
+
+  void exclude(const po::variables_map &arguments, const std::string &one, const Names &others)
   {
-    const std::string file = arguments["file"].as<std::string>();
-    const std::vector<std::string> overrides = arguments.count("set")
-                                                   ? arguments["set"].as<std::vector<std::string>>()
-                                                   : std::vector<std::string>();
-    if (arguments.count("sweep"))
-    {
-      for (const char *other : {"study", "check", "sketch"})
-        if (arguments.count(other))
-          throw taut::UserError(std::string("--sweep and --") + other +
-                                " exclude each other; choose one");
-      if (arguments.count("resume") && arguments.count("overwrite"))
-        throw taut::UserError("--resume and --overwrite exclude each other; choose one");
-      taut::Sweep sweep(file, overrides, processes, std::cout);
-      sweep.set_overwrite(arguments.count("overwrite") > 0);
-      sweep.set_resume(arguments.count("resume") > 0);
-      sweep.stop_if(taut::interruption);
-      sweep.run();
-      return;
-    }
-    if (arguments.count("jobs"))
-      throw taut::UserError("--jobs are the workers of a --sweep; a run takes 'mpirun -np N taut'");
-    if (arguments.count("resume"))
-      for (const char *other : {"study", "check", "overwrite"})
-        if (arguments.count(other))
-          throw taut::UserError(std::string("--resume and --") + other +
-                                " exclude each other; choose one");
-    if (arguments.count("study"))
-    {
-      if (processes.size() > 1)
-        throw taut::UserError("a study measures one process; run it without mpirun");
-      if (arguments.count("check"))
-        throw taut::UserError("--study and --check exclude each other; choose one");
-      if (arguments.count("sketch"))
-        throw taut::UserError("--study draws no --sketch; draw it with --check");
-      taut::Study study(file, overrides, arguments.count("overwrite") > 0, std::cout);
-      study.stop_if(taut::interruption);
-      study.run();
-      return;
-    }
+    for (const std::string &other : others)
+      if (arguments.count(one) && arguments.count(other))
+        throw taut::UserError("--" + one + " and --" + other + " exclude each other; choose one");
+  }
+
+  void run_once(const po::variables_map &arguments, const std::string &file, const Names &overrides,
+                const taut::Communicator &processes)
+  {
     taut::Parameters parameters;
     parameters.read(file, overrides, processes);
     parameters.output.overwrite = arguments.count("overwrite") > 0;
@@ -124,6 +95,39 @@ namespace
     {
       throw taut::UserError(parameters.explain(e));
     }
+  }
+
+  void run(const po::variables_map &arguments, const taut::Communicator &processes)
+  {
+    const std::string file = arguments["file"].as<std::string>();
+    const Names overrides = arguments.count("set") ? arguments["set"].as<Names>() : Names();
+    exclude(arguments, "sweep", {"study", "check", "sketch"});
+    if (arguments.count("sweep"))
+    {
+      exclude(arguments, "resume", {"overwrite"});
+      taut::Sweep sweep(file, overrides, processes, std::cout);
+      sweep.set_overwrite(arguments.count("overwrite") > 0);
+      sweep.set_resume(arguments.count("resume") > 0);
+      sweep.stop_if(taut::interruption);
+      sweep.run();
+      return;
+    }
+    if (arguments.count("jobs"))
+      throw taut::UserError("--jobs are the workers of a --sweep; a run takes 'mpirun -np N taut'");
+    exclude(arguments, "resume", {"study", "check", "overwrite"});
+    if (!arguments.count("study"))
+    {
+      run_once(arguments, file, overrides, processes);
+      return;
+    }
+    if (processes.size() > 1)
+      throw taut::UserError("a study measures one process; run it without mpirun");
+    exclude(arguments, "study", {"check"});
+    if (arguments.count("sketch"))
+      throw taut::UserError("--study draws no --sketch; draw it with --check");
+    taut::Study study(file, overrides, arguments.count("overwrite") > 0, std::cout);
+    study.stop_if(taut::interruption);
+    study.run();
   }
 
   /// Becomes 'mpirun -np N' of the same command, without its --jobs. Returns if there is no mpirun.

@@ -85,6 +85,15 @@ namespace taut
     }
   } // namespace
 
+  SceneBodies::SceneBodies(const Structure &bodies) : Structure(bodies)
+  {
+    custom_bodies.resize(all_bodies().size());
+    for (BodyParts &body : custom_bodies)
+      body.index = {elsewhere};
+    for (std::size_t k = 0; k < size(); ++k)
+      custom_bodies[number(k)].index = {k};
+  }
+
   SceneBodies::SceneBodies(const Scene &scene, const Partition &partition,
                            const Communicator &processes, SharedParts *const shared)
       : Structure(processes), wires(scene.wires.size()), mechanism_of_mass(scene.masses.size())

@@ -90,11 +90,10 @@ namespace taut
   void Energy::add_bodies(const StepView &step, Balance &share)
   {
     const State &state = step.state;
-    const StepCoefficients &c = step.scheme;
     if (reference_energy.empty())
       for (std::size_t k = 0; k < step.structure.size(); ++k)
         reference_energy.push_back(step.structure[k].strain_energy(step.reference.displacement[k]));
-    std::vector<double> product, a;
+    std::vector<double> product;
     for (std::size_t k = 0; k < step.structure.size(); ++k)
     {
       const Substructure &body = step.structure[k];
@@ -111,46 +110,56 @@ namespace taut
       }
       else
         share.strain += body.strain_energy(U);
-      if (P0.empty())
-        continue;
+      if (!P0.empty())
+        add_work(step, k, U, share);
+    }
+  }
 
-      a.assign(n, 0.);
+  /// What the last step gave to a body of this rank and took from it.
+  void Energy::add_work(const StepView &step, const std::size_t k, const std::vector<double> &U,
+                        Balance &share) const
+  {
+    const State &state = step.state;
+    const StepCoefficients &c = step.scheme;
+    const Substructure &body = step.structure[k];
+    const std::size_t n = body.n_dofs();
+    std::vector<double> product, a;
+    a.assign(n, 0.);
+    for (std::size_t i = 0; i < n; ++i)
+      a[i] = (1. - c.alpha_m) * state.A[k][i] + c.alpha_m * A0[k][i];
+    product.assign(n, 0.);
+    body.mass().vmult_add(1., a.data(), product.data());
+    const std::vector<double> &dU = state.dU[k];
+    std::vector<double> damping = CV[k];
+    if (c.velocity_projection)
+    {
+      // The equation of motion holds for the velocities before their projection.
       for (std::size_t i = 0; i < n; ++i)
-        a[i] = (1. - c.alpha_m) * state.A[k][i] + c.alpha_m * A0[k][i];
-      product.assign(n, 0.);
-      body.mass().vmult_add(1., a.data(), product.data());
-      const std::vector<double> &dU = state.dU[k];
-      std::vector<double> damping = CV[k];
-      if (c.velocity_projection)
-      {
-        // The equation of motion holds for the velocities before their projection.
-        for (std::size_t i = 0; i < n; ++i)
-          a[i] = state.V_old[k][i] + state.last_step * state.A[k][i];
-        damping.assign(n, 0.);
-        body.damping().vmult_add(1., a.data(), damping.data());
-      }
-      if (!body.is_linear())
-      {
-        // What the damping of the material takes.
-        std::vector<double> before = U, f;
-        for (std::size_t i = 0; i < n; ++i)
-          before[i] -= dU[i];
-        body.mean_internal_force(before, U, state.last_step, f);
-        share.damping += dot(f, dU) - (body.strain_energy(U) - body.strain_energy(before));
-      }
+        a[i] = state.V_old[k][i] + state.last_step * state.A[k][i];
+      damping.assign(n, 0.);
+      body.damping().vmult_add(1., a.data(), damping.data());
+    }
+    if (!body.is_linear())
+    {
+      // What the damping of the material takes.
+      std::vector<double> before = U, f;
       for (std::size_t i = 0; i < n; ++i)
-      {
-        share.loads += .5 * (P0[k][i] + P[k][i]) * dU[i];
-        share.damping += .5 * (CV0[k][i] + damping[i]) * dU[i];
-        share.algorithmic +=
-            dU[i] * (product[i] - (.5 - c.alpha_f) * (balance[k][i] - balance0[k][i]));
-      }
-      for (const ConstrainedDof &constraint : body.constraints())
-      {
-        const unsigned int i = constraint.dof;
-        share.supports += dU[i] * (product[i] - (1. - c.alpha_f) * balance[k][i] -
-                                   c.alpha_f * balance0[k][i] - impulses[k][i]);
-      }
+        before[i] -= dU[i];
+      body.mean_internal_force(before, U, state.last_step, f);
+      share.damping += dot(f, dU) - (body.strain_energy(U) - body.strain_energy(before));
+    }
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      share.loads += .5 * (P0[k][i] + P[k][i]) * dU[i];
+      share.damping += .5 * (CV0[k][i] + damping[i]) * dU[i];
+      share.algorithmic +=
+          dU[i] * (product[i] - (.5 - c.alpha_f) * (balance[k][i] - balance0[k][i]));
+    }
+    for (const ConstrainedDof &constraint : body.constraints())
+    {
+      const unsigned int i = constraint.dof;
+      share.supports += dU[i] * (product[i] - (1. - c.alpha_f) * balance[k][i] -
+                                 c.alpha_f * balance0[k][i] - impulses[k][i]);
     }
   }
 

@@ -134,12 +134,12 @@ namespace taut
     store(archive);
   }
 
-  void ImpactWatch::print(std::ostream &out) const
+  void ImpactWatch::report(std::ostream &log, bool) const
   {
     if (n_steps == 0)
       return;
     // With digits of its own.
-    out << to_text("Impacts: in ", n_steps, n_steps == 1 ? " step" : " steps, first",
+    log << to_text("Impacts: in ", n_steps, n_steps == 1 ? " step" : " steps, first",
                    " at t = ", first, " s at ", names,
                    ", contacts that share a body were struck together: restitution then holds at "
                    "all of them at once, not at one after the other. If their order matters, take "

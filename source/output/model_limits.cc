@@ -300,7 +300,7 @@ namespace taut
     store(archive);
   }
 
-  void ModelLimits::load(InputArchive &archive)
+  void ModelLimits::resume(InputArchive &archive, const StepView &)
   {
     store(archive);
   }
@@ -335,10 +335,10 @@ namespace taut
     return result;
   }
 
-  void ModelLimits::print(std::ostream &out) const
+  void ModelLimits::report(std::ostream &log, bool) const
   {
-    solids.print_left_out(out);
+    solids.print_left_out(log);
     for (const Warning &warning : warnings())
-      out << "Warning: " << warning.message << '\n';
+      log << "Warning: " << warning.message << '\n';
   }
 } // namespace taut

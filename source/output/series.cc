@@ -5,15 +5,19 @@
 
 namespace taut
 {
-  Series::Series(const std::string &folder, const Scene &scene, const Constraints &constraints,
-                 const TableFormat format, const double interval, const double link_interval,
-                 const bool resumes)
-      : interval(interval), sliding(interval), links(link_interval), supports(link_interval),
-        probes(interval)
+  void Series::begin(const RunView &run)
   {
-    for (std::size_t i = 0; i < constraints.size(); ++i)
-      if (constraints[i].is_link())
-        add_link(constraints[i]);
+    is_open = run.communicator.is_root();
+    if (!is_open)
+      return;
+    interval = run.interval;
+    for (IntervalTable *table : {&sliding, &probes})
+      *table = IntervalTable(constraints ? interval : 0.);
+    for (IntervalTable *table : {&links, &supports})
+      *table = IntervalTable(link_interval);
+    for (std::size_t i = 0; constraints && i < constraints->size(); ++i)
+      if ((*constraints)[i].is_link())
+        add_link((*constraints)[i]);
     for (const SupportPoint &point : support_points(scene))
       supports.add_quantity(point.name + (point.is_moment ? " moment" : " force"),
                             point.is_moment ? "N m" : "N");
@@ -23,7 +27,7 @@ namespace taut
         {&sliding, "/sliding"}, {&links, "/links"}, {&supports, "/supports"}, {&probes, "/probes"}};
     for (const auto &[table, name] : tables)
       if (!table->is_empty())
-        table->open(format, folder + name, resumes);
+        table->open(format, run.folder + name, run.resumes);
     const std::vector<std::string> columns = {"time [s]",
                                               "complementarity [1]",
                                               "balance [1]",
@@ -32,7 +36,9 @@ namespace taut
                                               "contact energy [J]",
                                               "contact gap [m or rad]",
                                               "peak over mean [1]"};
-    certificate = std::make_unique<TableFile>(format, folder + "/certificate", columns, resumes);
+    if (constraints)
+      certificate =
+          std::make_unique<TableFile>(format, run.folder + "/certificate", columns, run.resumes);
   }
 
   void Series::add_link(const ConstraintData &constraint)
@@ -75,14 +81,17 @@ namespace taut
 
   void Series::record(const StepView &step)
   {
+    if (!is_open)
+      return;
     const double time = step.state.time;
-    record_links(step, true, sliding);
-    record_links(step, false, links);
+    if (constraints)
+      for (const bool moving : {true, false})
+        record_links(step, moving, moving ? sliding : links);
     if (!step.supports.empty())
       supports.record(time, step.supports);
     if (!step.probes.empty())
       probes.record(time, step.probes);
-    if (!(time >= next - 1e-9 * interval))
+    if (!certificate || !(time >= next - 1e-9 * interval))
       return;
     next = time + interval;
     const Certificate &found = step.certificate;
@@ -94,6 +103,8 @@ namespace taut
 
   void Series::save(OutputArchive &archive)
   {
+    if (!is_open)
+      return;
     for (IntervalTable *table : {&sliding, &links, &supports, &probes})
       table->save(archive);
     const std::size_t length = certificate->save();
@@ -102,6 +113,8 @@ namespace taut
 
   void Series::resume(InputArchive &archive, const StepView &)
   {
+    if (!is_open)
+      return;
     for (IntervalTable *table : {&sliding, &links, &supports, &probes})
       table->load(archive);
     std::size_t length = 0;
@@ -113,19 +126,7 @@ namespace taut
   {
     for (IntervalTable *table : {&sliding, &links, &supports, &probes})
       table->close();
-    certificate->close();
-  }
-
-  void write_probes(const std::string &folder, const Scene &scene,
-                    const std::vector<double> &probes)
-  {
-    if (scene.probes.empty())
-      return;
-    IntervalTable table(0.);
-    for (const Probe &probe : scene.probes)
-      table.add_quantity(probe.name, probe.rotational ? "rad" : "m");
-    table.open(TableFormat::csv, folder + "/probes");
-    table.record(0., probes);
-    table.close();
+    if (certificate)
+      certificate->close();
   }
 } // namespace taut

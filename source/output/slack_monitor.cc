@@ -63,8 +63,10 @@ namespace taut
                   own.begin() + n_entries * step.structure.number(k));
   }
 
-  void SlackMonitor::print(std::ostream &out) const
+  void SlackMonitor::report(std::ostream &log, const bool failed) const
   {
+    if (failed && processes.size() > 1)
+      return;
     const std::vector<double> all = of_all_ranks();
     constexpr std::size_t most_named = 6;
     std::size_t n = 0;
@@ -88,9 +90,9 @@ namespace taut
       else
         line
             << "nothing but inertia keeps it in shape, neither Bending stiffness nor Axial damping";
-      out << line.str() << '\n';
+      log << line.str() << '\n';
     }
     if (n > most_named)
-      out << "Slack: " << n - most_named << " bodies more\n";
+      log << "Slack: " << n - most_named << " bodies more\n";
   }
 } // namespace taut

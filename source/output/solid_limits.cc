@@ -48,7 +48,7 @@ namespace taut
   SolidLimits::SolidLimits(const Scene &scene, const SceneBodies &structure)
   {
     for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-      if (scene.bodies[i].type->largest_turn() > 0.)
+      if (scene.bodies[i].type && scene.bodies[i].type->largest_turn() > 0.)
         add_body(scene, structure, i);
     for (std::size_t c = 0; c < scene.contacts.size(); ++c)
       add_contact(scene, structure, c);

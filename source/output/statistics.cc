@@ -138,36 +138,39 @@ namespace taut
       : parameters(parameters)
   {
     for (std::size_t i = 0; i < rows.size(); ++i)
-    {
       if (rows.slides(i))
         contacts.push_back({rows[i].name, rows[i].link, {}, {}, {}});
       else if (rows[i].is_link())
-      {
-        link_names.push_back(rows[i].name);
-        link_unilateral.push_back(rows[i].cone.may_open());
-        link_rotates.push_back(rows[i].rotational);
-      }
-    }
-    link_quantities.resize(link_names.size());
+        links.push_back({rows[i].name, rows[i].cone.may_open(), rows[i].rotational});
     for (const Probe &probe : scene.probes)
-    {
-      probe_names.push_back(probe.name);
-      probe_rotates.push_back(probe.rotational);
-    }
+      probes.push_back({probe.name, probe.rotational});
     for (const SupportPoint &point : support_points(scene))
+      supports.push_back({point.name, point.is_moment});
+  }
+
+  void Statistics::record_links(const StepView &step, const double dt)
+  {
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < rows->size() && !rows->slides(i); ++i)
     {
-      support_names.push_back(point.name);
-      support_is_moment.push_back(point.is_moment);
+      if (!(*rows)[i].is_link())
+        continue;
+      LinkQuantities &link = links[n++];
+      const double force = step.state.multiplier[i];
+      (force == 0. ? link.open_time : link.closed_time) += dt;
+      link.impulse += force * dt;
+      const double mean = link.unilateral ? step.measures.mean_force(i) : force;
+      if (std::fabs(mean) > std::fabs(link.largest_force))
+        link.largest_force = mean;
+      link.largest_impulse = step.measures.largest_impulse(i);
     }
-    uplift.assign(probe_names.size(), 0.);
-    lowering.assign(probe_names.size(), 0.);
-    last.assign(probe_names.size(), 0.);
   }
 
   void Statistics::record(const StepView &step)
   {
     const State &state = step.state;
-    const double dt = times.empty() ? 0. : state.time - times.back();
+    const bool is_start = times.empty();
+    const double dt = is_start ? 0. : state.time - times.back();
     times.push_back(state.time);
     measures = &step.measures;
     rows = &step.constraints;
@@ -178,52 +181,41 @@ namespace taut
       contact.force.push_back(state.multiplier[row]);
       contact.mean_force.push_back(step.measures.mean_force(row));
     }
-    for (std::size_t i = 0, n = 0; i < rows->size() && !rows->slides(i); ++i)
+    record_links(step, dt);
+    for (std::size_t i = 0; i < probes.size(); ++i)
     {
-      if (!(*rows)[i].is_link())
-        continue;
-      LinkQuantities &link = link_quantities[n];
-      const double force = state.multiplier[i];
-      if (force == 0.)
-        link.open_time += dt;
-      else
-        link.closed_time += dt;
-      link.impulse += force * dt;
-      const double mean = link_unilateral[n++] ? step.measures.mean_force(i) : force;
-      if (std::fabs(mean) > std::fabs(link.largest_force))
-        link.largest_force = mean;
-      link.largest_impulse = step.measures.largest_impulse(i);
+      ProbeQuantities &probe = probes[i];
+      probe.last = step.probes[i];
+      probe.largest = std::max(probe.largest, probe.last);
+      probe.smallest = std::min(probe.smallest, probe.last);
     }
-    for (std::size_t i = 0; i < uplift.size(); ++i)
+    for (std::size_t i = 0; i < supports.size(); ++i)
     {
-      uplift[i] = std::max(uplift[i], step.probes[i]);
-      lowering[i] = std::min(lowering[i], step.probes[i]);
-      last[i] = step.probes[i];
-    }
-    support_quantities.resize(support_names.size());
-    for (std::size_t i = 0; i < support_quantities.size(); ++i)
-    {
-      SupportQuantities &support = support_quantities[i];
+      SupportQuantities &support = supports[i];
       const double force = step.supports[i];
-      if (times.size() == 1)
-        support = {force, force, force};
+      if (is_start)
+        support.start = support.largest = support.smallest = force;
       support.largest = std::max(support.largest, force);
       support.smallest = std::min(support.smallest, force);
     }
-    if (dt == 0.)
-      return; // the start is no step
+    if (dt != 0.) // the start is no step
+      record_certificate(step);
+  }
+
+  void Statistics::record_certificate(const StepView &step)
+  {
     ++n_steps;
     n_iterations += step.certificate.iterations;
     n_fallbacks += step.certificate.fallback;
     if (step.certificate.complementarity > worst.complementarity)
     {
       worst.complementarity = step.certificate.complementarity;
-      worst_complementarity_time = state.time;
+      worst_complementarity_time = step.state.time;
     }
     if (step.certificate.balance > worst.balance)
     {
       worst.balance = step.certificate.balance;
-      worst_balance_time = state.time;
+      worst_balance_time = step.state.time;
     }
     worst.drift = std::max(worst.drift, step.certificate.drift);
   }
@@ -231,17 +223,17 @@ namespace taut
   template <typename Archive>
   void Statistics::store(Archive &archive)
   {
-    archive &times &uplift &lowering &last;
-    archive &n_steps &n_iterations &n_fallbacks;
+    archive &times &n_steps &n_iterations &n_fallbacks;
     archive &worst.complementarity &worst.balance &worst.drift;
     archive &worst_complementarity_time &worst_balance_time;
     for (Contact &contact : contacts)
       archive &contact.position &contact.force &contact.mean_force;
-    for (LinkQuantities &link : link_quantities)
+    for (LinkQuantities &link : links)
       archive &link.open_time &link.closed_time &link.largest_force &link.impulse &link
           .largest_impulse;
-    support_quantities.resize(support_names.size());
-    for (SupportQuantities &support : support_quantities)
+    for (ProbeQuantities &probe : probes)
+      archive &probe.largest &probe.smallest &probe.last;
+    for (SupportQuantities &support : supports)
       archive &support.start &support.largest &support.smallest;
   }
 
@@ -330,23 +322,21 @@ namespace taut
                                {contact.name, "minimum", m.minimum, "N"},
                                {contact.name, "contact loss", f.loss, "1"}});
     }
-    for (std::size_t i = 0; i < link_quantities.size(); ++i)
+    for (const LinkQuantities &f : links)
     {
-      const LinkQuantities &f = link_quantities[i];
-      const std::string force = link_rotates[i] ? "N m" : "N";
-      list.insert(list.end(),
-                  {{link_names[i], "open time", f.open_time, "s"},
-                   {link_names[i], "closed time", f.closed_time, "s"},
-                   {link_names[i], "largest force", f.largest_force, force},
-                   {link_names[i], "impulse", f.impulse, force + " s"},
-                   {link_names[i], "largest impulse", f.largest_impulse, force + " s"}});
+      const std::string force = f.rotates ? "N m" : "N";
+      list.insert(list.end(), {{f.name, "open time", f.open_time, "s"},
+                               {f.name, "closed time", f.closed_time, "s"},
+                               {f.name, "largest force", f.largest_force, force},
+                               {f.name, "impulse", f.impulse, force + " s"},
+                               {f.name, "largest impulse", f.largest_impulse, force + " s"}});
     }
-    for (std::size_t i = 0; i < probe_names.size(); ++i)
+    for (const ProbeQuantities &probe : probes)
     {
-      const std::string unit = probe_rotates[i] ? "rad" : "m";
-      list.insert(list.end(), {{probe_names[i], "largest", uplift[i], unit},
-                               {probe_names[i], "smallest", lowering[i], unit},
-                               {probe_names[i], "last", last[i], unit}});
+      const std::string unit = probe.rotates ? "rad" : "m";
+      list.insert(list.end(), {{probe.name, "largest", probe.largest, unit},
+                               {probe.name, "smallest", probe.smallest, unit},
+                               {probe.name, "last", probe.last, unit}});
     }
     return list;
   }

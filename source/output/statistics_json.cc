@@ -57,88 +57,98 @@ namespace taut
     }
   } // namespace
 
+  class Statistics::Json
+  {
+  public:
+    static json of(const Statistics &all, const Contact &contact)
+    {
+      const ContactQuantities f = all.quantities(contact);
+      json entry = {{"samples", f.n_samples}};
+      if (all.parameters.window.size() == 2)
+        entry["window"] = {{"value", all.parameters.window},
+                           {"unit", "m"},
+                           {"evaluated", json::array()},
+                           {"complete", f.is_complete}};
+      if (f.n_samples == 0)
+        return entry;
+      if (all.parameters.window.size() == 2)
+        entry["window"]["evaluated"] = {f.begin, f.end};
+      if (f.longest_step > 0.)
+        entry["filter_frequency"] = {{"value", all.parameters.filter_frequency},
+                                     {"unit", "Hz"},
+                                     {"resolved", f.is_filtered}};
+      entry["raw"] = quantities_of(all.table(f, true), false);
+      json evaluated = quantities_of(all.table(f, false), f.are_judged());
+      entry["contact_loss"] = evaluated["contact_loss"];
+      evaluated.erase("contact_loss");
+      if (f.are_judged())
+        entry[f.is_filtered ? "filtered" : "raw"] = evaluated;
+      return entry;
+    }
+
+    static json of_certificates(const Statistics &all)
+    {
+      const auto residual = [](const double value, const double at)
+      {
+        json entry = quantity(value, "1");
+        entry["time"] = time(at);
+        return entry;
+      };
+      json entry = {
+          {"complementarity", residual(all.worst.complementarity, all.worst_complementarity_time)},
+          {"balance", residual(all.worst.balance, all.worst_balance_time)},
+          {"drift", quantity(all.worst.drift, "m or rad")},
+          {"steps", all.n_steps},
+          {"iterations_per_step", all.n_steps > 0 ? double(all.n_iterations) / all.n_steps : 0.},
+          {"fallbacks", all.n_fallbacks}};
+      if (!all.measures || all.rows->size() == 0)
+        return entry;
+      const ContactMeasures::Summary s = all.measures->summary();
+      const auto measure = [&](const double value, const std::string &unit, const std::size_t row)
+      {
+        json entry = quantity(value, unit);
+        entry["largest_at"] = (*all.rows)[row].name;
+        return entry;
+      };
+      entry["contact_energy"] = measure(s.contact_energy, "J", s.energy_constraint);
+      entry["relative_contact_energy"] = measure(s.relative_energy, "1", s.energy_constraint);
+      entry["energy_of_large_motions"] = quantity(s.motion_energy, "J");
+      entry["contact_gap"] = measure(s.gap, "m or rad", s.gap_constraint);
+      entry["peak_over_mean"] = measure(s.resolution, "1", s.resolution_row);
+      return entry;
+    }
+  };
+
   void Statistics::write(const std::string &path, const RunDescription &run) const
   {
     json root = {
         {"scene", run.scene},        {"generator", run.generator}, {"version", version()},
         {"scheme", run.scheme},      {"step", time(run.step)},     {"end", time(run.end)},
         {"partial", run.is_partial}, {"until", until()},           {"verdict", verdict().text()}};
-
-    json &all_contacts = root["sliding_contacts"] = json::object();
+    json &of_contacts = root["sliding_contacts"] = json::object();
     for (const Contact &contact : contacts)
+      of_contacts[contact.name] = Json::of(*this, contact);
+    json &of_probes = root["probes"] = json::object();
+    for (const ProbeQuantities &probe : probes)
+      of_probes[probe.name] = quantities_of(table(probe), true);
+    json &of_links = root["links"] = json::object();
+    for (const LinkQuantities &link : links)
     {
-      const ContactQuantities f = quantities(contact);
-      json &entry = all_contacts[contact.name] = {{"samples", f.n_samples}};
-      if (parameters.window.size() == 2)
-        entry["window"] = {{"value", parameters.window},
-                           {"unit", "m"},
-                           {"evaluated", json::array()},
-                           {"complete", f.is_complete}};
-      if (f.n_samples == 0)
-        continue;
-      if (parameters.window.size() == 2)
-        entry["window"]["evaluated"] = {f.begin, f.end};
-      if (f.longest_step > 0.)
-        entry["filter_frequency"] = {
-            {"value", parameters.filter_frequency}, {"unit", "Hz"}, {"resolved", f.is_filtered}};
-      entry["raw"] = quantities_of(table(f, true), false);
-      json evaluated = quantities_of(table(f, false), f.are_judged());
-      entry["contact_loss"] = evaluated["contact_loss"];
-      evaluated.erase("contact_loss");
-      if (f.are_judged())
-        entry[f.is_filtered ? "filtered" : "raw"] = evaluated;
+      const std::string unit = link.rotates ? "N m" : "N";
+      of_links[link.name] = {{"open_time", time(link.open_time)},
+                             {"largest_force", quantity(link.largest_force, unit)},
+                             {"impulse", quantity(link.impulse, unit + " s")},
+                             {"largest_impulse", quantity(link.largest_impulse, unit + " s")}};
     }
-
-    json &probes = root["probes"] = json::object();
-    for (std::size_t i = 0; i < uplift.size(); ++i)
-      probes[probe_names[i]] = quantities_of(table(i), true);
-    json &links = root["links"] = json::object();
-    for (std::size_t i = 0; i < link_quantities.size(); ++i)
+    json &of_supports = root["supports"] = json::object();
+    for (const SupportQuantities &support : supports)
     {
-      const std::string unit = link_rotates[i] ? "N m" : "N";
-      links[link_names[i]] = {
-          {"open_time", time(link_quantities[i].open_time)},
-          {"largest_force", quantity(link_quantities[i].largest_force, unit)},
-          {"impulse", quantity(link_quantities[i].impulse, unit + " s")},
-          {"largest_impulse", quantity(link_quantities[i].largest_impulse, unit + " s")}};
+      const std::string unit = support.is_moment ? "N m" : "N";
+      of_supports[support.name] = {{"start", quantity(support.start, unit)},
+                                   {"largest", quantity(support.largest, unit)},
+                                   {"smallest", quantity(support.smallest, unit)}};
     }
-    json &supports = root["supports"] = json::object();
-    for (std::size_t i = 0; i < support_quantities.size(); ++i)
-    {
-      const std::string unit = support_is_moment[i] ? "N m" : "N";
-      supports[support_names[i]] = {{"start", quantity(support_quantities[i].start, unit)},
-                                    {"largest", quantity(support_quantities[i].largest, unit)},
-                                    {"smallest", quantity(support_quantities[i].smallest, unit)}};
-    }
-    const auto residual = [](const double value, const double at)
-    {
-      json entry = quantity(value, "1");
-      entry["time"] = time(at);
-      return entry;
-    };
-    root["certificate"] = {
-        {"complementarity", residual(worst.complementarity, worst_complementarity_time)},
-        {"balance", residual(worst.balance, worst_balance_time)},
-        {"drift", quantity(worst.drift, "m or rad")},
-        {"steps", n_steps},
-        {"iterations_per_step", n_steps > 0 ? double(n_iterations) / n_steps : 0.},
-        {"fallbacks", n_fallbacks}};
-    if (measures && rows->size() > 0)
-    {
-      const ContactMeasures::Summary s = measures->summary();
-      const auto measure = [&](const double value, const std::string &unit, const std::size_t row)
-      {
-        json entry = quantity(value, unit);
-        entry["largest_at"] = (*rows)[row].name;
-        return entry;
-      };
-      json &certificate = root["certificate"];
-      certificate["contact_energy"] = measure(s.contact_energy, "J", s.energy_constraint);
-      certificate["relative_contact_energy"] = measure(s.relative_energy, "1", s.energy_constraint);
-      certificate["energy_of_large_motions"] = quantity(s.motion_energy, "J");
-      certificate["contact_gap"] = measure(s.gap, "m or rad", s.gap_constraint);
-      certificate["peak_over_mean"] = measure(s.resolution, "1", s.resolution_row);
-    }
+    root["certificate"] = Json::of_certificates(*this);
     json &warnings = root["warnings"] = json::array();
     for (const Warning &warning : run.warnings)
       warnings.push_back({{"kind", warning.kind},

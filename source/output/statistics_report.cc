@@ -57,12 +57,12 @@ namespace taut
     return rows;
   }
 
-  std::vector<Statistics::Quantity> Statistics::table(const std::size_t probe) const
+  std::vector<Statistics::Quantity> Statistics::table(const ProbeQuantities &probe) const
   {
-    const bool rotates = probe_rotates[probe];
-    const std::string unit = rotates ? "mrad" : "mm";
-    return {{"Largest", unit, 1e3 * uplift[probe], rotates ? nullptr : expected_range("Uplift")},
-            {"Smallest", unit, 1e3 * lowering[probe]}};
+    const std::string unit = probe.rotates ? "mrad" : "mm";
+    return {
+        {"Largest", unit, 1e3 * probe.largest, probe.rotates ? nullptr : expected_range("Uplift")},
+        {"Smallest", unit, 1e3 * probe.smallest}};
   }
 
   Statistics::Verdict Statistics::verdict() const
@@ -85,8 +85,8 @@ namespace taut
       if (expected && !(f.are_judged() && f.is_complete))
         result.is_complete = false;
     }
-    for (std::size_t i = 0; i < uplift.size(); ++i)
-      judge(table(i));
+    for (const ProbeQuantities &probe : probes)
+      judge(table(probe));
     return result;
   }
 
@@ -137,37 +137,38 @@ namespace taut
 
   void Statistics::print_links(std::ostream &out) const
   {
-    std::size_t n_opened = 0, longest = 0;
-    for (std::size_t i = 0; i < link_quantities.size(); ++i)
-      if (link_unilateral[i] && link_quantities[i].open_time > 0.)
-      {
-        ++n_opened;
-        if (!link_unilateral[longest] ||
-            link_quantities[i].open_time > link_quantities[longest].open_time)
-          longest = i;
-      }
-    const std::size_t n_unilateral = std::count(link_unilateral.begin(), link_unilateral.end(), 1);
+    std::size_t n_unilateral = 0, n_opened = 0;
+    const LinkQuantities *longest = nullptr;
+    for (const LinkQuantities &link : links)
+    {
+      n_unilateral += link.unilateral;
+      if (!link.unilateral || !(link.open_time > 0.))
+        continue;
+      ++n_opened;
+      if (!longest || link.open_time > longest->open_time)
+        longest = &link;
+    }
     if (n_unilateral == 0)
       return;
     out << "Unilateral links that opened: " << n_opened << " of " << n_unilateral;
-    if (n_opened > 0)
-      out << "; longest '" << link_names[longest] << "', " << std::setprecision(4)
-          << link_quantities[longest].open_time << " s";
+    if (longest)
+      out << "; longest '" << longest->name << "', " << std::setprecision(4) << longest->open_time
+          << " s";
     out << '\n';
   }
 
-  void Statistics::print(std::ostream &out) const
+  void Statistics::report(std::ostream &out, bool) const
   {
     const auto flags = out.flags();
     out << std::fixed << std::setprecision(2);
     for (const Contact &contact : contacts)
       print_contact(contact, out);
-    if (!uplift.empty())
+    if (!probes.empty())
       out << "Displacement of the probes along their directions: largest, smallest\n";
-    for (std::size_t i = 0; i < uplift.size(); ++i)
+    for (const ProbeQuantities &probe : probes)
     {
-      const std::vector<Quantity> rows = table(i);
-      out << "  " << std::left << std::setw(36) << probe_names[i] << std::right << std::setw(10)
+      const std::vector<Quantity> rows = table(probe);
+      out << "  " << std::left << std::setw(36) << probe.name << std::right << std::setw(10)
           << rows[0].value << std::setw(10) << rows[1].value << ' ' << std::left << std::setw(4)
           << rows[0].unit << std::right;
       if (rows[0].expected != nullptr)

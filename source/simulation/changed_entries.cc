@@ -13,23 +13,23 @@ namespace taut
     for (const std::string &o : overrides)
     {
       const ParameterFile::Entry &entry = file.set(o);
-      if (structural_entries.count(entry.name()) > 0 || entry_values.count(entry.name()) == 0)
+      if (declared.structural.count(entry.name()) > 0 || entry_values.count(entry.name()) == 0)
         return false;
       const std::size_t n_sections = entry.path.size() - 1;
       for (std::size_t i = 0; i < n_sections; ++i)
-        entries->enter_subsection(entry.path[i]);
+        declared.entries->enter_subsection(entry.path[i]);
       bool is_allowed = true;
       try
       {
-        entries->set(entry.path.back(), entry.value);
-        entry_values[entry.name()] = entries->get(entry.path.back());
+        declared.entries->set(entry.path.back(), entry.value);
+        entry_values[entry.name()] = declared.entries->get(entry.path.back());
       }
       catch (const dealii::ExceptionBase &)
       {
         is_allowed = false;
       }
       for (std::size_t i = 0; i < n_sections; ++i)
-        entries->leave_subsection();
+        declared.entries->leave_subsection();
       if (!is_allowed)
         return false;
     }

@@ -7,7 +7,6 @@
 #include <taut/scene/entries.h>
 #include <taut/scene/shared_places.h>
 #include <taut/simulation/parameters.h>
-#include <taut/simulation/shared_libraries.h>
 #include <taut/simulation/stored_study.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -86,27 +85,8 @@ namespace taut
   Parameters::Parameters() = default;
   Parameters::~Parameters() = default;
 
-  void Parameters::declare(dealii::ParameterHandler &prm)
+  void TimeParameters::declare_parameters(dealii::ParameterHandler &prm)
   {
-    prm.add_parameter(
-        "Additional shared libraries", shared_libraries,
-        "Paths of libraries that are loaded before anything else; what they register, "
-        "generators, schemes, bodies and observers, has its entries here. A name without '/' is "
-        "sought beside libtaut.so and where the system keeps libraries",
-        List(Anything()));
-    prm.add_parameter("Generator", generator_name,
-                      "What fills the scene. " +
-                          Registry<SceneGenerator>::instance().descriptions(),
-                      Selection(Registry<SceneGenerator>::instance().names()));
-    prm.add_parameter("Gravity", gravity, "'x, y' or 'x, y, z', y upwards [m/s^2]",
-                      List(Double(), 2, 3));
-    prm.add_parameter(
-        "Start", start,
-        "'equilibrium': at rest under the loads at t = 0. 'undeformed': straight wires, "
-        "at rest. 'given': initial displacements and velocities of the bodies",
-        Selection("equilibrium|undeformed|given"));
-
-    prm.enter_subsection("Time");
     prm.add_parameter("Scheme", scheme,
                       "Time integration. 'automatic' follows from the links of the scene, their "
                       "bodies and the step; the log says what and why. " +
@@ -140,6 +120,30 @@ namespace taut
         "of bars and strings where the Scheme is 'automatic', too, and this the best choice; "
         "otherwise 'no'",
         Selection("automatic|no|mass|inertia"));
+  }
+
+  void Parameters::declare(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter(
+        "Additional shared libraries", shared_libraries,
+        "Paths of libraries that are loaded before anything else; what they register, "
+        "generators, schemes, bodies and observers, has its entries here. A name without '/' is "
+        "sought beside libtaut.so and where the system keeps libraries",
+        List(Anything()));
+    prm.add_parameter("Generator", generator_name,
+                      "What fills the scene. " +
+                          Registry<SceneGenerator>::instance().descriptions(),
+                      Selection(Registry<SceneGenerator>::instance().names()));
+    prm.add_parameter("Gravity", gravity, "'x, y' or 'x, y, z', y upwards [m/s^2]",
+                      List(Double(), 2, 3));
+    prm.add_parameter(
+        "Start", start,
+        "'equilibrium': at rest under the loads at t = 0. 'undeformed': straight wires, "
+        "at rest. 'given': initial displacements and velocities of the bodies",
+        Selection("equilibrium|undeformed|given"));
+
+    prm.enter_subsection("Time");
+    TimeParameters::declare_parameters(prm);
     for (auto &[name, integrator] : integrators)
       integrator->declare_parameters(prm);
     prm.leave_subsection();
@@ -147,7 +151,14 @@ namespace taut
     solver.declare_parameters(prm);
     partition.declare_parameters(prm);
     output.declare_parameters(prm);
-    declare_observers(prm);
+    prm.enter_subsection("Output");
+    for (auto &[name, observer] : observers)
+    {
+      prm.enter_subsection(name);
+      observer->declare_parameters(prm);
+      prm.leave_subsection();
+    }
+    prm.leave_subsection();
     statistics.declare_parameters(prm);
     study.declare_parameters(prm);
     sweep.declare_parameters(prm);
@@ -238,55 +249,11 @@ namespace taut
             file.set(o);
         });
     file.broadcast(processes);
-    const std::string text = file.text();
     try
     {
-      // Plugins and the generator's name, then the names of items, then everything: each pass knows
-      // what to declare for the next one, and only the last is strict.
-      structural_entries.clear();
-      const auto read_leniently = [&](dealii::ParameterHandler &prm)
-      {
-        prm.parse_input_from_string(text, "", true);
-        for (const auto &[path, value] : values_in(prm))
-          structural_entries.insert(path);
-      };
-      {
-        dealii::ParameterHandler prm;
-        prm.add_parameter("Additional shared libraries", shared_libraries);
-        prm.add_parameter("Generator", generator_name);
-        read_leniently(prm);
-      }
-      load_shared_libraries(shared_libraries, "Additional shared libraries");
-      create_integrators();
-      create_observers();
-      const auto &generators = Registry<SceneGenerator>::instance();
-      if (!generators.knows(generator_name))
-      {
-        const std::string near = nearest_name(generator_name, generators.list());
-        throw EntryError("Generator",
-                         "there is no such generator; known are: " + generators.names(", ") +
-                             (near.empty() ? "" : "; did you mean '" + near + "'?"));
-      }
-      generator = generators.create(generator_name);
-      {
-        dealii::ParameterHandler prm;
-        bodies.declare_names(prm);
-        contacts.declare_names(prm);
-        generator->declare_names(prm);
-        output.declare_names(prm);
-        study.declare_names(prm);
-        sweep.declare_names(prm);
-        read_leniently(prm);
-      }
-      {
-        dealii::ParameterHandler prm;
-        bodies.declare_types(prm);
-        read_leniently(prm);
-      }
-      bodies.create_types();
-      begin_entries();
-      check_entries(file, *entries);
-      entries->parse_input_from_string(text);
+      declare_in_passes(file.text());
+      check_entries(file, *declared.entries);
+      declared.entries->parse_input_from_string(file.text());
       keep_values();
       check_values();
     }
@@ -298,6 +265,52 @@ namespace taut
     {
       throw UserError(name + ": " + message(e));
     }
+  }
+
+  /// Plugins and the generator's name, then the names of items, then everything: each pass knows
+  /// what to declare for the next one, and only the last is strict.
+  void Parameters::declare_in_passes(const std::string &text)
+  {
+    declared.structural.clear();
+    const auto read_leniently = [&](dealii::ParameterHandler &prm)
+    {
+      prm.parse_input_from_string(text, "", true);
+      for (const auto &[path, value] : values_in(prm))
+        declared.structural.insert(path);
+    };
+    {
+      dealii::ParameterHandler prm;
+      prm.add_parameter("Additional shared libraries", shared_libraries);
+      prm.add_parameter("Generator", generator_name);
+      read_leniently(prm);
+    }
+    load_registered();
+    const auto &generators = Registry<SceneGenerator>::instance();
+    if (!generators.knows(generator_name))
+    {
+      const std::string near = nearest_name(generator_name, generators.list());
+      throw EntryError("Generator",
+                       "there is no such generator; known are: " + generators.names(", ") +
+                           (near.empty() ? "" : "; did you mean '" + near + "'?"));
+    }
+    generator = generators.create(generator_name);
+    {
+      dealii::ParameterHandler prm;
+      bodies.declare_names(prm);
+      contacts.declare_names(prm);
+      generator->declare_names(prm);
+      output.declare_names(prm);
+      study.declare_names(prm);
+      sweep.declare_names(prm);
+      read_leniently(prm);
+    }
+    {
+      dealii::ParameterHandler prm;
+      bodies.declare_types(prm);
+      read_leniently(prm);
+    }
+    bodies.create_types();
+    begin_entries();
   }
 
   void Parameters::check_values() const
@@ -320,20 +333,19 @@ namespace taut
 
   void Parameters::begin_entries()
   {
-    entries = std::make_unique<dealii::ParameterHandler>();
-    declare(*entries);
+    declared.entries = std::make_unique<dealii::ParameterHandler>();
+    declare(*declared.entries);
   }
 
   void Parameters::keep_values()
   {
-    entry_values = values_in(*entries);
-    entry_defaults = values_in(*entries, "default_value");
+    entry_values = values_in(*declared.entries);
+    declared.defaults = values_in(*declared.entries, "default_value");
   }
 
   void Parameters::set_defaults()
   {
-    create_integrators();
-    create_observers();
+    load_registered();
     generator = Registry<SceneGenerator>::instance().create(generator_name);
     begin_entries();
     keep_values();
@@ -346,10 +358,10 @@ namespace taut
 
   void Parameters::print(std::ostream &out) const
   {
-    if (!entries)
+    if (!declared.entries)
       return;
-    entries->print_parameters(out, dealii::ParameterHandler::PRM |
-                                       dealii::ParameterHandler::KeepDeclarationOrder);
+    declared.entries->print_parameters(out, dealii::ParameterHandler::PRM |
+                                                dealii::ParameterHandler::KeepDeclarationOrder);
   }
 
   Scene Parameters::scene() const

@@ -3,13 +3,11 @@
 #include <taut/base/instruction_set.h>
 #include <taut/model/form_finding.h>
 #include <taut/model/scene_constraints.h>
-#include <taut/output/reactions.h>
 #include <taut/output/scene_report.h>
 #include <taut/output/table_file.h>
 #include <taut/simulation/free_bodies.h>
 #include <taut/simulation/simulation.h>
 #include <taut/substructure/slender_body.h>
-#include <taut/time/initial_state.h>
 #include <taut/time/static_equilibrium.h>
 
 #include <algorithm>
@@ -21,6 +19,8 @@ namespace taut
 {
   namespace
   {
+    constexpr std::size_t most_named = 6; ///< in a line of the log
+
     /// "1 wire", "2 wires", "no wires".
     std::string counted(const std::size_t n, const std::string &one, const std::string &more = "")
     {
@@ -46,18 +46,25 @@ namespace taut
   {
     if (!parameters.accuracy_choice().empty())
       log << parameters.accuracy_choice() << '\n';
-    std::size_t n_unilateral = 0, n_rigid = 0;
-    for (std::size_t i = 0; i < links.size(); ++i)
-    {
-      n_unilateral += links[i].cone.may_open();
-      n_rigid += links[i].spring.is_rigid();
-    }
-    const std::vector<Structure::Body> &all = bodies.all_bodies();
     log << "Scene '" << parameters.generator_name << "': " << counted(model.wires.size(), "wire")
         << ", " << counted(model.masses.size(), "mass", "masses") << ", "
-        << counted(model.links.size(), "link") << '\n'
-        << "  " << counted(all.size(), "body", "bodies") << ':';
-    constexpr std::size_t most_named = 6;
+        << counted(model.links.size(), "link") << '\n';
+    print_bodies();
+    print_links();
+    for (const std::string &entry : parameters.unused_entries())
+      log << "  not used: " << entry << '\n';
+    log << "  instruction set of the loops: " << instruction_set_in_use() << '\n';
+    const double end = n_steps() * parameters.step;
+    if (has_time() && std::fabs(end - parameters.end_time) > 1e-6 * parameters.step)
+      log << "  Time/End = " << parameters.end_time
+          << " s is no multiple of Time/Step = " << parameters.step << " s: the last step ends at "
+          << end << " s\n";
+  }
+
+  void Simulation::print_bodies() const
+  {
+    const std::vector<Structure::Body> &all = bodies.all_bodies();
+    log << "  " << counted(all.size(), "body", "bodies") << ':';
     for (std::size_t k = 0; k < std::min(all.size(), most_named); ++k)
       log << (k > 0 ? "," : "") << " '" << all[k].name << "' " << all[k].n_dofs << " DoFs";
     if (all.size() > most_named)
@@ -70,17 +77,26 @@ namespace taut
       log << "\n  " << parts_reason;
     if (!bodies.cut_constraints().empty())
       log << "\n  cut in " << counted(bodies.cut_constraints().size(), "constraint");
-    log << "\n  " << counted(links.size(), "multiplier") << ": " << n_unilateral << " unilateral, "
+    log << '\n';
+  }
+
+  /// What is special in the scene, which saves work or is not meant.
+  void Simulation::print_links() const
+  {
+    std::size_t n_unilateral = 0, n_rigid = 0;
+    for (std::size_t i = 0; i < links.size(); ++i)
+    {
+      n_unilateral += links[i].cone.may_open();
+      n_rigid += links[i].spring.is_rigid();
+    }
+    log << "  " << counted(links.size(), "multiplier") << ": " << n_unilateral << " unilateral, "
         << links.size() - n_unilateral << " bilateral; " << links.sliding_rows().size()
         << " moving; " << n_rigid << " rigid\n";
-
-    const auto any_wire = [&](const auto &has)
-    { return std::any_of(model.wires.begin(), model.wires.end(), has); };
-    if (!model.wires.empty() &&
-        !any_wire([](const Wire &w) { return w.transverse == TransverseKind::beam; }))
+    const auto no_wire = [&](const auto &has)
+    { return !model.wires.empty() && std::none_of(model.wires.begin(), model.wires.end(), has); };
+    if (no_wire([](const Wire &w) { return w.transverse == TransverseKind::beam; }))
       log << "  no bending: no slope DoFs\n";
-    if (!model.wires.empty() &&
-        !any_wire([](const Wire &w) { return w.has_axial || w.has_lateral; }))
+    if (no_wire([](const Wire &w) { return w.has_axial || w.has_lateral; }))
       log << "  no axial motion: one DoF per point of a wire across it\n";
     if (links.size() == 0)
       log << "  no links: the bodies move independently\n";
@@ -91,64 +107,71 @@ namespace taut
           << " with the direction from end to end at each time\n";
     if (links.size() > 0 && links.varying_rows().empty())
       log << "  no moving link: the interface operator is constant\n";
-    if (!grounded_links.empty())
-    {
-      constexpr std::size_t most_links = 6;
-      log << "  at held ends of cables, which stand like the ground:";
-      for (std::size_t i = 0; i < std::min(grounded_links.size(), most_links); ++i)
-        log << (i > 0 ? "," : "") << " '" << grounded_links[i] << "'";
-      log << (grounded_links.size() > most_links ? " and more\n" : "\n");
-    }
-    for (const std::string &entry : parameters.unused_entries())
-      log << "  not used: " << entry << '\n';
-    log << "  instruction set of the loops: " << instruction_set_in_use() << '\n';
-    if (parameters.end_time > 0. &&
-        std::fabs(n_steps() * parameters.step - parameters.end_time) > 1e-6 * parameters.step)
-      log << "  Time/End = " << parameters.end_time
-          << " s is no multiple of Time/Step = " << parameters.step << " s: the last step ends at "
-          << n_steps() * parameters.step << " s\n";
+    if (grounded_links.empty())
+      return;
+    log << "  at held ends of cables, which stand like the ground:";
+    for (std::size_t i = 0; i < std::min(grounded_links.size(), most_named); ++i)
+      log << (i > 0 ? "," : "") << " '" << grounded_links[i] << "'";
+    log << (grounded_links.size() > most_named ? " and more\n" : "\n");
+  }
+
+  StepperOptions Simulation::stepper_options() const
+  {
+    return {parameters.step,          parameters.step_parameters,
+            parameters.end_time,      model.start,
+            parameters.scheme,        parameters.entries_below("Time/"),
+            parameters.restitution(), parameters.allow_unsuitable_scheme,
+            parameters.solver};
   }
 
   void Simulation::find_start()
   {
-    InitialState found = find_initial_state(bodies, links, parameters.solver, model.start);
-    reference = std::move(found.reference);
-    start = std::move(found.state);
-    start_certificate = found.certificate;
-    keeps_directions = found.n_kept > 0;
-    report_linearised(found);
-    if (model.start != Start::equilibrium)
-      return;
-    log << "Static equilibrium: residual " << start_certificate.complementarity << " (links), "
-        << start_certificate.balance << " (balance), "
-        << counted(start_certificate.iterations, "active-set iteration") << '\n';
-    report_free_bodies();
-    processes.agree(
-        [&]
-        {
-          for (std::size_t k = 0; k < bodies.size(); ++k)
-            if (const auto *slender = dynamic_cast<const SlenderBody *>(&bodies[k]))
-              slender->check_at_rest(displacement(reference, start, k));
-        });
+    motion = std::make_unique<SteppedMotion>(bodies, links, stepper_options());
+    report_linearised();
+    const InitialState &start = motion->start();
+    if (model.start == Start::equilibrium)
+    {
+      log << "Static equilibrium: residual " << start.certificate.complementarity << " (links), "
+          << start.certificate.balance << " (balance), "
+          << counted(start.certificate.iterations, "active-set iteration") << '\n';
+      report_free_bodies();
+      processes.agree(
+          [&]
+          {
+            for (std::size_t k = 0; k < bodies.size(); ++k)
+              if (const auto *slender = dynamic_cast<const SlenderBody *>(&bodies[k]))
+                slender->check_at_rest(displacement(start.reference, start.state, k));
+          });
+    }
+    observed = std::make_unique<ObservedRun>(*motion, model, bodies, parameters.output.folder,
+                                             parameters.output.interval);
+    observed->stop_if(stop_asked);
   }
 
-  /// Says which bodies have small motions about the start from here on, and which links with them.
-  void Simulation::report_linearised(const InitialState &found) const
+  /// The names of some of all bodies: "'a', 'b' and 3 more".
+  std::string Simulation::names_of(const std::vector<char> &some) const
   {
     std::string names;
     std::size_t n = 0;
-    constexpr std::size_t most_named = 6;
-    for (std::size_t i = 0; i < found.linearised.size(); ++i)
-      if (found.linearised[i] && ++n <= most_named)
+    for (std::size_t i = 0; i < some.size(); ++i)
+      if (some[i] && ++n <= most_named)
         names += (n > 1 ? ", '" : "'") + bodies.all_bodies()[i].name + "'";
-    if (n == 0)
+    return names + (n > most_named ? " and " + std::to_string(n - most_named) + " more" : "");
+  }
+
+  /// Says which bodies have small motions about the start from here on, and which links with them.
+  void Simulation::report_linearised() const
+  {
+    const InitialState &start = motion->start();
+    const std::string names = names_of(start.linearised);
+    if (names.empty())
       return;
     log << "Linearised at the "
         << (model.start == Start::equilibrium ? "equilibrium of the scene: " : "shape at rest: ")
-        << names << (n > most_named ? " and " + std::to_string(n - most_named) + " more" : "");
-    if (found.n_kept > 0)
-      log << "; " << counted(found.n_kept, "link") << " that would turn "
-          << (found.n_kept == 1 ? "keeps its direction" : "keep their directions");
+        << names;
+    if (start.n_kept > 0)
+      log << "; " << counted(start.n_kept, "link") << " that would turn "
+          << (start.n_kept == 1 ? "keeps its direction" : "keep their directions");
     log << '\n';
   }
 
@@ -158,39 +181,34 @@ namespace taut
     std::vector<Substructure::NullSpace> null_spaces;
     for (std::size_t k = 0; k < bodies.size(); ++k)
       null_spaces.push_back(bodies[k].null_space());
-    const std::vector<char> free = free_bodies(null_spaces, links, start.multiplier);
-
-    const std::vector<Structure::Body> &all = bodies.all_bodies();
-    std::vector<double> flags(all.size(), 0.);
+    const std::vector<char> free =
+        free_bodies(null_spaces, links, motion->start().state.multiplier);
+    std::vector<double> flags(bodies.all_bodies().size(), 0.);
     for (std::size_t k = 0; k < bodies.size(); ++k)
       flags[bodies.number(k)] = free[k];
     processes.sum(flags);
-    std::string names;
-    std::size_t n = 0;
-    constexpr std::size_t most_named = 6;
-    for (std::size_t i = 0; i < all.size(); ++i)
-      if (flags[i] > 0. && ++n <= most_named)
-        names += (n > 1 ? ", '" : "'") + all[i].name + "'";
-    if (n > 0)
-      log << "  nothing holds " << names
-          << (n > most_named ? " and " + std::to_string(n - most_named) + " more" : "")
-          << ": at rest only because no force moves " << (n > 1 ? "them" : "it") << '\n';
+    const std::vector<char> all(flags.begin(), flags.end());
+    const std::string names = names_of(all);
+    if (!names.empty())
+      log << "  nothing holds " << names << ": at rest only because no force moves "
+          << (std::count(all.begin(), all.end(), 1) > 1 ? "them" : "it") << '\n';
   }
 
   void Simulation::find_rest_of_probes()
   {
-    if (model.start != Start::equilibrium || probe_terms.empty())
+    if (model.start != Start::equilibrium || model.probes.empty())
       return;
     // Where nothing moves, the equilibrium is what there is to see.
-    if (parameters.end_time == 0. && links.sliding_rows().empty())
+    if (!has_time() && links.sliding_rows().empty())
       return;
+    const Reference &reference = motion->reference();
     BodyVectors rest = reference.displacement;
     if (!links.sliding_rows().empty())
     {
       const Scene without = without_sliding_contacts(model);
       Constraints fixed_constraints = scene_constraints(without, bodies);
-      if (keeps_directions)
-        fixed_constraints.keep_directions(reference.displacement, start.multiplier);
+      if (motion->start().n_kept > 0)
+        fixed_constraints.keep_directions(reference.displacement, motion->start().state.multiplier);
       try
       {
         rest = static_equilibrium(bodies, fixed_constraints, parameters.solver, 0.).displacement;
@@ -201,29 +219,12 @@ namespace taut
                "equilibrium with them\n";
       }
     }
-    for (std::size_t i = 0; i < probe_terms.size(); ++i)
-      probe_rest[i] = evaluate(probe_terms[i], rest);
-    processes.sum(probe_rest);
+    observed->set_rest_of_probes(rest);
   }
 
   void Simulation::write_start(const ScenePlaces &places) const
   {
-    const std::vector<SupportPoint> supports = support_points(model);
-    if (parameters.end_time == 0. && !supports.empty())
-    {
-      // The only line; a run in time writes it with the others.
-      std::vector<std::string> columns = {"time [s]"};
-      for (const SupportPoint &point : supports)
-        columns.push_back(support_column(point));
-      TableFile file(parameters.output.folder + "/supports.csv", columns);
-      file.begin_line(0.);
-      for (const double force : reactions.forces())
-        file << force;
-      file.end_line();
-      file.close();
-    }
-    if (model.links.empty())
-      return;
+    const State &start = motion->start().state;
     TableFile file(parameters.output.folder + "/start.csv",
                    {"link", "x [m]", "y [m]", "z [m]", "force [N or N m]", "gap [m or rad]",
                     "length [m]", "stretched length [m]"});

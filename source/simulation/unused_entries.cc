@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Entries that another entry leaves without effect: a run says so.
-#include <taut/simulation/parameters.h>
-#include <taut/simulation/text_lists.h>
+#include "file_text.h"
 
+#include <taut/simulation/parameters.h>
+
+#include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/patterns.h>
 #include <deal.II/base/utilities.h>
 
@@ -79,6 +81,31 @@ namespace taut
     }
   } // namespace
 
+  std::vector<std::string>
+  Parameters::unused_scheme_entries(const std::string &name,
+                                    const std::map<std::string, std::string> &entries) const
+  {
+    std::vector<std::string> unused;
+    for (const std::string &scheme : Registry<TimeIntegrator>::instance().list())
+    {
+      dealii::ParameterHandler prm;
+      const auto integrator = Registry<TimeIntegrator>::instance().create(scheme);
+      integrator->declare_parameters(prm);
+      for (const auto &[path, value] : entries_below("Time/"))
+      {
+        if (path.find('/') == std::string::npos ||
+            !prm.subsection_path_exists({path.substr(0, path.find('/'))}))
+          continue;
+        const auto other = entries.find(path);
+        const bool has_part =
+            scheme == name && (other == entries.end() || is_same(other->second, value));
+        if (!has_part && !is_same(value, declared.defaults.at("Time/" + path)))
+          unused.push_back("Time/" + path + " = " + value);
+      }
+    }
+    return unused;
+  }
+
   std::vector<std::string> Parameters::unused_entries() const
   {
     std::vector<std::string> unused;
@@ -97,7 +124,7 @@ namespace taut
       {
         if (section.compare(0, rule.section.size(), rule.section) != 0 ||
             std::find(rule.entries.begin(), rule.entries.end(), entry) == rule.entries.end() ||
-            is_same(value, entry_defaults.at(path)))
+            is_same(value, declared.defaults.at(path)))
           continue;
         const std::string reason = rule.reason(value_of, start);
         if (!reason.empty())

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "file_text.h"
+
 #include <taut/base/exceptions.h>
 #include <taut/base/nearest_name.h>
 #include <taut/output/table_file.h>
-#include <taut/simulation/text_lists.h>
 #include <taut/simulation/varied_entries.h>
 
 #include <deal.II/base/parameter_handler.h>

@@ -2,13 +2,10 @@
 #include <taut/base/exceptions.h>
 #include <taut/base/text.h>
 #include <taut/interface/check_constraint.h>
-#include <taut/time/choose_scheme.h>
 #include <taut/time/named_scheme.h>
 #include <taut/time/stepper.h>
 
 #include <cmath>
-#include <limits>
-#include <optional>
 
 namespace taut
 {
@@ -61,68 +58,17 @@ namespace taut
   Stepper::Stepper(const System &system, const StepperOptions &options)
       : system(checked(system, options)), n_constraints(system.n_constraints()),
         structure(system.structure()), constraints(system.constraints(structure)),
-        start(find_initial_state(structure, constraints, options.solver, options.start)),
-        contact_measures(structure, constraints, start.reference, start.state)
+        motion(structure, constraints, options)
   {
-    stepper = std::make_unique<TimeStepper>(structure, constraints, options.solver, choose(options),
-                                            options.step, start.reference, start.state,
-                                            options.start == Start::equilibrium);
-    control =
-        std::make_unique<StepControl>(options.steps, options.step, std::numeric_limits<long>::max(),
-                                      !stepper->is_linear(), longest_steps);
-  }
-
-  const TimeIntegrator &Stepper::choose(const StepperOptions &options)
-  {
-    allow_unsuitable_scheme = options.allow_unsuitable_scheme;
-    contact_measures.set_scheme(options.scheme == "automatic", options.steps.adaptive());
-    // Made where it is needed only: its factors may be lost in rounding where the run's are not.
-    std::optional<ContactResolution> made;
-    const auto resolution = [&]() -> const ContactResolution &
-    {
-      if (!made)
-        made.emplace(structure, constraints, options.solver, options.step,
-                     options.steps.longest(options.step), options.end);
-      return *made;
-    };
-    if (options.scheme == "automatic")
-    {
-      const SchemeChoice choice =
-          choose_scheme(structure, constraints, resolution(), options.restitution);
-      integrator = make_integrator(choice.name, choice.entries);
-      scheme_description = integrator->description() + ", because " + choice.reason;
-    }
-    else
-    {
-      integrator = make_named_scheme(options.scheme, options.scheme_entries);
-      scheme_description = integrator->description();
-      check_mass(*integrator, structure, options.step);
-      if (!options.allow_unsuitable_scheme)
-        check_scheme(*integrator, structure, constraints, resolution, options.solver,
-                     options.steps.longest(options.step));
-    }
-    if (integrator->coefficients(options.step).velocity_projection)
-    {
-      constraints.set_conserving(resolution().conserving());
-      longest_steps = resolution().longest_steps();
-    }
-    return *integrator;
+    motion.choose_scheme();
+    motion.prepare();
   }
 
   void Stepper::advance()
   {
     do
-    {
-      control->advance(*stepper);
-      if (!allow_unsuitable_scheme)
-        stepper->check_moving_contacts();
-      contact_measures.record(stepper->state(), stepper->scheme(), stepper->certificate());
-    } while (!control->is_at_step());
-  }
-
-  const Certificate &Stepper::certificate() const
-  {
-    return stepper->n_steps_done() == 0 ? start.certificate : stepper->certificate();
+      motion.advance();
+    while (!motion.is_at_step());
   }
 
   std::size_t Stepper::row(const std::size_t constraint) const

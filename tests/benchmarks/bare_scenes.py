@@ -74,7 +74,7 @@ def instructions(program, text, settings, end):
                     "Statistics/Window=", f"Output/Folder={folder}/results", f"Time/End={end}"] + settings
         out = pathlib.Path(folder) / "callgrind"
         run = subprocess.run(["valgrind", "--tool=callgrind", f"--callgrind-out-file={out}",
-                              "--toggle-collect=taut::Simulation::advance*", str(program), str(scene)] +
+                              "--toggle-collect=taut::ObservedRun::advance*", str(program), str(scene)] +
                              [word for s in settings for word in ("--set", s)],
                              cwd=folder, capture_output=True, text=True)
         if run.returncode != 0:

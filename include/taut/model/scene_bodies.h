@@ -27,6 +27,9 @@ namespace taut
   class SceneBodies : public Structure
   {
   public:
+    /// The bodies of a program that has no scene: each is one of indices_of_body().
+    explicit SceneBodies(const Structure &bodies);
+
     /// All wires without cuts, on this rank.
     explicit SceneBodies(const Scene &scene) : SceneBodies(scene, whole(scene)) {}
 

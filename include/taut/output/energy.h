@@ -60,6 +60,8 @@ namespace taut
 
     void begin_balance(const StepView &start);
     void add_bodies(const StepView &step, Balance &share);
+    void add_work(const StepView &step, std::size_t k, const std::vector<double> &U,
+                  Balance &share) const;
     void add_moving_rows(const StepView &step, Balance &share) const;
     void add_rows(const StepView &step);
     void keep(const StepView &step);

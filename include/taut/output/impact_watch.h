@@ -26,7 +26,7 @@ namespace taut
     void resume(InputArchive &archive, const StepView &step) override;
 
     /// One line if there were such steps.
-    void print(std::ostream &out) const;
+    void report(std::ostream &log, bool failed) const override;
 
   private:
     template <typename Archive>

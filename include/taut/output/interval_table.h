@@ -20,7 +20,7 @@ namespace taut
   {
   public:
     /// @p interval [s]; 0: every step.
-    explicit IntervalTable(double interval) : interval(interval) {}
+    explicit IntervalTable(const double interval = 0.) : interval(interval) {}
 
     /// A quantity that changes smoothly and needs no extremes.
     void add_value(const std::string &name, const std::string &unit);

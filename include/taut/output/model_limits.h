@@ -28,7 +28,7 @@ namespace taut
    * - A peak that is sampled n times a period is found up to 1 - cos(pi / n) of its height: 5 % for
    *   n = 10.
    */
-  class ModelLimits
+  class ModelLimits : public Observer
   {
   public:
     /// Places are sampled and looked at every @p interval steps. @p step [s] is compared with
@@ -38,17 +38,15 @@ namespace taut
 
     /// Each step, the start first. Called by all ranks together. Throws what
     /// SolidLimits::record() throws.
-    void record(const StepView &step);
-
-    /// For checkpoints: the worst so far.
-    void save(OutputArchive &archive);
-    void load(InputArchive &archive);
+    void record(const StepView &step) override;
+    void save(OutputArchive &archive) override;
+    void resume(InputArchive &archive, const StepView &step) override;
 
     /// At most one of each kind.
     std::vector<Warning> warnings() const;
 
-    /// A line each, and what the searches of contacts left out.
-    void print(std::ostream &out) const;
+    /// A line for each warning, and what the searches of contacts left out.
+    void report(std::ostream &log, bool failed) const override;
 
   private:
     /// Samples along a wire or a cable, or along the place where one wire is above another.

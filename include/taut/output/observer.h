@@ -12,6 +12,7 @@
 #include <taut/time/integrator.h>
 #include <taut/time/state.h>
 
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -98,6 +99,10 @@ namespace taut
 
     /// Called once after the last step, also of a run that ends early or with an error.
     virtual void finish() {}
+
+    /// Called after finish(): says in the log what there is to say at the end. Nothing communicates
+    /// if the run @p failed, which other ranks may not have seen.
+    virtual void report(std::ostream & /*log*/, bool /*failed*/) const {}
   };
 } // namespace taut
 

@@ -21,12 +21,6 @@ namespace taut
     bool is_moment = false;  ///< it holds a slope
   };
 
-  /// Header of the column of a support in tables.
-  inline std::string support_column(const SupportPoint &point)
-  {
-    return point.name + (point.is_moment ? " moment [N m]" : " force [N]");
-  }
-
   /// All positions of all supports, in the order of the scene.
   std::vector<SupportPoint> support_points(const Scene &scene);
 

@@ -21,11 +21,22 @@ namespace taut
   class Series : public Observer
   {
   public:
-    /// @p interval and @p link_interval: least time between two lines [s]; 0: every step.
-    /// @p resumes: the files go on, see resume().
-    Series(const std::string &folder, const Scene &scene, const Constraints &constraints,
-           TableFormat format, double interval, double link_interval, bool resumes = false);
+    /// @p scene and @p constraints are kept by reference. @p link_interval: least time between two
+    /// lines of links.csv and supports.csv [s]; 0: every step. The others have that of the run.
+    Series(const Scene &scene, const Constraints &constraints,
+           const TableFormat format = TableFormat::csv, const double link_interval = 0.)
+        : scene(scene), constraints(&constraints), format(format), link_interval(link_interval)
+    {
+    }
 
+    /// Of a scene at rest: supports.csv and probes.csv, with one line.
+    explicit Series(const Scene &scene)
+        : scene(scene), constraints(nullptr), format(TableFormat::csv), link_interval(0.)
+    {
+    }
+
+    /// The root makes the files.
+    void begin(const RunView &run) override;
     void record(const StepView &step) override;
 
     /// Writes the rest. Throws UserError when the disk is full.
@@ -37,15 +48,16 @@ namespace taut
     void add_link(const ConstraintData &constraint);
     void record_links(const StepView &step, bool moving, IntervalTable &table);
 
-    double interval, next = 0.;
+    const Scene &scene;
+    const Constraints *const constraints; ///< nullptr: at rest
+    const TableFormat format;
+    const double link_interval;
+    bool is_open = false; ///< on the root
+    double interval = 0., next = 0.;
     IntervalTable sliding, links, supports, probes;
     std::unique_ptr<TableFile> certificate;
     std::vector<double> values; ///< of one table and step
   };
-
-  /// probes.csv of a run at rest: its only line, with the displacements @p probes [m, rad].
-  void write_probes(const std::string &folder, const Scene &scene,
-                    const std::vector<double> &probes);
 } // namespace taut
 
 #endif

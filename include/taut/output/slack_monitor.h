@@ -18,8 +18,8 @@ namespace taut
     void save(OutputArchive &archive) override;
     void resume(InputArchive &archive, const StepView &step) override;
 
-    /// A line for each of them, at most six. Called by all ranks together.
-    void print(std::ostream &out) const;
+    /// A line for each of them, at most six; none of several ranks if the run failed.
+    void report(std::ostream &log, bool failed) const override;
 
   private:
     /// What is known of a body.

@@ -88,7 +88,7 @@ namespace taut
     }
 
     /// Largest displacement of a probe [m, rad].
-    double largest_displacement(std::size_t probe) const { return uplift[probe]; }
+    double largest_displacement(std::size_t probe) const { return probes[probe].largest; }
 
     /// A quantity of a sliding contact, another link or a probe.
     struct NamedQuantity
@@ -105,7 +105,7 @@ namespace taut
     const Certificate &worst_certificate() const { return worst; }
 
     /// The table, with the expected ranges beside the quantities.
-    void print(std::ostream &out) const;
+    void report(std::ostream &log, bool failed) const override;
 
     /// The same as JSON. Throws UserError if the file cannot be written.
     void write(const std::string &path, const RunDescription &run) const;
@@ -125,16 +125,30 @@ namespace taut
     /// What a fixed link did.
     struct LinkQuantities
     {
+      std::string name;
+      bool unilateral = false, rotates = false;
       double open_time = 0., closed_time = 0., largest_force = 0., impulse = 0.;
       double largest_impulse = 0.;
+    };
+
+    /// Displacement of a probe from rest.
+    struct ProbeQuantities
+    {
+      std::string name;
+      bool rotates = false;
+      double largest = 0., smallest = 0., last = 0.;
     };
 
     /// Force of a support.
     struct SupportQuantities
     {
+      std::string name;
+      bool is_moment = false;
       double start = 0., largest = 0., smallest = 0.;
     };
 
+    void record_links(const StepView &step, double dt);
+    void record_certificate(const StepView &step);
     template <typename Archive>
     void store(Archive &archive);
     ContactQuantities quantities(const Contact &contact) const;
@@ -151,7 +165,7 @@ namespace taut
     std::vector<Quantity> table(const ContactQuantities &quantities, bool raw) const;
 
     /// Largest and smallest displacement of a probe.
-    std::vector<Quantity> table(std::size_t probe) const;
+    std::vector<Quantity> table(const ProbeQuantities &probe) const;
 
     const std::vector<double> *expected_range(const std::string &quantity) const;
 
@@ -163,20 +177,16 @@ namespace taut
       std::string text() const;
     };
     Verdict verdict() const;
+    class Json; ///< parts of the file
     std::string window_text(const ContactQuantities &quantities) const;
     void print_contact(const Contact &contact, std::ostream &out) const;
     void print_links(std::ostream &out) const;
 
     StatisticsParameters parameters;
     std::vector<Contact> contacts;
-    std::vector<std::string> link_names, probe_names;
-    std::vector<char> link_unilateral, link_rotates;
-    std::vector<LinkQuantities> link_quantities;
-    std::vector<char> probe_rotates;
-    std::vector<double> uplift, lowering, last; ///< of the probes, from rest
-    std::vector<std::string> support_names;
-    std::vector<char> support_is_moment;
-    std::vector<SupportQuantities> support_quantities;
+    std::vector<LinkQuantities> links;
+    std::vector<ProbeQuantities> probes;
+    std::vector<SupportQuantities> supports;
     std::vector<double> times;
     Certificate worst;
     const ContactMeasures *measures = nullptr; ///< of the last step

@@ -80,7 +80,7 @@ namespace taut
     std::string name;
     std::string origin; ///< path of its section in the parameter file, for messages; may be empty
     std::string type_name;
-    std::shared_ptr<const BodyType> type;
+    std::shared_ptr<const BodyType> type; ///< nullptr: of a program that has no scene
   };
 
   /// The bodies that a parameter file lists in `Bodies`, each with a section `Body <name>`. They

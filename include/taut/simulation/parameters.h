@@ -50,8 +50,23 @@ namespace taut
     void declare_parameters(dealii::ParameterHandler &prm);
   };
 
+  /// How a run goes through time.
+  struct TimeParameters
+  {
+    std::string scheme = "automatic";
+    double step = 1e-3, end_time = 6.912; ///< [s]
+    std::string mass_redistribution = "automatic";
+    bool allow_unsuitable_scheme = false;
+    std::string check_steps = "automatic"; ///< or "yes", "no"
+    bool allow_energy_gain = false;
+    StepParameters step_parameters;
+
+    /// Declares the members in the current subsection.
+    void declare_parameters(dealii::ParameterHandler &prm);
+  };
+
   /// Everything a parameter file says. Members hold the defaults until read() has run.
-  class Parameters
+  class Parameters : public TimeParameters
   {
   public:
     Parameters();
@@ -100,14 +115,6 @@ namespace taut
     std::vector<double> gravity = {0., -9.81};
     std::string start = "equilibrium";
 
-    std::string scheme = "automatic";
-    double step = 1e-3, end_time = 6.912;
-    std::string mass_redistribution = "automatic";
-    bool allow_unsuitable_scheme = false;
-    std::string check_steps = "automatic"; ///< or "yes", "no"
-    bool allow_energy_gain = false;
-    StepParameters step_parameters;
-
     SolverParameters solver;
     PartitionParameters partition;
     OutputParameters output;
@@ -137,9 +144,8 @@ namespace taut
     /// 'automatic' takes [1].
     double restitution() const;
 
-    /// A scheme with the parameters that the file gives it, but for these entries of its section.
-    std::unique_ptr<TimeIntegrator>
-    integrator(const std::string &name, const std::map<std::string, std::string> &entries) const;
+    /// The values of all entries whose path begins with "Section/", by the rest of it.
+    std::map<std::string, std::string> entries_below(const std::string &section) const;
 
     /// A new observer of this name with the entries that the file gives it.
     std::unique_ptr<Observer> make_observer(const std::string &name) const;
@@ -169,16 +175,20 @@ namespace taut
     void check_values() const;
     void begin_entries();
     void keep_values();
-    void create_integrators();
-    void create_observers();
-    void declare_observers(dealii::ParameterHandler &prm);
+    void load_registered();
+    void declare_in_passes(const std::string &text);
     void declare(dealii::ParameterHandler &prm);
 
     std::string choice;
+
     /// All entries with the members that they set: an object stays where it is.
-    std::unique_ptr<dealii::ParameterHandler> entries;
-    std::set<std::string> structural_entries; ///< those that decide which others there are
-    std::map<std::string, std::string> entry_values, entry_defaults;
+    struct Declared
+    {
+      std::unique_ptr<dealii::ParameterHandler> entries;
+      std::set<std::string> structural; ///< those that decide which others there are
+      std::map<std::string, std::string> defaults;
+    } declared;
+    std::map<std::string, std::string> entry_values;
     ParameterFile file;
     std::unique_ptr<SceneGenerator> generator;
     std::map<std::string, std::unique_ptr<TimeIntegrator>> integrators;

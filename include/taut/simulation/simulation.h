@@ -2,26 +2,21 @@
 #ifndef taut_simulation_h
 #define taut_simulation_h
 
-#include <taut/interface/constraints.h>
+#include <taut/output/accuracy_report.h>
 #include <taut/output/model_limits.h>
 #include <taut/output/observer.h>
-#include <taut/output/reactions.h>
 #include <taut/output/statistics.h>
+#include <taut/simulation/observed_run.h>
 #include <taut/simulation/parameters.h>
 
 #include <functional>
 #include <iosfwd>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace taut
 {
-  class ObserverList;
-  class StepAccuracy;
-  class StepControl;
-  class TimeStepper;
-  struct Checkpoint;
-  struct InitialState;
   struct ScenePlaces;
   struct SharedParts;
 
@@ -33,7 +28,10 @@ namespace taut
   void check_results_folder(const Parameters &parameters,
                             const Communicator &processes = Communicator());
 
-  /// A scene on its way through time: reads like the algorithm on paper.
+  /**
+   * A scene on its way through time: what a parameter file says becomes bodies and constraints, a
+   * SteppedMotion of these, and an ObservedRun with the observers that write the results.
+   */
   class Simulation
   {
   public:
@@ -45,7 +43,6 @@ namespace taut
      */
     Simulation(const Parameters &parameters, std::ostream &log,
                const Communicator &processes = Communicator(), SharedParts *shared = nullptr);
-    ~Simulation();
 
     /// Adds an observer of the start and of each step, called after those that write the results;
     /// kept by reference.
@@ -76,34 +73,32 @@ namespace taut
     long n_steps() const;
 
     /// Seconds that the loop over the steps took, without output.
-    double stepping_seconds() const { return seconds; }
+    double stepping_seconds() const { return observed ? observed->stepping_seconds() : 0.; }
 
   private:
+    PartitionParameters choose_parts();
+    bool has_time() const { return parameters.end_time > 0.; }
     void describe() const;
-    RunDescription description(bool is_partial) const;
+    void print_bodies() const;
+    void print_links() const;
+    StepperOptions stepper_options() const;
     void find_start();
-    void report_linearised(const InitialState &found) const;
+    std::string names_of(const std::vector<char> &some) const;
+    void report_linearised() const;
     void report_free_bodies() const;
     void find_rest_of_probes();
-    const TimeIntegrator &choose_integrator();
-    void keep_scheme(const TimeIntegrator &integrator, std::vector<std::string> unused);
+    void choose_scheme();
+    std::vector<std::string> unused_scheme_entries() const;
+    void prepare_results(bool resumes);
     void write_start(const ScenePlaces &places) const;
-    StepView view(const State &state, const Certificate &certificate) const;
-    void update_probes(const State &state);
-    void stop_before_start();
-    void print_cost(const TimeStepper &stepper, double until, double all) const;
-    void advance(TimeStepper &stepper, const ObserverList &observers);
-    void prepare_step_check(const TimeIntegrator &integrator);
-    void check_steps();
-    void find_checkpoint();
-    void check_origin(const Checkpoint &checkpoint) const;
-    void save_checkpoint(TimeStepper &stepper, StepControl &control, const ObserverList &observers);
-    void resume(TimeStepper &stepper, StepControl &control, const ObserverList &observers);
-    State restored_state();
-    void show(const ObserverList &observers, const State &state, const Certificate &certificate);
-    void add_guests(ObserverList &observers) const;
-    void on_root(const std::function<void()> &work) const;
-    PartitionParameters choose_parts();
+    void add_observers();
+    std::unique_ptr<StepAccuracy> step_accuracy();
+    int signal() const;
+    void stop_before_start() const;
+    void step_to_the_end();
+    void finish(bool is_partial);
+    void say_how_it_ended() const;
+    RunDescription description(bool is_partial) const;
 
     const Parameters &parameters;
     std::ostream &log;
@@ -113,30 +108,15 @@ namespace taut
     SceneBodies bodies;
     std::vector<std::string> grounded_links; ///< at held ends of cables
     Constraints links;
-
-    Reference reference;
-    State start;
-    Certificate start_certificate;
-    bool keeps_directions = false; ///< links that would turn do not
-    std::vector<std::vector<Term>> probe_terms;
-    std::vector<double> probe_rest, probe_values;
-    Reactions reactions;
     Statistics figures;
-    std::unique_ptr<ModelLimits> limits; ///< of a run
     std::vector<Observer *> guests;
-    std::unique_ptr<TimeIntegrator> chosen_integrator;
-    std::vector<double> longest_steps; ///< of links with dampers [s]
-    std::unique_ptr<ContactMeasures> measures;
-    std::unique_ptr<StepAccuracy> accuracy;  ///< of runs whose steps are checked
-    StepCoefficients coefficients;           ///< of the last step
-    std::string scheme;                      ///< with its parameters
-    std::vector<std::string> unused_entries; ///< of other schemes, with their values
-    double seconds = 0.;
-    std::shared_ptr<const Checkpoint>
-        checkpoint;              ///< that the run goes on from; none: from the start
-    double next_checkpoint = 0.; ///< [s]
     std::function<int()> stop_asked;
-    int stop_signal = 0; ///< the same on all ranks; 0: go on
+
+    // Of a run.
+    std::unique_ptr<SteppedMotion> motion;
+    std::unique_ptr<ObservedRun> observed;
+    std::unique_ptr<AccuracyReport> accuracy;
+    std::unique_ptr<ModelLimits> limits;
   };
 } // namespace taut
 

@@ -2,39 +2,14 @@
 #ifndef taut_stepper_h
 #define taut_stepper_h
 
-#include <taut/base/start.h>
 #include <taut/interface/system.h>
-#include <taut/time/contact_measures.h>
-#include <taut/time/initial_state.h>
-#include <taut/time/step_control.h>
+#include <taut/time/stepped_motion.h>
 
-#include <map>
-#include <memory>
 #include <string>
+#include <vector>
 
 namespace taut
 {
-  /// How a system moves through time; the defaults suit most.
-  struct StepperOptions
-  {
-    double step = 1e-3;        ///< [s]
-    StepParameters steps = {}; ///< fixed, or adaptive
-
-    /// Until when "automatic" looks at the ways of moving constraints; 0: at their start only [s].
-    double end = 0.;
-    Start start = Start::equilibrium;
-
-    /// "automatic" chooses by the constraints that act as rigid; otherwise the name of a registered
-    /// scheme, with values of its entries by path ("Moreau-Jean/Theta"), which "automatic" sets
-    /// itself.
-    std::string scheme = "automatic";
-    std::map<std::string, std::string> scheme_entries = {};
-    double restitution = 0.; ///< Newton's, with "automatic" alone, 0 to 1 [1]
-    bool allow_unsuitable_scheme = false;
-
-    SolverParameters solver = {};
-  };
-
   /**
    * Moves a system step by step, without a parameter file and without files of results:
    *
@@ -57,15 +32,15 @@ namespace taut
     /// contact tolerance.
     void advance();
 
-    double time() const { return stepper->state().time; }
-    const State &state() const { return stepper->state(); }
-    const Reference &reference() const { return stepper->reference(); }
+    double time() const { return motion.state().time; }
+    const State &state() const { return motion.state(); }
+    const Reference &reference() const { return motion.reference(); }
 
     /// Of the last step; of the equilibrium before the first one.
-    const Certificate &certificate() const;
+    const Certificate &certificate() const { return motion.certificate(); }
 
     /// What the contacts did so far.
-    const ContactMeasures &measures() const { return contact_measures; }
+    const ContactMeasures &measures() const { return motion.measures(); }
 
     // Of all functions below, a body or a constraint that the system did not have when the Stepper
     // was made, and a form that is not on its bodies, is a UserError.
@@ -84,27 +59,22 @@ namespace taut
     std::vector<double> displacement(std::size_t body) const;
 
     /// Solves of Newton's method so far, for bodies that are not linear; otherwise 0.
-    long n_newton_iterations() const { return stepper->n_newton_iterations(); }
+    long n_newton_iterations() const { return motion.time_stepper().n_newton_iterations(); }
 
     /// Name of the scheme with its parameters, and why it was chosen.
-    const std::string &scheme() const { return scheme_description; }
+    std::string scheme() const { return motion.scheme_and_reason(); }
+
+    /// Without the system, for observers: see ObservedRun (simulation/observed_run.h).
+    SteppedMotion &stepped() { return motion; }
 
   private:
-    const TimeIntegrator &choose(const StepperOptions &options);
     std::size_t row(std::size_t constraint) const;
 
     const System &system;
     const std::size_t n_constraints; ///< of the system when this was made
     Structure structure; ///< its bodies, those linear that linearised() takes the place of
     Constraints constraints;
-    std::unique_ptr<TimeIntegrator> integrator;
-    std::string scheme_description;
-    bool allow_unsuitable_scheme = false;
-    std::vector<double> longest_steps; ///< of constraints with dampers [s]
-    InitialState start;
-    ContactMeasures contact_measures;
-    std::unique_ptr<TimeStepper> stepper;
-    std::unique_ptr<StepControl> control;
+    SteppedMotion motion;
   };
 } // namespace taut
 

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_accuracy_report_h
+#define taut_accuracy_report_h
+
+#include <taut/output/observer.h>
+#include <taut/time/step_accuracy.h>
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace taut
+{
+  /// Says at the end of a run what its contacts did, and of a run whose steps are checked whether
+  /// they are short enough.
+  class AccuracyReport : public Observer
+  {
+  public:
+    /// @p measures are kept by reference; without @p accuracy steps are not checked.
+    explicit AccuracyReport(const ContactMeasures &measures,
+                            std::unique_ptr<StepAccuracy> accuracy = nullptr)
+        : measures(measures), accuracy(std::move(accuracy))
+    {
+    }
+
+    /// After the last step: makes the other runs that a check needs, see StepAccuracy::measure().
+    void check_steps(const std::function<bool()> &stop);
+
+    void record(const StepView &step) override;
+    void save(OutputArchive &archive) override;
+    void resume(InputArchive &archive, const StepView &step) override;
+
+    /// Of contacts, then of steps.
+    std::vector<Warning> warnings() const;
+
+    /// A line each, with its warnings; none if the run failed.
+    void report(std::ostream &log, bool failed) const override;
+
+  private:
+    const ContactMeasures &measures;
+    const std::unique_ptr<StepAccuracy> accuracy;
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_checkpoints_h
+#define taut_checkpoints_h
+
+#include <taut/output/observer.h>
+
+#include <iosfwd>
+#include <map>
+#include <memory>
+#include <string>
+
+namespace taut
+{
+  class ObservedRun;
+  class SteppedMotion;
+  struct Checkpoint;
+
+  /**
+   * Stores a run at intervals, so that one that was killed goes on from there with the same bits.
+   * Each observer stores its own part, see Observer::save(). To go on, call find() before
+   * ObservedRun::observe(), with everything else as it was.
+   */
+  class Checkpoints : public Observer
+  {
+  public:
+    /// Every @p interval [s] of a run, into @p folder; 0: never. What is said goes to @p log.
+    /// @p entries, by name, have to be the same in a run that goes on.
+    Checkpoints(const std::string &folder, double interval, std::ostream &log,
+                const std::map<std::string, std::string> &entries = {});
+    ~Checkpoints() override;
+
+    /// Reads the last checkpoint of the folder, if there is one. Throws UserError if it cannot be
+    /// used, and EntryError on an entry that is not the same. Called by all ranks together.
+    void find(const Communicator &communicator = Communicator());
+    bool is_found() const { return found != nullptr; }
+
+    /// @p observed is kept by reference.
+    void set_run(ObservedRun &observed) { run = &observed; }
+
+    /// Puts the run where the checkpoint is. Throws UserError if it has other bodies or observers.
+    void go_on();
+
+    /// An observer that stores no checkpoints says so here.
+    void begin(const RunView &view) override;
+    void record(const StepView &step) override;
+    void save(OutputArchive &archive) override;
+    void resume(InputArchive &archive, const StepView &step) override;
+
+  private:
+    void check_origin(const Checkpoint &stored) const;
+    void add_bodies(Checkpoint &stored) const;
+    State restored_state() const;
+
+    const std::string folder;
+    const double interval;
+    std::ostream &log;
+    const std::map<std::string, std::string> entries;
+    Communicator processes;
+    ObservedRun *run = nullptr;
+    std::shared_ptr<const Checkpoint> found; ///< that the run goes on from
+    double next;                             ///< [s]
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "checkpoint.h"
+
+#include <taut/base/archive.h>
+#include <taut/base/exceptions.h>
+#include <taut/base/instruction_set.h>
+#include <taut/base/memory.h>
+#include <taut/base/version.h>
+#include <taut/simulation/observed_run.h>
+
+#include <cmath>
+#include <ostream>
+
+namespace taut
+{
+  namespace
+  {
+    /// Part of an interval by which a time may miss a multiple of it.
+    constexpr double rounding = 1e-9;
+
+    std::string this_build()
+    {
+      return version() + ", " + instruction_set_in_use();
+    }
+
+    /// What bodies stored, by their number in the system.
+    using StoredBodies = std::map<std::size_t, std::string>;
+  } // namespace
+
+  Checkpoints::Checkpoints(const std::string &folder, const double interval, std::ostream &log,
+                           const std::map<std::string, std::string> &entries)
+      : folder(folder), interval(interval), log(log), entries(entries), next(interval)
+  {
+  }
+
+  Checkpoints::~Checkpoints() = default;
+
+  void Checkpoints::find(const Communicator &communicator)
+  {
+    processes = communicator;
+    std::string text;
+    processes.agree(
+        [&]
+        {
+          check_memory();
+          if (!processes.is_root())
+            return;
+          if (const auto last = read_checkpoint(folder, log))
+          {
+            check_origin(*last);
+            text = archived([&](OutputArchive &archive) { archive << *last; });
+          }
+        });
+    processes.broadcast(text);
+    if (text.empty())
+    {
+      log << "No checkpoint in " << folder << ": the run begins from the start\n";
+      return;
+    }
+    auto last = std::make_shared<Checkpoint>();
+    unarchive(text, [&](InputArchive &archive) { archive >> *last; });
+    found = std::move(last);
+  }
+
+  /// Throws an EntryError on an entry that the run of the checkpoint had otherwise, and says what
+  /// may change its bits.
+  void Checkpoints::check_origin(const Checkpoint &stored) const
+  {
+    const std::string own_folder = "Output/Folder"; // may have been moved
+    for (const auto &[path, value] : entries)
+    {
+      const auto before = stored.entries.find(path);
+      if (path == own_folder || (before != stored.entries.end() && before->second == value))
+        continue;
+      throw EntryError(path,
+                       "the run that is to be resumed had " +
+                           (before == stored.entries.end() ? std::string("no such entry")
+                                                           : "'" + before->second + "' here") +
+                           "; resume it as it was, or begin anew with --overwrite");
+    }
+    for (const auto &[path, value] : stored.entries)
+      if (entries.find(path) == entries.end())
+        throw UserError("the run that is to be resumed had the entry " + path + " = " + value +
+                        ", which is gone; resume it as it was, or begin anew with --overwrite");
+    if (stored.build != this_build())
+      log << "Warning: the checkpoint was written by taut " << stored.build << " and this is taut "
+          << this_build() << ": the last bits of the results may differ\n";
+    if (stored.n_ranks != processes.size())
+      log << "Warning: the checkpoint was written by " << stored.n_ranks
+          << " ranks and this run has " << processes.size()
+          << ": the last digits of the results may differ\n";
+  }
+
+  void Checkpoints::begin(const RunView &view)
+  {
+    processes = view.communicator;
+    if (interval > 0. && !view.resumes)
+      run->save();
+  }
+
+  void Checkpoints::record(const StepView &step)
+  {
+    const double now = step.state.time;
+    if (!(interval > 0.) || now < next - rounding * interval)
+      return;
+    next = interval * (std::floor(now / interval + rounding) + 1.);
+    Checkpoint stored;
+    stored.time = now;
+    stored.build = this_build();
+    stored.n_ranks = processes.size();
+    stored.entries = entries;
+    stored.observers = run->save();
+    stored.run = archived([&](OutputArchive &archive) { run->stepped().save(archive); });
+    add_bodies(stored);
+    processes.agree(
+        [&]
+        {
+          check_memory();
+          if (processes.is_root())
+            write_checkpoint(stored, folder);
+        });
+  }
+
+  /// The vectors of the bodies of all ranks.
+  void Checkpoints::add_bodies(Checkpoint &stored) const
+  {
+    const Structure &bodies = run->stepped().bodies();
+    State state = run->stepped().state();
+    StoredBodies own;
+    for (std::size_t k = 0; k < bodies.size(); ++k)
+      own[bodies.number(k)] = archived(
+          [&](OutputArchive &archive)
+          {
+            for (const BodyVectors *vectors : state.of_bodies())
+              archive << (*vectors)[k];
+            bodies[k].save(archive);
+          });
+    stored.bodies.resize(bodies.all_bodies().size());
+    for (const std::string &text :
+         processes.gather(archived([&](OutputArchive &archive) { archive << own; })))
+    {
+      StoredBodies of_rank;
+      unarchive(text, [&](InputArchive &archive) { archive >> of_rank; });
+      for (const auto &[number, body] : of_rank)
+        stored.bodies[number] = body;
+    }
+  }
+
+  void Checkpoints::save(OutputArchive &archive)
+  {
+    archive << next;
+  }
+
+  void Checkpoints::resume(InputArchive &archive, const StepView &)
+  {
+    archive >> next;
+  }
+
+  void Checkpoints::go_on()
+  {
+    State state;
+    processes.agree([&] { state = restored_state(); });
+    unarchive(found->run,
+              [&](InputArchive &archive) { run->stepped().load(archive, std::move(state)); });
+    run->resume(found->observers);
+    log << "Resumed after t = " << found->time << " s\n";
+  }
+
+  /// The vectors of the bodies of this rank.
+  State Checkpoints::restored_state() const
+  {
+    SteppedMotion &motion = run->stepped();
+    const Structure &bodies = motion.bodies();
+    const std::size_t n_bodies = bodies.all_bodies().size();
+    if (found->bodies.size() != n_bodies)
+      throw UserError("the run of the checkpoint had " + std::to_string(found->bodies.size()) +
+                      " bodies and this one has " + std::to_string(n_bodies) +
+                      ": resume it with the same program and the same plugins");
+    State state = motion.start().state;
+    for (std::size_t k = 0; k < bodies.size(); ++k)
+      unarchive(found->bodies[bodies.number(k)],
+                [&](InputArchive &archive)
+                {
+                  for (BodyVectors *vectors : state.of_bodies())
+                  {
+                    const std::size_t n = (*vectors)[k].size();
+                    archive >> (*vectors)[k];
+                    if ((*vectors)[k].size() != n)
+                      throw UserError("body '" + bodies[k].name() +
+                                      "' had another number of DoFs in the run that is to be "
+                                      "resumed");
+                  }
+                  motion.load_body(k, archive);
+                });
+    return state;
+  }
+} // namespace taut

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/archive.h>
+#include <taut/simulation/observed_run.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <ostream>
+
+namespace taut
+{
+  ObservedRun::ObservedRun(Stepper &stepper, const std::string &folder, const double interval)
+      : own_scene(std::make_unique<Scene>()),
+        own_bodies(std::make_unique<SceneBodies>(stepper.stepped().bodies())),
+        motion(stepper.stepped()), named(*own_scene), bodies(*own_bodies), folder(folder),
+        interval(interval), reactions(named, bodies)
+  {
+    for (const Structure::Body &body : bodies.all_bodies())
+      own_scene->bodies.push_back({body.name, "", "", nullptr});
+  }
+
+  ObservedRun::ObservedRun(SteppedMotion &motion, const Scene &scene, const SceneBodies &structure,
+                           const std::string &folder, const double interval)
+      : motion(motion), named(scene), bodies(structure), folder(folder), interval(interval),
+        reactions(scene, structure)
+  {
+    for (const Probe &probe : scene.probes)
+    {
+      probe_terms.emplace_back();
+      bodies.motion(probe.point, probe.rotational, probe.direction, 1., probe_terms.back());
+    }
+    probe_rest.assign(probe_terms.size(), 0.);
+    probe_values = probe_rest;
+    reactions.update_start(motion.reference(), motion.start().state, motion.links());
+  }
+
+  void ObservedRun::add_probe(const std::string &name, const Displacement &form,
+                              const bool rotational)
+  {
+    if (!own_scene)
+      throw UserError("probe '" + name + "': the probes of a scene are part of it");
+    own_scene->probes.push_back({name, "", {}, rotational});
+    probe_terms.push_back(form);
+    probe_values.assign(probe_terms.size(), 0.);
+    set_rest_of_probes(motion.reference().displacement);
+  }
+
+  void ObservedRun::set_rest_of_probes(const BodyVectors &rest)
+  {
+    probe_rest.clear();
+    for (const std::vector<Term> &terms : probe_terms)
+      probe_rest.push_back(evaluate(terms, rest));
+    processes().sum(probe_rest);
+  }
+
+  void ObservedRun::observe(std::unique_ptr<Observer> observer)
+  {
+    observe(*observer);
+    owned.push_back(std::move(observer));
+  }
+
+  void ObservedRun::observe(Checkpoints &last)
+  {
+    checkpoints = &last;
+    checkpoints->set_run(*this);
+  }
+
+  /// An exception of one rank is thrown on all.
+  void ObservedRun::each(const std::function<void(Observer &)> &call) const
+  {
+    for (Observer *observer : observers)
+      processes().agree([&] { call(*observer); });
+  }
+
+  void ObservedRun::open()
+  {
+    if (checkpoints)
+      observers.push_back(checkpoints);
+    is_open = true;
+    if (own_scene)
+      processes().agree(
+          [&]
+          {
+            if (processes().is_root())
+              std::filesystem::create_directories(folder);
+          });
+    const RunView run = {folder, interval, processes(), checkpoints && checkpoints->is_found()};
+    each([&](Observer &observer) { observer.begin(run); });
+  }
+
+  void ObservedRun::begin()
+  {
+    if (!is_open)
+      open();
+    first = Clock::now();
+    if (checkpoints && checkpoints->is_found())
+      checkpoints->go_on();
+    else
+      show(motion.start().state);
+  }
+
+  void ObservedRun::advance()
+  {
+    const auto before = Clock::now();
+    motion.advance();
+    seconds += std::chrono::duration<double>(Clock::now() - before).count();
+    show(motion.state());
+  }
+
+  void ObservedRun::finish()
+  {
+    last = Clock::now();
+    for (Observer *observer : observers)
+      observer->finish();
+  }
+
+  std::vector<std::string> ObservedRun::save() const
+  {
+    std::vector<std::string> stored;
+    each([&](Observer &observer)
+         { stored.push_back(archived([&](OutputArchive &archive) { observer.save(archive); })); });
+    return stored;
+  }
+
+  void ObservedRun::resume(const std::vector<std::string> &stored)
+  {
+    if (stored.size() != observers.size())
+      throw UserError("the checkpoint has " + std::to_string(stored.size()) +
+                      " observers and this run " + std::to_string(observers.size()) +
+                      ": resume with the same program");
+    update_probes(motion.state());
+    reactions.update(motion.reference(), motion.state(), motion.links(), motion.coefficients());
+    const StepView step = view(motion.state());
+    std::size_t i = 0;
+    each(
+        [&](Observer &observer) {
+          unarchive(stored[i++], [&](InputArchive &archive) { observer.resume(archive, step); });
+        });
+  }
+
+  StepView ObservedRun::view(const State &state) const
+  {
+    return {named,
+            bodies,
+            motion.links(),
+            motion.reference(),
+            state,
+            motion.certificate(),
+            motion.coefficients(),
+            motion.measures(),
+            probe_values,
+            reactions.forces()};
+  }
+
+  void ObservedRun::show(const State &state)
+  {
+    update_probes(state);
+    if (motion.has_moved())
+      reactions.update(motion.reference(), state, motion.links(), motion.coefficients());
+    const StepView step = view(state);
+    each([&](Observer &observer) { observer.record(step); });
+  }
+
+  void ObservedRun::update_probes(const State &state)
+  {
+    for (std::size_t i = 0; i < probe_terms.size(); ++i)
+      probe_values[i] = evaluate(probe_terms[i], motion.reference().displacement) +
+                        evaluate(probe_terms[i], state.U);
+    // Whether to stop goes with them: one message for both, and all ranks stop at the same step.
+    const int asked = stop_asked ? stop_asked() : 0;
+    probe_values.push_back(asked);
+    processes().sum(probe_values);
+    if (probe_values.back() > 0.)
+      stop_signal = static_cast<int>(processes().max(asked));
+    probe_values.pop_back();
+    for (std::size_t i = 0; i < probe_terms.size(); ++i)
+      probe_values[i] -= probe_rest[i];
+  }
+
+  void ObservedRun::report(std::ostream &log, const bool failed) const
+  {
+    for (const Observer *observer : observers)
+      observer->report(log, failed);
+    if (!failed && motion.has_moved())
+      print_cost(log);
+  }
+
+  void ObservedRun::print_cost(std::ostream &log) const
+  {
+    const TimeStepper &stepper = motion.time_stepper();
+    const long n_steps = stepper.n_steps_done();
+    const double all = std::chrono::duration<double>(last - first).count();
+    log << n_steps << " steps in " << all << " s, " << time() / all
+        << " x real time; without output " << 1e6 * seconds / n_steps << " us a step, "
+        << time() / seconds << " x real time\n";
+    if (!stepper.is_linear())
+      log << "Newton's method: " << static_cast<double>(stepper.n_newton_iterations()) / n_steps
+          << " solves a step\n";
+    const InterfaceStatistics solves = stepper.interface_statistics();
+    if (solves.n_systems > 0)
+      log << "Conjugate gradients: " << static_cast<double>(solves.n_iterations) / solves.n_systems
+          << " iterations a system, " << static_cast<double>(solves.n_systems) / n_steps
+          << " systems a step, "
+          << static_cast<double>(solves.n_local_solves) / solves.n_applications
+          << " bodies solved a product\n";
+  }
+} // namespace taut
