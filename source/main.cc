@@ -49,6 +49,70 @@ namespace
               << "Run it with 'taut " << default_file << "'; see 'taut --help'.\n";
   }
 
+  /// Throws UserError if an option is given together with one of others.
+  void check_exclusive(const po::variables_map &arguments, const std::string &option,
+                       const std::vector<std::string> &others)
+  {
+    for (const std::string &other : others)
+      if (arguments.count(option) && arguments.count(other))
+        throw taut::UserError("--" + option + " and --" + other +
+                              " exclude each other; choose one");
+  }
+
+  void run_sweep(const po::variables_map &arguments, const std::string &file,
+                 const std::vector<std::string> &overrides, const taut::Communicator &processes)
+  {
+    check_exclusive(arguments, "sweep", {"study", "check", "sketch"});
+    check_exclusive(arguments, "resume", {"overwrite"});
+    taut::Sweep sweep(file, overrides, processes, std::cout);
+    sweep.set_overwrite(arguments.count("overwrite") > 0);
+    sweep.set_resume(arguments.count("resume") > 0);
+    sweep.stop_if(taut::interruption);
+    sweep.run();
+  }
+
+  void run_study(const po::variables_map &arguments, const std::string &file,
+                 const std::vector<std::string> &overrides, const taut::Communicator &processes)
+  {
+    if (processes.size() > 1)
+      throw taut::UserError("a study measures one process; run it without mpirun");
+    check_exclusive(arguments, "study", {"check"});
+    if (arguments.count("sketch"))
+      throw taut::UserError("--study draws no --sketch; draw it with --check");
+    taut::Study study(file, overrides, arguments.count("overwrite") > 0, std::cout);
+    study.stop_if(taut::interruption);
+    study.run();
+  }
+
+  /// Draws, checks or runs the scene, as the options say.
+  void simulate(const po::variables_map &arguments, const taut::Parameters &parameters,
+                const taut::Communicator &processes)
+  {
+    if (!arguments.count("check"))
+      taut::check_results_folder(parameters, processes);
+    taut::Simulation simulation(parameters, std::cout, processes);
+    simulation.stop_if(taut::interruption);
+    // Before what may fail: the drawing shows why.
+    if (arguments.count("sketch"))
+    {
+      const taut::ScenePlaces places =
+          taut::places_in_space(simulation.scene(), simulation.structure());
+      if (processes.is_root())
+        taut::write_sketch(simulation.scene(), places, arguments["sketch"].as<std::string>());
+    }
+    if (arguments.count("check"))
+    {
+      simulation.check();
+      return;
+    }
+    // mpirun passes on whole lines only, though its ranks may have a terminal of their own.
+    const bool has_terminal = processes.size() == 1 && isatty(STDOUT_FILENO);
+    taut::Progress progress(std::cout, has_terminal, parameters.end_time);
+    if (parameters.end_time > 0.)
+      simulation.observe(progress);
+    simulation.run();
+  }
+
   void run(const po::variables_map &arguments, const taut::Communicator &processes)
   {
     const std::string file = arguments["file"].as<std::string>();
@@ -56,69 +120,19 @@ namespace
                                                    ? arguments["set"].as<std::vector<std::string>>()
                                                    : std::vector<std::string>();
     if (arguments.count("sweep"))
-    {
-      for (const char *other : {"study", "check", "sketch"})
-        if (arguments.count(other))
-          throw taut::UserError(std::string("--sweep and --") + other +
-                                " exclude each other; choose one");
-      if (arguments.count("resume") && arguments.count("overwrite"))
-        throw taut::UserError("--resume and --overwrite exclude each other; choose one");
-      taut::Sweep sweep(file, overrides, processes, std::cout);
-      sweep.set_overwrite(arguments.count("overwrite") > 0);
-      sweep.set_resume(arguments.count("resume") > 0);
-      sweep.stop_if(taut::interruption);
-      sweep.run();
-      return;
-    }
+      return run_sweep(arguments, file, overrides, processes);
     if (arguments.count("jobs"))
       throw taut::UserError("--jobs are the workers of a --sweep; a run takes 'mpirun -np N taut'");
-    if (arguments.count("resume"))
-      for (const char *other : {"study", "check", "overwrite"})
-        if (arguments.count(other))
-          throw taut::UserError(std::string("--resume and --") + other +
-                                " exclude each other; choose one");
+    check_exclusive(arguments, "resume", {"study", "check", "overwrite"});
     if (arguments.count("study"))
-    {
-      if (processes.size() > 1)
-        throw taut::UserError("a study measures one process; run it without mpirun");
-      if (arguments.count("check"))
-        throw taut::UserError("--study and --check exclude each other; choose one");
-      if (arguments.count("sketch"))
-        throw taut::UserError("--study draws no --sketch; draw it with --check");
-      taut::Study study(file, overrides, arguments.count("overwrite") > 0, std::cout);
-      study.stop_if(taut::interruption);
-      study.run();
-      return;
-    }
+      return run_study(arguments, file, overrides, processes);
     taut::Parameters parameters;
     parameters.read(file, overrides, processes);
     parameters.output.overwrite = arguments.count("overwrite") > 0;
     parameters.output.resume = arguments.count("resume") > 0;
     try
     {
-      if (!arguments.count("check"))
-        taut::check_results_folder(parameters, processes);
-      taut::Simulation simulation(parameters, std::cout, processes);
-      simulation.stop_if(taut::interruption);
-      // Before what may fail: the drawing shows why.
-      if (arguments.count("sketch"))
-      {
-        const taut::ScenePlaces places =
-            taut::places_in_space(simulation.scene(), simulation.structure());
-        if (processes.is_root())
-          taut::write_sketch(simulation.scene(), places, arguments["sketch"].as<std::string>());
-      }
-      if (arguments.count("check"))
-      {
-        simulation.check();
-        return;
-      }
-      // mpirun passes on whole lines only, though its ranks may have a terminal of their own.
-      const bool has_terminal = processes.size() == 1 && isatty(STDOUT_FILENO);
-      taut::Progress progress(std::cout, has_terminal, parameters.end_time);
-      if (parameters.end_time > 0.)
-        simulation.observe(progress);
-      simulation.run();
+      simulate(arguments, parameters, processes);
     }
     catch (const taut::EntryError &e)
     {
