@@ -62,6 +62,18 @@ namespace taut
       return values;
     }
 
+    /// A generator. Throws an EntryError with the known names for an unknown one.
+    std::unique_ptr<SceneGenerator> create_generator(const std::string &name)
+    {
+      const auto &generators = Registry<SceneGenerator>::instance();
+      if (generators.knows(name))
+        return generators.create(name);
+      const std::string near = nearest_name(name, generators.list());
+      throw EntryError("Generator",
+                       "there is no such generator; known are: " + generators.names(", ") +
+                           (near.empty() ? "" : "; did you mean '" + near + "'?"));
+    }
+
     /// The part of a deal.II exception that is for the user.
     std::string message(const std::exception &e)
     {
@@ -90,9 +102,9 @@ namespace taut
   {
     prm.add_parameter(
         "Additional shared libraries", shared_libraries,
-        "Paths of libraries that are loaded before anything else; what they register, "
-        "generators, schemes, bodies and observers, has its entries here. A name without '/' is "
-        "sought beside libtaut.so and where the system keeps libraries",
+        "Paths of libraries that are loaded before anything else; what they register, generators, "
+        "schemes, bodies and observers, has its entries here. A name without '/' is sought beside "
+        "libtaut.so and where the system keeps libraries",
         List(Anything()));
     prm.add_parameter("Generator", generator_name,
                       "What fills the scene. " +
@@ -100,50 +112,12 @@ namespace taut
                       Selection(Registry<SceneGenerator>::instance().names()));
     prm.add_parameter("Gravity", gravity, "'x, y' or 'x, y, z', y upwards [m/s^2]",
                       List(Double(), 2, 3));
-    prm.add_parameter(
-        "Start", start,
-        "'equilibrium': at rest under the loads at t = 0. 'undeformed': straight wires, "
-        "at rest. 'given': initial displacements and velocities of the bodies",
-        Selection("equilibrium|undeformed|given"));
+    prm.add_parameter("Start", start,
+                      "'equilibrium': at rest under the loads at t = 0. 'undeformed': straight "
+                      "wires, at rest. 'given': initial displacements and velocities of the bodies",
+                      Selection("equilibrium|undeformed|given"));
 
-    prm.enter_subsection("Time");
-    prm.add_parameter("Scheme", scheme,
-                      "Time integration. 'automatic' follows from the links of the scene, their "
-                      "bodies and the step; the log says what and why. " +
-                          Registry<TimeIntegrator>::instance().descriptions(),
-                      Selection("automatic|" + Registry<TimeIntegrator>::instance().names()));
-    prm.add_parameter("Step", step, "[s]", not_negative());
-    prm.add_parameter("End", end_time, "0: the start only, e.g. a static equilibrium [s]",
-                      not_negative());
-    step_parameters.declare_parameters(prm);
-    prm.add_parameter(
-        "Check steps", check_steps,
-        "At the end of a run, whether its steps are short enough: it is made again with 4.24 times "
-        "the step, and unless both agree well within 2 % of places and impulses and 5 % of "
-        "energies, with shorter ones. The log has the error, and a warning "
-        "the step that is needed. 'automatic': where the Scheme is 'automatic', too, and these "
-        "runs take less than about half a second",
-        Selection("automatic|yes|no"));
-    prm.add_parameter("Allow unsuitable scheme", allow_unsuitable_scheme,
-                      "Run a scheme although it is known to fail with the links of the scene");
-    prm.add_parameter(
-        "Allow energy gain", allow_energy_gain,
-        "Let a run succeed whose unilateral links, where they can only take energy, or large "
-        "motions gave more than a tenth of the energy that moves");
-    prm.add_parameter(
-        "Mass redistribution", mass_redistribution,
-        "Whether the node of a wire at a rigid stop or dropper gives its mass to its "
-        "neighbours; impacts then take no energy and their force stays bounded as the step falls, "
-        "with any scheme. 'mass': the total mass stays, the force overshoots least. 'inertia': "
-        "the centre of mass and the moment of inertia stay as well. 'automatic': 'mass' at the "
-        "stops "
-        "of bars and strings where the Scheme is 'automatic', too, and this the best choice; "
-        "otherwise 'no'",
-        Selection("automatic|no|mass|inertia"));
-    for (auto &[name, integrator] : integrators)
-      integrator->declare_parameters(prm);
-    prm.leave_subsection();
-
+    declare_time(prm);
     solver.declare_parameters(prm);
     partition.declare_parameters(prm);
     output.declare_parameters(prm);
@@ -155,6 +129,43 @@ namespace taut
     contacts.declare_names(prm);
     contacts.declare_parameters(prm);
     generator->declare_parameters(prm);
+  }
+
+  void Parameters::declare_time(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Time");
+    prm.add_parameter("Scheme", scheme,
+                      "Time integration. 'automatic' follows from the links of the scene, their "
+                      "bodies and the step; the log says what and why. " +
+                          Registry<TimeIntegrator>::instance().descriptions(),
+                      Selection("automatic|" + Registry<TimeIntegrator>::instance().names()));
+    prm.add_parameter("Step", step, "[s]", not_negative());
+    prm.add_parameter("End", end_time, "0: the start only, e.g. a static equilibrium [s]",
+                      not_negative());
+    step_parameters.declare_parameters(prm);
+    prm.add_parameter("Check steps", check_steps,
+                      "At the end of a run, whether its steps are short enough: it is made again "
+                      "with 4.24 times the step, and unless both agree well within 2 % of places "
+                      "and impulses and 5 % of energies, with shorter ones. The log has the error, "
+                      "and a warning the step that is needed. 'automatic': where the Scheme is "
+                      "'automatic', too, and these runs take less than about half a second",
+                      Selection("automatic|yes|no"));
+    prm.add_parameter("Allow unsuitable scheme", allow_unsuitable_scheme,
+                      "Run a scheme although it is known to fail with the links of the scene");
+    prm.add_parameter("Allow energy gain", allow_energy_gain,
+                      "Let a run succeed whose unilateral links, where they can only take energy, "
+                      "or large motions gave more than a tenth of the energy that moves");
+    prm.add_parameter("Mass redistribution", mass_redistribution,
+                      "Whether the node of a wire at a rigid stop or dropper gives its mass to its "
+                      "neighbours; impacts then take no energy and their force stays bounded as "
+                      "the step falls, with any scheme. 'mass': the total mass stays, the force "
+                      "overshoots least. 'inertia': the centre of mass and the moment of inertia "
+                      "stay as well. 'automatic': 'mass' at the stops of bars and strings where "
+                      "the Scheme is 'automatic', too, and this the best choice; otherwise 'no'",
+                      Selection("automatic|no|mass|inertia"));
+    for (auto &[name, integrator] : integrators)
+      integrator->declare_parameters(prm);
+    prm.leave_subsection();
   }
 
   namespace
@@ -241,49 +252,7 @@ namespace taut
     const std::string text = file.text();
     try
     {
-      // Plugins and the generator's name, then the names of items, then everything: each pass knows
-      // what to declare for the next one, and only the last is strict.
-      structural_entries.clear();
-      const auto read_leniently = [&](dealii::ParameterHandler &prm)
-      {
-        prm.parse_input_from_string(text, "", true);
-        for (const auto &[path, value] : values_in(prm))
-          structural_entries.insert(path);
-      };
-      {
-        dealii::ParameterHandler prm;
-        prm.add_parameter("Additional shared libraries", shared_libraries);
-        prm.add_parameter("Generator", generator_name);
-        read_leniently(prm);
-      }
-      load_shared_libraries(shared_libraries, "Additional shared libraries");
-      create_integrators();
-      create_observers();
-      const auto &generators = Registry<SceneGenerator>::instance();
-      if (!generators.knows(generator_name))
-      {
-        const std::string near = nearest_name(generator_name, generators.list());
-        throw EntryError("Generator",
-                         "there is no such generator; known are: " + generators.names(", ") +
-                             (near.empty() ? "" : "; did you mean '" + near + "'?"));
-      }
-      generator = generators.create(generator_name);
-      {
-        dealii::ParameterHandler prm;
-        bodies.declare_names(prm);
-        contacts.declare_names(prm);
-        generator->declare_names(prm);
-        output.declare_names(prm);
-        study.declare_names(prm);
-        sweep.declare_names(prm);
-        read_leniently(prm);
-      }
-      {
-        dealii::ParameterHandler prm;
-        bodies.declare_types(prm);
-        read_leniently(prm);
-      }
-      bodies.create_types();
+      read_structure(text);
       begin_entries();
       check_entries(file, *entries);
       entries->parse_input_from_string(text);
@@ -298,6 +267,43 @@ namespace taut
     {
       throw UserError(name + ": " + message(e));
     }
+  }
+
+  /// Plugins and the generator's name, then the names of items, then their types: each pass knows
+  /// what to declare for the next one, and none is strict.
+  void Parameters::read_structure(const std::string &text)
+  {
+    structural_entries.clear();
+    const auto read_leniently = [&](const auto &declare_some)
+    {
+      dealii::ParameterHandler prm;
+      declare_some(prm);
+      prm.parse_input_from_string(text, "", true);
+      for (const auto &[path, value] : values_in(prm))
+        structural_entries.insert(path);
+    };
+    read_leniently(
+        [&](dealii::ParameterHandler &prm)
+        {
+          prm.add_parameter("Additional shared libraries", shared_libraries);
+          prm.add_parameter("Generator", generator_name);
+        });
+    load_shared_libraries(shared_libraries, "Additional shared libraries");
+    create_integrators();
+    create_observers();
+    generator = create_generator(generator_name);
+    read_leniently(
+        [&](dealii::ParameterHandler &prm)
+        {
+          bodies.declare_names(prm);
+          contacts.declare_names(prm);
+          generator->declare_names(prm);
+          output.declare_names(prm);
+          study.declare_names(prm);
+          sweep.declare_names(prm);
+        });
+    read_leniently([&](dealii::ParameterHandler &prm) { bodies.declare_types(prm); });
+    bodies.create_types();
   }
 
   void Parameters::check_values() const

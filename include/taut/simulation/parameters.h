@@ -166,6 +166,7 @@ namespace taut
   private:
     void read_entries(const std::string &file, const std::vector<std::string> &overrides,
                       const Communicator &processes);
+    void read_structure(const std::string &text);
     void check_values() const;
     void begin_entries();
     void keep_values();
@@ -173,6 +174,7 @@ namespace taut
     void create_observers();
     void declare_observers(dealii::ParameterHandler &prm);
     void declare(dealii::ParameterHandler &prm);
+    void declare_time(dealii::ParameterHandler &prm);
 
     std::string choice;
     /// All entries with the members that they set: an object stays where it is.
