@@ -251,100 +251,131 @@ namespace taut
     out << "Gravity " << text(scene.gravity) << " m/s^2\n";
   }
 
+  namespace
+  {
+    /// The places that a sketch shows.
+    std::vector<Coordinates> shown_places(const Scene &scene, const ScenePlaces &places)
+    {
+      std::vector<Coordinates> shown;
+      for (const Wire &wire : scene.wires)
+        shown.insert(shown.end(), {wire.a, wire.b});
+      for (const Mass &mass : scene.masses)
+        shown.push_back(mass.position);
+      for (const std::vector<Coordinates> &cable : places.cables)
+        shown.insert(shown.end(), cable.begin(), cable.end());
+      for (std::size_t i = 0; i < scene.links.size(); ++i)
+        for (const auto &[end, at] :
+             {std::pair(&scene.links[i].from, places.from[i]), {&scene.links[i].to, places.to[i]}})
+          if (end->kind == Attachment::Kind::body)
+            shown.push_back(at);
+      return shown;
+    }
+
+    constexpr const char *thick = "stroke=\"black\" stroke-width=\"2\"";
+
+    /// A drawing in the plane of x and y, with heights magnified if they are small.
+    class Sketch
+    {
+    public:
+      explicit Sketch(const std::vector<Coordinates> &shown)
+      {
+        double right = -1e300, bottom = 1e300, top = -1e300;
+        for (const Coordinates &p : shown)
+        {
+          left = std::min(left, p.x);
+          right = std::max(right, p.x);
+          bottom = std::min(bottom, p.y);
+          top = std::max(top, p.y);
+        }
+        if (left > right) // nothing to draw
+          left = right = bottom = top = 0.;
+        constexpr double width = 1000., least_height = 120.;
+        const double span = std::max({right - left, top - bottom, 1e-12});
+        sx = width / std::max(right - left, .1 * span);
+        sy = top > bottom ? std::max(sx, least_height / (top - bottom)) : sx;
+        height = std::max((top - bottom) * std::min(sy, 1e3 * sx), least_height);
+        middle = .5 * (bottom + top);
+        out << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << width + 2. * margin
+            << "\" height=\"" << height + 2. * margin
+            << "\" font-family=\"sans-serif\" font-size=\"11\">\n"
+            << "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
+      }
+
+      void line(const Coordinates &p, const Coordinates &q, const std::string &style)
+      {
+        out << "<line x1=\"" << X(p) << "\" y1=\"" << Y(p) << "\" x2=\"" << X(q) << "\" y2=\""
+            << Y(q) << "\" " << style << "/>\n";
+      }
+
+      void dot(const Coordinates &p, const double radius, const std::string &style)
+      {
+        out << "<circle cx=\"" << X(p) << "\" cy=\"" << Y(p) << "\" r=\"" << radius << "\" "
+            << style << "/>\n";
+      }
+
+      void label(const Coordinates &p, const std::string &name)
+      {
+        out << "<text x=\"" << X(p) + 6. << "\" y=\"" << Y(p) - 6. << "\">";
+        for (const char c : name)
+          out << (c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c));
+        out << "</text>\n";
+      }
+
+      /// The drawing with its legend.
+      std::string svg() const
+      {
+        return out.str() +
+               to_text("<text x=\"8\" y=\"14\">black: wires and cables, blue: supports, green: "
+                       "masses, red: links (hollow: unilateral); heights x ",
+                       sy / sx, "</text>\n</svg>\n");
+      }
+
+    private:
+      double X(const Coordinates &p) const { return margin + (p.x - left) * sx; }
+      double Y(const Coordinates &p) const { return margin + .5 * height - (p.y - middle) * sy; }
+
+      static constexpr double margin = 40.;
+      double left = 1e300, middle; ///< least x, and y half way up [m]
+      double height, sx, sy;       ///< of the drawing; scales of x and y
+      std::ostringstream out;
+    };
+  } // namespace
+
   void write_sketch(const Scene &scene, const ScenePlaces &places, const std::string &path)
   {
-    double left = 1e300, right = -1e300, bottom = 1e300, top = -1e300;
-    const auto include = [&](const Coordinates &p)
-    {
-      left = std::min(left, p.x);
-      right = std::max(right, p.x);
-      bottom = std::min(bottom, p.y);
-      top = std::max(top, p.y);
-    };
-    for (const Wire &wire : scene.wires)
-    {
-      include(wire.a);
-      include(wire.b);
-    }
-    for (const Mass &mass : scene.masses)
-      include(mass.position);
-    for (const std::vector<Coordinates> &cable : places.cables)
-      for (const Coordinates &p : cable)
-        include(p);
-    for (std::size_t i = 0; i < scene.links.size(); ++i)
-      for (const auto &[end, at] :
-           {std::pair(&scene.links[i].from, places.from[i]), {&scene.links[i].to, places.to[i]}})
-        if (end->kind == Attachment::Kind::body)
-          include(at);
-    if (left > right) // nothing to draw
-      left = right = bottom = top = 0.;
-    constexpr double width = 1000., margin = 40., least_height = 120.;
-    const double span = std::max({right - left, top - bottom, 1e-12});
-    const double sx = width / std::max(right - left, .1 * span);
-    const double sy = top > bottom ? std::max(sx, least_height / (top - bottom)) : sx;
-    const double height = std::max((top - bottom) * std::min(sy, 1e3 * sx), least_height);
-    const auto X = [&](const Coordinates &p) { return margin + (p.x - left) * sx; };
-    const auto Y = [&](const Coordinates &p)
-    { return margin + .5 * height - (p.y - .5 * (bottom + top)) * sy; };
-
-    std::ostringstream out;
-    out << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << width + 2. * margin
-        << "\" height=\"" << height + 2. * margin
-        << "\" font-family=\"sans-serif\" font-size=\"11\">\n"
-        << "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
-    const auto line = [&](const Coordinates &p, const Coordinates &q, const std::string &style)
-    {
-      out << "<line x1=\"" << X(p) << "\" y1=\"" << Y(p) << "\" x2=\"" << X(q) << "\" y2=\"" << Y(q)
-          << "\" " << style << "/>\n";
-    };
-    const auto dot = [&](const Coordinates &p, const double radius, const std::string &style)
-    {
-      out << "<circle cx=\"" << X(p) << "\" cy=\"" << Y(p) << "\" r=\"" << radius << "\" " << style
-          << "/>\n";
-    };
-    const auto label = [&](const Coordinates &p, const std::string &name)
-    {
-      std::string safe;
-      for (const char c : name)
-        safe += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
-      out << "<text x=\"" << X(p) + 6. << "\" y=\"" << Y(p) - 6. << "\">" << safe << "</text>\n";
-    };
+    Sketch sketch(shown_places(scene, places));
     for (std::size_t i = 0; i < scene.links.size(); ++i)
     {
       const Link &link = scene.links[i];
       if (link.from.kind != Attachment::Kind::ground && link.to.kind != Attachment::Kind::ground)
-        line(places.from[i], places.to[i], "stroke=\"#888\"");
-      dot(link.to.kind == Attachment::Kind::ground ? places.from[i] : places.to[i],
-          link.moving() ? 5. : 2.5,
-          link.unilateral() ? "fill=\"none\" stroke=\"#c33\"" : "fill=\"#c33\"");
+        sketch.line(places.from[i], places.to[i], "stroke=\"#888\"");
+      sketch.dot(link.to.kind == Attachment::Kind::ground ? places.from[i] : places.to[i],
+                 link.moving() ? 5. : 2.5,
+                 link.unilateral() ? "fill=\"none\" stroke=\"#c33\"" : "fill=\"#c33\"");
     }
     for (std::size_t b = 0; b < scene.bodies.size(); ++b)
     {
       const std::vector<Coordinates> &cable = places.cables[b];
       for (std::size_t j = 1; j < cable.size(); ++j)
-        line(cable[j - 1], cable[j], "stroke=\"black\" stroke-width=\"2\"");
+        sketch.line(cable[j - 1], cable[j], thick);
       if (!cable.empty())
-        label(cable[0], scene.bodies[b].name);
+        sketch.label(cable[0], scene.bodies[b].name);
     }
     for (const Wire &wire : scene.wires)
     {
-      line(wire.a, wire.b, "stroke=\"black\" stroke-width=\"2\"");
-      label(wire.a, wire.name);
+      sketch.line(wire.a, wire.b, thick);
+      sketch.label(wire.a, wire.name);
     }
     for (const Support &support : scene.supports)
       for (const double s : support.positions)
-        dot(scene.wires[support.wire].at(s), 3.5, "fill=\"#36c\"");
+        sketch.dot(scene.wires[support.wire].at(s), 3.5, "fill=\"#36c\"");
     for (const Mass &mass : scene.masses)
     {
-      dot(mass.position, 5., "fill=\"#393\"");
-      label(mass.position, mass.name);
+      sketch.dot(mass.position, 5., "fill=\"#393\"");
+      sketch.label(mass.position, mass.name);
     }
-    out << "<text x=\"8\" y=\"14\">black: wires and cables, blue: supports, green: masses, red: "
-           "links "
-           "(hollow: "
-           "unilateral); heights x "
-        << sy / sx << "</text>\n</svg>\n";
+    const std::string svg = sketch.svg();
     check_memory();
-    write_file(path, out.str());
+    write_file(path, svg);
   }
 } // namespace taut
