@@ -58,9 +58,10 @@ namespace taut
           components.push_back(parse_number(component, entry));
         attachment.place = parse_coordinates(components, entry);
         if (is_cable && (attachment.place.y != 0. || attachment.place.z != 0.))
-          throw EntryError(entry, "'" + point +
-                                      "' is no place on a cable: write its unstressed "
-                                      "arc length and a zero, 's, 0'");
+          throw EntryError(
+              entry,
+              "'" + point +
+                  "' is no place on a cable: write its unstressed arc length and a zero, 's, 0'");
         attachments.push_back(attachment);
       }
       if (attachments.empty())
@@ -139,17 +140,59 @@ namespace taut
                                       const std::vector<double> &axis, const std::string &section)
   {
     if (!rotational && !axis.empty())
-      throw EntryError(section + "/Axis", "it is that of a rotation; set 'Rotational = true', or "
-                                          "give a Direction");
+      throw EntryError(section + "/Axis",
+                       "it is that of a rotation; set 'Rotational = true', or give a Direction");
     if (rotational && !direction.empty())
-      throw EntryError(section + "/Direction",
-                       "what is rotational turns about an Axis, z if it has "
-                       "none; leave the Direction empty");
+      throw EntryError(
+          section + "/Direction",
+          "what is rotational turns about an Axis, z if it has none; leave the Direction empty");
     if (!rotational)
       return direction.empty() ? Coordinates{0., 1.}
                                : parse_direction(direction, section + "/Direction");
     return axis.empty() ? Coordinates{0., 0., 1.} : parse_direction(axis, section + "/Axis");
   }
+
+  namespace
+  {
+    /// Attachments at positions on a wire, "1, 3:2:9".
+    std::vector<Attachment> on_wire(Attachment attachment, const std::string &positions,
+                                    const std::string &entry)
+    {
+      std::vector<Attachment> attachments;
+      for (const double s : parse_positions(positions, entry))
+      {
+        attachment.position = s;
+        attachments.push_back(attachment);
+      }
+      if (attachments.empty())
+        throw EntryError(entry, "no position after '@'");
+      return attachments;
+    }
+
+    /// Throws an EntryError with all names that attachments may have.
+    [[noreturn]] void refuse_unknown(const std::string &text, const std::string &name,
+                                     const Scene &scene, const std::string &entry)
+    {
+      std::vector<std::string> names = {"ground"};
+      std::string known = "ground, ground @ x, y";
+      const auto add = [&](const auto &parts, const std::string &place)
+      {
+        for (const auto &part : parts)
+        {
+          known += ", " + part.name + place;
+          names.push_back(part.name);
+        }
+      };
+      add(scene.bodies, " @ x, y");
+      add(scene.masses, "");
+      add(scene.wires, " @ position");
+      const std::string near = nearest_name(name, names);
+      if (name.empty())
+        throw EntryError(entry, "it says not where; write one of: " + known);
+      throw EntryError(entry, "'" + text + "' is not known; known are: " + known +
+                                  (near.empty() ? "" : "; did you mean '" + near + "'?"));
+    }
+  } // namespace
 
   std::vector<Attachment> parse_attachments(const std::string &text, const Scene &scene,
                                             const std::string &entry)
@@ -181,44 +224,13 @@ namespace taut
       attachment.kind = Attachment::Kind::wire;
       attachment.index = find_name(scene.wires, name);
       if (attachment.index != ground)
-      {
-        std::vector<Attachment> attachments;
-        for (const double s : parse_positions(text.substr(at + 1), entry))
-        {
-          attachment.position = s;
-          attachments.push_back(attachment);
-        }
-        if (attachments.empty())
-          throw EntryError(entry, "no position after '@'");
-        return attachments;
-      }
+        return on_wire(attachment, text.substr(at + 1), entry);
       attachment.kind = Attachment::Kind::body;
       attachment.index = find_name(scene.bodies, name);
       if (attachment.index != ground)
         return on_body(attachment, text.substr(at + 1), entry, is_on_cable(scene, attachment));
     }
-    std::vector<std::string> names = {"ground"};
-    std::string known = "ground, ground @ x, y";
-    for (const CustomBody &body : scene.bodies)
-    {
-      known += ", " + body.name + " @ x, y";
-      names.push_back(body.name);
-    }
-    for (const Mass &mass : scene.masses)
-    {
-      known += ", " + mass.name;
-      names.push_back(mass.name);
-    }
-    for (const Wire &wire : scene.wires)
-    {
-      known += ", " + wire.name + " @ position";
-      names.push_back(wire.name);
-    }
-    const std::string near = nearest_name(name, names);
-    if (name.empty())
-      throw EntryError(entry, "it says not where; write one of: " + known);
-    throw EntryError(entry, "'" + text + "' is not known; known are: " + known +
-                                (near.empty() ? "" : "; did you mean '" + near + "'?"));
+    refuse_unknown(text, name, scene, entry);
   }
 
   bool is_on_cable(const Scene &scene, const Attachment &point)

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "network.h"
-#include "check_parts.h"
 #include "kinks.h"
 
 #include <taut/base/exceptions.h>
 #include <taut/base/nearest_name.h>
-#include <taut/scene/contact_surface.h>
 #include <taut/scene/entries.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace taut
 {
@@ -43,78 +40,13 @@ namespace taut
     }
   } // namespace
 
-  namespace
-  {
-    /// Whether an end is at a body in the plane; the surface of the body says so.
-    bool is_in_plane(const Scene &scene, const Attachment &end)
-    {
-      if (end.kind != Attachment::Kind::body)
-        return false;
-      const CustomBody &body = scene.bodies[end.index];
-      try
-      {
-        return body.type->surface({body.name, body.origin, scene.gravity}, {}).dim == 2;
-      }
-      catch (const UserError &) // no surface, or none yet: the body reports the error
-      {
-        return false;
-      }
-    }
-
-    /// Joints along each of x, y, z in which an end moves. A body in the plane does not move across
-    /// its plane; there the joint holds the other end to the ground.
-    void add_ball_joint(const Link &all, Scene &scene)
-    {
-      const std::pair<const char *, Coordinates> axes[] = {
-          {" x", {1., 0., 0.}}, {" y", {0., 1., 0.}}, {" z", {0., 0., 1.}}};
-      for (const auto &[name, axis] : axes)
-      {
-        Link link = all;
-        link.name += name;
-        link.direction = axis;
-        for (Attachment *const end : {&link.from, &link.to})
-          if (axis.z != 0. && is_in_plane(scene, *end))
-            *end = Attachment();
-        if (can_move(scene, link.from, false, axis) || can_move(scene, link.to, false, axis))
-          scene.links.push_back(link);
-      }
-    }
-
-    /// Checks entries of links that turn, and entries that only links that turn may have.
-    void check_turns(const Network::LinkItem &item, const Link &link, const bool is_ball_joint,
-                     const std::string &title)
-    {
-      if (!link.turns)
-      {
-        if (link.unstressed_length > 0.)
-          throw EntryError(title + "/Length", "it is of a link that turns; set 'Turns = true', or "
-                                              "give the Gap");
-        return;
-      }
-      if (is_ball_joint || link.moving())
-        throw EntryError(title + "/Turns", "a " + item.type +
-                                               " has no direction from end to end; take a joint, "
-                                               "a stop or a dropper");
-      if (link.rotational)
-        throw EntryError(title + "/Rotational", "a link that turns acts between displacements");
-      if (!item.direction.empty())
-        throw EntryError(title + "/Direction",
-                         "a link that turns has that from end to end; leave it empty");
-      if (item.find_length || item.axial_stiffness > 0. || item.mass_per_length > 0.)
-        throw EntryError(title + (item.find_length            ? "/Find length"
-                                  : item.axial_stiffness > 0. ? "/Axial stiffness"
-                                                              : "/Mass per length"),
-                         "it is of a dropper whose length is found, along a direction that stays; "
-                         "give a link that turns its Length and Stiffness");
-      if (link.unstressed_length > 0. && link.gap != 0.)
-        throw EntryError(title + "/Gap", "it follows from the Length; leave one of them out");
-    }
-  } // namespace
-
   void Network::fill(Scene &scene) const
   {
     add_wires(scene);
+    add_supports(scene);
+    add_point_masses(scene);
     add_masses(scene);
+    add_springs(scene);
     add_links(scene);
     add_loads(scene);
     add_pulls_of_kinks(scene);
@@ -168,6 +100,10 @@ namespace taut
           start(WireMotion::lateral, item.lateral_displacement, item.lateral_velocity);
       scene.wires.push_back(wire);
     }
+  }
+
+  void Network::add_supports(Scene &scene) const
+  {
     for (std::size_t i = 0; i < supports.items.size(); ++i)
     {
       const SupportItem &item = supports.items[i];
@@ -189,6 +125,10 @@ namespace taut
       support.damping = item.damping;
       scene.supports.push_back(support);
     }
+  }
+
+  void Network::add_point_masses(Scene &scene) const
+  {
     for (std::size_t i = 0; i < point_masses.items.size(); ++i)
     {
       const PointMassItem &item = point_masses.items[i];
@@ -225,6 +165,10 @@ namespace taut
       std::copy(item.velocity.begin(), item.velocity.end(), mass.velocity);
       scene.masses.push_back(mass);
     }
+  }
+
+  void Network::add_springs(Scene &scene) const
+  {
     for (std::size_t i = 0; i < springs.items.size(); ++i)
     {
       const SpringItem &item = springs.items[i];
@@ -241,118 +185,6 @@ namespace taut
       spring.stiffness = item.stiffness;
       spring.damping = item.damping;
       scene.springs.push_back(spring);
-    }
-  }
-
-  namespace
-  {
-    /// Throws EntryError for ends on bodies between which no link is possible.
-    void check_ends(const Link &link, const Scene &scene, const std::string &title,
-                    const bool has_direction)
-    {
-      if (link.from.kind == Attachment::Kind::body && link.to.kind == link.from.kind &&
-          link.from.index == link.to.index && link.from.place == link.to.place)
-        throw EntryError(title + "/To",
-                         "it is the place that From is; a link is between two places");
-      if (!has_direction && !link.rotational &&
-          (is_on_cable(scene, link.from) || is_on_cable(scene, link.to)))
-        throw EntryError(title + "/Direction",
-                         "give 'x, y' or 'x, y, z', or set 'Turns = true': places on a cable are "
-                         "counted along it, so that no straight line between the ends is known "
-                         "before its shape");
-    }
-  } // namespace
-
-  void Network::add_links(Scene &scene) const
-  {
-    for (std::size_t i = 0; i < links.items.size(); ++i)
-    {
-      const LinkItem &item = links.items[i];
-      const std::string title = links.title(i);
-      Link link;
-      link.origin = title;
-      link.kind = item.type == "stop"              ? LinkKind::stop
-                  : item.type == "dropper"         ? LinkKind::dropper
-                  : item.type == "sliding contact" ? LinkKind::sliding_contact
-                                                   : LinkKind::joint;
-      const bool is_ball_joint = item.type == "ball joint";
-      if (is_ball_joint &&
-          (!item.direction.empty() || !item.axis.empty() || item.rotational || item.gap != 0.))
-        throw EntryError(title + (!item.direction.empty() ? "/Direction"
-                                  : !item.axis.empty()    ? "/Axis"
-                                  : item.rotational       ? "/Rotational"
-                                                          : "/Gap"),
-                         "a ball joint holds one place to another along x, y and z, and has none; "
-                         "leave it out, or take a joint");
-      link.rotational = item.rotational;
-      link.stiffness = parse_stiffness(item.stiffness, title + "/Stiffness");
-      link.law = parse_law(item.law, item.law_points, item.law_formula, item.law_range, title);
-      if (link.law && (link.unilateral() ? !link.rigid() || item.axial_stiffness > 0. : true))
-        throw EntryError(title + "/Law",
-                         link.unilateral()
-                             ? "it is the law of the force; leave Stiffness 'rigid' and Axial "
-                               "stiffness 0"
-                             : "a law is for links that only push or pull; give a joint a "
-                               "Stiffness");
-      if (link.law)
-        link.stiffness = link.law->largest_stiffness();
-      link.damping = item.damping;
-      link.gap = item.gap;
-      link.turns = item.turns;
-      link.unstressed_length = item.length;
-      check_turns(item, link, is_ball_joint, title);
-      link.speed = item.speed;
-      link.straight = item.straight;
-      link.profile =
-          Expression(item.profile, title + "/Height profile", Expression::Variables::position);
-      link.find_length = item.find_length;
-      link.prescribed_displacement = item.prescribed_displacement;
-      link.axial_stiffness = item.axial_stiffness;
-      link.mass_per_length = item.mass_per_length;
-      const auto from = parse_attachments(item.from, scene, title + "/From");
-      const auto to = parse_attachments(item.to, scene, title + "/To");
-      if (from.size() != to.size() && from.size() != 1 && to.size() != 1)
-        throw EntryError(title, "From has " + std::to_string(from.size()) + " positions and To " +
-                                    std::to_string(to.size()) +
-                                    "; give equal numbers, or one of one");
-      const std::size_t n = std::max(from.size(), to.size());
-      for (std::size_t k = 0; k < n; ++k)
-      {
-        link.name = links.names[i] + (n > 1 ? " " + std::to_string(k + 1) : "");
-        link.from = from[from.size() > 1 ? k : 0];
-        link.to = to[to.size() > 1 ? k : 0];
-        if (link.moving() && link.to.kind == Attachment::Kind::body)
-          link.to.position = link.to.place.x;
-        if (link.straight && !(link.moving() && is_on_cable(scene, link.to)))
-          throw EntryError(title + "/Straight", "it is of a sliding contact on a cable, whose "
-                                                "length is not that of its way; set it to false");
-        check_ends(link, scene, title, !item.direction.empty() || is_ball_joint || link.turns);
-        if (is_ball_joint)
-        {
-          add_ball_joint(link, scene);
-          continue;
-        }
-        if (item.rotational || !item.axis.empty() || !item.direction.empty())
-          link.direction =
-              parse_direction_or_axis(item.rotational, item.direction, item.axis, title);
-        else if (link.turns)
-        {
-          for (const auto &[end, entry] : {std::pair(&link.from, "/From"), {&link.to, "/To"}})
-            if (end->kind == Attachment::Kind::ground && !end->has_place)
-              throw EntryError(title + entry, "a link that turns needs the place of its end at the "
-                                              "ground; write 'ground @ x, y, z'");
-        }
-        else
-        {
-          if ((link.from.kind == Attachment::Kind::ground && !link.from.has_place) ||
-              (link.to.kind == Attachment::Kind::ground && !link.to.has_place))
-            throw EntryError(title + "/Direction", "give 'x, y' or 'x, y, z', or a place of the "
-                                                   "ground, 'ground @ x, y, z'");
-          link.direction =
-              unit(place(scene, link.to) - place(scene, link.from), title + "/Direction");
-        }
-        scene.links.push_back(link);
-      }
     }
   }
 

@@ -72,6 +72,12 @@ namespace taut
       double damping = 0., gap = 0., length = 0., speed = 0.;
       double prescribed_displacement = 0., axial_stiffness = 0., mass_per_length = 0.;
       void declare(dealii::ParameterHandler &prm);
+
+    private:
+      void declare_places(dealii::ParameterHandler &prm);
+      void declare_force(dealii::ParameterHandler &prm);
+      void declare_sliding(dealii::ParameterHandler &prm);
+      void declare_found_length(dealii::ParameterHandler &prm);
     };
     struct LoadItem
     {
@@ -84,7 +90,10 @@ namespace taut
 
   private:
     void add_wires(Scene &scene) const;
+    void add_supports(Scene &scene) const;
+    void add_point_masses(Scene &scene) const;
     void add_masses(Scene &scene) const;
+    void add_springs(Scene &scene) const;
     void add_links(Scene &scene) const;
     void add_loads(Scene &scene) const;
 

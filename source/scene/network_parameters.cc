@@ -55,12 +55,11 @@ namespace taut
     prm.add_parameter("From", from, "First end 'x, y' or 'x, y, z' [m]", coordinates());
     prm.add_parameter("To", to, "Last end; positions on the wire are counted from the first [m]",
                       coordinates());
-    prm.add_parameter(
-        "Components", components,
-        "What the wire resists: 'bar' (along it), and 'string' (tension) or 'beam' "
-        "(bending, with or without tension) across it in the plane of x and y; 'lateral': "
-        "the string or beam resists motion out of this plane, too",
-        List(Selection("bar|string|beam|lateral"), 0, 3));
+    prm.add_parameter("Components", components,
+                      "What the wire resists: 'bar' (along it), and 'string' (tension) or 'beam' "
+                      "(bending, with or without tension) across it in the plane of x and y; "
+                      "'lateral': the string or beam resists motion out of this plane, too",
+                      List(Selection("bar|string|beam|lateral"), 0, 3));
     prm.add_parameter("Mass per length", mass_per_length, "[kg/m]", not_negative());
     prm.add_parameter("Axial stiffness", axial_stiffness, "EA, for a bar [N]", not_negative());
     prm.add_parameter("Tension", tension, "T, for a string or beam [N]", not_negative());
@@ -68,17 +67,15 @@ namespace taut
                       not_negative());
     prm.add_parameter("Degree", degree, "Polynomial degree of bar and string elements [1]",
                       Integer(1, 4));
-    prm.add_parameter(
-        "Mass matrix", mass_matrix,
-        "Integration of the mass of bar and string elements: 'consistent', 'lumped' "
-        "(diagonal), or 'reduced' (with linear elements, half of Theta or Newmark, and "
-        "step = element / wave speed it carries waves exactly)",
-        Selection("consistent|lumped|reduced"));
-    prm.add_parameter(
-        "Element size", element_size,
-        "Largest length of an element; supports, masses, links and point loads closer "
-        "than 1e-6 of it stand at one place [m]",
-        not_negative());
+    prm.add_parameter("Mass matrix", mass_matrix,
+                      "Integration of the mass of bar and string elements: 'consistent', 'lumped' "
+                      "(diagonal), or 'reduced' (with linear elements, half of Theta or Newmark, "
+                      "and step = element / wave speed it carries waves exactly)",
+                      Selection("consistent|lumped|reduced"));
+    prm.add_parameter("Element size", element_size,
+                      "Largest length of an element; supports, masses, links and point loads "
+                      "closer than 1e-6 of it stand at one place [m]",
+                      not_negative());
     prm.add_parameter("Mass damping", mass_damping, "Rayleigh damping, times M [1/s]",
                       not_negative());
     prm.add_parameter("Stiffness damping", stiffness_damping, "Rayleigh damping, times K [s]",
@@ -92,8 +89,7 @@ namespace taut
     prm.add_parameter("Initial transverse velocity", transverse_velocity, "[m/s]");
     prm.add_parameter(
         "Initial lateral displacement", lateral_displacement,
-        "Positive along the tangent x the normal, +z for a wire in the plane of x and "
-        "y [m]");
+        "Positive along the tangent x the normal, +z for a wire in the plane of x and y [m]");
     prm.add_parameter("Initial lateral velocity", lateral_velocity, "[m/s]");
   }
 
@@ -102,11 +98,10 @@ namespace taut
     prm.add_parameter("Wire", wire, "Name of the wire");
     prm.add_parameter("Positions", positions,
                       "Where on the wire: numbers and ranges first:step:last [m]");
-    prm.add_parameter(
-        "Motion", motion,
-        "Which motion of the wire is supported: 'transverse', 'axial', 'slope' (of the "
-        "transverse motion), 'lateral' or 'lateral slope'",
-        Selection("transverse|axial|slope|lateral|lateral slope"));
+    prm.add_parameter("Motion", motion,
+                      "Which motion of the wire is supported: 'transverse', 'axial', 'slope' (of "
+                      "the transverse motion), 'lateral' or 'lateral slope'",
+                      Selection("transverse|axial|slope|lateral|lateral slope"));
     prm.add_parameter("Type", kind,
                       "'fixed': displacement prescribed; 'elastic': spring and damper",
                       Selection("fixed|elastic"));
@@ -156,29 +151,34 @@ namespace taut
 
   void Network::LinkItem::declare(dealii::ParameterHandler &prm)
   {
-    prm.add_parameter(
-        "Type", type,
-        "'joint': holds its ends together. 'ball joint': does so along x, y and z, as joints "
-        "named '<name> x' and so on; what is at a body in the plane stays in that plane. 'stop': "
-        "pushes them apart. 'dropper': pulls "
-        "them together. 'sliding contact': a stop whose second end moves on a wire or a cable",
-        Selection("joint|ball joint|stop|dropper|sliding contact"));
+    declare_places(prm);
+    declare_force(prm);
+    declare_sliding(prm);
+    declare_found_length(prm);
+  }
+
+  void Network::LinkItem::declare_places(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter("Type", type,
+                      "'joint': holds its ends together. 'ball joint': does so along x, y and z, "
+                      "as joints named '<name> x' and so on; what is at a body in the plane stays "
+                      "in that plane. 'stop': pushes them apart. 'dropper': pulls them together. "
+                      "'sliding contact': a stop whose second end moves on a wire or a cable",
+                      Selection("joint|ball joint|stop|dropper|sliding contact"));
     prm.add_parameter(
         "From", from,
         "'ground', 'ground @ x, y, z', a mass, 'wire @ position' or 'body @ x, y, z'; several "
         "positions (numbers and ranges first:step:last) make one link each");
     prm.add_parameter("To", to,
                       "As From; for a sliding contact 'wire @ start' or 'cable @ start, 0'");
-    prm.add_parameter(
-        "Direction", direction,
-        "'x, y' or 'x, y, z' from From to To; a stop or sliding contact pushes To along it. Empty: "
-        "along the straight line between the ends",
-        List(Double(), 0, 3));
+    prm.add_parameter("Direction", direction,
+                      "'x, y' or 'x, y, z' from From to To; a stop or sliding contact pushes To "
+                      "along it. Empty: along the straight line between the ends",
+                      List(Double(), 0, 3));
     prm.add_parameter(
         "Turns", turns,
-        "The direction is that from end to end at each time, so that ends may move by "
-        "any amount; a dropper then is a rope, a stop a prop. A ground end needs a "
-        "place");
+        "The direction is that from end to end at each time, so that ends may move by any amount; "
+        "a dropper then is a rope, a stop a prop. A ground end needs a place");
     prm.add_parameter("Length", length,
                       "Of a link that turns, unstressed: the distance of its ends at which a rope "
                       "becomes taut or a prop touches, instead of Gap; 0: as Gap says [m]",
@@ -188,6 +188,10 @@ namespace taut
     prm.add_parameter("Axis", axis,
                       "Of a rotational link, 'x, y, z'; the length does not matter. Empty: z",
                       List(Double(), 0, 3));
+  }
+
+  void Network::LinkItem::declare_force(dealii::ParameterHandler &prm)
+  {
     prm.add_parameter("Stiffness", stiffness, "A number or 'rigid' [N/m, N m/rad]");
     prm.add_parameter("Law", law,
                       "Force of a stop, dropper or sliding contact over its compression or "
@@ -203,11 +207,14 @@ namespace taut
                       not_negative());
     prm.add_parameter("Damping", damping, "Beside the stiffness (Kelvin-Voigt) [N s/m, N m s/rad]",
                       not_negative());
-    prm.add_parameter(
-        "Gap", gap,
-        "Of the undeformed bodies: distance to contact of a stop, slack of a dropper; "
-        "negative: prestressed [m, rad]",
-        any_number());
+    prm.add_parameter("Gap", gap,
+                      "Of the undeformed bodies: distance to contact of a stop, slack of a "
+                      "dropper; negative: prestressed [m, rad]",
+                      any_number());
+  }
+
+  void Network::LinkItem::declare_sliding(dealii::ParameterHandler &prm)
+  {
     prm.add_parameter("Speed", speed,
                       "Of a sliding contact along its wire or its unstressed cable [m/s]",
                       any_number());
@@ -217,10 +224,13 @@ namespace taut
                       "the cable is there, however the cable sags and moves");
     prm.add_parameter("Height profile", profile,
                       "Of the wire under a sliding contact along Direction, a formula in s [m]");
-    prm.add_parameter(
-        "Find length", find_length,
-        "A dropper as long as its To end needs to stand at the prescribed displacement "
-        "in the static state without sliding contacts");
+  }
+
+  void Network::LinkItem::declare_found_length(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter("Find length", find_length,
+                      "A dropper as long as its To end needs to stand at the prescribed "
+                      "displacement in the static state without sliding contacts");
     prm.add_parameter("Prescribed displacement", prescribed_displacement,
                       "Of the To end towards From, if the length is found [m]", any_number());
     prm.add_parameter("Axial stiffness", axial_stiffness,
@@ -233,12 +243,11 @@ namespace taut
 
   void Network::LoadItem::declare(dealii::ParameterHandler &prm)
   {
-    prm.add_parameter(
-        "Type", type,
-        "'point': at a mass or a point of a wire. 'distributed': along a wire, at least "
-        "a sixty-fourth of an element wide, or a fifth if it moves. "
-        "'moving': travels on a wire from its position with Speed",
-        Selection("point|distributed|moving"));
+    prm.add_parameter("Type", type,
+                      "'point': at a mass or a point of a wire. 'distributed': along a wire, at "
+                      "least a sixty-fourth of an element wide, or a fifth if it moves. 'moving': "
+                      "travels on a wire from its position with Speed",
+                      Selection("point|distributed|moving"));
     prm.add_parameter("On", on,
                       "A mass, 'wire @ position' or 'body @ x, y, z'; of a distributed load the "
                       "position is not used");

@@ -91,10 +91,10 @@ namespace taut
                       "Rigid, instead of a master: plane, cylinder, sphere, or height, which is "
                       "all below a graph",
                       Patterns::Selection("none|plane|cylinder|sphere|height"));
-    prm.add_parameter("Point", point,
-                      "Of the obstacle: on the plane or the axis, or the centre; 'x, y' or 'x, y, "
-                      "z' [m]",
-                      Patterns::List(Patterns::Double(), 2, 3));
+    prm.add_parameter(
+        "Point", point,
+        "Of the obstacle: on the plane or the axis, or the centre; 'x, y' or 'x, y, z' [m]",
+        Patterns::List(Patterns::Double(), 2, 3));
     prm.add_parameter("Direction", direction,
                       "Of the obstacle: out of the plane; of the axis, '0, 0, 1' in the plane; "
                       "upwards over the graph",
@@ -125,10 +125,39 @@ namespace taut
                       Patterns::Double(0.));
   }
 
+  /// The obstacle of the item with its shape. Throws EntryError.
+  ObstacleSetting ContactParameters::Item::obstacle_setting(const std::string &section) const
+  {
+    using Shape = ObstacleSetting::Shape;
+    ObstacleSetting result;
+    result.shape = obstacle == "plane"      ? Shape::plane
+                   : obstacle == "cylinder" ? Shape::cylinder
+                   : obstacle == "sphere"   ? Shape::sphere
+                   : obstacle == "height"   ? Shape::height
+                                            : Shape::none;
+    const bool is_round = result.shape == Shape::cylinder || result.shape == Shape::sphere;
+    result.point = parse_coordinates(point, section + "Point");
+    result.direction = parse_direction(direction, section + "Direction");
+    result.radius = radius;
+    if (is_round && !(radius > 0.))
+      throw EntryError(section + "Radius", "it must be positive");
+    if (encloses_body && !is_round)
+      throw EntryError(section + "Encloses body",
+                       "only a cylinder or a sphere encloses a body; set it to false, and "
+                       "Direction to the side that is free");
+    result.encloses_body = encloses_body;
+    result.height = Expression(height, section + "Height", Expression::Variables::space);
+    if (result.height.depends_on_time())
+      throw EntryError(section + "Height", "an obstacle does not move: no t in its formula");
+    if (!(height_change > 0.))
+      throw EntryError(section + "Height difference", "it must be positive");
+    result.height_change = height_change;
+    return result;
+  }
+
   std::vector<SurfaceContact>
   ContactParameters::contacts(const std::vector<CustomBody> &bodies) const
   {
-    using Shape = ObstacleSetting::Shape;
     std::vector<SurfaceContact> result;
     for (std::size_t i = 0; i < items.items.size(); ++i)
     {
@@ -138,37 +167,15 @@ namespace taut
       contact.origin = items.title(i);
       const std::string section = contact.origin + "/";
       contact.slave = side(item.slave, bodies, section + "Slave");
-      ObstacleSetting &obstacle = contact.obstacle;
-      obstacle.shape = item.obstacle == "plane"      ? Shape::plane
-                       : item.obstacle == "cylinder" ? Shape::cylinder
-                       : item.obstacle == "sphere"   ? Shape::sphere
-                       : item.obstacle == "height"   ? Shape::height
-                                                     : Shape::none;
-      if (obstacle.shape == Shape::none && item.master.empty())
+      const bool has_obstacle = item.obstacle != "none";
+      if (!has_obstacle && item.master.empty())
         throw EntryError(contact.origin, "give it a Master or an Obstacle");
-      if (obstacle.shape == Shape::none)
+      if (!has_obstacle)
         contact.master = side(item.master, bodies, section + "Master");
       else if (!item.master.empty())
         throw EntryError(section + "Master", "a contact has a master or an obstacle, not both; "
                                              "leave it empty or set Obstacle = none");
-      obstacle.point = parse_coordinates(item.point, section + "Point");
-      obstacle.direction = parse_direction(item.direction, section + "Direction");
-      obstacle.radius = item.radius;
-      if ((obstacle.shape == Shape::cylinder || obstacle.shape == Shape::sphere) &&
-          !(item.radius > 0.))
-        throw EntryError(section + "Radius", "it must be positive");
-      if (item.encloses_body && obstacle.shape != Shape::cylinder &&
-          obstacle.shape != Shape::sphere)
-        throw EntryError(section + "Encloses body",
-                         "only a cylinder or a sphere encloses a body; set it to false, and "
-                         "Direction to the side that is free");
-      obstacle.encloses_body = item.encloses_body;
-      obstacle.height = Expression(item.height, section + "Height", Expression::Variables::space);
-      if (obstacle.height.depends_on_time())
-        throw EntryError(section + "Height", "an obstacle does not move: no t in its formula");
-      if (!(item.height_change > 0.))
-        throw EntryError(section + "Height difference", "it must be positive");
-      obstacle.height_change = item.height_change;
+      contact.obstacle = item.obstacle_setting(section);
       contact.method =
           item.method == "mortar" ? SurfaceMethod::mortar : SurfaceMethod::nodes_to_faces;
       contact.gap = item.gap;
@@ -176,8 +183,7 @@ namespace taut
       contact.search_distance = item.search_distance;
       contact.largest_sliding = item.largest_sliding;
       contact.chooses_slave = item.chooses_slave;
-      if (item.chooses_slave &&
-          (obstacle.shape != Shape::none || contact.method != SurfaceMethod::mortar))
+      if (item.chooses_slave && (has_obstacle || contact.method != SurfaceMethod::mortar))
         throw EntryError(section + "Choose slave",
                          "only sides of a mortar contact change places; set it to false");
       for (const SurfaceContact &other : result)

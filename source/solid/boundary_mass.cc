@@ -93,12 +93,6 @@ namespace taut
           }
       }
 
-      /// Number of monomials up to a degree.
-      static unsigned int size(const unsigned int degree)
-      {
-        return degree == 0 ? 1 : degree == 1 ? 1 + dim : (dim + 1) * (dim + 2) / 2;
-      }
-
       std::vector<unsigned int> dofs, receiving;
       std::vector<std::vector<double>> value;
     };
@@ -123,27 +117,72 @@ namespace taut
       return c;
     }
 
+    /// The integrals of products of two monomials of degree up to 1, with the mass D M D: as many
+    /// as there are monomials of degree 2.
+    template <int dim>
+    class Integrals
+    {
+    public:
+      Integrals(const dealii::SparseMatrix<double> &M, const Monomials<dim> &p,
+                const unsigned int degree)
+          : M(M), p(p)
+      {
+        for (unsigned int a = 1; degree > 0 && a <= dim; ++a)
+          pairs.push_back({0, a});
+        for (unsigned int a = 1; degree > 1 && a <= dim; ++a)
+          for (unsigned int b = a; b <= dim; ++b)
+            pairs.push_back({a, b});
+        for (const auto &[a, b] : pairs)
+        {
+          wanted.push_back(product(M, p.dofs, p.value[a], p.value[b]));
+          scale.push_back(std::sqrt(product(M, p.dofs, p.value[a], p.value[a]) *
+                                    product(M, p.dofs, p.value[b], p.value[b])));
+        }
+      }
+
+      unsigned int size() const { return pairs.size(); }
+
+      /// What the integrals lack of those with D = 1, and their derivatives with respect to the
+      /// factors of the monomials that are added to D. Returns the largest relative lack.
+      double linearise(const std::vector<double> &D, dealii::Vector<double> &residual,
+                       dealii::FullMatrix<double> &J) const
+      {
+        double off = 0.;
+        for (unsigned int k = 0; k < size(); ++k)
+        {
+          const std::vector<double> &p_a = p.value[pairs[k][0]], &p_b = p.value[pairs[k][1]];
+          const std::vector<double> a = times(D, p_a), b = times(D, p_b);
+          residual[k] = (wanted[k] - product(M, p.dofs, a, b)) / scale[k];
+          off = std::max(off, std::fabs(residual[k]));
+          for (unsigned int l = 0; l < size(); ++l)
+          {
+            std::vector<double> change(D.size(), 0.);
+            for (const unsigned int i : p.receiving)
+              change[i] = p.value[l][i];
+            J(k, l) = (product(M, p.dofs, times(change, p_a), b) +
+                       product(M, p.dofs, times(change, p_b), a)) /
+                      scale[k];
+          }
+        }
+        return off;
+      }
+
+    private:
+      const dealii::SparseMatrix<double> &M;
+      const Monomials<dim> &p;
+      std::vector<std::array<unsigned int, 2>> pairs = {{0, 0}};
+      std::vector<double> wanted, scale;
+    };
+
     /// D that keeps the integrals up to a degree; empty if there is no D with positive entries.
     template <int dim>
     std::vector<double> find_factors(const dealii::SparseMatrix<double> &M, const Monomials<dim> &p,
                                      const std::vector<unsigned int> &layer,
                                      const unsigned int degree)
     {
-      const unsigned int n = Monomials<dim>::size(degree);
-      // Integrals of products of two monomials of degree up to 1: as many as there are of degree 2.
-      std::vector<std::array<unsigned int, 2>> pairs = {{0, 0}};
-      for (unsigned int a = 1; degree > 0 && a <= dim; ++a)
-        pairs.push_back({0, a});
-      for (unsigned int a = 1; degree > 1 && a <= dim; ++a)
-        for (unsigned int b = a; b <= dim; ++b)
-          pairs.push_back({a, b});
-      std::vector<double> D(layer.size(), 1.), scale(n), wanted(n);
-      for (unsigned int k = 0; k < n; ++k)
-      {
-        wanted[k] = product(M, p.dofs, p.value[pairs[k][0]], p.value[pairs[k][1]]);
-        scale[k] = std::sqrt(product(M, p.dofs, p.value[pairs[k][0]], p.value[pairs[k][0]]) *
-                             product(M, p.dofs, p.value[pairs[k][1]], p.value[pairs[k][1]]));
-      }
+      const Integrals<dim> integrals(M, p, degree);
+      const unsigned int n = integrals.size();
+      std::vector<double> D(layer.size(), 1.);
       for (std::size_t i = 0; i < D.size(); ++i)
         if (layer[i] == 0)
           D[i] = 0.;
@@ -151,24 +190,7 @@ namespace taut
       {
         dealii::Vector<double> residual(n), step(n);
         dealii::FullMatrix<double> J(n, n);
-        double off = 0.;
-        for (unsigned int k = 0; k < n; ++k)
-        {
-          const std::vector<double> a = times(D, p.value[pairs[k][0]]),
-                                    b = times(D, p.value[pairs[k][1]]);
-          residual[k] = (wanted[k] - product(M, p.dofs, a, b)) / scale[k];
-          off = std::max(off, std::fabs(residual[k]));
-          for (unsigned int l = 0; l < n; ++l)
-          {
-            std::vector<double> change(D.size(), 0.);
-            for (const unsigned int i : p.receiving)
-              change[i] = p.value[l][i];
-            J(k, l) = (product(M, p.dofs, times(change, p.value[pairs[k][0]]), b) +
-                       product(M, p.dofs, times(change, p.value[pairs[k][1]]), a)) /
-                      scale[k];
-          }
-        }
-        if (off <= converged)
+        if (integrals.linearise(D, residual, J) <= converged)
           return D;
         try
         {

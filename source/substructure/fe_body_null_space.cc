@@ -13,13 +13,72 @@ namespace taut
   {
     /// A vector is a combination of others if less than this part of it remains.
     constexpr double dependent = 1e-10;
+
+    using Modes = std::vector<std::vector<double>>;
+
+    /// Takes the mode and the DoF of the largest value out of the list and makes the other modes
+    /// zero there. Returns false if no value exceeds the bound.
+    bool eliminate(Modes &list, const std::vector<unsigned int> &dofs, unsigned int &dof,
+                   std::vector<double> &pivot_mode)
+    {
+      double largest = dependent;
+      std::size_t mode = list.size();
+      for (std::size_t m = 0; m < list.size(); ++m)
+        for (const unsigned int i : dofs)
+          if (std::fabs(list[m][i]) > largest)
+          {
+            largest = std::fabs(list[m][i]);
+            mode = m;
+            dof = i;
+          }
+      if (mode == list.size())
+        return false;
+      pivot_mode = list[mode];
+      list.erase(list.begin() + mode);
+      for (std::vector<double> &other : list)
+      {
+        const double factor = other[dof] / pivot_mode[dof];
+        for (std::size_t i = 0; i < other.size(); ++i)
+          other[i] -= factor * pivot_mode[i];
+        other[dof] = 0.;
+      }
+      return true;
+    }
+
+    /// Appends to each mode the relative work on it of the forces K u of each mode u. Returns the
+    /// positions of these values.
+    std::vector<unsigned int> append_work(const SymmetricMatrix &K, const std::size_t n_dofs,
+                                          Modes &modes)
+    {
+      std::vector<double> diagonal(n_dofs, 0.);
+      K.visit(
+          [&](const unsigned int i, const unsigned int j, const double value)
+          {
+            if (i == j)
+              diagonal[i] = value;
+          });
+      const Modes all = modes;
+      std::vector<unsigned int> work;
+      for (const std::vector<double> &mode : all)
+      {
+        std::vector<double> force(mode.size(), 0.);
+        K.vmult_add(1., mode.data(), force.data());
+        double scale = 0.;
+        for (std::size_t i = 0; i < mode.size(); ++i)
+          scale += diagonal[i] * mode[i] * mode[i];
+        work.push_back(n_dofs + work.size());
+        for (std::size_t m = 0; m < all.size(); ++m)
+          modes[m].push_back(scale > 0. ? dot(all[m], force) / scale : 0.);
+      }
+      return work;
+    }
   } // namespace
 
   /// Motions without energy before the constraints.
   template <int dim>
   std::vector<std::vector<double>> FEBody<dim>::candidates(const Options &options) const
   {
-    std::vector<std::vector<double>> modes;
+    Modes modes;
     for (const dealii::Vector<double> &given : options.null_space)
     {
       check_size(given.size(), "null space");
@@ -89,7 +148,7 @@ namespace taut
   template <int dim>
   void FEBody<dim>::find_null_space(const Options &options)
   {
-    std::vector<std::vector<double>> modes = candidates(options);
+    Modes modes = candidates(options);
     std::vector<char> is_constrained(forms.size(), 0);
     for (const ConstrainedDof &constraint : constrained)
       is_constrained[constraint.dof] = 1;
@@ -100,35 +159,6 @@ namespace taut
       else if (forms[i].index == std::vector<unsigned int>{i})
         prescribed.push_back(i);
 
-    /// Takes the mode and the DoF of the largest value out of the list; returns false if no value
-    /// exceeds the bound.
-    const auto eliminate = [](std::vector<std::vector<double>> &list,
-                              const std::vector<unsigned int> &dofs, unsigned int &dof,
-                              std::vector<double> &pivot_mode)
-    {
-      double largest = dependent;
-      std::size_t mode = list.size();
-      for (std::size_t m = 0; m < list.size(); ++m)
-        for (const unsigned int i : dofs)
-          if (std::fabs(list[m][i]) > largest)
-          {
-            largest = std::fabs(list[m][i]);
-            mode = m;
-            dof = i;
-          }
-      if (mode == list.size())
-        return false;
-      pivot_mode = list[mode];
-      list.erase(list.begin() + mode);
-      for (std::vector<double> &other : list)
-      {
-        const double factor = other[dof] / pivot_mode[dof];
-        for (std::size_t i = 0; i < other.size(); ++i)
-          other[i] -= factor * pivot_mode[i];
-        other[dof] = 0.;
-      }
-      return true;
-    };
     unsigned int dof = 0;
     std::vector<double> pivot;
     while (eliminate(modes, prescribed, dof, pivot))
@@ -138,26 +168,7 @@ namespace taut
         if (is_constrained[i])
           mode[i] = 0.;
     // Keeps only combinations that K does not resist: their forces do no work on any combination.
-    std::vector<double> diagonal(forms.size(), 0.);
-    K->visit(
-        [&](const unsigned int i, const unsigned int j, const double value)
-        {
-          if (i == j)
-            diagonal[i] = value;
-        });
-    const std::vector<std::vector<double>> all = modes;
-    std::vector<unsigned int> work;
-    for (const std::vector<double> &mode : all)
-    {
-      std::vector<double> force(mode.size(), 0.);
-      K->vmult_add(1., mode.data(), force.data());
-      double scale = 0.;
-      for (std::size_t i = 0; i < mode.size(); ++i)
-        scale += diagonal[i] * mode[i] * mode[i];
-      work.push_back(forms.size() + work.size());
-      for (std::size_t m = 0; m < all.size(); ++m)
-        modes[m].push_back(scale > 0. ? dot(all[m], force) / scale : 0.);
-    }
+    const std::vector<unsigned int> work = append_work(*K, forms.size(), modes);
     while (eliminate(modes, work, dof, pivot))
       ;
     for (std::vector<double> &mode : modes)

@@ -18,6 +18,42 @@ namespace taut
 
     /// Residual that a body's own rounding counts as.
     constexpr double residual_of_rounding = 1e-10;
+
+    /// Entries begin to end - 1 of the accelerations that M acts on.
+    void combine(const StepCoefficients &c, const double *A, const double *A0,
+                 const std::size_t begin, const std::size_t end, double *result)
+    {
+      const double old = c.old_inertia(), now = c.new_inertia();
+      vectorised(
+          [=]
+          {
+#pragma omp simd
+            for (std::size_t i = begin; i < end; ++i)
+              result[i] = now * A[i] + old * A0[i];
+          });
+    }
+
+    /// Takes K U and C V of a tile from r, and r from the inertia in @p residual.
+    void subtract_forces(const std::size_t size, const double factor, const double kappa,
+                         const double *KU, const double *CV, const double *r0, double *r,
+                         double *residual)
+    {
+      vectorised(
+          [=]
+          {
+#pragma omp simd
+            for (std::size_t i = 0; i < size; ++i)
+              r[i] -= KU[i] + CV[i];
+            if (kappa == 0.)
+#pragma omp simd
+              for (std::size_t i = 0; i < size; ++i)
+                residual[i] = factor * residual[i] - r[i];
+            else
+#pragma omp simd
+              for (std::size_t i = 0; i < size; ++i)
+                residual[i] = factor * residual[i] - (r[i] + kappa * r0[i]);
+          });
+    }
   } // namespace
 
   BalanceCertificate::BalanceCertificate(const Structure &structure, const Constraints &constraints,
@@ -77,7 +113,8 @@ namespace taut
                                                              const bool has_impulses, State &state,
                                                              const SetRows &set_rows)
   {
-    const double kappa = c.old_balance(), old = c.old_inertia(), now = c.new_inertia();
+    const double kappa = c.old_balance();
+    const bool has_old_inertia = c.old_inertia() != 0.;
     const Substructure &body = structure[k];
     const bool is_linear = body.is_linear();
     if (!is_linear)
@@ -86,11 +123,10 @@ namespace taut
         set_rows(k, 0, body.n_dofs());
       nonlinear.set_end_force(k, c, state);
     }
-    const double *A = state.A[k].data(), *A0 = forces.old_A[k].data(),
-                 *r0 = forces.old_balance[k].data();
-    double *r = state.balance[k].data(), *KU = state.KU[k].data(), *residual = inertia.data(),
-           *a = mean_A.data();
-    const double *CV = damping.data();
+    const double *r0 = forces.old_balance[k].data(), *mass_A = state.A[k].data();
+    if (has_old_inertia)
+      mass_A = mean_A.data();
+    double *r = state.balance[k].data(), *KU = state.KU[k].data(), *residual = inertia.data();
     auto constraint = body.constraints().begin();
     Largest<4> largest(body);
     std::size_t done = 0;
@@ -105,32 +141,12 @@ namespace taut
         body.stiffness().vmult_rows(begin, end, state.U[k].data(), KU + begin);
       }
       body.damping().vmult_rows(begin, end, state.V[k].data(), damping.data());
-      if (old != 0.)
-        vectorised(
-            [=]
-            {
-#pragma omp simd
-              for (std::size_t i = done; i < reached; ++i)
-                a[i] = now * A[i] + old * A0[i];
-            });
+      if (has_old_inertia)
+        combine(c, state.A[k].data(), forces.old_A[k].data(), done, reached, mean_A.data());
       done = reached;
-      body.mass().vmult_rows(begin, end, old == 0. ? A : a, inertia.data());
-      const double factor = old == 0. ? now : 1.;
-      vectorised(
-          [=]
-          {
-#pragma omp simd
-            for (std::size_t i = 0; i < size; ++i)
-              r[begin + i] -= KU[begin + i] + CV[i];
-            if (kappa == 0.)
-#pragma omp simd
-              for (std::size_t i = 0; i < size; ++i)
-                residual[i] = factor * residual[i] - r[begin + i];
-            else
-#pragma omp simd
-              for (std::size_t i = 0; i < size; ++i)
-                residual[i] = factor * residual[i] - (r[begin + i] + kappa * r0[begin + i]);
-          });
+      body.mass().vmult_rows(begin, end, mass_A, inertia.data());
+      subtract_forces(size, has_old_inertia ? 1. : c.new_inertia(), kappa, KU + begin,
+                      damping.data(), r0 + begin, r + begin, residual);
       if (has_impulses)
         for (std::size_t i = 0; i < size; ++i)
           residual[i] -= impulses[k][begin + i];

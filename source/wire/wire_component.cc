@@ -32,6 +32,112 @@ namespace taut
             A.add(f.index[i], f.index[j], value);
         }
     }
+
+    /// DoFs with their places on the wire [m].
+    using PlacedDofs = std::vector<std::pair<unsigned int, double>>;
+
+    /// The i-th DoF of a Hermite element of length h, which has no mass, from the other three.
+    void extrapolate_hermite(const PlacedDofs &dofs, const unsigned int i, const double h,
+                             const bool keeps_inertia, LinearForm &form)
+    {
+      if (!keeps_inertia)
+      {
+        form.add(dofs[(i + 2) % 4].first, 1.);
+        return;
+      }
+      // The parabola through the other three DoFs: w_1 - w_0 = h (slope_0 + slope_1) / 2.
+      if (i % 2 == 0)
+      {
+        form.add(dofs[2 - i].first, 1.);
+        form.add(dofs[1].first, i == 0 ? -.5 * h : .5 * h);
+        form.add(dofs[3].first, i == 0 ? -.5 * h : .5 * h);
+      }
+      else
+      {
+        form.add(dofs[4 - i].first, -1.);
+        form.add(dofs[0].first, -2. / h);
+        form.add(dofs[2].first, 2. / h);
+      }
+    }
+
+    /// The displacement at a place from the next DoF with mass, or by Lagrange's polynomial through
+    /// all DoFs with mass.
+    void extrapolate_lagrange(const PlacedDofs &with_mass, const double at,
+                              const bool keeps_inertia, LinearForm &form)
+    {
+      if (!keeps_inertia)
+      {
+        const auto is_nearer = [&](const auto &p, const auto &q)
+        { return std::fabs(p.second - at) < std::fabs(q.second - at); };
+        form.add(std::min_element(with_mass.begin(), with_mass.end(), is_nearer)->first, 1.);
+        return;
+      }
+      for (const auto &[dof, s] : with_mass)
+      {
+        double value = 1.;
+        for (const auto &[other, place] : with_mass)
+          if (other != dof)
+            value *= (at - place) / (s - place);
+        form.add(dof, value);
+      }
+    }
+
+    /// M and K of one element after the other.
+    class ElementMatrices
+    {
+    public:
+      ElementMatrices(const Wire &wire, const double stretch, const bool beam,
+                      const unsigned int degree, const dealii::FiniteElement<1, 3> &element,
+                      const dealii::Quadrature<1> &quadrature)
+          : m(element.n_dofs_per_cell()), k(element.n_dofs_per_cell()), wire(wire),
+            stretch(stretch), beam(beam),
+            exact_mass(beam || wire.mass_matrix == MassMatrix::consistent),
+            values(element, quadrature,
+                   dealii::update_values | dealii::update_gradients |
+                       (beam ? dealii::update_hessians : dealii::update_default) |
+                       dealii::update_JxW_values),
+            own_mass_values(element,
+                            wire.mass_matrix == MassMatrix::lumped
+                                ? dealii::Quadrature<1>(dealii::QGaussLobatto<1>(degree + 1))
+                                : dealii::Quadrature<1>(dealii::QGauss<1>(degree)),
+                            dealii::update_values | dealii::update_JxW_values)
+      {
+      }
+
+      void compute(const dealii::DoFHandler<1, 3>::active_cell_iterator &cell)
+      {
+        values.reinit(cell);
+        if (!exact_mass)
+          own_mass_values.reinit(cell);
+        const dealii::FEValues<1, 3> &mass_values = exact_mass ? values : own_mass_values;
+        const dealii::Tensor<1, 3> t = (cell->vertex(1) - cell->vertex(0)) / cell->diameter();
+        m = k = 0.;
+        for (unsigned int i = 0; i < m.m(); ++i)
+          for (unsigned int j = 0; j <= i; ++j)
+          {
+            for (const unsigned int q : mass_values.quadrature_point_indices())
+              m(i, j) += wire.mass_per_length * mass_values.shape_value(i, q) *
+                         mass_values.shape_value(j, q) * mass_values.JxW(q);
+            for (const unsigned int q : values.quadrature_point_indices())
+            {
+              const double JxW = values.JxW(q);
+              k(i, j) +=
+                  stretch * (values.shape_grad(i, q) * t) * (values.shape_grad(j, q) * t) * JxW;
+              if (beam)
+                k(i, j) += wire.bending_stiffness * (t * values.shape_hessian(i, q) * t) *
+                           (t * values.shape_hessian(j, q) * t) * JxW;
+            }
+          }
+      }
+
+      dealii::FullMatrix<double> m, k;
+
+    private:
+      const Wire &wire;
+      const double stretch;
+      const bool beam, exact_mass;
+      dealii::FEValues<1, 3> values, own_mass_values;
+    };
   } // namespace
 
   WireComponent::Discretisation::Discretisation(const Wire &wire, const std::vector<double> &nodes,
@@ -194,155 +300,66 @@ namespace taut
   {
     const unsigned int n = beam ? 4 : degree + 1;
     const double h = nodes[e + 1] - nodes[e];
-    std::vector<unsigned int> dofs(n), with_mass;
-    std::vector<double> places(n);
+    std::vector<LinearForm> forms(n);
+    PlacedDofs dofs, with_mass;
     for (unsigned int i = 0; i < n; ++i)
     {
       // Hermite: value and slope at both vertices; otherwise both vertices, then the inner points.
-      dofs[i] = beam     ? 2 * e + i
-                : i == 0 ? degree * e
-                : i == 1 ? degree * (e + 1)
-                         : degree * e + i - 1;
-      if (!beam)
-        places[i] = nodes[e] + h * discretisation->element->unit_support_point(i)[0];
-      if (massless_dofs.count(dofs[i]) == 0)
-        with_mass.push_back(i);
+      if (beam)
+        dofs.emplace_back(2 * e + i, nodes[e + i / 2]);
+      else
+        dofs.emplace_back(i == 0   ? degree * e
+                          : i == 1 ? degree * (e + 1)
+                                   : degree * e + i - 1,
+                          nodes[e] + h * discretisation->element->unit_support_point(i)[0]);
+      if (massless_dofs.count(dofs[i].first) > 0)
+        continue;
+      with_mass.push_back(dofs[i]);
+      forms[i].add(dofs[i].first, 1.);
     }
-    std::vector<LinearForm> forms(n);
-    for (const unsigned int i : with_mass)
-      forms[i].add(dofs[i], 1.);
     if (with_mass.size() == n)
       return forms;
-
-    const auto fail = [&]()
+    if (!beam && keeps_inertia && degree == 1 && with_mass.size() == 1)
     {
-      throw EntryError(
-          massless_dofs.lower_bound(dofs[0])->second,
-          "'Mass redistribution' needs an element between two contacts whose nodes can "
-          "take their mass; take a smaller Element size");
-    };
-    if (beam)
-    {
-      if (with_mass.size() + 1 < n)
-        fail();
-      for (unsigned int i = 0; i < n; ++i)
-        if (massless_dofs.count(dofs[i]) > 0)
-        {
-          // The parabola through the other three DoFs: w_1 - w_0 = h (slope_0 + slope_1) / 2.
-          const unsigned int other = i % 2 == 0 ? 2 - i : 4 - i;
-          const double sign = i == 0 ? -.5 * h : .5 * h;
-          if (!keeps_inertia)
-            forms[i].add(dofs[(i + 2) % 4], 1.);
-          else if (i % 2 == 0)
-          {
-            forms[i].add(dofs[other], 1.);
-            forms[i].add(dofs[1], sign);
-            forms[i].add(dofs[3], sign);
-          }
-          else
-          {
-            forms[i].add(dofs[other], -1.);
-            forms[i].add(dofs[0], -2. / h);
-            forms[i].add(dofs[2], 2. / h);
-          }
-        }
-      return forms;
-    }
-
-    // The next DoF with mass, or Lagrange's polynomial through all DoFs with mass. On a linear
-    // element these are the other node and the node behind it.
-    std::vector<std::pair<unsigned int, double>> support;
-    for (const unsigned int i : with_mass)
-      support.emplace_back(dofs[i], places[i]);
-    if (keeps_inertia && degree == 1 && with_mass.size() == 1)
-    {
-      const bool left = massless_dofs.count(dofs[0]) > 0;
+      // A line takes two nodes: the other node of the element and the node behind it.
+      const bool left = massless_dofs.count(dofs[0].first) > 0;
       const std::size_t behind = left ? e + 2 : e - 1;
       if (behind < nodes.size() && massless_dofs.count(behind) == 0)
-        support.emplace_back(behind, nodes[behind]);
+        with_mass.emplace_back(behind, nodes[behind]);
     }
-    if (support.empty())
-      fail();
+    if (beam ? with_mass.size() + 1 < n : with_mass.empty())
+      throw EntryError(
+          massless_dofs.lower_bound(dofs[0].first)->second,
+          "'Mass redistribution' needs an element between two contacts whose nodes can "
+          "take their mass; take a smaller Element size");
     for (unsigned int i = 0; i < n; ++i)
-    {
-      if (massless_dofs.count(dofs[i]) == 0)
+      if (massless_dofs.count(dofs[i].first) == 0)
         continue;
-      if (!keeps_inertia)
-        forms[i].add(std::min_element(support.begin(), support.end(),
-                                      [&](const auto &p, const auto &q) {
-                                        return std::fabs(p.second - places[i]) <
-                                               std::fabs(q.second - places[i]);
-                                      })
-                         ->first,
-                     1.);
+      else if (beam)
+        extrapolate_hermite(dofs, i, h, keeps_inertia, forms[i]);
       else
-        for (const auto &[dof, s] : support)
-        {
-          double value = 1.;
-          for (const auto &[other, place] : support)
-            if (other != dof)
-              value *= (places[i] - place) / (s - place);
-          forms[i].add(dof, value);
-        }
-    }
+        extrapolate_lagrange(with_mass, dofs[i].second, keeps_inertia, forms[i]);
     return forms;
   }
 
   void WireComponent::assemble(const Wire &wire)
   {
-    const bool axial = motion == WireMotion::axial;
-    const double stretch = axial ? wire.axial_stiffness : wire.tension;
-    dealii::FEValues<1, 3> values(*discretisation->element, discretisation->quadrature,
-                                  dealii::update_values | dealii::update_gradients |
-                                      (beam ? dealii::update_hessians : dealii::update_default) |
-                                      dealii::update_JxW_values);
-    const bool exact_mass = beam || wire.mass_matrix == MassMatrix::consistent;
-    dealii::Quadrature<1> mass_rule = dealii::QGauss<1>(degree);
-    if (wire.mass_matrix == MassMatrix::lumped)
-      mass_rule = dealii::QGaussLobatto<1>(degree + 1);
-    dealii::FEValues<1, 3> own_mass_values(*discretisation->element, mass_rule,
-                                           dealii::update_values | dealii::update_JxW_values);
-    const dealii::FEValues<1, 3> &mass_values = exact_mass ? values : own_mass_values;
+    const double stretch = motion == WireMotion::axial ? wire.axial_stiffness : wire.tension;
+    ElementMatrices element(wire, stretch, beam, degree, *discretisation->element,
+                            discretisation->quadrature);
     const unsigned int n = discretisation->element->n_dofs_per_cell();
     std::vector<dealii::types::global_dof_index> dofs(n);
     std::vector<LinearForm> inertial;
-    const auto compute =
-        [&](const auto &cell, dealii::FullMatrix<double> &m, dealii::FullMatrix<double> &k)
-    {
-      values.reinit(cell);
-      if (!exact_mass)
-        own_mass_values.reinit(cell);
-      const dealii::Tensor<1, 3> t = (cell->vertex(1) - cell->vertex(0)) / cell->diameter();
-      m = k = 0.;
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int j = 0; j <= i; ++j)
-        {
-          for (const unsigned int q : mass_values.quadrature_point_indices())
-            m(i, j) += wire.mass_per_length * mass_values.shape_value(i, q) *
-                       mass_values.shape_value(j, q) * mass_values.JxW(q);
-          for (const unsigned int q : values.quadrature_point_indices())
-          {
-            const double JxW = values.JxW(q);
-            k(i, j) +=
-                stretch * (values.shape_grad(i, q) * t) * (values.shape_grad(j, q) * t) * JxW;
-            if (beam)
-              k(i, j) += wire.bending_stiffness * (t * values.shape_hessian(i, q) * t) *
-                         (t * values.shape_hessian(j, q) * t) * JxW;
-          }
-        }
-    };
-
     // Elements whose lengths differ by the rounding of their positions alone share their matrices.
     const double rounding = 4. * std::numeric_limits<double>::epsilon() * wire_length;
     double length = -1.;
-    dealii::FullMatrix<double> m(n), k(n);
     std::size_t e = 0;
     for (const auto &cell : discretisation->dof_handler.active_cell_iterators())
     {
       const double own_length = nodes[e + 1] - nodes[e];
       if (std::fabs(own_length - length) > rounding)
       {
-        compute(cell, m, k);
+        element.compute(cell);
         length = own_length;
       }
       cell->get_dof_indices(dofs);
@@ -352,10 +369,10 @@ namespace taut
         for (unsigned int j = 0; j <= i; ++j)
         {
           if (massless_dofs.empty())
-            M->add(dofs[i], dofs[j], m(i, j));
+            M->add(dofs[i], dofs[j], element.m(i, j));
           else
-            add_product(m(i, j), inertial[i], inertial[j], *M);
-          K->add(dofs[i], dofs[j], k(i, j));
+            add_product(element.m(i, j), inertial[i], inertial[j], *M);
+          K->add(dofs[i], dofs[j], element.k(i, j));
         }
       ++e;
     }

@@ -83,6 +83,7 @@ namespace taut
     struct Item
     {
       void declare(dealii::ParameterHandler &prm);
+      ObstacleSetting obstacle_setting(const std::string &section) const;
       std::string slave, master, obstacle = "none", method = "mortar", height = "0";
       std::vector<double> point = {0., 0.}, direction = {0., 1.};
       double radius = 1., gap = 0., compliance = 0., search_distance = 0., height_change = 1e-3,

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "check_parts.h"
+#include "network.h"
+
+#include <taut/base/exceptions.h>
+#include <taut/scene/contact_surface.h>
+#include <taut/scene/entries.h>
+
+#include <algorithm>
+
+namespace taut
+{
+  namespace
+  {
+    bool is_ball_joint(const Network::LinkItem &item)
+    {
+      return item.type == "ball joint";
+    }
+
+    /// Throws EntryError for entries that a ball joint does not have.
+    void check_ball_joint(const Network::LinkItem &item, const std::string &title)
+    {
+      for (const auto &[given, entry] : {std::pair(!item.direction.empty(), "/Direction"),
+                                         {!item.axis.empty(), "/Axis"},
+                                         {item.rotational, "/Rotational"},
+                                         {item.gap != 0., "/Gap"}})
+        if (given)
+          throw EntryError(title + entry, "a ball joint holds one place to another along x, y and "
+                                          "z, and has none; leave it out, or take a joint");
+    }
+
+    /// Whether an end is at a body in the plane; the surface of the body says so.
+    bool is_in_plane(const Scene &scene, const Attachment &end)
+    {
+      if (end.kind != Attachment::Kind::body)
+        return false;
+      const CustomBody &body = scene.bodies[end.index];
+      try
+      {
+        return body.type->surface({body.name, body.origin, scene.gravity}, {}).dim == 2;
+      }
+      catch (const UserError &) // no surface, or none yet: the body reports the error
+      {
+        return false;
+      }
+    }
+
+    /// Joints along each of x, y, z in which an end moves. A body in the plane does not move across
+    /// its plane; there the joint holds the other end to the ground.
+    void add_ball_joint(const Link &all, Scene &scene)
+    {
+      const std::pair<const char *, Coordinates> axes[] = {
+          {" x", {1., 0., 0.}}, {" y", {0., 1., 0.}}, {" z", {0., 0., 1.}}};
+      for (const auto &[name, axis] : axes)
+      {
+        Link link = all;
+        link.name += name;
+        link.direction = axis;
+        for (Attachment *const end : {&link.from, &link.to})
+          if (axis.z != 0. && is_in_plane(scene, *end))
+            *end = Attachment();
+        if (can_move(scene, link.from, false, axis) || can_move(scene, link.to, false, axis))
+          scene.links.push_back(link);
+      }
+    }
+
+    /// Checks entries of links that turn, and entries that only links that turn may have.
+    void check_turns(const Network::LinkItem &item, const Link &link, const std::string &title)
+    {
+      if (!link.turns)
+      {
+        if (link.unstressed_length > 0.)
+          throw EntryError(title + "/Length",
+                           "it is of a link that turns; set 'Turns = true', or give the Gap");
+        return;
+      }
+      if (is_ball_joint(item) || link.moving())
+        throw EntryError(
+            title + "/Turns",
+            "a " + item.type +
+                " has no direction from end to end; take a joint, a stop or a dropper");
+      if (link.rotational)
+        throw EntryError(title + "/Rotational", "a link that turns acts between displacements");
+      if (!item.direction.empty())
+        throw EntryError(title + "/Direction",
+                         "a link that turns has that from end to end; leave it empty");
+      if (item.find_length || item.axial_stiffness > 0. || item.mass_per_length > 0.)
+        throw EntryError(title + (item.find_length            ? "/Find length"
+                                  : item.axial_stiffness > 0. ? "/Axial stiffness"
+                                                              : "/Mass per length"),
+                         "it is of a dropper whose length is found, along a direction that stays; "
+                         "give a link that turns its Length and Stiffness");
+      if (link.unstressed_length > 0. && link.gap != 0.)
+        throw EntryError(title + "/Gap", "it follows from the Length; leave one of them out");
+    }
+
+    /// Throws EntryError for ends between which no such link is possible.
+    void check_ends(const Link &link, const Scene &scene, const std::string &title,
+                    const bool has_direction)
+    {
+      if (link.straight && !(link.moving() && is_on_cable(scene, link.to)))
+        throw EntryError(title + "/Straight", "it is of a sliding contact on a cable, whose length "
+                                              "is not that of its way; set it to false");
+      if (link.from.kind == Attachment::Kind::body && link.to.kind == link.from.kind &&
+          link.from.index == link.to.index && link.from.place == link.to.place)
+        throw EntryError(title + "/To",
+                         "it is the place that From is; a link is between two places");
+      if (!has_direction && !link.rotational &&
+          (is_on_cable(scene, link.from) || is_on_cable(scene, link.to)))
+        throw EntryError(
+            title + "/Direction",
+            "give 'x, y' or 'x, y, z', or set 'Turns = true': places on a cable are counted along "
+            "it, so that no straight line between the ends is known before its shape");
+    }
+
+    void set_law(const Network::LinkItem &item, const std::string &title, Link &link)
+    {
+      link.stiffness = parse_stiffness(item.stiffness, title + "/Stiffness");
+      link.law = parse_law(item.law, item.law_points, item.law_formula, item.law_range, title);
+      if (!link.law)
+        return;
+      if (!link.unilateral())
+        throw EntryError(title + "/Law",
+                         "a law is for links that only push or pull; give a joint a Stiffness");
+      if (!link.rigid() || item.axial_stiffness > 0.)
+        throw EntryError(
+            title + "/Law",
+            "it is the law of the force; leave Stiffness 'rigid' and Axial stiffness 0");
+      link.stiffness = link.law->largest_stiffness();
+    }
+
+    /// The link of an item, without its ends and what follows from them.
+    Link link_without_ends(const Network::LinkItem &item, const std::string &title)
+    {
+      Link link;
+      link.origin = title;
+      link.kind = item.type == "stop"              ? LinkKind::stop
+                  : item.type == "dropper"         ? LinkKind::dropper
+                  : item.type == "sliding contact" ? LinkKind::sliding_contact
+                                                   : LinkKind::joint;
+      if (is_ball_joint(item))
+        check_ball_joint(item, title);
+      link.rotational = item.rotational;
+      set_law(item, title, link);
+      link.damping = item.damping;
+      link.gap = item.gap;
+      link.turns = item.turns;
+      link.unstressed_length = item.length;
+      check_turns(item, link, title);
+      link.speed = item.speed;
+      link.straight = item.straight;
+      link.profile =
+          Expression(item.profile, title + "/Height profile", Expression::Variables::position);
+      link.find_length = item.find_length;
+      link.prescribed_displacement = item.prescribed_displacement;
+      link.axial_stiffness = item.axial_stiffness;
+      link.mass_per_length = item.mass_per_length;
+      return link;
+    }
+
+    /// Sets the direction of a link whose ends are set, as far as it has one before the run.
+    void set_direction(const Network::LinkItem &item, const Scene &scene, const std::string &title,
+                       Link &link)
+    {
+      if (item.rotational || !item.axis.empty() || !item.direction.empty())
+      {
+        link.direction = parse_direction_or_axis(item.rotational, item.direction, item.axis, title);
+        return;
+      }
+      const auto has_place = [](const Attachment &end)
+      { return end.kind != Attachment::Kind::ground || end.has_place; };
+      if (link.turns)
+      {
+        for (const auto &[end, entry] : {std::pair(&link.from, "/From"), {&link.to, "/To"}})
+          if (!has_place(*end))
+            throw EntryError(title + entry, "a link that turns needs the place of its end at the "
+                                            "ground; write 'ground @ x, y, z'");
+        return;
+      }
+      if (!has_place(link.from) || !has_place(link.to))
+        throw EntryError(title + "/Direction",
+                         "give 'x, y' or 'x, y, z', or a place of the ground, 'ground @ x, y, z'");
+      link.direction = unit(place(scene, link.to) - place(scene, link.from), title + "/Direction");
+    }
+  } // namespace
+
+  void Network::add_links(Scene &scene) const
+  {
+    for (std::size_t i = 0; i < links.items.size(); ++i)
+    {
+      const LinkItem &item = links.items[i];
+      const std::string title = links.title(i);
+      Link link = link_without_ends(item, title);
+      const auto from = parse_attachments(item.from, scene, title + "/From");
+      const auto to = parse_attachments(item.to, scene, title + "/To");
+      if (from.size() != to.size() && from.size() != 1 && to.size() != 1)
+        throw EntryError(title, "From has " + std::to_string(from.size()) + " positions and To " +
+                                    std::to_string(to.size()) +
+                                    "; give equal numbers, or one of one");
+      const std::size_t n = std::max(from.size(), to.size());
+      for (std::size_t k = 0; k < n; ++k)
+      {
+        link.name = links.names[i] + (n > 1 ? " " + std::to_string(k + 1) : "");
+        link.from = from[from.size() > 1 ? k : 0];
+        link.to = to[to.size() > 1 ? k : 0];
+        if (link.moving() && link.to.kind == Attachment::Kind::body)
+          link.to.position = link.to.place.x;
+        check_ends(link, scene, title,
+                   !item.direction.empty() || is_ball_joint(item) || link.turns);
+        if (is_ball_joint(item))
+        {
+          add_ball_joint(link, scene);
+          continue;
+        }
+        set_direction(item, scene, title, link);
+        scene.links.push_back(link);
+      }
+    }
+  }
+} // namespace taut
