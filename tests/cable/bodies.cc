@@ -4,28 +4,21 @@
 // of the other kind.
 #include "cable/elastic_catenary.h"
 #include "cable/slack_cable.h"
-#include "verification/run.h"
+#include "verification/scene_tests.h"
 
 #include <taut/base/dot.h>
-#include <taut/base/exceptions.h>
 #include <taut/cable/cable.h>
 #include <taut/cable/find_length.h>
 #include <taut/substructure/local_solver.h>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <iterator>
-#include <string>
-#include <vector>
 
 namespace
 {
   using namespace taut;
   using verification::equilibrium;
+  using verification::has;
   using verification::largest_of;
   using verification::slack_cable;
   using verification::unbalanced;
@@ -162,7 +155,7 @@ namespace
     std::ifstream file(path);
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     for (const char *name : {"tension", "unstressed_arc_length", "displacement"})
-      EXPECT_NE(text.find(std::string("Name=\"") + name), std::string::npos) << name;
+      EXPECT_TRUE(has(text, std::string("Name=\"") + name)) << name;
     std::remove(path.c_str());
   }
 
@@ -241,7 +234,7 @@ Time: End = 0
       catch (const EntryError &e)
       {
         EXPECT_EQ(e.entry(), "Body cable" + (c.entry.empty() ? "" : "/" + c.entry));
-        EXPECT_NE(e.message().find(c.text), std::string::npos) << e.message();
+        EXPECT_TRUE(has(e.message(), c.text)) << e.message();
       }
     }
   }

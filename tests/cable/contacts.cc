@@ -3,19 +3,13 @@
 // is and however it is turned, on any side of the cable. Expected values: closed forms, and the
 // same scene in the plane z = 0.
 #include "cable/errors_of_runs.h"
-#include "verification/run.h"
+#include "verification/scene_tests.h"
 
-#include <taut/base/exceptions.h>
 #include <taut/model/surface_constraints.h>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <fstream>
-#include <sstream>
-#include <string>
 #include <tuple>
-#include <vector>
+
+using verification::has;
 
 namespace
 {
@@ -185,8 +179,8 @@ TEST(CableContacts, what_is_out_of_reach_is_named)
   }
   catch (const UserError &e)
   {
-    EXPECT_NE(std::string(e.what()).find("search distance of 1 m"), std::string::npos) << e.what();
-    EXPECT_EQ(std::string(e.what()).find("boundary id"), std::string::npos) << e.what();
+    EXPECT_TRUE(has(e.what(), "search distance of 1 m")) << e.what();
+    EXPECT_FALSE(has(e.what(), "boundary id")) << e.what();
   }
 }
 

@@ -2,13 +2,7 @@
 // Claim: lengths of droppers that hang from cables are found, so that what they hold stands at the
 // prescribed height. Expected values: two bars under a force; distances of displaced places.
 #include "cable/errors_of_runs.h"
-#include "verification/run.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-#include <vector>
+#include "verification/scene_tests.h"
 
 namespace
 {

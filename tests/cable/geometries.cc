@@ -2,20 +2,11 @@
 // Claim: a cable that is linear, about its shape at rest or as a straight wire, moves as closed
 // forms say, and is refused where it has none. Expected values: closed forms.
 #include "cable/slack_cable.h"
-#include "verification/run.h"
+#include "verification/scene_tests.h"
 
 #include <taut/base/dot.h>
-#include <taut/base/exceptions.h>
 #include <taut/cable/cable.h>
 #include <taut/cable/find_length.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <string>
-#include <vector>
 
 namespace
 {

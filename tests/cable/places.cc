@@ -2,25 +2,18 @@
 // Claim: what acts at a place on a cable acts there or is refused, and results say where the place
 // is in space. Expected values: the same scene written otherwise, closed forms, and the messages.
 #include "cable/errors_of_runs.h"
-#include "verification/run.h"
+#include "verification/scene_tests.h"
 
-#include <taut/base/exceptions.h>
 #include <taut/output/scene_report.h>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
-#include <sstream>
-#include <string>
 #include <tuple>
-#include <vector>
 
 namespace
 {
   using namespace taut;
+  using verification::has;
   using verification::Overrides;
   using verification::Session;
 
@@ -150,7 +143,7 @@ TEST(CablePlaces, links_that_a_held_end_grounds_are_named)
   free.run([](const StepView &) {});
   expect(held.log(), {"at held ends of cables, which stand like the ground: 'tie x', 'tie y', "
                       "'tie z'\n"});
-  EXPECT_EQ(free.log().find("held ends"), std::string::npos);
+  EXPECT_FALSE(has(free.log(), "held ends"));
 }
 
 TEST(CablePlaces, ball_joints_hold_one_place)
@@ -217,13 +210,13 @@ TEST(CablePlaces, places_in_space_are_shown)
   std::ostringstream tables;
   print_scene(session.simulation().scene(), places, tables);
   expect(tables.str(), {"span @ 31 (at 30, 0, 4)", "span @ 15.5 (at 15, -3."});
-  EXPECT_EQ(tables.str().find("e-1"), std::string::npos) << tables.str();
+  EXPECT_FALSE(has(tables.str(), "e-1")) << tables.str();
   write_sketch(session.simulation().scene(), places, session.folder() + ".svg");
   const std::string drawing = text_in(session.folder() + ".svg");
   std::remove((session.folder() + ".svg").c_str());
   expect(drawing, {">span</text>", "cx=\"540\""}); // half of 1000 beside a margin of 40
-  EXPECT_EQ(drawing.find("nan"), std::string::npos);
-  EXPECT_EQ(drawing.find("e+"), std::string::npos);
+  EXPECT_FALSE(has(drawing, "nan"));
+  EXPECT_FALSE(has(drawing, "e+"));
 
   session.run([](const StepView &) {});
   const std::string start = text_in(session.folder() + "/start.csv");
@@ -309,5 +302,5 @@ TEST(CablePlaces, entries_without_effect_are_named)
     expect(said.log(), {std::string("not used: ") + entry + "\n"});
     expect(text_in(said.folder() + "/used.prm"), {std::string("Not used: ") + entry});
   }
-  EXPECT_EQ(silent.log().find("not used"), std::string::npos) << silent.log();
+  EXPECT_FALSE(has(silent.log(), "not used")) << silent.log();
 }

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: slender solids are the beams of wires. Expected values: the same scene with a wire.
-#include "verification/run.h"
+#include "verification/scene_tests.h"
 
 #include <taut/substructure/local_solver.h>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <numeric>
 
 namespace

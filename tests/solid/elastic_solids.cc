@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: solids move as exact solutions do, and weigh what they are. Sources: linear displacements,
 // beams of Euler and Timoshenko, their first frequency.
-#include "verification/run.h"
+#include "verification/scene_tests.h"
 
 #include <taut/interface/system.h>
 #include <taut/solid/elastic_solid.h>
@@ -11,9 +11,6 @@
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <numeric>
 
 namespace

@@ -4,8 +4,6 @@
 // lateral contraction between plates, where all is the pressure on top.
 #include "solid/limits_run.h"
 
-#include <gtest/gtest.h>
-
 using namespace solid_limits;
 
 namespace

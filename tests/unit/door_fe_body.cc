@@ -22,6 +22,7 @@
 
 namespace
 {
+  using verification::has;
   using verification::error_of;
   using namespace dealii;
 
@@ -77,7 +78,6 @@ namespace
       return std::make_unique<taut::FEBody<1>>("bar", dofs, M, C, K, constraints, load, options);
     }
   };
-
 } // namespace
 
 TEST(DoorFEBody, a_bar_hangs)
@@ -113,7 +113,7 @@ TEST(DoorFEBody, what_does_not_fit_is_named)
     EXPECT_EQ(error_of([&] { bar.make(); }), "");
     spoil(bar);
     const std::string message = error_of([&] { bar.make(); });
-    EXPECT_NE(message.find("body 'bar'"), std::string::npos) << message;
+    EXPECT_TRUE(has(message, "body 'bar'")) << message;
   }
 }
 
@@ -146,6 +146,6 @@ TEST(DoorFEBody, calls_that_do_not_fit_are_named)
   {
     const auto body = bar.make();
     const std::string message = error_of([&] { call(*body); });
-    EXPECT_NE(message.find("body 'bar'"), std::string::npos) << message;
+    EXPECT_TRUE(has(message, "body 'bar'")) << message;
   }
 }

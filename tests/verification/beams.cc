@@ -2,14 +2,9 @@
 // Claim: mass and stiffness of a wire as Structure assembles them give the natural frequencies of
 // beam, string and bar. Source: simply supported tensioned beam, omega_n^2 = (T q^2 + EI q^4)/m,
 // q = n pi/L; fixed bar or string, omega_n = n pi c/L.
-#include "run.h"
+#include "scene_tests.h"
 
 #include <deal.II/lac/lapack_templates.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 
 using namespace verification;
 

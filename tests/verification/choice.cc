@@ -4,14 +4,7 @@
 // contact nodes where that suits, says which and why, and is nearer to exact solutions than what
 // else it might have taken. Sources: wave equation (prm/bar_on_wall.prm), free fall onto a rigid
 // floor.
-#include "run.h"
-
-#include <taut/base/exceptions.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
+#include "scene_tests.h"
 
 using namespace verification;
 
@@ -42,7 +35,7 @@ namespace
   {
     const std::string line = choice(scene, more);
     EXPECT_EQ(line.substr(0, scheme.size()), scheme) << line;
-    EXPECT_NE(line.find(reason), std::string::npos) << line;
+    EXPECT_TRUE(has(line, reason)) << line;
   }
 
   /// Two masses on a spring fall 0.8 m onto a floor.
@@ -161,10 +154,10 @@ TEST(Schemes, automatic_leaves_mass_beside_stiff_stops)
   const std::string taken = "Mass redistribution: nodes of wires under ",
                     kept = "Moreau-Jean (theta 0.5, gaps then velocities";
   const std::string compliant = run("1e3"), stiff = run("1e8");
-  EXPECT_NE(compliant.find(taken + "'floor' gave"), std::string::npos) << compliant;
-  EXPECT_NE(compliant.find("generalised-alpha (spectral radius 0.8)"), std::string::npos);
-  EXPECT_EQ(stiff.find(taken), std::string::npos) << stiff;
-  EXPECT_NE(stiff.find(kept), std::string::npos) << stiff;
+  EXPECT_TRUE(has(compliant, taken + "'floor' gave")) << compliant;
+  EXPECT_TRUE(has(compliant, "generalised-alpha (spectral radius 0.8)"));
+  EXPECT_FALSE(has(stiff, taken)) << stiff;
+  EXPECT_TRUE(has(stiff, kept)) << stiff;
 }
 
 TEST(Schemes, automatic_knows_restitution_or_says_so)
@@ -189,8 +182,7 @@ TEST(Schemes, automatic_knows_restitution_or_says_so)
     overrides.insert(overrides.end(), more.begin(), more.end());
     Session by_name(falling_masses(), overrides);
     by_name.run([](const taut::StepView &) {});
-    EXPECT_NE(by_name.log().find("not used by it: Time/Moreau-Jean/Restitution = 0.5"),
-              std::string::npos);
+    EXPECT_TRUE(has(by_name.log(), "not used by it: Time/Moreau-Jean/Restitution = 0.5"));
   }
 }
 

@@ -3,12 +3,7 @@
 // in time as an independent program found them with the same scheme, times 1.5, and of second order
 // where they are smooth. Reference: the same discrete scene with a much smaller step of the same
 // scheme, which BDF2 at a small step agrees with.
-#include "run.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
+#include "scene_tests.h"
 
 using namespace verification;
 

@@ -2,16 +2,11 @@
 // Claim: with conditions on gaps, then velocities, fixed rigid unilateral links never give energy,
 // whatever bodies, links and steps, and BDF2 does. Source: kinetic and strain energy, measured here
 // by M and K, of random problems without loads: contacts, joints and dampers can only take it.
-#include "run.h"
+#include "scene_tests.h"
 
 #include <taut/model/scene_constraints.h>
 #include <taut/time/time_stepper.h>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
 #include <random>
 
 using namespace verification;
@@ -173,16 +168,7 @@ namespace
   double energy(const taut::Structure &structure, const taut::Constraints &constraints,
                 const taut::State &state)
   {
-    double sum = 0.;
-    for (std::size_t k = 0; k < structure.size(); ++k)
-    {
-      const std::vector<double> &U = state.U[k], &V = state.V[k];
-      std::vector<double> MV(U.size(), 0.), KU(U.size(), 0.);
-      structure[k].mass().vmult_add(1., V.data(), MV.data());
-      structure[k].stiffness().vmult_add(1., U.data(), KU.data());
-      for (std::size_t i = 0; i < U.size(); ++i)
-        sum += .5 * (MV[i] * V[i] + KU[i] * U[i]);
-    }
+    double sum = energy_of_bodies(structure, state);
     for (std::size_t i = 0; i < constraints.size(); ++i)
       if (!std::isinf(constraints[i].stiffness))
         sum += .5 * constraints[i].stiffness * std::pow(std::min(0., state.geometric_gap[i]), 2);

@@ -4,14 +4,7 @@
 // and others that give are added; and a run that does what the message advises has no warning.
 // Sources: energy of a falling mass in flight, m v^2 / 2 + m g y, before and after each contact;
 // the time of a contact in closed form.
-#include "run.h"
-
-#include <taut/base/exceptions.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <sstream>
+#include "scene_tests.h"
 
 using namespace verification;
 
@@ -88,11 +81,6 @@ Time: Step = )" +
     }
     fall.log = session.log();
     return fall;
-  }
-
-  bool has(const std::string &text, const std::string &part)
-  {
-    return text.find(part) != std::string::npos;
   }
 
   const std::string of_scheme = "Set 'Time/Scheme' to 'automatic', or take a smaller step",

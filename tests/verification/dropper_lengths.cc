@@ -2,14 +2,9 @@
 // Claim: the lengths of droppers in start.csv are those that the entry Lengths takes: a line with
 // them has the state at rest of the line whose lengths were found. Sources: the found line itself;
 // N/k, the stretch of a dropper.
-#include "run.h"
+#include "scene_tests.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <fstream>
 #include <map>
-#include <sstream>
 
 using namespace verification;
 

@@ -2,13 +2,7 @@
 // Claim: energy.csv accounts for all energy of a run. Sources: closed form of a damped oscillator
 // under a constant force; an identity of each scheme elsewhere (the error is rounding); a rigid
 // impact takes what Newton's law says.
-#include "run.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <fstream>
+#include "scene_tests.h"
 
 using namespace verification;
 

@@ -4,6 +4,7 @@
 
 #include <taut/base/exceptions.h>
 
+#include <cstddef>
 #include <functional>
 #include <string>
 
@@ -21,6 +22,12 @@ namespace verification
       return e.what();
     }
     return "";
+  }
+
+  /// Whether a text has a part, at @p from or behind it.
+  inline bool has(const std::string &text, const std::string &part, const std::size_t from = 0)
+  {
+    return text.find(part, from) != std::string::npos;
   }
 } // namespace verification
 

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: the log of a static equilibrium names the bodies that nothing holds, and no others.
 // Source: the supports and links of each scene.
-#include "run.h"
-
-#include <gtest/gtest.h>
+#include "scene_tests.h"
 
 using namespace verification;
 

@@ -3,15 +3,10 @@
 // without a gain of energy, with every form of the interface operator and any cuts. Sources: a law
 // whose points lie on a straight line is the stiffness; closed forms of two slopes and of a cubic
 // spring; forces and energies of random laws, evaluated here.
-#include "run.h"
+#include "scene_tests.h"
 
 #include <taut/base/force_law.h>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <fstream>
 #include <map>
 #include <random>
 

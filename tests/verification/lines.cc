@@ -4,15 +4,10 @@
 // of EN 50318:2002, dropper forces 102.6, 79.5, 86.1, ... N, lengths 0.9856, 0.8041, 0.6473,
 // 0.5533, 0.5220 m; a published simple line of 55 m spans, lengths 1.017, 0.896, 0.810, 0.758,
 // 0.741 m.
-#include "run.h"
+#include "scene_tests.h"
 
 #include <taut/model/scene_constraints.h>
 #include <taut/time/time_stepper.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 
 using namespace verification;
 

@@ -3,14 +3,9 @@
 // total mass, its centre and its moment of inertia (the conditions of H. B. Khenous, P. Laborde,
 // Y. Renard, European Journal of Mechanics A 27 (2008)), and leaves a mass matrix that is definite
 // elsewhere; the first force of an impact then no longer grows like m v / step, for any scheme.
-#include "run.h"
+#include "scene_tests.h"
 
 #include <taut/wire/wire_component.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 
 using namespace verification;
 

@@ -4,14 +4,10 @@
 // hang on. The reference knows nothing of the time stepper: the matrices of the bodies, joints
 // eliminated, integrated by the classical Runge-Kutta method of fourth order with a step of 1/16 of
 // the smallest tested one or less.
-#include "run.h"
+#include "scene_tests.h"
 
 #include <deal.II/lac/full_matrix.h>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <map>
 
 using namespace verification;

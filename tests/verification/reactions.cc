@@ -2,14 +2,9 @@
 // Claim: the forces of supports are those that hold the bodies. Sources: sums of forces and moments
 // (statics); the momentum of a whole string, whose rate is the sum of all forces on it (motion);
 // m L a of a bar whose end is moved with constant acceleration.
-#include "run.h"
+#include "scene_tests.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <fstream>
 #include <numeric>
-#include <string>
 
 using namespace verification;
 

@@ -1,16 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: moments, angular gaps and recorded rotations of wires are about any axis in space.
-#include "run.h"
-
-#include <taut/base/exceptions.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <sstream>
-#include <string>
-#include <vector>
+#include "scene_tests.h"
 
 using namespace verification;
 using taut::add_scaled;
@@ -91,15 +81,8 @@ namespace
 
   std::string error_of(const Overrides &overrides)
   {
-    try
-    {
-      Session session(scene_file("beam_angular_stop"), overrides);
-    }
-    catch (const taut::UserError &e)
-    {
-      return e.what();
-    }
-    return "";
+    return verification::error_of([&]
+                                  { Session session(scene_file("beam_angular_stop"), overrides); });
   }
 } // namespace
 
@@ -171,6 +154,6 @@ TEST(RotationsInSpace, an_axis_that_nothing_turns_about_is_an_error)
            {{"Output/Probe left slope/Axis = 0, 1, 0"}, "cannot turn about it"}})
   {
     const std::string error = error_of(overrides);
-    EXPECT_NE(error.find(part), std::string::npos) << overrides[0] << ": " << error;
+    EXPECT_TRUE(has(error, part)) << overrides[0] << ": " << error;
   }
 }

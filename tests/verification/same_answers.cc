@@ -2,16 +2,12 @@
 // Claim: what a scene answers does not depend on how it is computed: both local solvers, assembled
 // and matrix-free interface operator, and both complementarity methods give the same forces and
 // displacements, to 1e-10 of the largest one or 10 eps cond(F), whichever is more.
-#include "run.h"
+#include "scene_tests.h"
 
 #include <taut/interface/schur_complement.h>
 
 #include <deal.II/lac/lapack_templates.h>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 using namespace verification;

@@ -4,9 +4,8 @@
 #ifndef taut_verification_scene_tests_h
 #define taut_verification_scene_tests_h
 
+#include "error_of.h"
 #include "run.h"
-
-#include <taut/base/exceptions.h>
 
 #include <gtest/gtest.h>
 
@@ -21,25 +20,6 @@
 
 namespace verification
 {
-  /// The message of the error of the user that some work ends with; empty: none.
-  inline std::string error_of(const std::function<void()> &work)
-  {
-    try
-    {
-      work();
-    }
-    catch (const taut::UserError &e)
-    {
-      return e.what();
-    }
-    return "";
-  }
-
-  inline bool has(const std::string &text, const std::string &part)
-  {
-    return text.find(part) != std::string::npos;
-  }
-
   /// What @p value finds at the start and after each step of a scene.
   template <typename Value>
   auto series(const std::string &file_or_text, const Overrides &overrides, const Value &value)
@@ -57,6 +37,32 @@ namespace verification
     for (const double value : values)
       result = std::max(result, std::fabs(value));
     return result;
+  }
+
+  /// Largest difference of numbers that are equally many.
+  inline double largest_difference(const std::vector<double> &a, const std::vector<double> &b)
+  {
+    EXPECT_EQ(a.size(), b.size());
+    double result = 0.;
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+      result = std::isnan(b[i]) ? INFINITY : std::max(result, std::fabs(a[i] - b[i]));
+    return result;
+  }
+
+  /// Kinetic and strain energy of linear bodies, by M and K [J].
+  inline double energy_of_bodies(const taut::Structure &structure, const taut::State &state)
+  {
+    double sum = 0.;
+    for (std::size_t k = 0; k < structure.size(); ++k)
+    {
+      const std::vector<double> &U = state.U[k], &V = state.V[k];
+      std::vector<double> MV(U.size(), 0.), KU(U.size(), 0.);
+      structure[k].mass().vmult_add(1., V.data(), MV.data());
+      structure[k].stiffness().vmult_add(1., U.data(), KU.data());
+      for (std::size_t i = 0; i < U.size(); ++i)
+        sum += .5 * (MV[i] * V[i] + KU[i] * U[i]);
+    }
+    return sum;
   }
 } // namespace verification
 

@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: a table with an interval shows what happened between its lines. Source: forces, gaps and
 // displacements that an observer of the same run sees in every step.
-#include "run.h"
+#include "scene_tests.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <cctype>
-#include <cmath>
-#include <fstream>
 #include <map>
-#include <sstream>
 
 using namespace verification;
 

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: the sizes that certificates divide by are those of the vectors and constraints,
 // not-a-number included. Source: a loop over all entries.
-#include "run.h"
+#include "scene_tests.h"
 
 #include <taut/interface/constraints.h>
 #include <taut/model/scene_constraints.h>
 #include <taut/time/matrix_norms.h>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <limits>
 #include <random>
 

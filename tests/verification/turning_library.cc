@@ -19,6 +19,7 @@ using namespace turning;
 
 namespace
 {
+  using verification::has;
   using verification::error_of;
   const Coordinates start = {.6, -.5, .2}, speed = {.3, 1., -.4};
   constexpr double mass = 3.;
@@ -54,7 +55,6 @@ namespace
                          stepper.displacement(motion[2])});
     }
   };
-
 } // namespace
 
 TEST(TurningLibrary, pendulums_are_those_of_a_parameter_file)
@@ -119,7 +119,7 @@ TEST(TurningLibrary, what_cannot_turn_is_refused)
 {
   const Pendulum pendulum;
   const auto expect = [](const std::string &error, const std::string &part)
-  { EXPECT_NE(error.find(part), std::string::npos) << error; };
+  { EXPECT_TRUE(has(error, part)) << error; };
   using taut::Constraint;
   expect(error_of([&] { Constraint::rope("r", {start}, pendulum.bob, 1.); }),
          "start at one place, (0.6, -0.5, 0.2) m");

@@ -2,12 +2,7 @@
 // Claim: a force that moves along a taut string raises the exact kink. Source: d'Alembert's
 // solution of T w" - m w" = -F delta(x - v t) before the front reaches the far end, with
 // beta = v/c: F x/(T (1 + beta)) behind the load, F beta (c t - x)/(T (1 - beta^2)) ahead of it.
-#include "run.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
+#include "scene_tests.h"
 
 using namespace verification;
 

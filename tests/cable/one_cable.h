@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// What the tests of a single cable share: its data, a system of it alone, and a floor below it.
+#ifndef taut_tests_one_cable_h
+#define taut_tests_one_cable_h
+
+#include <taut/cable/cable.h>
+#include <taut/interface/system.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace verification
+{
+  /// A cable that begins at the origin, under gravity along -y.
+  inline taut::CableData cable_to(const taut::Coordinates &to, const double length,
+                                  const taut::CableSection &section, const unsigned int n_elements)
+  {
+    taut::CableData data;
+    data.name = "cable";
+    data.origin = "Body cable";
+    data.to = to;
+    data.length = length;
+    data.section = section;
+    data.gravity = {0., -9.81, 0.};
+    data.n_elements = n_elements;
+    return data;
+  }
+
+  /// A system of one cable, or of a kind of it, that is made from some arguments.
+  template <typename Made = taut::Cable>
+  struct OneCable
+  {
+    template <typename... Arguments>
+    explicit OneCable(const Arguments &...arguments)
+    {
+      system.add("cable",
+                 [&]
+                 {
+                   auto made = std::make_unique<Made>(arguments...);
+                   cable = made.get();
+                   return made;
+                 });
+    }
+
+    /// A floor that its inner nodes may touch, so far below the origin.
+    void add_floor(const double depth, const double length, const unsigned int n_elements)
+    {
+      for (unsigned int k = 1; k < n_elements; ++k)
+      {
+        const double s = length * k / n_elements;
+        system.add(taut::Constraint::unilateral("floor " + std::to_string(k),
+                                                system.displacement(0, {s, 0., 0.}, {0., 1., 0.}))
+                       .gap(depth + cable->elements().position(cable->shape().positions, s).y));
+      }
+    }
+
+    Made *cable = nullptr;
+    taut::System system;
+  };
+} // namespace verification
+
+#endif
