@@ -7,9 +7,7 @@
 #include "verification/scene_tests.h"
 
 #include <taut/base/dot.h>
-#include <taut/cable/cable.h>
 #include <taut/cable/find_length.h>
-#include <taut/substructure/local_solver.h>
 
 #include <cstdio>
 #include <iterator>

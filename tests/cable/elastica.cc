@@ -7,8 +7,6 @@
 #include <boost/math/quadrature/tanh_sinh.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 
-#include <utility>
-
 namespace
 {
   using namespace taut;

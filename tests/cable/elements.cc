@@ -2,14 +2,10 @@
 // Claim: the forces of cable elements are gradients of their energy, their tangents are derivatives
 // of the forces, and the mean force over a step does the work that the energy says. Expected
 // values: differences, and the identities themselves.
+#include "common.h"
+
 #include <taut/base/dot.h>
 #include <taut/cable/cable_elements.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
 
 namespace
 {

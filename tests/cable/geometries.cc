@@ -5,7 +5,6 @@
 #include "verification/scene_tests.h"
 
 #include <taut/base/dot.h>
-#include <taut/cable/cable.h>
 #include <taut/cable/find_length.h>
 
 namespace

@@ -6,7 +6,6 @@
 #include "verification/scene_tests.h"
 
 #include <array>
-#include <cstddef>
 
 namespace
 {

@@ -4,16 +4,10 @@
 // catenary; a second element and a second scheme.
 #include "cable/elastic_catenary.h"
 #include "cable/one_cable.h"
-#include "verification/error_of.h"
+#include "common.h"
 
 #include <taut/time/static_equilibrium.h>
 #include <taut/time/stepper.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
 
 namespace
 {

@@ -5,8 +5,6 @@
 #include "cable/joined_catenaries.h"
 #include "verification/scene_tests.h"
 
-#include <cstddef>
-
 namespace
 {
   using namespace taut;

@@ -7,8 +7,6 @@
 
 #include <taut/cable/find_length.h>
 
-#include <utility>
-
 using verification::has;
 
 namespace

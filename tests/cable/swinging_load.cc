@@ -7,7 +7,6 @@
 #include "verification/scene_tests.h"
 
 #include <array>
-#include <cstddef>
 
 namespace
 {

@@ -5,18 +5,13 @@
 // without energy, momentum or moment of momentum from nowhere. Expected values: the elastic
 // catenary, a twin in other units, conservation laws.
 #include "cable/elastic_catenary.h"
+#include "common.h"
 #include "levels.h"
 
-#include <taut/base/exceptions.h>
 #include <taut/cable/cable.h>
 #include <taut/time/stepper.h>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <memory>
 
 using namespace extremes;
 

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // A case goes through the program as a scene generator of its own.
+#include "common.h"
 #include "observation.h"
-#include "verification/error_of.h"
 #include "verification/run.h"
 
 #include <taut/scene/scene_generator.h>
-
-#include <algorithm>
 
 namespace extremes
 {

@@ -2,21 +2,17 @@
 // A case of solids goes through the program as a parameter file with meshes written here.
 #include "solid_case.h"
 
-#include "verification/error_of.h"
+#include "common.h"
 #include "verification/run.h"
 
 #include <taut/model/surface_constraints.h>
 
 #include <unistd.h>
 
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <functional>
 #include <limits>
-#include <sstream>
 
 namespace extremes
 {

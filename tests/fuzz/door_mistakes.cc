@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "door_script.h"
 
-#include <cmath>
 #include <iostream>
 
 namespace door

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "draft.h"
 
-#include <cmath>
-
 namespace hunt
 {
   void add_load(Draft &draft, const std::string &on, const double force)

@@ -2,13 +2,10 @@
 // Claim: rigid bodies turn, swing and hit as they have to, and keep energy, angular momentum and
 // shape. Expected values: Euler's solution of the free symmetric top; conservation; the elliptic
 // integral of the compound pendulum; the impulse of Newton's laws.
+#include "common.h"
 #include "mechanism/rigid_body_run.h"
 
-#include <gtest/gtest.h>
-
 #include <array>
-#include <cmath>
-#include <vector>
 
 namespace
 {

@@ -2,16 +2,10 @@
 // Claim: rigid bodies come to rest where joints and cables hold them, and what nothing holds is an
 // error. Expected values: equilibrium of forces and moments; the lowest place of a bar on two
 // lines.
+#include "common.h"
 #include "mechanism/rigid_body_run.h"
 
-#include <taut/base/exceptions.h>
 #include <taut/cable/cable.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-#include <vector>
 
 namespace
 {

@@ -2,32 +2,26 @@
 // Claim: a study measures errors that are the real ones (free oscillator, u = cos(w t)), its
 // refined reference is as far from the exact value as it says, a setting that fails is a row, and
 // Accuracy takes the cheapest setting of a study of the same scene and of no other.
-#include "verification/error_of.h"
+#include "common.h"
 #include "verification/scene_builder.h"
 
-#include <taut/base/exceptions.h>
 #include <taut/simulation/simulation.h>
 #include <taut/study/study.h>
-
-#include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
 #include <unistd.h>
 
-#include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <limits>
-#include <sstream>
 
 namespace
 {
   namespace fs = std::filesystem;
   using Texts = std::vector<std::string>;
-  using verification::has;
   using verification::error_of;
+  using verification::has;
   using verification::prm;
 
   // w = 10 1/s; at t = 1.3 s the mass is at cos(13) m.

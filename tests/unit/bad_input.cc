@@ -2,24 +2,16 @@
 // Claim: a mistake in the input is one error of one line that names file, line, entry, value and
 // remedy; results of an earlier run are as they were. Source: the rows of bad_input.txt and the
 // table below; each case changes a scene that runs.
+#include "common.h"
 #include "verification/scene_builder.h"
 
 #include <taut/simulation/simulation.h>
 
-#include <gtest/gtest.h>
-
 #include <unistd.h>
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <set>
-#include <sstream>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace
 {

@@ -2,17 +2,13 @@
 // Claim: check_body() finds nothing in a body whose energy, forces and tangents belong together,
 // and names the function of each that do not. Source: a chain of springs with a cubic law, whose
 // functions are derivatives of its energy by hand; mistakes of a thousandth in each of them.
-#include <taut/base/exceptions.h>
+#include "common.h"
+
 #include <taut/cable/cable.h>
 #include <taut/mechanism/rigid_body.h>
 #include <taut/substructure/check_body.h>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <map>
-#include <string>
-#include <vector>
 
 namespace
 {

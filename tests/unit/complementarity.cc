@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: the complementarity solvers solve small problems exactly. Source: answers found by hand.
+#include "common.h"
 #include "complementarity_reference.h"
 
-#include <taut/base/exceptions.h>
 #include <taut/complementarity/energy_ordered.h>
 #include <taut/complementarity/solver.h>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <new>
 #include <numeric>
-#include <random>
 #include <type_traits>
 
 namespace

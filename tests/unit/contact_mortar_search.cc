@@ -2,15 +2,12 @@
 // Claim: mortar constraints find what faces what on curves, around corners, between whole
 // boundaries and among ten thousand edges, balance forces and moments there, and say what is wrong
 // with a surface. Expected: closed forms of circles and blocks.
+#include "common.h"
 #include "contact_meshes.h"
-#include "verification/error_of.h"
 
 #include <taut/solid/contact_constraints.h>
 
-#include <gtest/gtest.h>
-
 #include <iostream>
-#include <string>
 
 namespace
 {

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: nodes find their closest points on edges and faces, with exact distances and exact rigid
 // motions, and these constraints fail the patch test. Expected: closed forms.
+#include "common.h"
 #include "contact_meshes_space.h"
-#include <taut/base/exceptions.h>
 #include <taut/solid/contact_constraints.h>
 
-#include <gtest/gtest.h>
-
 #include <iostream>
-#include <string>
 
 namespace
 {

@@ -2,15 +2,11 @@
 // Claim: nodal constraints against rigid obstacles have exact distances, positive areas that add up
 // to those of the faces, and the consistent loads of a uniform pressure. Expected: closed forms,
 // and quadrature of the shape functions' own.
+#include "common.h"
 #include "contact_meshes_space.h"
-#include "verification/error_of.h"
 
 #include <taut/solid/contact_constraints.h>
 #include <taut/solid/rigid_obstacle.h>
-
-#include <gtest/gtest.h>
-
-#include <string>
 
 namespace
 {

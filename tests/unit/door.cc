@@ -2,8 +2,7 @@
 // Claim: what a program or a scene of a plugin says that makes no sense is one UserError that names
 // the body, the constraint or the item, and what was there before is as it was. Source: the tables
 // below; what is not wrong in them runs.
-#include "verification/error_of.h"
-
+#include "common.h"
 #include "fuzz/door_bodies.h"
 
 #include <taut/cable/cable.h>
@@ -12,17 +11,10 @@
 #include <taut/time/stepper.h>
 #include <taut/wire/wire_component.h>
 
-#include <gtest/gtest.h>
-
-#include <functional>
-#include <string>
-#include <utility>
-#include <vector>
-
 namespace
 {
-  using verification::has;
   using verification::error_of;
+  using verification::has;
   using namespace door;
   using taut::Constraint;
   using taut::Scene;

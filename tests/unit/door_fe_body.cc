@@ -2,9 +2,8 @@
 // Claim: a model of deal.II that does not fit its DoFHandler is one UserError that names the body;
 // one that fits hangs as it should. Source: the table below; a bar under its weight, whose linear
 // elements are exact at nodes.
-#include "verification/error_of.h"
+#include "common.h"
 
-#include <taut/base/exceptions.h>
 #include <taut/substructure/check_body.h>
 #include <taut/substructure/fe_body.h>
 #include <taut/time/stepper.h>
@@ -15,15 +14,12 @@
 #include <deal.II/grid/tria.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <limits>
 
 namespace
 {
-  using verification::has;
   using verification::error_of;
+  using verification::has;
   using namespace dealii;
 
   constexpr double EA = 1e3, weight = 20.; ///< [N; N/m]

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: the Hermite element agrees with closed forms. Sources: polynomials, textbook matrices,
 // frequencies of a beam.
-#include <taut/base/exceptions.h>
+#include "common.h"
+
 #include <taut/wire/fe_cubic_hermite.h>
 #include <taut/wire/hermite_shape.h>
 
@@ -22,15 +23,9 @@
 #include <deal.II/numerics/data_out.h>
 #include <deal.II/numerics/vector_tools.h>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <functional>
 #include <iostream>
 #include <set>
-#include <vector>
 
 namespace
 {

@@ -2,13 +2,9 @@
 // Claim: the simplicial and the supernodal factor of a matrix give the same solutions and refuse
 // the same matrices, and a narrow matrix is factored entry by entry. Expected: solutions equal to
 // 1e-12 of the largest entry (the condition number is below 1e3), the right-hand side given back.
+#include "common.h"
+
 #include <taut/base/sparse_cholesky.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
 
 namespace
 {

@@ -2,13 +2,10 @@
 // Claim: the sparse operator with its dense border gives the products, solutions and verdicts on
 // dependent rows of the dense operator, which a Cholesky factor of its own computes. Expected:
 // equal to 1e-12 of the largest entry (condition numbers are below 1e3).
+#include "common.h"
+
 #include <taut/complementarity/dense_operator.h>
 #include <taut/complementarity/sparse_operator.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
 
 namespace
 {

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: constraints may act on any number of DoFs of a body, none and very many included.
+#include "common.h"
+
 #include <taut/time/stepper.h>
-
-#include <gtest/gtest.h>
-
-#include <memory>
-#include <string>
 
 namespace
 {

@@ -7,8 +7,6 @@
 #include <taut/model/scene_constraints.h>
 #include <taut/time/time_stepper.h>
 
-#include <random>
-
 using namespace verification;
 
 namespace

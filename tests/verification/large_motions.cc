@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: bodies that are not linear move with the right period and keep their energy, with and
 // without contacts. Expected values: the pendulum of elliptic integrals; conservation of energy.
+#include "common.h"
 #include "elastic_pendulum.h"
 
-#include <taut/base/exceptions.h>
 #include <taut/time/stepper.h>
 
 #include <boost/math/special_functions/ellint_1.hpp>
-#include <gtest/gtest.h>
-
-#include <cmath>
 
 using namespace verification;
 

@@ -8,7 +8,6 @@
 #include <taut/base/force_law.h>
 
 #include <map>
-#include <random>
 
 using namespace verification;
 

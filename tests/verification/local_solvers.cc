@@ -3,14 +3,9 @@
 // constrained unknowns; a matrix that is singular up to rounding is an error, never an answer.
 // Sources: the product with the matrix has to give back the right-hand side; a string of equal
 // springs is singular if nothing holds its end.
-#include "error_of.h"
+#include "common.h"
 
 #include <taut/substructure/local_solver.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
 
 namespace
 {

@@ -2,14 +2,9 @@
 // Claim: places on a wire that differ by less than 1e-6 of an element are one node, so that scenes
 // whose positions are written with different numbers of digits are those with equal ones.
 #include "cable/errors_of_runs.h"
+#include "common.h"
 
-#include <taut/base/exceptions.h>
 #include <taut/scene/shared_places.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 
 using namespace verification;
 

@@ -1,22 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: what a program may ask of schemes and constraints outside of their ranges is a UserError
 // that says the range, and its ends are allowed. Source: the ranges in integrator.h and system.h.
-#include "error_of.h"
+#include "common.h"
 
 #include <taut/base/force_law.h>
 #include <taut/interface/system.h>
 #include <taut/time/integrator.h>
 
-#include <gtest/gtest.h>
-
 #include <limits>
-#include <memory>
-#include <string>
-#include <utility>
-#include <vector>
 
-using verification::has;
 using verification::error_of;
+using verification::has;
 
 TEST(Refused, parameters_of_schemes_beyond_their_ranges)
 {

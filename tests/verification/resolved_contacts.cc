@@ -6,8 +6,6 @@
 // step.
 #include "scene_tests.h"
 
-#include <utility>
-
 using namespace verification;
 
 namespace

@@ -1,22 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// What the tests of scenes need: runs of scenes, GoogleTest, errors of the user, and the headers of
-// C++ that nearly all of them use.
+// What the tests of scenes need.
 #ifndef taut_verification_scene_tests_h
 #define taut_verification_scene_tests_h
 
-#include "error_of.h"
+#include "common.h"
 #include "run.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <fstream>
-#include <functional>
-#include <memory>
-#include <sstream>
-#include <string>
-#include <vector>
 
 namespace verification
 {
@@ -27,25 +15,6 @@ namespace verification
     std::vector<decltype(value(std::declval<const taut::StepView &>()))> result;
     run_scene(file_or_text, overrides,
               [&](const taut::StepView &view) { result.push_back(value(view)); });
-    return result;
-  }
-
-  /// The largest magnitude.
-  inline double largest(const std::vector<double> &values)
-  {
-    double result = 0.;
-    for (const double value : values)
-      result = std::max(result, std::fabs(value));
-    return result;
-  }
-
-  /// Largest difference of numbers that are equally many.
-  inline double largest_difference(const std::vector<double> &a, const std::vector<double> &b)
-  {
-    EXPECT_EQ(a.size(), b.size());
-    double result = 0.;
-    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
-      result = std::isnan(b[i]) ? INFINITY : std::max(result, std::fabs(a[i] - b[i]));
     return result;
   }
 

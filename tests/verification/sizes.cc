@@ -8,7 +8,6 @@
 #include <taut/time/matrix_norms.h>
 
 #include <limits>
-#include <random>
 
 using namespace verification;
 

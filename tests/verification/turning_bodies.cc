@@ -1,16 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: links that turn hold rigid bodies, cables and wires as they hold masses. Expected values:
 // the lowest place, conservation of energy, impulses of Newton's laws.
+#include "common.h"
 #include "turning_scene.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <fstream>
-#include <sstream>
-#include <string>
-#include <vector>
 
 using namespace turning;
 

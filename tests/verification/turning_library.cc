@@ -1,26 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: ropes, props and rods that a program adds to a System are the links of a parameter file
 // that turn. Expected values: the same pendulums from a parameter file; the lowest place.
-#include "error_of.h"
+#include "common.h"
 #include "turning_scene.h"
 
-#include <taut/base/exceptions.h>
 #include <taut/time/stepper.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <memory>
-#include <string>
-#include <vector>
 
 using namespace turning;
 
 namespace
 {
-  using verification::has;
   using verification::error_of;
+  using verification::has;
   const Coordinates start = {.6, -.5, .2}, speed = {.3, 1., -.4};
   constexpr double mass = 3.;
 

@@ -2,16 +2,12 @@
 // Claim: links whose direction is that from end to end at each time move masses with the right
 // period, keep their length, energy and momentum, and catch what falls into them. Expected values:
 // elliptic integrals, parabolas of flight, impulses and springs of Newton's laws, conservation.
+#include "common.h"
 #include "turning_scene.h"
 
 #include <boost/math/special_functions/ellint_1.hpp>
-#include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <string>
 #include <tuple>
-#include <vector>
 
 using namespace turning;
 

@@ -2,16 +2,8 @@
 // Claim: where the ends of a link that turns and has a force come to one place, at the start or in
 // motion, the run ends with an error that says when, which link, where and what to do; a slack rope
 // lets them pass. Expected values: harmonic motion, straight flight.
+#include "common.h"
 #include "turning_scene.h"
-
-#include <taut/base/exceptions.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
 
 using namespace turning;
 

@@ -2,16 +2,8 @@
 // Claim: weights that stand on links are at rest only if what holds them to the sides is stiffer
 // than these links are soft; otherwise there is an error that names a link. Expected values: the
 // critical stiffness P/L of a prop, eigenvalues of two props, guys with their own tension.
+#include "common.h"
 #include "turning_scene.h"
-
-#include <taut/base/exceptions.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-#include <utility>
-#include <vector>
 
 using namespace turning;
 

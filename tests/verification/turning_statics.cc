@@ -1,15 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: weights on links that turn come to rest where they hang, with the forces of closed forms,
 // and what such links cannot be is an error that says what to do.
+#include "common.h"
 #include "turning_scene.h"
-
-#include <taut/base/exceptions.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-#include <vector>
 
 using namespace turning;
 

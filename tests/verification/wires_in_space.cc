@@ -9,7 +9,6 @@
 
 #include <array>
 #include <numeric>
-#include <regex>
 
 using namespace verification;
 
