@@ -6,7 +6,6 @@
 #include "verification/scene_tests.h"
 
 #include <cstdio>
-#include <iterator>
 
 using verification::error_of;
 using verification::has;
@@ -31,8 +30,7 @@ namespace
   {
     const std::string path = testing::TempDir() + "taut_linear_tension.vtu";
     cable.write_vtu(path, U);
-    std::ifstream file(path);
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    const std::string text = verification::file_text(path);
     std::remove(path.c_str());
     const std::size_t begin = text.find('>', text.find("Name=\"tension\"")) + 1;
     return text.substr(begin, text.find('<', begin) - begin);
@@ -48,7 +46,7 @@ Time: End = 0
 
   std::string error_of_scene(const verification::Overrides &entries)
   {
-    return error_of([&] { verification::run_scene(scene, entries, [](const StepView &) {}); });
+    return error_of([&] { verification::run_scene(scene, entries, {}); });
   }
 } // namespace
 

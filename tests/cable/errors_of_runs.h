@@ -9,7 +9,7 @@ inline std::string error_of(const std::string &scene, const verification::Overri
 {
   try
   {
-    verification::run_scene(scene, overrides, [](const taut::StepView &) {});
+    verification::run_scene(scene, overrides, {});
   }
   catch (const taut::EntryError &e)
   {

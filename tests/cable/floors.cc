@@ -29,9 +29,7 @@ namespace
     verification::OneCable<> one(data);
     one.add_floor(depth, length, n);
     const Cable *const cable = one.cable;
-    StepperOptions options;
-    options.step = 2e-3;
-    Stepper stepper(one.system, options);
+    Stepper stepper(one.system, verification::steps_of(2e-3, Start::equilibrium));
     AtRest result;
     result.balance = stepper.certificate().balance;
     std::vector<double> f, P;
@@ -58,13 +56,14 @@ namespace
   /// there without tension.
   double horizontal_on_floor(const double length, const double depth)
   {
-    double low = 1e-9, high = 1e3;
-    for (int k = 0; k < 200; ++k)
-    {
-      const double h = .5 * (low + high), a = std::sqrt(depth * depth + 2. * h * depth);
-      (2. * h * std::asinh(a / h) + length - 2. * a < span ? low : high) = h;
-    }
-    return low > 1e-8 ? low * weight : 0.;
+    const double found =
+        verification::end_of(1e-9, 1e3,
+                             [&](const double h)
+                             {
+                               const double a = std::sqrt(depth * depth + 2. * h * depth);
+                               return 2. * h * std::asinh(a / h) + length - 2. * a < span;
+                             });
+    return found > 1e-8 ? found * weight : 0.;
   }
 } // namespace
 

@@ -84,13 +84,10 @@ namespace
     // in the plane tan(x) = x - 4 x^3 / lambda^2 with x = omega l / 2 sqrt(m/H).
     const double sag_ratio = w * l / (8. * H), stretched = l * (1. + 8. * sag_ratio * sag_ratio),
                  lambda2 = std::pow(w * l / H, 2) * l * 1.3e7 / (H * stretched);
-    double low = .5 * pi + 1e-6, high = 1.5 * pi - 1e-6;
-    for (int k = 0; k < 200; ++k)
-    {
-      const double x = .5 * (low + high);
-      (std::tan(x) - x + 4. * x * x * x / lambda2 < 0. ? low : high) = x;
-    }
-    const double string = pi / l * std::sqrt(H / m), symmetric = 2. * low / l * std::sqrt(H / m);
+    const double x = verification::end_of(
+        .5 * pi + 1e-6, 1.5 * pi - 1e-6,
+        [&](const double y) { return std::tan(y) - y + 4. * y * y * y / lambda2 < 0.; });
+    const double string = pi / l * std::sqrt(H / m), symmetric = 2. * x / l * std::sqrt(H / m);
     std::vector<double> expected = {string, 2. * string, 2. * string, symmetric};
     std::sort(expected.begin(), expected.end());
     const std::vector<double> found = frequencies(cable, 4);

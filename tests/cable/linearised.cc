@@ -163,19 +163,11 @@ TEST(CableLinearised, start_shows_places_of_the_equilibrium)
                             verification::displacement(step, terms));
         }
       });
-  std::ifstream file(session.folder() + "/start.csv");
-  std::string row;
-  std::getline(file, row);
-  for (const double height : heights)
-  {
-    ASSERT_TRUE(std::getline(file, row));
-    std::istringstream cells(row);
-    std::string name, x, y;
-    std::getline(cells, name, ',');
-    std::getline(cells, x, ',');
-    std::getline(cells, y, ',');
-    EXPECT_NEAR(std::stod(y), height, 1e-6) << row;
-  }
+  const std::vector<double> y =
+      verification::read_table(session.folder() + "/start.csv").at("y [m]");
+  ASSERT_GE(y.size(), heights.size());
+  for (std::size_t i = 0; i < heights.size(); ++i)
+    EXPECT_NEAR(y[i], heights[i], 1e-6) << i;
   EXPECT_GT(heights.size(), 5u);
   EXPECT_GT(*std::max_element(heights.begin(), heights.end()), .1); // it is lifted
 }

@@ -69,10 +69,7 @@ namespace
   {
     const OneCable<TurnedCable> one(data, angle);
     const Cable *const cable = one.cable;
-    StepperOptions options;
-    options.step = step;
-    options.start = Start::given;
-    options.scheme = scheme;
+    StepperOptions options = verification::steps_of(step, Start::given, scheme);
     options.allow_unsuitable_scheme = true;
     Stepper stepper(one.system, options);
     std::vector<double> U, V;
@@ -134,10 +131,7 @@ TEST(CableMotions, a_cable_at_rest_stays_there)
       data.section.bending_stiffness = 0.;
       data.n_elements = 8;
       const OneCable<> one(data);
-      StepperOptions options;
-      options.step = 1e-2;
-      options.start = Start::equilibrium;
-      Stepper stepper(one.system, options);
+      Stepper stepper(one.system, verification::steps_of(1e-2, Start::equilibrium));
       while (stepper.time() < 1.)
         stepper.advance();
       EXPECT_EQ(stepper.measures().error(), "") << length;
@@ -226,10 +220,7 @@ TEST(CableMotions, waves_of_an_impact)
       double v;
     };
     const OneCable<Struck> one(data, mass, v);
-    StepperOptions options;
-    options.step = .25 * length / 100. / wave;
-    options.start = Start::given;
-    Stepper stepper(one.system, options);
+    Stepper stepper(one.system, verification::steps_of(.25 * length / 100. / wave, Start::given));
     const unsigned int end = one.cable->elements().end_dofs(true)[0];
     while (stepper.time() < 1.9 * length / wave)
     {
@@ -254,23 +245,15 @@ namespace
     const auto span_at = [&](const double H)
     {
       // Free length from the depth: y = s w s / (2 EA) + (sqrt(H^2 + w^2 s^2) - H) / w.
-      double low = 0., high = half_length;
-      for (int k = 0; k < 200; ++k)
-      {
-        const double s = .5 * (low + high),
-                     y = .5 * w * s * s / EA + (std::hypot(H, w * s) - H) / w;
-        (y < depth ? low : high) = s;
-      }
-      const double s = low;
+      const double s = verification::end_of(
+          0., half_length,
+          [&](const double a)
+          { return .5 * w * a * a / EA + (std::hypot(H, w * a) - H) / w < depth; });
       return H * s / EA + H / w * std::asinh(w * s / H) + (half_length - s) * (1. + H / EA);
     };
-    double low = 1e-3, high = 1e6;
-    for (int k = 0; k < 200; ++k)
-    {
-      const double H = std::sqrt(low * high);
-      (span_at(H) < half_span ? low : high) = H;
-    }
-    return std::sqrt(low * high);
+    return std::exp(verification::end_of(std::log(1e-3), std::log(1e6),
+                                         [&](const double log_H)
+                                         { return span_at(std::exp(log_H)) < half_span; }));
   }
 } // namespace
 

@@ -3,13 +3,9 @@
 #ifndef taut_tests_one_cable_h
 #define taut_tests_one_cable_h
 
-#include <taut/cable/cable.h>
-#include <taut/interface/system.h>
+#include "one_body.h"
 
-#include <memory>
-#include <string>
-#include <utility>
-#include <vector>
+#include <taut/cable/cable.h>
 
 namespace verification
 {
@@ -30,18 +26,12 @@ namespace verification
 
   /// A system of one cable, or of a kind of it, that is made from some arguments.
   template <typename Made = taut::Cable>
-  struct OneCable
+  struct OneCable : OneBody<Made>
   {
     template <typename... Arguments>
     explicit OneCable(const Arguments &...arguments)
+        : OneBody<Made>("cable", arguments...), cable(this->body)
     {
-      system.add("cable",
-                 [&]
-                 {
-                   auto made = std::make_unique<Made>(arguments...);
-                   cable = made.get();
-                   return made;
-                 });
     }
 
     /// A floor that its inner nodes may touch, so far below the origin.
@@ -50,14 +40,14 @@ namespace verification
       for (unsigned int k = 1; k < n_elements; ++k)
       {
         const double s = length * k / n_elements;
-        system.add(taut::Constraint::unilateral("floor " + std::to_string(k),
-                                                system.displacement(0, {s, 0., 0.}, {0., 1., 0.}))
-                       .gap(depth + cable->elements().position(cable->shape().positions, s).y));
+        this->system.add(
+            taut::Constraint::unilateral("floor " + std::to_string(k),
+                                         this->system.displacement(0, {s, 0., 0.}, {0., 1., 0.}))
+                .gap(depth + cable->elements().position(cable->shape().positions, s).y));
       }
     }
 
-    Made *cable = nullptr;
-    taut::System system;
+    Made *const cable;
   };
 } // namespace verification
 

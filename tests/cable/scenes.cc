@@ -3,8 +3,6 @@
 // closed forms that the heads name.
 #include "verification/scene_tests.h"
 
-#include <numeric>
-
 namespace
 {
   using verification::run_scene;

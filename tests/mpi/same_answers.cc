@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: answers do not depend on the number of ranks and parts. Source: the run of one process
 // without cuts.
-#include "verification/scene_tests.h"
 #include "common.h"
+#include "verification/scene_tests.h"
 
 #include <array>
 #include <limits>
-#include <numeric>
 
 using namespace verification;
 

@@ -207,8 +207,7 @@ TEST_F(StudyTest, a_setting_that_fails_is_a_row_with_its_reason)
       expect_fragments(setting.message, {"Time/Scheme = 'Euler' is not allowed"});
   }
   EXPECT_EQ(n_failed, 3);
-  std::ifstream table("results/study/work_precision.csv");
-  const std::string text(std::istreambuf_iterator<char>(table), {});
+  const std::string text = verification::file_text("results/study/work_precision.csv");
   EXPECT_TRUE(has(text, "shorter than one step"));
 }
 

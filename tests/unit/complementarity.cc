@@ -9,7 +9,6 @@
 #include <cstdlib>
 #include <limits>
 #include <new>
-#include <numeric>
 #include <type_traits>
 
 namespace

@@ -37,10 +37,8 @@ namespace
 
     explicit Hanging(const Defect defect = Defect::none)
         : body(system.add("hanging",
-                          [&]
-                          {
-                            return std::make_unique<Chain>("hanging", std::vector<double>{1., 1.},
-                                                           std::vector<double>{200., 100.}, defect);
+                          [&] {
+                            return chain_of("hanging", {1., 1.}, {200., 100.}, defect);
                           }))
     {
       if (static_cast<int>(defect) < first_of_places)
@@ -81,8 +79,7 @@ TEST(Door, every_defect_of_a_body_is_named)
   for (int i = 0; i < n_defects; ++i)
   {
     const auto defect = static_cast<Defect>(i);
-    std::string message;
-    message = verification::error_of(
+    const std::string message = error_of(
         [&]
         {
           Hanging hanging(defect);
@@ -120,11 +117,7 @@ TEST(Door, a_stepper_knows_what_there_was)
   const double u0 = (100. * -.05 - gravity) / 300.;
   EXPECT_NEAR(N, gravity + 100. * (-.05 - u0), 1e-9);
   const std::size_t late = hanging.system.add(Constraint::unilateral("late", hanging.height));
-  const std::size_t body = hanging.system.add(
-      "late",
-      [] {
-        return std::make_unique<Chain>("late", std::vector<double>{1.}, std::vector<double>{9.});
-      });
+  const std::size_t body = hanging.system.add("late", [] { return chain_of("late", {1.}, {9.}); });
   const taut::Displacement form = hanging.system.displacement(body, {}, up);
   expect_refused([&] { stepper.multiplier(late); }, "number 1");
   expect_refused([&] { stepper.gap(99); }, "number 99");

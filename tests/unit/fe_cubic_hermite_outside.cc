@@ -84,7 +84,7 @@ namespace
     }
     catch (const ExcMessage &error)
     {
-      EXPECT_NE(std::string(error.what()).find("FE_CubicHermite: "), std::string::npos) << what;
+      EXPECT_TRUE(verification::has(error.what(), "FE_CubicHermite: ")) << what;
     }
 #endif
   }

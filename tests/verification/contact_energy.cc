@@ -180,7 +180,7 @@ namespace
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       const std::size_t n = structure[k].n_dofs();
-      std::vector<double> diagonal(n), x(n), y;
+      std::vector<double> diagonal(n), x(n);
       structure[k].mass().visit(
           [&](unsigned int i, unsigned int j, double value)
           {
@@ -191,8 +191,7 @@ namespace
         x[i] = 1. + .1 * i;
       for (int iteration = 0; iteration < 50; ++iteration)
       {
-        y.assign(n, 0.);
-        structure[k].stiffness().vmult_add(1., x.data(), y.data());
+        std::vector<double> y = matrix_times(structure[k].stiffness(), x);
         double size = 0.;
         for (std::size_t i = 0; i < n; ++i)
           size = std::max(size, std::fabs(y[i] /= diagonal[i]));

@@ -54,31 +54,27 @@ Time: Step = )" +
       (flight < before ? fall.taken : fall.given) += std::fabs(flight - before);
       before = flight;
     };
-    try
-    {
-      session.run(
-          [&](const taut::StepView &view)
-          {
-            const bool is_closed = view.state.multiplier[0] > 0.;
-            const double v = view.state.V[0][0];
-            if (is_closed && !was_closed)
-              end_flight();
-            if (!is_closed)
-              flight = .5 * v * v + g * view.state.U[0][0];
-            was_closed = is_closed;
-            fall.summary = view.measures.summary();
-            fall.warnings.clear();
-            for (const auto &warning : view.measures.warnings())
-              if (warning.kind == "contact_energy")
-                fall.warnings.push_back(warning);
-          });
-      end_flight();
-    }
-    catch (const taut::UserError &e)
-    {
-      fall.error = e.what();
-      end_flight();
-    }
+    fall.error = error_of(
+        [&]
+        {
+          session.run(
+              [&](const taut::StepView &view)
+              {
+                const bool is_closed = view.state.multiplier[0] > 0.;
+                const double v = view.state.V[0][0];
+                if (is_closed && !was_closed)
+                  end_flight();
+                if (!is_closed)
+                  flight = .5 * v * v + g * view.state.U[0][0];
+                was_closed = is_closed;
+                fall.summary = view.measures.summary();
+                fall.warnings.clear();
+                for (const auto &warning : view.measures.warnings())
+                  if (warning.kind == "contact_energy")
+                    fall.warnings.push_back(warning);
+              });
+        });
+    end_flight();
     fall.log = session.log();
     return fall;
   }

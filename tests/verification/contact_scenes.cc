@@ -45,7 +45,8 @@ Time: Step = 5e-3; End = 0.5
           run_scene(flat_drop, overrides,
                     [&](const taut::StepView &view)
                     {
-                      result.energy = std::max(result.energy, energy_of_bodies(view.structure, view.state));
+                      result.energy =
+                          std::max(result.energy, energy_of_bodies(view.structure, view.state));
                       if (view.state.time > .16)
                         for (const double gap : view.state.geometric_gap)
                           result.rebound = std::max(result.rebound, gap);
@@ -89,7 +90,8 @@ TEST(FlatWall, takes_all_energy_of_a_string)
 {
   double first = 0., last = 0.;
   run_scene(flat_wall, {"Time.Mass redistribution=no"},
-            [&](const taut::StepView &view) { (first == 0. ? first : last) = energy_of_bodies(view.structure, view.state); });
+            [&](const taut::StepView &view)
+            { (first == 0. ? first : last) = energy_of_bodies(view.structure, view.state); });
   figure("string on a flat wall, energy after the hit over that before", last / first);
   EXPECT_NEAR(first, .25, 1e-3);
   EXPECT_LT(last, 1e-3 * first);

@@ -83,10 +83,6 @@ namespace
             stepper.measures().error()};
   }
 
-  bool has(const std::string &text, const std::string &part)
-  {
-    return text.find(part) != std::string::npos;
-  }
 } // namespace
 
 TEST(EnergyAccount, energy_from_nowhere_is_an_error)

@@ -51,13 +51,8 @@ namespace
 
   double momentum(const taut::StepView &view)
   {
-    const taut::Substructure &body = view.structure[0];
-    std::vector<double> MV(body.n_dofs(), 0.);
-    body.mass().vmult_add(1., view.state.V[0].data(), MV.data());
-    double sum = 0.;
-    for (const double p : MV)
-      sum += p;
-    return sum;
+    const std::vector<double> MV = matrix_times(view.structure[0].mass(), view.state.V[0]);
+    return std::accumulate(MV.begin(), MV.end(), 0.);
   }
 
   ContactRecord record(const std::string &scene, const Overrides &overrides)

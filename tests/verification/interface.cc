@@ -14,9 +14,10 @@ namespace
 
   taut::Scene catenary(const std::string &n_spans, const Overrides &more = {})
   {
-    Overrides all = {"Catenary.Number of spans=" + n_spans,
-                     "Catenary.Uplift positions=", "Statistics.Window=", "Time.End=0.1"};
-    all.insert(all.end(), more.begin(), more.end());
+    const Overrides all =
+        Overrides{"Catenary.Number of spans=" + n_spans,
+                  "Catenary.Uplift positions=", "Statistics.Window=", "Time.End=0.1"} +
+        more;
     taut::Parameters parameters;
     parameters.read(scene_file("en50318_2002_250"), all);
     return parameters.scene();

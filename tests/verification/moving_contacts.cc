@@ -92,9 +92,8 @@ TEST(MovingContacts, press_a_roller_on_a_wire_from_support_to_support)
                       text = roller(is_beam);
     const Overrides other = {"Time.Scheme=generalised-alpha", "Time.Allow unsuitable scheme=true",
                              "Time.Allow energy gain=true"};
-    Overrides fine = other;
-    fine.push_back("Time.Step=6.25e-5");
-    const Result reference = run(text, fine), chosen = run(text), old = run(text, other);
+    const Result reference = run(text, other + Overrides{"Time.Step=6.25e-5"}), chosen = run(text),
+                 old = run(text, other);
     ASSERT_EQ(chosen.error, "");
     ASSERT_EQ(reference.error, "");
     for (const auto &[what, r] : {std::pair<std::string, const Result &>("fine", reference),

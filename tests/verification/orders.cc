@@ -329,9 +329,9 @@ namespace
         // Backward Euler reaches its order at shorter steps only.
         const int ratio = (scheme.order == 1. ? 16 : 1) << k;
         steps.push_back(end / (coarsest * ratio));
-        Overrides overrides = scheme.overrides;
-        overrides.push_back("Time.Step=" + number(steps.back()));
-        overrides.push_back("Time.End=" + number(end));
+        const Overrides overrides =
+            scheme.overrides +
+            Overrides{"Time.Step=" + number(steps.back()), "Time.End=" + number(end)};
         double error = 0., force_error = 0.;
         int i = 0;
         run_scene(scene, overrides,

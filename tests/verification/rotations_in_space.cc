@@ -43,18 +43,11 @@ namespace
     std::vector<double> moment, slope, middle;
     double difference(const Motion &other) const
     {
-      double worst = 0., size = 0.;
+      double worst = 0.;
       for (const auto &[a, b] :
            {std::pair(&moment, &other.moment), {&slope, &other.slope}, {&middle, &other.middle}})
       {
-        EXPECT_EQ(a->size(), b->size());
-        size = 0.;
-        double error = 0.;
-        for (std::size_t i = 0; i < std::min(a->size(), b->size()); ++i)
-        {
-          size = std::max(size, std::fabs((*a)[i]));
-          error = std::max(error, std::fabs((*a)[i] - (*b)[i]));
-        }
+        const double size = largest(*a), error = largest_difference(*a, *b);
         EXPECT_GT(size, 0.);
         EXPECT_LE(error, size); // of numbers only
         worst = std::max(worst, error / size);

@@ -41,8 +41,7 @@ namespace
 
   taut::Scene line(const Overrides &overrides = {})
   {
-    Overrides all = short_run;
-    all.insert(all.end(), overrides.begin(), overrides.end());
+    const Overrides all = short_run + overrides;
     taut::Parameters parameters;
     parameters.read(scene_file("en50318_2002_250"), all);
     return taut::find_lengths(parameters.scene(), parameters.solver);

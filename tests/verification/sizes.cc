@@ -90,7 +90,7 @@ TEST(Sizes, largest_entries_of_vectors_are_those_of_a_loop)
 TEST(Sizes, largest_forces_of_rows_are_those_of_a_loop)
 {
   Session session(scene_file("en50318_2002_250_two"), {"Time.End=0.01", "Statistics.Window="});
-  session.run([](const taut::StepView &) {});
+  session.run();
   const taut::SceneBodies &structure = session.simulation().structure();
   taut::Constraints constraints = taut::scene_constraints(session.simulation().scene(), structure);
   std::mt19937 random(2);

@@ -180,7 +180,7 @@ namespace
   Said say(const std::string &file_or_text, const Overrides &overrides)
   {
     Session session(file_or_text, overrides);
-    session.run([](const taut::StepView &) {});
+    session.run();
     Said result;
     std::ifstream(session.folder() + "/statistics.json") >> result.json;
     result.log = session.log();

@@ -67,9 +67,7 @@ namespace
                            const Overrides &more = {})
   {
     AdaptiveRun result;
-    Overrides overrides = {adaptive, "Time.Adaptive step.Tolerance=" + tolerance};
-    overrides.insert(overrides.end(), more.begin(), more.end());
-    run_scene(scene, overrides,
+    run_scene(scene, Overrides{adaptive, "Time.Adaptive step.Tolerance=" + tolerance} + more,
               [&](const taut::StepView &view)
               {
                 ++result.n_steps;

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: ropes, props and rods that a program adds to a System are the links of a parameter file
 // that turn. Expected values: the same pendulums from a parameter file; the lowest place.
-#include "common.h"
+#include "one_body.h"
 #include "turning_scene.h"
-
-#include <taut/time/stepper.h>
 
 using namespace turning;
 
@@ -65,19 +63,14 @@ TEST(TurningLibrary, pendulums_are_those_of_a_parameter_file)
             ? Constraint::rope("link", pivot, pendulum.bob, length).stiffness(500.).damping(4.)
             : Constraint::rope("link", pivot, pendulum.bob, length);
     const std::size_t number = pendulum.system.add(link);
-    taut::StepperOptions options;
-    options.start = taut::Start::given;
-    options.step = 2e-3;
-    taut::Stepper stepper(pendulum.system, options);
+    constexpr double step = 2e-3;
+    taut::Stepper stepper(pendulum.system, verification::steps_of(step, taut::Start::given));
 
-    Scene scene;
-    scene.masses = {{mass, start, speed}};
-    scene.links = {"From = ground @ " + text(pivot.position) + "; To = m0; Type = " +
-                   (is_elastic ? "dropper; Stiffness = 500; Damping = 4" : type) +
-                   "; Length = " + verification::number(length)};
-    scene.start = "given";
-    scene.step = options.step;
-    scene.end = 1.5;
+    Scene scene = thrown({{mass, start, speed}},
+                         {"From = ground @ " + text(pivot.position) + "; To = m0; Type = " +
+                          (is_elastic ? "dropper; Stiffness = 500; Damping = 4" : type) +
+                          "; Length = " + verification::number(length)},
+                         1.5, step);
     double largest = 0.;
     scene.run(
         [&](const Motion &m)

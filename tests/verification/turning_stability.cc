@@ -2,7 +2,6 @@
 // Claim: weights that stand on links are at rest only if what holds them to the sides is stiffer
 // than these links are soft; otherwise there is an error that names a link. Expected values: the
 // critical stiffness P/L of a prop, eigenvalues of two props, guys with their own tension.
-#include "common.h"
 #include "turning_scene.h"
 
 using namespace turning;
@@ -77,7 +76,7 @@ namespace
   {
     for (const std::string &part :
          {"Network/Link " + name, "link '" + name + "' with", std::string("Hold its ends")})
-      EXPECT_NE(error.find(part), std::string::npos) << part << " in: " << error;
+      EXPECT_TRUE(verification::has(error, part)) << part << " in: " << error;
   }
 
   /// At this part of the critical stiffness the weights are refused, and at the inverse they stand.

@@ -215,17 +215,13 @@ TEST(Schemes, unsuitable_ones_are_refused_by_name)
 {
   const auto message = [](const Overrides &overrides) -> std::string
   {
-    try
-    {
-      Overrides all = {"Time.Allow unsuitable scheme=false", "Time.End=0.01"};
-      all.insert(all.end(), overrides.begin(), overrides.end());
-      run_scene(scene_file("bar_on_wall"), all, [](const taut::StepView &) {});
-      return "";
-    }
-    catch (const taut::UserError &e)
-    {
-      return e.what();
-    }
+    return verification::error_of(
+        [&]
+        {
+          const Overrides all =
+              Overrides{"Time.Allow unsuitable scheme=false", "Time.End=0.01"} + overrides;
+          run_scene(scene_file("bar_on_wall"), all, {});
+        });
   };
   // An error of a rigid link's force keeps 1, 0.8 and 0.75 of itself from step to step.
   for (const std::string scheme : {"Newmark", "generalised-alpha", "HHT"})

@@ -139,13 +139,7 @@ Time: Scheme = Newmark; Step = 5e-4; End = 0.9
             {},
             [&](const taut::StepView &view)
             {
-              const taut::Substructure &body = view.structure[0];
-              std::vector<double> MV(body.n_dofs(), 0.), KU(body.n_dofs(), 0.);
-              body.mass().vmult_add(1., view.state.V[0].data(), MV.data());
-              body.stiffness().vmult_add(1., view.state.U[0].data(), KU.data());
-              energy_after = 0.;
-              for (std::size_t i = 0; i < MV.size(); ++i)
-                energy_after += .5 * (MV[i] * view.state.V[0][i] + KU[i] * view.state.U[0][i]);
+              energy_after = energy_of_bodies(view.structure, view.state);
               if (energy_before == 0.)
                 energy_before = energy_after;
             });

@@ -8,7 +8,6 @@
 #include <deal.II/lac/vector.h>
 
 #include <array>
-#include <numeric>
 
 using namespace verification;
 
