@@ -4,28 +4,19 @@
 // of the other kind.
 #include "cable/elastic_catenary.h"
 #include "cable/slack_cable.h"
-#include "verification/run.h"
+#include "verification/scene_tests.h"
 
 #include <taut/base/dot.h>
-#include <taut/base/exceptions.h>
-#include <taut/cable/cable.h>
 #include <taut/cable/find_length.h>
-#include <taut/substructure/local_solver.h>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <iterator>
-#include <string>
-#include <vector>
 
 namespace
 {
   using namespace taut;
   using verification::equilibrium;
+  using verification::has;
   using verification::largest_of;
   using verification::slack_cable;
   using verification::unbalanced;
@@ -51,16 +42,12 @@ namespace
   {
     // Two halves of catenaries with V = (w L + F) / 2 at the ends; a kink is for bars.
     const double w = 1.07 * 9.81, L = 78., F = 100., V = .5 * (w * L + F), EA = 1.3e7;
-    double low = 1., high = 1e5;
-    for (int k = 0; k < 200; ++k)
-    {
-      const double H = .5 * (low + high);
-      (.5 * H * L / EA + H / w * (std::asinh(V / H) - std::asinh((V - .5 * w * L) / H)) < 30.
-           ? low
-           : high) = H;
-    }
-    const double depth = .5 * L / EA * (V - .25 * w * L) +
-                         (std::hypot(low, V) - std::hypot(low, V - .5 * w * L)) / w;
+    const auto is_short = [&](const double H) {
+      return .5 * H * L / EA + H / w * (std::asinh(V / H) - std::asinh((V - .5 * w * L) / H)) < 30.;
+    };
+    const double H = verification::end_of(1., 1e5, is_short);
+    const double depth =
+        .5 * L / EA * (V - .25 * w * L) + (std::hypot(H, V) - std::hypot(H, V - .5 * w * L)) / w;
     const ElasticCatenary before({}, {60., 0., 0.}, {0., -w, 0.}, EA, L);
     const double sinking = depth + before.position(39.).y;
     EXPECT_NEAR(sinking, 1.045262, 1e-6);
@@ -113,10 +100,10 @@ namespace
     }
     // The tangent is the derivative of the force in these axes, too.
     const auto K = cable.tangent(U, 0., false);
-    std::vector<double> direction(U.size()), Kd(U.size(), 0.), f, g;
+    std::vector<double> direction(U.size()), f, g;
     for (std::size_t i = 0; i < U.size(); ++i)
       direction[i] = std::cos(3. * i) * 1e-6;
-    K->vmult_add(1., direction.data(), Kd.data());
+    const std::vector<double> Kd = verification::matrix_times(*K, direction);
     std::vector<double> ahead = U, behind = U;
     for (std::size_t i = 0; i < U.size(); ++i)
     {
@@ -159,10 +146,9 @@ namespace
     EXPECT_THROW(cable.displacement({-.1, 0.}, {0., 1., 0.}), UserError);
     const std::string path = testing::TempDir() + "taut_cable.vtu";
     cable.write_vtu(path, std::vector<double>(cable.n_dofs(), 0.));
-    std::ifstream file(path);
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    const std::string text = verification::file_text(path);
     for (const char *name : {"tension", "unstressed_arc_length", "displacement"})
-      EXPECT_NE(text.find(std::string("Name=\"") + name), std::string::npos) << name;
+      EXPECT_TRUE(has(text, std::string("Name=\"") + name)) << name;
     std::remove(path.c_str());
   }
 
@@ -235,13 +221,13 @@ Time: End = 0
         overrides.push_back("Body cable/" + text);
       try
       {
-        verification::run_scene(scene, overrides, [](const StepView &) {});
+        verification::run_scene(scene, overrides, {});
         ADD_FAILURE() << c.text << ": was taken";
       }
       catch (const EntryError &e)
       {
         EXPECT_EQ(e.entry(), "Body cable" + (c.entry.empty() ? "" : "/" + c.entry));
-        EXPECT_NE(e.message().find(c.text), std::string::npos) << e.message();
+        EXPECT_TRUE(has(e.message(), c.text)) << e.message();
       }
     }
   }

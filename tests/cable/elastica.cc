@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: cables that bend are elasticas. Expected values: closed forms.
-#include "verification/run.h"
+#include "verification/scene_tests.h"
 
 #include <taut/cable/find_shape.h>
 
 #include <boost/math/quadrature/tanh_sinh.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace
 {

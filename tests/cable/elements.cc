@@ -2,14 +2,10 @@
 // Claim: the forces of cable elements are gradients of their energy, their tangents are derivatives
 // of the forces, and the mean force over a step does the work that the energy says. Expected
 // values: differences, and the identities themselves.
+#include "common.h"
+
 #include <taut/base/dot.h>
 #include <taut/cable/cable_elements.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
 
 namespace
 {
@@ -33,6 +29,14 @@ namespace
     for (double &x : q)
       x += noise(random);
     return q;
+  }
+
+  /// from + s along.
+  std::vector<double> line(const CableElements &cable, const Coordinates &from,
+                           const Coordinates &along)
+  {
+    return cable.interpolate([&](const double s) { return add_scaled(from, s, along); },
+                             [&](double) { return along; });
   }
 
   double largest(const std::vector<double> &x)
@@ -131,16 +135,10 @@ namespace
       EXPECT_GE(dot(x, y), 0.);
     }
     // A straight line under tension has nothing to leave out.
-    const std::vector<double> line = cable.interpolate(
-        [](const double s) {
-          return Coordinates{1.01 * s, 0., 0.};
-        },
-        [](double) {
-          return Coordinates{1.01, 0., 0.};
-        });
+    const std::vector<double> straight = line(cable, {}, {1.01, 0., 0.});
     const auto exact = make_block_tridiagonal(6, cable.n_dofs()), definite = exact->clone();
-    cable.add_tangent(line, false, *exact);
-    cable.add_tangent(line, true, *definite);
+    cable.add_tangent(straight, false, *exact);
+    cable.add_tangent(straight, true, *definite);
     exact->add(-1., *definite);
     exact->visit([](unsigned int, unsigned int, const double value)
                  { EXPECT_NEAR(value, 0., 1e-8); });
@@ -178,17 +176,8 @@ namespace
 
   TEST_P(Elements, DampingTakesItsWorkFromAUniformStretch)
   {
-    const auto line = [&](const double stretch)
-    {
-      return cable.interpolate(
-          [=](const double s) {
-            return Coordinates{0., 0., stretch * s};
-          },
-          [=](double) {
-            return Coordinates{0., 0., stretch};
-          });
-    };
-    const std::vector<double> q0 = line(1.), q1 = line(1.03);
+    const std::vector<double> q0 = line(cable, {}, {0., 0., 1.}),
+                              q1 = line(cable, {}, {0., 0., 1.03});
     std::vector<double> f, increment(q0.size());
     cable.mean_force(q0, q1, .2, f);
     for (std::size_t i = 0; i < q0.size(); ++i)
@@ -227,18 +216,7 @@ namespace
     std::vector<double> load(cable.n_dofs(), 0.);
     cable.add_load({0., -3., 2.}, load);
     // Unit translation along y; rotation about the first end.
-    const auto shift = cable.interpolate(
-                   [](double) {
-                     return Coordinates{0., 1., 0.};
-                   },
-                   [](double) { return Coordinates{}; }),
-               turn = cable.interpolate(
-                   [](const double s) {
-                     return Coordinates{0., s, 0.};
-                   },
-                   [](double) {
-                     return Coordinates{0., 1., 0.};
-                   });
+    const auto shift = line(cable, {0., 1., 0.}, {}), turn = line(cable, {}, {0., 1., 0.});
     const auto energy = [&](const std::vector<double> &v)
     {
       std::vector<double> p(v.size(), 0.);
@@ -286,13 +264,7 @@ namespace
 
   TEST_P(Elements, TensionOfAUniformStretch)
   {
-    const std::vector<double> q = cable.interpolate(
-        [](const double s) {
-          return Coordinates{0., 1.02 * s, 0.};
-        },
-        [](double) {
-          return Coordinates{0., 1.02, 0.};
-        });
+    const std::vector<double> q = line(cable, {}, {0., 1.02, 0.});
     for (const double s : {0., 1., 5.})
       EXPECT_NEAR(cable.tension(q, s), 2e4 * .02, 1e-9);
     EXPECT_NEAR(cable.largest_strain(q), .02, 1e-13);

@@ -2,21 +2,14 @@
 #ifndef taut_errors_of_runs_h
 #define taut_errors_of_runs_h
 
-#include "verification/run.h"
-
-#include <taut/base/exceptions.h>
-
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
+#include "verification/scene_tests.h"
 
 /// "entry: message" of the error that a run ends with; empty: none.
 inline std::string error_of(const std::string &scene, const verification::Overrides &overrides = {})
 {
   try
   {
-    verification::run_scene(scene, overrides, [](const taut::StepView &) {});
+    verification::run_scene(scene, overrides, {});
   }
   catch (const taut::EntryError &e)
   {
@@ -32,7 +25,7 @@ inline std::string error_of(const std::string &scene, const verification::Overri
 inline void expect(const std::string &text, const std::vector<std::string> &parts)
 {
   for (const std::string &part : parts)
-    EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' in\n" << text;
+    EXPECT_TRUE(verification::has(text, part)) << "'" << part << "' in\n" << text;
 }
 
 #endif

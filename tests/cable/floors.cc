@@ -2,19 +2,10 @@
 // Claim: cables between level supports are found at rest on a floor close below, also where they
 // lie slack, and stay there. Expected values: the balance of forces; a catenary that ends level on
 // the floor (Irvine 1981), without stretch.
-#include "verification/run.h"
+#include "cable/one_cable.h"
+#include "verification/scene_tests.h"
 
-#include <taut/cable/cable.h>
 #include <taut/time/stepper.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <sstream>
-#include <string>
-#include <vector>
 
 namespace
 {
@@ -33,33 +24,12 @@ namespace
   AtRest on_floor(const double length, const double depth, const unsigned int n, const double EA,
                   const CableElement element)
   {
-    CableData data;
-    data.name = "cable";
-    data.to = {span, 0., 0.};
-    data.length = length;
-    data.section = {EA, 0., 1.07, 0.};
-    data.gravity = {0., -9.81, 0.};
-    data.n_elements = n;
+    CableData data = verification::cable_to({span, 0., 0.}, length, {EA, 0., 1.07, 0.}, n);
     data.element = element;
-    const Cable *cable = nullptr;
-    System system;
-    system.add("cable",
-               [&]
-               {
-                 auto made = std::make_unique<Cable>(data);
-                 cable = made.get();
-                 return made;
-               });
-    for (unsigned int k = 1; k < n; ++k)
-    {
-      const double s = length * k / n;
-      system.add(Constraint::unilateral("floor " + std::to_string(k),
-                                        system.displacement(0, {s, 0., 0.}, {0., 1., 0.}))
-                     .gap(depth + cable->elements().position(cable->shape().positions, s).y));
-    }
-    StepperOptions options;
-    options.step = 2e-3;
-    Stepper stepper(system, options);
+    verification::OneCable<> one(data);
+    one.add_floor(depth, length, n);
+    const Cable *const cable = one.cable;
+    Stepper stepper(one.system, verification::steps_of(2e-3, Start::equilibrium));
     AtRest result;
     result.balance = stepper.certificate().balance;
     std::vector<double> f, P;
@@ -86,13 +56,14 @@ namespace
   /// there without tension.
   double horizontal_on_floor(const double length, const double depth)
   {
-    double low = 1e-9, high = 1e3;
-    for (int k = 0; k < 200; ++k)
-    {
-      const double h = .5 * (low + high), a = std::sqrt(depth * depth + 2. * h * depth);
-      (2. * h * std::asinh(a / h) + length - 2. * a < span ? low : high) = h;
-    }
-    return low > 1e-8 ? low * weight : 0.;
+    const double found =
+        verification::end_of(1e-9, 1e3,
+                             [&](const double h)
+                             {
+                               const double a = std::sqrt(depth * depth + 2. * h * depth);
+                               return 2. * h * std::asinh(a / h) + length - 2. * a < span;
+                             });
+    return found > 1e-8 ? found * weight : 0.;
   }
 } // namespace
 

@@ -2,13 +2,7 @@
 // Claim: lengths of droppers that hang from cables are found, so that what they hold stands at the
 // prescribed height. Expected values: two bars under a force; distances of displaced places.
 #include "cable/errors_of_runs.h"
-#include "verification/run.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-#include <vector>
+#include "verification/scene_tests.h"
 
 namespace
 {
@@ -69,19 +63,17 @@ Time: End = 0
 TEST(FoundLengths, under_two_bars)
 {
   constexpr double EA = 1e6, length = 19.98, V = span / 2. * g;
-  double low = 0., high = 2.;
-  for (int k = 0; k < 100; ++k)
+  const auto holds_less = [&](const double d)
   {
-    const double d = .5 * (low + high), l = std::hypot(span / 2., d),
-                 T = EA * (l / (length / 2.) - 1.);
-    (2. * T * d / l < V ? low : high) = d;
-  }
+    const double l = std::hypot(span / 2., d), T = EA * (l / (length / 2.) - 1.);
+    return 2. * T * d / l < V;
+  };
   const std::string bars =
       "Unstressed length = 19.98; Axial stiffness = 1e6; Element = bar; Elements = 4";
   const Found found = find(line(bars, "9.99, 0", "10"));
   ASSERT_EQ(found.length.size(), 1u);
   EXPECT_NEAR(found.force[0], V, 1e-9 * V);
-  EXPECT_NEAR(found.length[0], 1. - low, 1e-9);
+  EXPECT_NEAR(found.length[0], 1. - verification::end_of(0., 2., holds_less), 1e-9);
   EXPECT_NEAR(found.height[0], 0., 1e-9);
 }
 

@@ -3,13 +3,7 @@
 // it lacks; one that is exactly taut is straight. Expected value: the length under its own weight,
 // L + w L^2 / (2 EA).
 #include "cable/errors_of_runs.h"
-#include "verification/run.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-#include <vector>
+#include "verification/scene_tests.h"
 
 namespace
 {

@@ -2,20 +2,10 @@
 // Claim: a cable that is linear, about its shape at rest or as a straight wire, moves as closed
 // forms say, and is refused where it has none. Expected values: closed forms.
 #include "cable/slack_cable.h"
-#include "verification/run.h"
+#include "verification/scene_tests.h"
 
 #include <taut/base/dot.h>
-#include <taut/base/exceptions.h>
-#include <taut/cable/cable.h>
 #include <taut/cable/find_length.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <string>
-#include <vector>
 
 namespace
 {
@@ -94,13 +84,10 @@ namespace
     // in the plane tan(x) = x - 4 x^3 / lambda^2 with x = omega l / 2 sqrt(m/H).
     const double sag_ratio = w * l / (8. * H), stretched = l * (1. + 8. * sag_ratio * sag_ratio),
                  lambda2 = std::pow(w * l / H, 2) * l * 1.3e7 / (H * stretched);
-    double low = .5 * pi + 1e-6, high = 1.5 * pi - 1e-6;
-    for (int k = 0; k < 200; ++k)
-    {
-      const double x = .5 * (low + high);
-      (std::tan(x) - x + 4. * x * x * x / lambda2 < 0. ? low : high) = x;
-    }
-    const double string = pi / l * std::sqrt(H / m), symmetric = 2. * low / l * std::sqrt(H / m);
+    const double x = verification::end_of(
+        .5 * pi + 1e-6, 1.5 * pi - 1e-6,
+        [&](const double y) { return std::tan(y) - y + 4. * y * y * y / lambda2 < 0.; });
+    const double string = pi / l * std::sqrt(H / m), symmetric = 2. * x / l * std::sqrt(H / m);
     std::vector<double> expected = {string, 2. * string, 2. * string, symmetric};
     std::sort(expected.begin(), expected.end());
     const std::vector<double> found = frequencies(cable, 4);

@@ -3,16 +3,7 @@
 // masses hold one place. Expected values: the same cable as two bodies that are joined in the
 // middle, and the messages.
 #include "cable/errors_of_runs.h"
-#include "verification/run.h"
-
-#include <taut/base/exceptions.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
+#include "verification/scene_tests.h"
 
 namespace
 {

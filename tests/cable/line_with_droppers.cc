@@ -3,16 +3,9 @@
 // as its head expects. Expected values: elastic catenaries that meet at the droppers; no gain of
 // energy; the same run with half the step and half the elements.
 #include "cable/joined_catenaries.h"
-#include "verification/run.h"
+#include "verification/scene_tests.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstddef>
-#include <string>
-#include <vector>
 
 namespace
 {

@@ -3,25 +3,17 @@
 // with them, and are refused where they are slack there. Expected values: the scene of nonlinear
 // cables, from which they differ by the square of the load.
 #include "cable/errors_of_runs.h"
+#include "cable/one_cable.h"
 
-#include <taut/cable/cable.h>
 #include <taut/output/scene_report.h>
 #include <taut/time/static_equilibrium.h>
 #include <taut/time/stepper.h>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <fstream>
-#include <memory>
-#include <sstream>
-#include <string>
-#include <vector>
-
 namespace
 {
   using namespace taut;
+  using verification::has;
+  using verification::largest_difference;
   using verification::Overrides;
   using verification::scene_file;
   using verification::Session;
@@ -56,15 +48,6 @@ namespace
                              step.state.multiplier[step.constraints.index_of_link(i)]); // [kN]
         });
     return result;
-  }
-
-  double largest_difference(const std::vector<double> &a, const std::vector<double> &b)
-  {
-    EXPECT_EQ(a.size(), b.size());
-    double largest = 0.;
-    for (std::size_t i = 0; i < a.size(); ++i)
-      largest = std::max(largest, std::fabs(a[i] - b[i]));
-    return largest;
   }
 
   /// A span that is pulled along x at the start.
@@ -130,10 +113,9 @@ TEST(CableLinearised, a_line_is_linear_and_starts_as_the_nonlinear_one)
           // Two springs across each of the four droppers that are taut.
           EXPECT_EQ(step.constraints.size(), is_linearised ? 14u : 6u);
         });
-    EXPECT_EQ(session.log().find("Newton's method") == std::string::npos, is_linearised);
-    EXPECT_EQ(session.log().find("Linearised at the equilibrium of the scene: 'messenger', "
-                                 "'contact wire'; 6 links that would turn keep their directions") !=
-                  std::string::npos,
+    EXPECT_EQ(!has(session.log(), "Newton's method"), is_linearised);
+    EXPECT_EQ(has(session.log(), "Linearised at the equilibrium of the scene: 'messenger', "
+                                 "'contact wire'; 6 links that would turn keep their directions"),
               is_linearised);
   }
   EXPECT_EQ(forces[0], forces[1]);
@@ -155,12 +137,12 @@ TEST(CableLinearised, only_under_tension_at_the_equilibrium_of_the_scene)
       "Unstressed length = 29.9; Largest strain = 0.05; Bending stiffness = 1e6";
   EXPECT_EQ(error_of(span(taut_alone, "15", "2e3")), "");
   const std::string error = error_of(span(taut_alone, "15", "2e4"));
-  EXPECT_NE(error.find("Body span/Geometry"), std::string::npos) << error;
-  EXPECT_NE(error.find("slack somewhere"), std::string::npos) << error;
+  EXPECT_TRUE(has(error, "Body span/Geometry")) << error;
+  EXPECT_TRUE(has(error, "slack somewhere")) << error;
 
   // So stiff in bending that the cable alone is under compression.
   const std::string slack_alone = "Unstressed length = 30.03; Bending stiffness = 1e6";
-  EXPECT_NE(error_of(span(slack_alone, "15", "0")).find("slack somewhere"), std::string::npos);
+  EXPECT_TRUE(has(error_of(span(slack_alone, "15", "0")), "slack somewhere"));
   EXPECT_EQ(error_of(span(slack_alone + "; Held ends = from; Clamped = true", "30.03", "1e4")), "");
 }
 
@@ -181,19 +163,11 @@ TEST(CableLinearised, start_shows_places_of_the_equilibrium)
                             verification::displacement(step, terms));
         }
       });
-  std::ifstream file(session.folder() + "/start.csv");
-  std::string row;
-  std::getline(file, row);
-  for (const double height : heights)
-  {
-    ASSERT_TRUE(std::getline(file, row));
-    std::istringstream cells(row);
-    std::string name, x, y;
-    std::getline(cells, name, ',');
-    std::getline(cells, x, ',');
-    std::getline(cells, y, ',');
-    EXPECT_NEAR(std::stod(y), height, 1e-6) << row;
-  }
+  const std::vector<double> y =
+      verification::read_table(session.folder() + "/start.csv").at("y [m]");
+  ASSERT_GE(y.size(), heights.size());
+  for (std::size_t i = 0; i < heights.size(); ++i)
+    EXPECT_NEAR(y[i], heights[i], 1e-6) << i;
   EXPECT_GT(heights.size(), 5u);
   EXPECT_GT(*std::max_element(heights.begin(), heights.end()), .1); // it is lifted
 }
@@ -201,22 +175,11 @@ TEST(CableLinearised, start_shows_places_of_the_equilibrium)
 // Statics of a body with a force at U = 0, and a system whose steppers do not see each other.
 TEST(CableLinearised, a_system_stays_as_it_is)
 {
-  CableData data;
-  data.name = "cable";
-  data.to = {60., 0., 0.};
-  data.length = 60.1;
-  data.section = {1.3e7, 0., 1.07, 0.};
-  data.gravity = {0., -9.81, 0.};
-  data.n_elements = 32;
+  CableData data = verification::cable_to({60., 0., 0.}, 60.1, {1.3e7, 0., 1.07, 0.}, 32);
   data.geometry = CableGeometry::linearised;
-  System system;
-  system.add("cable",
-             [&]
-             {
-               auto made = std::make_unique<Cable>(data);
-               made->add_force(made->displacement({30.05, 0., 0.}, {0., -1., 0.}), 500.);
-               return made;
-             });
+  const verification::OneCable<> one(data);
+  one.cable->add_force(one.cable->displacement({30.05, 0., 0.}, {0., -1., 0.}), 500.);
+  const System &system = one.system;
   const Displacement down = system.displacement(0, {30.05, 0., 0.}, {0., -1., 0.});
   const Stepper first(system), second(system);
   EXPECT_FALSE(system.body(0)->is_linear());

@@ -1,14 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: the scenes of cables in prm/ have the numbers that their heads expect. Expected values:
 // closed forms that the heads name.
-#include "verification/run.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <vector>
+#include "verification/scene_tests.h"
 
 namespace
 {

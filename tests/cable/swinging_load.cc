@@ -4,23 +4,15 @@
 // springs without mass that only pull; the balance of energy; linear vibrations about the place at
 // rest.
 #include "cable/joined_catenaries.h"
-#include "verification/run.h"
+#include "verification/scene_tests.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstddef>
-#include <fstream>
-#include <sstream>
-#include <string>
-#include <vector>
 
 namespace
 {
   using namespace taut;
   using verification::figure;
+  using verification::has;
 
   constexpr double mass = 200., g = 9.81, EA = 2e5, mass_per_length = .08, eta = 400., pull = 1800.;
   constexpr std::size_t n_guys = 3;
@@ -222,11 +214,10 @@ TEST(SwingingLoad, guys_take_it_in_turn)
     const std::string line = "Slack: body '" + name + "' first at t = ";
     const std::size_t at_line = session.log().find(line);
     ASSERT_NE(at_line, std::string::npos) << name;
-    EXPECT_EQ(session.log().find(line, at_line + 1), std::string::npos) << name;
+    EXPECT_FALSE(has(session.log(), line, at_line + 1)) << name;
     const std::string rest =
         session.log().substr(at_line, session.log().find('\n', at_line) - at_line);
-    EXPECT_NE(rest.find("its Axial damping of 400 N s keeps it in shape"), std::string::npos)
-        << rest;
+    EXPECT_TRUE(has(rest, "its Axial damping of 400 N s keeps it in shape")) << rest;
     ++n_slack;
   }
   EXPECT_EQ(n_slack, n_guys);

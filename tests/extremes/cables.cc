@@ -5,18 +5,15 @@
 // without energy, momentum or moment of momentum from nowhere. Expected values: the elastic
 // catenary, a twin in other units, conservation laws.
 #include "cable/elastic_catenary.h"
+#include "common.h"
 #include "levels.h"
+#include "one_body.h"
 
-#include <taut/base/exceptions.h>
+#include <taut/base/dot.h>
 #include <taut/cable/cable.h>
 #include <taut/time/stepper.h>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <memory>
 
 using namespace extremes;
 
@@ -149,22 +146,13 @@ namespace
     Coordinates momentum, moment; ///< about the first place of the first end
   };
 
-  double times_mass(const Cable &cable, const std::vector<double> &V, std::vector<double> &MV)
-  {
-    MV.assign(V.size(), 0.);
-    cable.mass().vmult_add(1., V.data(), MV.data());
-    double twice = 0.;
-    for (std::size_t i = 0; i < V.size(); ++i)
-      twice += V[i] * MV[i];
-    return .5 * twice;
-  }
-
   Balance balance(const Cable &cable, const std::vector<double> &U, const std::vector<double> &V)
   {
     Balance result;
-    std::vector<double> P, MV;
+    const std::vector<double> MV = verification::matrix_times(cable.mass(), V);
+    std::vector<double> P;
     cable.external_force(0., P);
-    result.energy = times_mass(cable, V, MV) + cable.strain_energy(U);
+    result.energy = .5 * taut::dot(V, MV) + cable.strain_energy(U);
     for (std::size_t i = 0; i < U.size(); ++i)
       result.energy -= P[i] * U[i];
     // Rigid translations move positions, rotations all vectors.
@@ -213,29 +201,20 @@ namespace
     const bool is_free = level["ends"] == 0., is_euler = level["scheme"] == 1.,
                conserves = !is_euler && level["damping"] == 0.;
     constexpr int n_steps = 60;
-    const SpinningCable *cable = nullptr;
     ++n_scenes;
     try
     {
-      System system;
-      system.add("cable",
-                 [&]
-                 {
-                   auto made = std::make_unique<SpinningCable>(
-                       data, pi * level["turned"], Coordinates{0., 0., level["spin"] / time});
-                   cable = made.get();
-                   return made;
-                 });
-      StepperOptions options;
-      options.step = level["step"] * time;
-      options.start = Start::given;
-      options.scheme = is_euler ? "backward Euler" : "automatic";
+      const verification::OneBody<SpinningCable> one("cable", data, pi * level["turned"],
+                                                     Coordinates{0., 0., level["spin"] / time});
+      const SpinningCable *const cable = one.body;
+      StepperOptions options = verification::steps_of(level["step"] * time, Start::given,
+                                                      is_euler ? "backward Euler" : "automatic");
       options.allow_unsuitable_scheme = true;
-      Stepper stepper(system, options);
-      std::vector<double> U, V, MV;
+      Stepper stepper(one.system, options);
+      std::vector<double> U, V;
       cable->initial_state(U, V);
       const Balance start = balance(*cable, U, V);
-      const double kinetic = times_mass(*cable, V, MV),
+      const double kinetic = .5 * taut::dot(V, verification::matrix_times(cable->mass(), V)),
                    scale = w * L * L + kinetic + cable->strain_energy(U),
                    of_momentum = std::sqrt(scale * L);
       double before = start.energy, known = 0.;

@@ -106,7 +106,6 @@ namespace extremes
       std::size_t first = 0;
       bool exists = false;
       std::size_t dof(std::size_t element, unsigned int i) const;
-      unsigned int n_shapes() const { return degree == 3 ? 4 : degree + 1; }
     };
 
     Form shape(std::size_t wire, const Component &component, const Number &s, bool slope) const;

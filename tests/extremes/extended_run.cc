@@ -10,7 +10,6 @@
 #include "extended_system.h"
 
 #include <algorithm>
-#include <optional>
 #include <stdexcept>
 
 namespace extremes

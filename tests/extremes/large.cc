@@ -2,12 +2,9 @@
 // Claim: scenes too large for a copy in extended precision are right, too: one element and 100 000
 // in a wire, 1 and 1000 parts, 10 000 steps at rest. Expected values: sums of forces, free fall,
 // the run that is not cut, the start of the run.
-#include "program_run.h"
+#include "common.h"
+#include "observation.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 

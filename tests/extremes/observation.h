@@ -57,6 +57,12 @@ namespace extremes
     unsigned int iterations = 0, n_fallbacks = 0;
   };
 
+  /**
+   * Runs a case through the whole program, from parameters to certificates. A UserError is an
+   * answer's error; anything else that is thrown is a failure of the test.
+   */
+  Answer program_answer(const Case &c);
+
   /// What each quantity of a run is measured by: its largest value; of forces the largest load or
   /// elastic force if that is larger, of gaps the largest displacement, or what a contact force
   /// alone would move, because these are sums.

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // A case goes through the program as a scene generator of its own.
-#include "program_run.h"
+#include "common.h"
+#include "observation.h"
+#include "verification/run.h"
 
-#include "../verification/run.h"
-
-#include <taut/base/exceptions.h>
 #include <taut/scene/scene_generator.h>
-
-#include <algorithm>
 
 namespace extremes
 {
@@ -24,14 +21,6 @@ namespace extremes
 
     const taut::Register<taut::SceneGenerator, ValueGenerator> entry("extremes",
                                                                      "a scene made by the tests");
-
-    std::string text(const double x)
-    {
-      std::ostringstream out;
-      out.precision(17);
-      out << x;
-      return out.str();
-    }
 
     Observation observe(const taut::StepView &view, const std::vector<ObservedPoint> &points,
                         const std::vector<std::size_t> &group)
@@ -65,13 +54,14 @@ namespace extremes
     scene_of_next_run = &c.scene;
     const char *const starts[] = {"equilibrium", "undeformed", "given"};
     verification::Overrides overrides = {
-        "Gravity=" + text(c.scene.gravity.x) + "," + text(c.scene.gravity.y),
+        "Gravity=" + verification::number(c.scene.gravity.x) + "," +
+            verification::number(c.scene.gravity.y),
         std::string("Start=") + starts[static_cast<int>(c.scene.start)],
         "Time.Scheme=" + c.scheme,
         "Time.Allow unsuitable scheme=true",
         "Time.Allow energy gain=true",
-        "Time.Step=" + text(c.step),
-        "Time.End=" + text(c.n_steps * c.step),
+        "Time.Step=" + verification::number(c.step),
+        "Time.End=" + verification::number(c.n_steps * c.step),
         "Output.Interval=1e30",
         "Output.Link interval=1e30",
         "Output.Field interval=0",
@@ -97,15 +87,8 @@ namespace extremes
       answer.iterations = std::max(answer.iterations, view.certificate.iterations);
       answer.n_fallbacks += view.certificate.fallback;
     };
-    try
-    {
-      verification::Session session("set Generator = extremes\n\n", overrides);
-      session.run(record);
-    }
-    catch (const taut::UserError &e)
-    {
-      answer.error = e.what();
-    }
+    answer.error = verification::error_of(
+        [&] { verification::Session("set Generator = extremes\n\n", overrides).run(record); });
     return answer;
   }
 } // namespace extremes

@@ -2,21 +2,17 @@
 // A case of solids goes through the program as a parameter file with meshes written here.
 #include "solid_case.h"
 
-#include "../verification/run.h"
+#include "common.h"
+#include "verification/run.h"
 
-#include <taut/base/exceptions.h>
 #include <taut/model/surface_constraints.h>
 
 #include <unistd.h>
 
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <functional>
 #include <limits>
-#include <sstream>
 
 namespace extremes
 {
@@ -312,15 +308,8 @@ namespace extremes
       answer.n_fallbacks += view.certificate.fallback;
     };
     const Scratch scratch;
-    try
-    {
-      verification::Session session(scene(c, scratch));
-      session.run(record);
-    }
-    catch (const taut::UserError &e)
-    {
-      answer.error = e.what();
-    }
+    answer.error =
+        verification::error_of([&] { verification::Session(scene(c, scratch)).run(record); });
     return answer;
   }
 } // namespace extremes

@@ -6,31 +6,16 @@
 // millimetres, tons and newtons or other units.
 #include "levels.h"
 #include "solid_case.h"
+#include "tally.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <map>
 
 using namespace extremes;
 
 namespace
 {
-  /// As for wires: of an entry's own largest value, of the scale of its quantity, and the part of
-  /// scenes that may end in an error.
-  constexpr double relative = 1e-6, absolute = 1e-7, largest_part_of_errors = .05;
-
-  struct Summary
-  {
-    unsigned int n_scenes = 0, n_answers = 0, n_wrong = 0, iterations = 0, n_fallbacks = 0;
-    double deviation = 0., twin = 0., certificate = 0.;
-  };
-  Summary summary;
-  std::map<std::string, std::vector<std::string>> errors; ///< scenes by reason
-  std::map<std::string, unsigned int> chosen;             ///< schemes, by `automatic`
+  Tally tally;
+  std::map<std::string, unsigned int> chosen; ///< schemes, by `automatic`
 
   const std::vector<Dimension> dimensions = {
       {"dim", {2, 3}},
@@ -125,16 +110,6 @@ namespace
     return c;
   }
 
-  std::string reason(const std::string &message)
-  {
-    for (const char *known :
-         {"singular to working precision", "is lost in the rounding", "not held", "nothing holds",
-          "misses the contact tolerance", "is not solved", "beyond"})
-      if (message.find(known) != std::string::npos)
-        return known;
-    return message;
-  }
-
   /// Each of its rows moves both sides alike, and the rows have the area that touches.
   void check_rows(const SolidCase &c, const ContactRows &rows)
   {
@@ -163,65 +138,26 @@ namespace
     EXPECT_NEAR(area / exact, 1., c.lower.from[0] != 0. ? 1e-6 : 1e-12);
   }
 
-  Deviation compare_with(const Answer &a, const Answer &b, const SolidCase &c,
-                         const ContactRows &rows, const Answer &exact)
-  {
-    std::vector<std::vector<Observation>> neighbours;
-    for (Answer neighbour :
-         {extended_answer(in_last_digits(c, 1), rows), extended_answer(in_last_digits(c, 2), rows),
-          extended_answer(c, rows, true)})
-      if (neighbour.error.empty())
-        neighbours.push_back(std::move(neighbour.steps));
-    return compare(a.steps, b.steps, scales({}, exact), neighbours, relative, absolute);
-  }
-
   void check(const SolidCase &given, const Units &other)
   {
     SolidCase c = given;
     SCOPED_TRACE(c.name);
-    ++summary.n_scenes;
     ContactRows rows, rows_of_twin;
     const Answer ours = program_answer(c, rows);
-    if (!ours.error.empty())
+    Answer exact;
+    std::vector<Answer> neighbours;
+    if (ours.error.empty())
     {
-      errors[reason(ours.error)].push_back(c.name);
-      std::printf("no answer | %s | %s\n", c.name.c_str(), ours.error.c_str());
-      return;
+      check_rows(c, rows);
+      c.conserving = ours.conserving;
+      if (c.scheme == "automatic")
+        ++chosen[c.scheme = ours.scheme];
+      exact = extended_answer(c, rows);
+      neighbours = {extended_answer(in_last_digits(c, 1), rows),
+                    extended_answer(in_last_digits(c, 2), rows), extended_answer(c, rows, true)};
     }
-    check_rows(c, rows);
-    ++summary.n_answers;
-    c.conserving = ours.conserving;
-    if (c.scheme == "automatic")
-    {
-      c.scheme = ours.scheme;
-      ++chosen[c.scheme];
-    }
-    summary.certificate = std::max(summary.certificate, ours.certificate);
-    summary.iterations = std::max(summary.iterations, ours.iterations);
-    summary.n_fallbacks += ours.n_fallbacks;
-    const Answer exact = extended_answer(c, rows);
-    if (!exact.error.empty())
-    {
-      ++summary.n_wrong;
-      ADD_FAILURE() << "an answer to a scene that has none: " << exact.error;
-      return;
-    }
-    const Deviation d = compare_with(ours, exact, c, rows, exact);
-    EXPECT_LE(d.excess, 1.) << d.where << "; certificate " << ours.certificate;
-    Answer twin = program_answer(in_units(given, other), rows_of_twin);
-    to_units_of_origin(twin.steps, other);
-    if (!twin.error.empty())
-    {
-      --summary.n_answers;
-      summary.n_wrong += d.excess > 1.;
-      errors["in other units: " + reason(twin.error)].push_back(c.name);
-      return;
-    }
-    const Deviation t = compare_with(twin, ours, c, rows, exact);
-    EXPECT_LE(t.excess, 1.) << "in other units: " << t.where;
-    summary.n_wrong += d.excess > 1. || t.excess > 1.;
-    summary.deviation = std::max(summary.deviation, d.excess > 1. ? 0. : d.excess);
-    summary.twin = std::max(summary.twin, t.excess > 1. ? 0. : t.excess);
+    tally.judge("solids", c.name, ours, exact, scales({}, exact), neighbours, other,
+                [&] { return program_answer(in_units(given, other), rows_of_twin); });
   }
 } // namespace
 
@@ -274,37 +210,22 @@ TEST(Solids, of_one_cell_and_of_10000_are_pressed_alike)
   }
 }
 
-// TAUT_EXTREMES_SEEDS=first:last, 1:1 without it: covers of the matrix; TAUT_EXTREMES_ONLY=text: of
-// them the scenes whose names have the text.
 TEST(Solids, are_right_or_end_in_an_error)
 {
-  const char *const only = std::getenv("TAUT_EXTREMES_ONLY");
-  unsigned int first = 1, last = 1;
-  if (const char *const seeds = std::getenv("TAUT_EXTREMES_SEEDS"))
-  {
-    ASSERT_EQ(std::sscanf(seeds, "%u:%u", &first, &last), 2) << seeds;
-  }
   // Millimetres, newtons, tons; millimetres, grams, milliseconds; kilometres, tons, hours.
   const Units units[] = {{1e3, 1e-3, 1.}, {1e3, 1e3, 1e3}, {1e-3, 1e-3, 1. / 3600.}};
-  for (unsigned int seed = first; seed <= last; ++seed)
-    cover(dimensions, seed,
-          [&](const Levels &level)
-          {
-            const SolidCase c = make(level);
-            if (!only || c.name.find(only) != std::string::npos)
-              check(c, units[static_cast<int>(level["units"])]);
-          });
-  std::printf("solids | %u scenes | %u answers | %u wrong | deviation %.1e | of twin %.1e | "
-              "certificate %.1e | iterations %u | fallbacks %u\n",
-              summary.n_scenes, summary.n_answers, summary.n_wrong, summary.deviation, summary.twin,
-              summary.certificate, summary.iterations, summary.n_fallbacks);
+  for_each_seed(1,
+                [&](const unsigned int seed)
+                {
+                  cover(dimensions, seed,
+                        [&](const Levels &level)
+                        {
+                          const SolidCase c = make(level);
+                          if (is_chosen(c.name))
+                            check(c, units[static_cast<int>(level["units"])]);
+                        });
+                });
   for (const auto &[scheme, n] : chosen)
     std::printf("automatic | %u | %s\n", n, scheme.c_str());
-  for (const auto &[text, scenes] : errors)
-  {
-    std::printf("error | %zu | %s\n", scenes.size(), text.c_str());
-    for (const std::string &scene : scenes)
-      std::printf("  %s\n", scene.c_str());
-  }
-  EXPECT_LE(summary.n_scenes - summary.n_answers, largest_part_of_errors * summary.n_scenes);
+  tally.print();
 }

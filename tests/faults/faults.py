@@ -3,7 +3,6 @@
 """Every operation on a file of a small run fails, and allocations do, one a run: each run ends with exit code 1 and one line
 that names file and remedy, or says that memory is short; what is on the disk stays readable, and --resume goes on from it
 to the same bytes. So do sweeps. Expected: the files of the same run without a fault."""
-import argparse
 import collections
 import json
 import pathlib
@@ -15,20 +14,11 @@ import xml.etree.ElementTree
 sys.path.append(str(pathlib.Path(__file__).parent))
 from injected import Program, contents, ending
 
-parser = argparse.ArgumentParser(description=__doc__)
-parser.add_argument("--program", required=True)
-parser.add_argument("--library", type=pathlib.Path, required=True, help="what inject.cc makes")
-parser.add_argument("--prm", type=pathlib.Path, required=True)
-parser.add_argument("--files", type=float, default=1., help="part of the faults of files that are tried")
-parser.add_argument("--first", type=int, default=2000, help="so many first allocations fail")
-parser.add_argument("--sampled", type=int, default=2000, help="so many of all later ones")
-parser.add_argument("--seed", type=int, default=1)
-arguments = parser.parse_args()
+sys.path.append(str(pathlib.Path(__file__).parents[1]))
+from checks import entries, errors, finish, parse
 
-
-def entries(**values):
-    return [item for path, value in values.items() for item in ("--set", f"{path.replace('__', '/').replace('_', ' ')}={value}")]
-
+arguments = parse(__doc__, "program", "library", "prm", files=(1., "part of the faults of files that are tried"),
+                  first=(2000, "so many first allocations fail"), sampled=(2000, "so many of all later ones"), seed=(1, ""))
 
 # Tables of all kinds, of which a line is written at every step, fields, energy, statistics and three checkpoints.
 LINE = [arguments.prm / "en50318_2002_250.prm", *entries(
@@ -40,7 +30,6 @@ SWEEP = [arguments.prm / "oscillator_with_stop.prm", "--sweep", *entries(
     Time__End=0.02, Output__Folder="results", Sweep__Folder="sweep", Sweep__Parameters="m",
     Sweep__Parameter_m__Entries="Network/Mass mass/Mass", Sweep__Parameter_m__Values="1, 2, 3")]
 MEMORY = ("new", "all_new", "malloc")
-errors = []
 figures = collections.Counter()
 
 
@@ -208,4 +197,4 @@ for kind in ("files", *MEMORY):
           f"{figures[kind, 'overcome']} made good")
 print(f"figure | files | {figures['damaged']} damaged; {figures['resumed']} runs resumed, {figures['other bytes']} to other bytes")
 expect("there are faults", any(figures[kind, "injected"] for kind in ("files", *MEMORY)))
-sys.exit("\n".join(errors) or None)
+finish()

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """One rank of 2 or 4 throws in a collective call of MPI drawn at random, or finds no memory at an allocation drawn at random:
 all ranks end, with exit code 1 and the message of that rank, said once."""
-import argparse
 import collections
 import os
 import pathlib
@@ -12,32 +11,20 @@ import subprocess
 import sys
 import tempfile
 
-parser = argparse.ArgumentParser(description=__doc__)
-parser.add_argument("--program", required=True)
-parser.add_argument("--library", required=True, help="what inject.cc makes")
-parser.add_argument("--prm", type=pathlib.Path, required=True)
-parser.add_argument("--mpiexec", required=True)
-parser.add_argument("--count", type=int, default=2, help="faults of each kind, on 2 and on 4 ranks")
-parser.add_argument("--seed", type=int, default=1)
-arguments = parser.parse_args()
-errors = []
+sys.path.append(str(pathlib.Path(__file__).parents[1]))
+from checks import entries, expect, finish, parse
+
+arguments = parse(__doc__, "program", "library", "prm", "mpiexec",
+                  count=(2, "faults of each kind, on 2 and on 4 ranks"), seed=(1, ""))
 figures = collections.Counter()
 PATIENCE = 300.  # [s]
 
 
-def expect(what, is_true, found=""):
-    if not is_true:
-        errors.append(f"{what}: {str(found)[:1500]}")
-    return is_true
-
-
 def run(folder, ranks, fault):
     command = [arguments.mpiexec, "-np", str(ranks), "env", f"LD_PRELOAD={arguments.library}", arguments.program,
-               str(arguments.prm / "en50318_2002_250.prm"), "--overwrite"]
-    for entry in ("Catenary/Number of spans=3", "Catenary/Contact wire/Element size=2", "Catenary/Messenger wire/Element size=2",
+               arguments.prm / "en50318_2002_250.prm", "--overwrite", *entries("Catenary/Number of spans=3", "Catenary/Contact wire/Element size=2", "Catenary/Messenger wire/Element size=2",
                   "Catenary/Uplift positions=90", "Statistics/Window=", "Time/Step=2e-3", "Time/End=0.1",
-                  "Partition/Number of substructures=4", "Output/Folder=results", "Output/Checkpoint interval=0.03"):
-        command += ["--set", entry]
+                  "Partition/Number of substructures=4", "Output/Folder=results", "Output/Checkpoint interval=0.03")]
     try:
         return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=PATIENCE,
                               env={**os.environ, "TAUT_FAULT": fault, "TAUT_FAULT_COUNT": str(folder / "count")})
@@ -80,4 +67,4 @@ with tempfile.TemporaryDirectory() as name:
 
 for fault in ("throw", "throw_user", "new"):
     print(f"figure | one rank of 2 or 4, {fault} | {figures[fault, 'injected']} injected, {figures[fault, 'clean']} clean errors")
-sys.exit("\n".join(errors) or None)
+finish()

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The reference lines of EN 50318 with all operations rounded to nearest, upwards, downwards and to zero: the digits of each
 quantity that do not change, as the tables of doc/results/rounding.md. Expected: eight or more of each, every step certified."""
-import argparse
 import json
 import math
 import pathlib
@@ -14,16 +13,14 @@ import tempfile
 sys.path.append(str(pathlib.Path(__file__).parent))
 from injected import Program, ending
 
-parser = argparse.ArgumentParser(description=__doc__)
-parser.add_argument("--program", required=True)
-parser.add_argument("--library", type=pathlib.Path, required=True, help="what inject.cc makes")
-parser.add_argument("--prm", type=pathlib.Path, required=True)
-arguments = parser.parse_args()
+sys.path.append(str(pathlib.Path(__file__).parents[1]))
+from checks import errors, finish, parse
+
+arguments = parse(__doc__, "program", "library", "prm")
 
 SCENES = {"250 km/h": "en50318_2002_250.prm", "300 km/h": "en50318_2002_300.prm"}
 MODES = {"up": "upwards", "down": "downwards", "to_zero": "to zero"}
 LEAST_DIGITS = 8
-errors = []
 
 
 def numbers(folder):
@@ -94,4 +91,4 @@ for title, scene in SCENES.items():
     if fewest < LEAST_DIGITS:
         errors.append(f"{title}: {fewest:.1f} digits do not change")
 
-sys.exit("\n".join(errors) or None)
+finish()

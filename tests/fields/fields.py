@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Fields, read back by VTK, say the same as the tables of the run; taut-plot makes pictures, and its figures are those
 of statistics.json. Tables hold doubles and fields floats: half a unit in the last place of a float is 6e-8."""
-import argparse
 import csv
 import importlib.util
 import json
@@ -23,14 +22,12 @@ except ImportError as missing:
     print(f"skipped: {missing}; install python3-matplotlib and python3-vtk9")
     sys.exit(77)
 
-parser = argparse.ArgumentParser(description=__doc__)
-parser.add_argument("--program", type=pathlib.Path, required=True)
-parser.add_argument("--root", type=pathlib.Path, required=True)
-parser.add_argument("--results", type=pathlib.Path, required=True)
-arguments = parser.parse_args()
+sys.path.append(str(pathlib.Path(__file__).parents[1]))
+from checks import entries, errors, finish, parse
+
+arguments = parse(__doc__, "program", "root", "results")
 
 FLOAT = 6e-8
-errors = []
 
 
 def compare(what, value, expected, size):
@@ -89,9 +86,8 @@ def run(name, *settings):
     """Runs a scene to a fresh folder, with a line in each table at each time of a field."""
     folder = arguments.results / name
     shutil.rmtree(folder, ignore_errors=True)
-    command = [arguments.program, arguments.root / "prm" / f"{name}.prm"]
-    for setting in (f"Output/Folder={folder}", "Output/Link interval=0", *settings):
-        command += ["--set", setting]
+    command = [arguments.program, arguments.root / "prm" / f"{name}.prm",
+               *entries(f"Output/Folder={folder}", "Output/Link interval=0", *settings)]
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
     return folder
 
@@ -406,4 +402,4 @@ for state, across in (("strain", -3e5), ("stress", 0)):
             found = vtk_to_numpy(reader.GetOutput().GetPointData().GetArray(name))
             compare(f"plane {state}, {body} block: {name}", found, np.full(len(found), value), 1e6)
 
-sys.exit("\n".join(errors) or None)
+finish()

@@ -206,6 +206,13 @@ namespace door
     const bool floats;
   };
 
+  inline std::unique_ptr<Chain> chain_of(const std::string &name, const std::vector<double> &masses,
+                                         const std::vector<double> &springs,
+                                         const Defect defect = Defect::none)
+  {
+    return std::make_unique<Chain>(name, masses, springs, defect);
+  }
+
   /// A mass that moves along x, y and z, under its weight.
   class Bob : public taut::Substructure
   {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "door_script.h"
 
-#include <cmath>
 #include <iostream>
 
 namespace door
@@ -134,11 +133,7 @@ namespace door
     void make_bad_body(Calls &calls, taut::System &system)
     {
       const auto defect = static_cast<Defect>(1 + calls.below(first_of_places - 1));
-      const auto make = [&]
-      {
-        return std::make_unique<Chain>("bad body", std::vector<double>{1., 2.},
-                                       std::vector<double>{1e3, 1e3}, defect);
-      };
+      const auto make = [&] { return chain_of("bad body", {1., 2.}, {1e3, 1e3}, defect); };
       const std::string what = "defect " + std::to_string(static_cast<int>(defect));
       switch (calls.below(6))
       {
@@ -166,10 +161,8 @@ namespace door
       taut::System system;
       const std::size_t body =
           system.add("late body",
-                     [&]
-                     {
-                       return std::make_unique<Chain>("late body", std::vector<double>{1., 2.},
-                                                      std::vector<double>{1e3, 1e3}, defect);
+                     [&] {
+                       return chain_of("late body", {1., 2.}, {1e3, 1e3}, defect);
                      });
       if (static_cast<int>(defect) < first_of_starts)
         return calls.refuse(what, "late body",
@@ -189,36 +182,29 @@ namespace door
     const taut::Coordinates up = {0., 1., 0.};
     const std::string number = "number " + std::to_string(foreign);
     const double bad = calls.bad_number();
-    switch (calls.below(12))
-    {
-    case 0:
-      calls.refuse("displacement", number, [&] { system.displacement(foreign, {}, up); });
-      break;
-    case 1:
-      calls.refuse("link_end", number, [&] { system.link_end(foreign, {}); });
-      break;
-    case 2:
-      calls.refuse("body", number, [&] { system.body(foreign); });
-      break;
-    case 3:
-      calls.refuse("place", "finite", [&] { system.displacement(chain, {bad, 0., 0.}, up); });
-      break;
-    case 4:
-      calls.refuse("direction", "finite", [&] { system.displacement(chain, {}, {0., bad, 0.}); });
-      break;
-    case 5:
-      make_bad_body(calls, system);
-      break;
-    case 6:
-      ask_bad_body(calls);
-      break;
-    case 7:
-    case 8:
-      make_bad_form(calls, system, chain);
-      break;
-    default:
+    const std::function<void()> mistakes[] = {
+        [&]
+        { calls.refuse("displacement", number, [&] { system.displacement(foreign, {}, up); }); },
+        [&] { calls.refuse("link_end", number, [&] { system.link_end(foreign, {}); }); },
+        [&] { calls.refuse("body", number, [&] { system.body(foreign); }); },
+        [&] {
+          calls.refuse("place", "finite", [&] { system.displacement(chain, {bad, 0., 0.}, up); });
+        },
+        [&] {
+          calls.refuse("direction", "finite",
+                       [&] {
+                         system.displacement(chain, {}, {0., bad, 0.});
+                       });
+        },
+        [&] { make_bad_body(calls, system); },
+        [&] { ask_bad_body(calls); },
+        [&] { make_bad_form(calls, system, chain); },
+        [&] { make_bad_form(calls, system, chain); }};
+    const std::size_t kind = calls.below(12);
+    if (kind < std::size(mistakes))
+      mistakes[kind]();
+    else
       make_bad_numbers(calls, system, chain);
-    }
     if (system.n_bodies() != n_bodies || system.n_constraints() != n_constraints)
       throw Failure("a call that was refused left a trace");
   }

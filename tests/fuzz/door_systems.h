@@ -115,13 +115,10 @@ namespace door
       {
         ++calls.counts.open;
         const double mass = calls.any_number(), spring = calls.any_number();
-        const std::size_t body =
-            system.add("body",
-                       [&]
-                       {
-                         return std::make_unique<Chain>("body", std::vector<double>{mass, 1.},
-                                                        std::vector<double>{1e3, spring});
-                       });
+        const std::size_t body = system.add("body",
+                                            [&] {
+                                              return chain_of("body", {mass, 1.}, {1e3, spring});
+                                            });
         ++calls.counts.open;
         Constraint link = Constraint::unilateral("link", system.displacement(body, {1.}, up));
         link.gap(calls.any_number());

@@ -60,6 +60,15 @@ namespace
     return "set " + name + " = " + text;
   }
 
+  Lines split(const std::string &text, const char separator)
+  {
+    Lines parts;
+    std::istringstream in(text);
+    for (std::string part; std::getline(in, part, separator);)
+      parts.push_back(trim(part));
+    return parts;
+  }
+
   Lines lines_of(std::istream &in)
   {
     Lines lines;
@@ -213,69 +222,25 @@ namespace
 
     std::string word(const Lines &lines)
     {
-      static const Lines words = {"joint",
-                                  "stop",
-                                  "dropper",
-                                  "sliding contact",
-                                  "string",
-                                  "beam",
-                                  "bar",
-                                  "bar, beam",
-                                  "bar, string",
-                                  "transverse",
-                                  "axial",
-                                  "slope",
-                                  "fixed",
-                                  "elastic",
-                                  "point",
-                                  "distributed",
-                                  "moving",
-                                  "true",
-                                  "false",
-                                  "rigid",
-                                  "ground",
-                                  "equilibrium",
-                                  "undeformed",
-                                  "given",
-                                  "BDF2",
-                                  "Newmark",
-                                  "backward Euler",
-                                  "generalised-alpha",
-                                  "automatic",
-                                  "x",
-                                  "y",
-                                  "rotation",
-                                  "x, y",
-                                  "x, y, rotation",
-                                  "sparse direct",
-                                  "block tridiagonal",
-                                  "matrix-free",
-                                  "assembled dense",
-                                  "assembled sparse",
-                                  "energy-ordered",
-                                  "semismooth Newton",
-                                  "network",
-                                  "catenary",
-                                  ""};
-      static const Lines formulas = {"1/t",        "sqrt(0.002-t)",
-                                     "sin(",       "if(t<0.002,0,100)",
-                                     "s",          "1e300*t",
-                                     "exp(1e5*t)", "abs(s-1)",
-                                     "sin(pi*s)",  "1;2",
-                                     "pi",         "t",
-                                     "0*t",        "1/(s-1)",
-                                     "sqrt(-s)",   "10",
-                                     "-1e300",     "((((((((s))))))))"};
+      static const Lines words =
+          split("joint|stop|dropper|sliding contact|string|beam|bar|bar, beam|bar, string|"
+                "transverse|axial|slope|fixed|elastic|point|distributed|moving|true|false|rigid|"
+                "ground|equilibrium|undeformed|given|BDF2|Newmark|backward Euler|generalised-alpha|"
+                "automatic|x|y|rotation|x, y|x, y, rotation|sparse direct|block tridiagonal|"
+                "matrix-free|assembled dense|assembled sparse|energy-ordered|semismooth Newton|"
+                "network|catenary| ",
+                '|');
+      static const Lines formulas =
+          split("1/t|sqrt(0.002-t)|sin(|if(t<0.002,0,100)|s|1e300*t|exp(1e5*t)|abs(s-1)|sin(pi*s)|"
+                "1;2|pi|t|0*t|1/(s-1)|sqrt(-s)|10|-1e300|((((((((s))))))))",
+                '|');
       if (below(3) == 0)
         return pick(formulas);
       if (below(3) > 0)
         return pick(words);
       // A name, or a value of the file.
       const std::string text = value(lines[some_entry(lines)] + "=");
-      std::istringstream parts(text);
-      Lines names;
-      for (std::string part; std::getline(parts, part, ',');)
-        names.push_back(trim(part));
+      const Lines names = split(text, ',');
       return names.empty() ? "" : pick(names) + (below(2) == 0 ? " @ " + number() : "");
     }
 

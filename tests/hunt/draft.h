@@ -41,6 +41,7 @@ namespace hunt
     SceneText text = {};
     HuntScene scene = {};
 
+    SceneText::Line line() { return text.line(); }
     std::string draw(const double unit, const double a, const double b)
     {
       return number(short_number(unit * random.uniform(a, b)));
@@ -56,13 +57,12 @@ namespace hunt
       const double duration = scales.t * random.uniform(least, most);
       const double n = std::max(8., std::round(duration / scene.step));
       scene.n_steps = n;
-      text.set("Time", "Step", number(scene.step));
-      text.set("Time", "End", number(n * scene.step));
+      line() << "Time: Step = " << scene.step << "; End = " << n * scene.step;
     }
 
     HuntScene finish()
     {
-      text.set("Output", "Field interval", "0");
+      line() << "Output: Field interval = 0";
       scene.text = text.text();
       return scene;
     }
@@ -72,11 +72,11 @@ namespace hunt
   void add_load(Draft &draft, const std::string &on, double force);
 
   /// A stop under a point, or a dropper that holds it from falling.
-  void add_stop(Draft &draft, const std::string &name, const std::string &on, const Entries &spring,
-                bool is_stop = true);
+  void add_stop(Draft &draft, const std::string &name, const std::string &on,
+                const std::string &spring, bool is_stop = true);
 
   /// A stiffness anywhere in the ten decades.
-  Entries elastic(Draft &draft);
+  std::string elastic(Draft &draft);
 
   HuntScene smooth_wire(Draft draft);
   HuntScene wire_on_stop(Draft draft);

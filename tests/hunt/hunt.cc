@@ -3,18 +3,13 @@
 // within 5 % in energies, or a warning says which step it needs, or the run is refused. Source:
 // motions between events by the exponential of the matrices, impacts by Newton's law; the equation
 // of a pendulum; another scheme with a sixteenth of the step under contacts that move.
+#include "common.h"
 #include "verdict.h"
 
-#include <gtest/gtest.h>
-
-#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <map>
-#include <sstream>
-#include <string>
 
 namespace
 {

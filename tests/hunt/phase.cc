@@ -29,6 +29,17 @@ namespace hunt
       return result;
     }
 
+    /// Of a square matrix, row by row, with z.
+    Vector product(const Vector &A, const Vector &z)
+    {
+      const std::size_t n = z.size();
+      Vector result(n, 0.);
+      for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j < n; ++j)
+          result[i] += A[i * n + j] * z[j];
+      return result;
+    }
+
     double frobenius(const std::vector<Vector> &rows, const std::size_t first, const std::size_t n)
     {
       double sum = 0.;
@@ -304,26 +315,12 @@ namespace hunt
     return result;
   }
 
-  Vector Phase::product(const Vector &z) const
-  {
-    const std::size_t n = z.size();
-    Vector result(n);
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      double sum = 0.;
-      for (std::size_t j = 0; j < n; ++j)
-        sum += A[i * n + j] * z[j];
-      result[i] = sum;
-    }
-    return result;
-  }
-
   Vector Phase::series(const Vector &z, const double time) const
   {
     Vector result = z, term = z;
     for (int k = 1; k <= series_terms; ++k)
     {
-      term = product(term);
+      term = product(A, term);
       for (std::size_t i = 0; i < z.size(); ++i)
       {
         term[i] *= time / k;
@@ -356,15 +353,6 @@ namespace hunt
       make_exponential(time);
     if (time != exponential_time)
       return series(z, time);
-    const std::size_t n = z.size();
-    Vector result(n);
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      double sum = 0.;
-      for (std::size_t j = 0; j < n; ++j)
-        sum += exponential[i * n + j] * z[j];
-      result[i] = sum;
-    }
-    return result;
+    return product(exponential, z);
   }
 } // namespace hunt

@@ -72,7 +72,6 @@ namespace hunt
     void find_forces(const Modes &modes);
     void hold_rigid(const Modes &modes);
     void assemble();
-    Vector product(const Vector &z) const;
     Vector series(const Vector &z, double time) const;
     void make_exponential(double time);
 

@@ -6,7 +6,6 @@
 
 #include <boost/numeric/odeint.hpp>
 
-#include <algorithm>
 #include <cmath>
 
 namespace hunt

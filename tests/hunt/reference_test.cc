@@ -2,14 +2,10 @@
 // Claim: the event-driven motions that runs are judged by are exact. Source: closed forms of a ball
 // that bounces, of springs that stop a mass with and without a damper and with two slopes, and of
 // two masses that collide.
+#include "common.h"
 #include "event_driven.h"
 #include "reference.h"
 #include "verification/run.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
 
 namespace
 {

@@ -35,16 +35,4 @@ namespace hunt
     std::snprintf(text, sizeof text, "%.2e", x);
     return std::atof(text);
   }
-
-  void SceneText::add(const std::string &kind, const std::string &name, const Entries &entries)
-  {
-    for (const auto &[entry, value] : entries)
-      set(kind + " " + name, entry, value);
-  }
-
-  void SceneText::set(const std::string &section, const std::string &entry,
-                      const std::string &value)
-  {
-    scene.add((section.empty() ? "" : section + ": ") + entry + " = " + value);
-  }
 } // namespace hunt

@@ -7,8 +7,6 @@
 #include <cstdint>
 #include <random>
 #include <string>
-#include <utility>
-#include <vector>
 
 namespace hunt
 {
@@ -31,15 +29,30 @@ namespace hunt
   double short_number(double x);
   std::string number(double x);
 
-  using Entries = std::vector<std::pair<std::string, std::string>>;
-
-  /// A parameter file of the generator 'network' that grows item by item.
+  /// A parameter file that grows line by line of SceneBuilder, each made of parts as by a stream.
   class SceneText
   {
   public:
-    /// Kind as in 'subsection <kind> <name>': Mass, Spring, Link, ...
-    void add(const std::string &kind, const std::string &name, const Entries &entries);
-    void set(const std::string &section, const std::string &entry, const std::string &value);
+    class Line
+    {
+    public:
+      explicit Line(verification::SceneBuilder &scene) : scene(scene) {}
+      Line(const Line &) = delete;
+      ~Line() { scene.add(text); }
+
+      Line &operator<<(const std::string &part)
+      {
+        text += part;
+        return *this;
+      }
+      Line &operator<<(const double part) { return *this << number(part); }
+
+    private:
+      verification::SceneBuilder &scene;
+      std::string text;
+    };
+
+    Line line() { return Line(scene); }
     std::string text() const { return scene.text(); }
 
   private:

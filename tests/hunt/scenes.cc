@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "draft.h"
 
-#include <cmath>
-
 namespace hunt
 {
   void add_load(Draft &draft, const std::string &on, const double force)
@@ -11,29 +9,23 @@ namespace hunt
     const bool varies = draft.random.chance(.5);
     if (varies)
       draft.scene.frequency = frequency;
-    draft.text.add("Load", "push",
-                   {{"On", on},
-                    {"Direction", "0, 1"},
-                    {"Magnitude", draft.draw(force, -1., 1.) +
-                                      (varies ? "*sin(" + number(frequency) + "*t)" : "")}});
+    draft.line() << "Load push: On = " << on
+                 << "; Direction = 0, 1; Magnitude = " << draft.draw(force, -1., 1.)
+                 << (varies ? "*sin(" + number(frequency) + "*t)" : "");
   }
 
-  void add_stop(Draft &draft, const std::string &name, const std::string &on, const Entries &spring,
-                const bool is_stop)
+  void add_stop(Draft &draft, const std::string &name, const std::string &on,
+                const std::string &spring, const bool is_stop)
   {
-    Entries entries = {{"Type", is_stop ? "stop" : "dropper"},
-                       {"From", "ground"},
-                       {"To", on},
-                       {"Direction", is_stop ? "0, 1" : "0, -1"},
-                       {"Gap", draft.draw(draft.scales.l, .05, 1.)}};
-    entries.insert(entries.end(), spring.begin(), spring.end());
-    draft.text.add("Link", name, entries);
+    draft.line() << "Link " << name << ": Type = " << (is_stop ? "stop" : "dropper")
+                 << "; From = ground; To = " << on << "; Direction = 0, " << (is_stop ? "1" : "-1")
+                 << "; Gap = " << draft.draw(draft.scales.l, .05, 1.) << "; " << spring;
     draft.scene.reach = 20. * draft.scales.l;
   }
 
-  Entries elastic(Draft &draft)
+  std::string elastic(Draft &draft)
   {
-    return {{"Stiffness", draft.draw_decades(draft.scales.k(), softest, stiffest)}};
+    return "Stiffness = " + draft.draw_decades(draft.scales.k(), softest, stiffest);
   }
 
   namespace
@@ -48,23 +40,20 @@ namespace hunt
         const std::string name = "m" + std::to_string(i);
         const double own = i == 0 ? common : draft.random.uniform(-2., 1.),
                      speed = alike ? common : own;
-        draft.text.add("Mass", name,
-                       {{"Position", "0, " + number(10. * i * s.l)},
-                        {"Motions", "y"},
-                        {"Mass", draft.draw_decades(s.m, -.5, .5)},
-                        {"Initial velocity", "0, " + number(short_number(speed * s.v())) + ", 0"}});
+        draft.line() << "Mass " << name << ": Position = 0, " << 10. * i * s.l
+                     << "; Motions = y; Mass = " << draft.draw_decades(s.m, -.5, .5)
+                     << "; Initial velocity = 0, " << short_number(speed * s.v()) << ", 0";
         if (i == 0 && !held)
           continue;
-        Entries spring = {{"From", i == 0 ? "ground" : "m" + std::to_string(i - 1)},
-                          {"To", name},
-                          {"Stiffness", draft.draw_decades(s.k(), -1, 1.3)}};
+        const std::string spring = "Spring s" + std::to_string(i);
+        draft.line() << spring << ": From = " << (i == 0 ? "ground" : "m" + std::to_string(i - 1))
+                     << "; To = " << name << "; Stiffness = " << draft.draw_decades(s.k(), -1, 1.3);
         if (draft.random.chance(.4))
-          spring.emplace_back("Damping", draft.draw_decades(s.m / s.t, -2, 0));
-        draft.text.add("Spring", "s" + std::to_string(i), spring);
+          draft.line() << spring << ": Damping = " << draft.draw_decades(s.m / s.t, -2, 0);
       }
-      draft.text.set("", "Start", "given");
       const bool falls = draft.random.chance(.5);
-      draft.text.set("", "Gravity", falls ? "0, -" + draft.draw(s.g(), .2, 2.) : "0, 0");
+      draft.line() << "Start = given; Gravity = 0, "
+                   << (falls ? "-" + draft.draw(s.g(), .2, 2.) : std::string("0"));
     }
 
     HuntScene smooth_masses(Draft draft)
@@ -75,13 +64,11 @@ namespace hunt
       add_load(draft, "m0", draft.scales.f());
       if (n > 1 && draft.random.chance(.7))
       {
-        Entries joint = {{"Type", "joint"},
-                         {"From", "m0"},
-                         {"To", "m" + std::to_string(n - 1)},
-                         {"Direction", "0, 1"}};
+        draft.line() << "Link tie: Type = joint; From = m0; To = m" << n - 1
+                     << "; Direction = 0, 1";
         if (!rigid)
-          joint.emplace_back("Stiffness", draft.draw_decades(draft.scales.k(), softest, 4));
-        draft.text.add("Link", "tie", joint);
+          draft.line() << "Link tie: Stiffness = "
+                       << draft.draw_decades(draft.scales.k(), softest, 4);
       }
       draft.set_time(step_decades, 1.5, 4.);
       return draft.finish();
@@ -98,11 +85,11 @@ namespace hunt
     HuntScene rigid_stop(Draft draft)
     {
       add_chain(draft, draft.random.integer(1, 3), draft.random.chance(.5));
-      add_stop(draft, "floor", "m0", {}, draft.random.chance(.7));
+      add_stop(draft, "floor", "m0", "", draft.random.chance(.7));
       if (draft.random.chance(.5))
       {
         draft.scene.restitution = short_number(draft.random.uniform(.1, 1.));
-        draft.text.set("Time/Moreau-Jean", "Restitution", number(draft.scene.restitution));
+        draft.line() << "Time/Moreau-Jean: Restitution = " << draft.scene.restitution;
       }
       draft.set_time(step_decades, 1.5, 4.);
       return draft.finish();
@@ -114,7 +101,7 @@ namespace hunt
       const double k = short_number(draft.scales.k() * draft.random.decades(softest, stiffest)),
                    critical = 2. * std::sqrt(k * draft.scales.m);
       add_stop(draft, "floor", "m0",
-               {{"Stiffness", number(k)}, {"Damping", draft.draw_decades(critical, -2, .5)}});
+               "Stiffness = " + number(k) + "; Damping = " + draft.draw_decades(critical, -2, .5));
       draft.set_time(step_decades, 1.5, 4.);
       return draft.finish();
     }
@@ -128,17 +115,12 @@ namespace hunt
       {
         const bool rigid = draft.random.chance(.3);
         add_stop(draft, "stop" + std::to_string(i),
-                 "m" + std::to_string(draft.random.integer(0, n - 1)),
-                 rigid ? Entries{} : elastic(draft), draft.random.chance(.7));
+                 "m" + std::to_string(draft.random.integer(0, n - 1)), rigid ? "" : elastic(draft),
+                 draft.random.chance(.7));
       }
       if (draft.random.chance(.5))
-        draft.text.add("Link", "between",
-                       {{"Type", "stop"},
-                        {"From", "m0"},
-                        {"To", "m1"},
-                        {"Direction", "0, 1"},
-                        {"Stiffness", elastic(draft).front().second},
-                        {"Gap", draft.draw(draft.scales.l, .05, 1.)}});
+        draft.line() << "Link between: Type = stop; From = m0; To = m1; Direction = 0, 1; "
+                     << elastic(draft) << "; Gap = " << draft.draw(draft.scales.l, .05, 1.);
       draft.set_time(step_decades, 1.5, 4.);
       return draft.finish();
     }
@@ -151,18 +133,16 @@ namespace hunt
       if (draft.random.chance(.5))
       {
         const double f1 = .3 * k * u, f2 = f1 + .7 * u * k * draft.random.decades(-1, 1.5);
-        add_stop(
-            draft, "floor", "m0",
-            {{"Law", "table"},
-             {"Law points", number(short_number(.3 * u)) + ": " + number(short_number(f1)) + ", " +
-                                number(short_number(u)) + ": " + number(short_number(f2))}});
+        add_stop(draft, "floor", "m0",
+                 "Law = table; Law points = " + number(short_number(.3 * u)) + ": " +
+                     number(short_number(f1)) + ", " + number(short_number(u)) + ": " +
+                     number(short_number(f2)));
       }
       else
         add_stop(draft, "floor", "m0",
-                 {{"Law", "formula"},
-                  {"Law formula",
-                   number(short_number(k)) + "*d + " + number(short_number(k / (u * u))) + "*d^3"},
-                  {"Law range", number(short_number(10. * u))}});
+                 "Law = formula; Law formula = " + number(short_number(k)) + "*d + " +
+                     number(short_number(k / (u * u))) +
+                     "*d^3; Law range = " + number(short_number(10. * u)));
       draft.set_time(step_decades, 1.5, 4.);
       return draft.finish();
     }
@@ -170,9 +150,9 @@ namespace hunt
     HuntScene adaptive(Draft draft)
     {
       add_chain(draft, draft.random.integer(1, 3), draft.random.chance(.5));
-      add_stop(draft, "floor", "m0", draft.random.chance(.3) ? Entries{} : elastic(draft));
+      add_stop(draft, "floor", "m0", draft.random.chance(.3) ? "" : elastic(draft));
       draft.set_time(step_decades - 1., 1.5, 4.);
-      draft.text.set("Time", "Step control", "adaptive");
+      draft.line() << "Time: Step control = adaptive";
       return draft.finish();
     }
 
@@ -187,19 +167,12 @@ namespace hunt
       const double angle = draft.random.uniform(-1.5, 1.5), slack = draft.random.uniform(.7, 1.);
       p.start = {short_number(slack * s.l * std::sin(angle)),
                  short_number(-slack * s.l * std::cos(angle)), 0., 0.};
-      draft.text.add("Mass", "bob",
-                     {{"Position", number(p.start[0]) + ", " + number(p.start[1])},
-                      {"Motions", "x, y"},
-                      {"Mass", number(p.mass)}});
-      draft.text.add("Link", "rope",
-                     {{"Type", "dropper"},
-                      {"From", "ground @ 0, 0"},
-                      {"To", "bob"},
-                      {"Turns", "true"},
-                      {"Length", number(p.length)},
-                      {"Stiffness", number(p.stiffness)}});
-      draft.text.set("", "Start", "undeformed");
-      draft.text.set("", "Gravity", "0, -" + number(p.gravity));
+      draft.line() << "Mass bob: Position = " << p.start[0] << ", " << p.start[1]
+                   << "; Motions = x, y; Mass = " << p.mass;
+      draft.line()
+          << "Link rope: Type = dropper; From = ground @ 0, 0; To = bob; Turns = true; Length = "
+          << p.length << "; Stiffness = " << p.stiffness;
+      draft.line() << "Start = undeformed; Gravity = 0, -" << p.gravity;
       draft.scene.kind = ReferenceKind::pendulum;
       draft.set_time(step_decades, 1.5, 4.);
       return draft.finish();

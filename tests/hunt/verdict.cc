@@ -6,7 +6,6 @@
 #include <taut/base/exceptions.h>
 
 #include <cmath>
-#include <sstream>
 
 namespace hunt
 {

@@ -12,34 +12,28 @@ namespace hunt
       const double length = short_number(100. * s.l), mu = short_number(s.m / length),
                    tension = short_number(mu * length * length / (s.t * s.t));
       const int n = draft.random.integer(4, 8);
-      Entries wire = {{"From", "0, 0"},
-                      {"To", number(length) + ", 0"},
-                      {"Components", kind},
-                      {"Mass per length", number(mu)},
-                      {"Element size", number(length / n)}};
+      draft.line() << "Gravity = 0, 0";
+      draft.line() << "Wire wire: From = 0, 0; To = " << length << ", 0; Components = " << kind
+                   << "; Mass per length = " << mu << "; Element size = " << length / n;
       if (kind == "bar")
-        wire.emplace_back("Axial stiffness", number(tension));
+        draft.line() << "Wire wire: Axial stiffness = " << tension;
       if (kind == "string" || (kind == "beam" && draft.random.chance(.5)))
-        wire.emplace_back("Tension", number(tension));
+        draft.line() << "Wire wire: Tension = " << tension;
       if (kind == "beam")
-        wire.emplace_back("Bending stiffness",
-                          draft.draw_decades(tension * length * length, -3, -1));
+        draft.line() << "Wire wire: Bending stiffness = "
+                     << draft.draw_decades(tension * length * length, -3, -1);
       else
-        wire.emplace_back("Degree", std::to_string(draft.random.integer(1, 2)));
+        draft.line() << "Wire wire: Degree = " << draft.random.integer(1, 2);
       if (draft.random.chance(.4))
-        wire.emplace_back("Mass damping", draft.draw(1. / s.t, .01, .5));
-      const std::string along = kind == "bar" ? "axial" : "transverse",
-                        shape = kind == "bar" ? "" : "*sin(pi*s/" + number(length) + ")";
+        draft.line() << "Wire wire: Mass damping = " << draft.draw(1. / s.t, .01, .5);
       if (moves)
-        wire.emplace_back("Initial " + along + " velocity",
-                          "-" + draft.draw(s.v(), .5, 2.) + shape);
-      draft.text.add("Wire", "wire", wire);
+        draft.line() << "Start = given";
+      if (moves)
+        draft.line() << "Wire wire: Initial " << (kind == "bar" ? "axial" : "transverse")
+                     << " velocity = -" << draft.draw(s.v(), .5, 2.)
+                     << (kind == "bar" ? "" : "*sin(pi*s/" + number(length) + ")");
       if (kind != "bar")
-        draft.text.add("Support", "ends",
-                       {{"Wire", "wire"}, {"Positions", "0, " + number(length)}});
-      if (moves)
-        draft.text.set("", "Start", "given");
-      draft.text.set("", "Gravity", "0, 0");
+        draft.line() << "Support ends: Wire = wire; Positions = 0, " << length;
       return length;
     }
 
@@ -56,16 +50,11 @@ namespace hunt
     add_load(draft, "wire @ " + number(short_number(.3 * length)), 10. * draft.scales.f());
     if (!moves)
     {
-      draft.text.add("Mass", "weight",
-                     {{"Position", number(.5 * length) + ", 0"},
-                      {"Motions", "y"},
-                      {"Mass", draft.draw_decades(draft.scales.m, -1, 1)}});
-      draft.text.add("Link", "hanger",
-                     {{"Type", "joint"},
-                      {"From", "weight"},
-                      {"To", "wire @ " + number(.5 * length)},
-                      {"Direction", "0, 1"}});
-      draft.text.set("", "Start", "undeformed");
+      draft.line() << "Mass weight: Position = " << .5 * length
+                   << ", 0; Motions = y; Mass = " << draft.draw_decades(draft.scales.m, -1, 1);
+      draft.line() << "Link hanger: Type = joint; From = weight; To = wire @ " << .5 * length
+                   << "; Direction = 0, 1";
+      draft.line() << "Start = undeformed";
     }
     draft.set_time(step_decades_of_wires, 1., 2.5);
     return draft.finish();
@@ -85,14 +74,11 @@ namespace hunt
     const int kind = draft.random.integer(0, 2);
     const double length = add_wire(draft, kind == 0 ? "bar" : kind == 1 ? "string" : "beam");
     if (kind == 0)
-      draft.text.add("Link", "wall",
-                     {{"Type", "stop"},
-                      {"From", "ground"},
-                      {"To", "wire @ 0"},
-                      {"Direction", "1, 0"},
-                      {"Gap", draft.draw(draft.scales.l, .05, .5)}});
+      draft.line()
+          << "Link wall: Type = stop; From = ground; To = wire @ 0; Direction = 1, 0; Gap = "
+          << draft.draw(draft.scales.l, .05, .5);
     else
-      add_stop(draft, "stop", "wire @ " + number(.5 * length), {});
+      add_stop(draft, "stop", "wire @ " + number(.5 * length), "");
     draft.set_time(step_decades_of_wires, 1., 2.5);
     return draft.finish();
   }
@@ -102,21 +88,16 @@ namespace hunt
   {
     const Scales &s = draft.scales;
     const double length = add_wire(draft, "beam", false);
-    draft.text.add("Mass", "head",
-                   {{"Position", number(.2 * length) + ", " + number(-s.l)},
-                    {"Motions", "y"},
-                    {"Mass", draft.draw_decades(s.m, -1, 0)}});
-    draft.text.add("Load", "lift",
-                   {{"On", "head"}, {"Direction", "0, 1"}, {"Magnitude", draft.draw(s.f(), 1, 5)}});
-    Entries contact = {{"Type", "sliding contact"},
-                       {"From", "head"},
-                       {"To", "wire @ " + number(.2 * length)},
-                       {"Direction", "0, 1"},
-                       {"Speed", number(short_number(.2 * length / s.t))}};
+    draft.line() << "Mass head: Position = " << .2 * length << ", " << -s.l
+                 << "; Motions = y; Mass = " << draft.draw_decades(s.m, -1, 0);
+    draft.line() << "Load lift: On = head; Direction = 0, 1; Magnitude = "
+                 << draft.draw(s.f(), 1, 5);
+    draft.line() << "Link collector: Type = sliding contact; From = head; To = wire @ "
+                 << .2 * length
+                 << "; Direction = 0, 1; Speed = " << short_number(.2 * length / s.t);
     if (draft.random.chance(.7))
-      contact.emplace_back("Stiffness", draft.draw_decades(s.k(), 0, 5));
-    draft.text.add("Link", "collector", contact);
-    draft.text.set("Statistics", "Filter frequency", "0");
+      draft.line() << "Link collector: Stiffness = " << draft.draw_decades(s.k(), 0, 5);
+    draft.line() << "Statistics: Filter frequency = 0";
     draft.scene.kind = ReferenceKind::program;
     draft.set_time(2., 1., 2.5);
     return draft.finish();

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A body and an observer of a plugin, named in a parameter file: the answers of the program that uses the library
 (plate.csv, written by plate), the same on 1, 2 and 4 ranks, with fields, energy, --check and errors like those of a wire."""
-import argparse
 import csv
 import pathlib
 import shutil
@@ -11,21 +10,13 @@ import sys
 import xml.etree.ElementTree as xml
 
 sys.path.append(str(pathlib.Path(__file__).parents[1]))
-from tables import largest_difference
+from checks import entries, errors, finish, largest_difference, on_ranks, parse
 
-parser = argparse.ArgumentParser(description=__doc__)
-parser.add_argument("--program", type=pathlib.Path, required=True)
-parser.add_argument("--mpiexec", required=True)
-parser.add_argument("--prm", type=pathlib.Path, required=True, help="plate.prm")
-parser.add_argument("--build", type=pathlib.Path, required=True, help="folder with libplate_plugin.so and plate.csv")
-arguments = parser.parse_args()
-errors = []
+arguments = parse(__doc__, "program", "mpiexec", "prm", "build")
 
 
 def run(*options, ranks=1):
-    command = [str(arguments.program), str(arguments.prm), *options]
-    if ranks > 1:
-        command = [arguments.mpiexec, "-np", str(ranks), *command]
+    command = on_ranks(arguments.mpiexec, ranks, [arguments.program, arguments.prm, *options])
     return subprocess.run(command, cwd=arguments.build, capture_output=True, text=True, timeout=300)
 
 
@@ -114,5 +105,4 @@ fails(["there is no such type", "needs its library in 'Additional shared librari
 fails(["there is no entry 'Presure'", "did you mean 'Pressure'"], "--set", "Body plate/Presure=1")
 fails(["'largest displacemen'", "did you mean 'largest displacement'"], "--set", "Output/Observers=largest displacemen")
 
-if errors:
-    sys.exit("\n".join(errors))
+finish()

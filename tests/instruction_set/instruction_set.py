@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The log names the instruction set of the loops; two runs with one set give the same files byte by byte; the baseline
 set, which TAUT_INSTRUCTION_SET chooses, gives the same results up to rounding; a set that there is not is an error."""
-import argparse
 import os
 import pathlib
 import re
@@ -11,16 +10,12 @@ import sys
 import tempfile
 
 sys.path.append(str(pathlib.Path(__file__).parents[1]))
-from tables import largest_difference
+from checks import errors, finish, largest_difference, parse
 
-parser = argparse.ArgumentParser(description=__doc__)
-parser.add_argument("--program", required=True)
-parser.add_argument("--scene", required=True)
-arguments = parser.parse_args()
+arguments = parse(__doc__, "program", "scene")
 
 # The scene amplifies rounding, 1e-16, by its contacts; what a wrong loop gives differs by far more.
 ROUNDING = 1e-7
-errors = []
 
 
 def run(folder, name=None, code=0):
@@ -72,4 +67,4 @@ with tempfile.TemporaryDirectory() as name:
     if "TAUT_INSTRUCTION_SET" not in message or "baseline, avx2 or avx512" not in message or (scratch / "none").exists():
         errors.append(f"an unknown set: {message}")
 
-sys.exit("\n".join(errors) or None)
+finish()

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A run that a signal or an error ends early has the results of a run with that end, marked as partial; a second signal
 ends it at once. Expected numbers come from that shorter run; exit codes are 128 plus the signal, and 1."""
-import argparse
 import csv
 import json
 import math
@@ -15,16 +14,15 @@ import sys
 import tempfile
 import time
 
-parser = argparse.ArgumentParser(description=__doc__)
-parser.add_argument("--program", required=True)
-parser.add_argument("--mpiexec", required=True)
-parser.add_argument("--prm", type=pathlib.Path, required=True)
-arguments = parser.parse_args()
+sys.path.append(str(pathlib.Path(__file__).parents[1]))
+from checks import entries, errors, expect, on_ranks, parse
+
+arguments = parse(__doc__, "program", "mpiexec", "prm")
 
 LINE = [str(arguments.prm / "en50318_2002_250.prm"), "--set", "Statistics/Window="]
-STEP = ["--set", "Time/Step=2e-5", "--set", "Time/End=0.5"]  # 25000 steps: none is done before the signal comes
+STEP = entries("Time/Step=2e-5", "Time/End=0.5")  # 25000 steps: none is done before the signal comes
 # Seconds before the first step.
-LARGE = [*LINE, "--set", "Catenary/Number of spans=100", "--set", "Catenary/Contact wire/Element size=0.1"]
+LARGE = [*LINE, *entries("Catenary/Number of spans=100", "Catenary/Contact wire/Element size=0.1")]
 FAILING = """set Generator = network
 set Start     = given
 subsection Network
@@ -79,14 +77,6 @@ end
 # What the error says, and between which times it comes: that of a push that becomes infinite in mid-run and those of MEETING.
 ERRORS = [(FAILING, "push", .5, .5),
           (MEETING, r"taut: .*t = 0\.052\d* s: the ends of link 'prop' meet.*\(0, 0, 0\) m", .052, .0524)]
-errors = []
-
-
-def expect(what, is_true, found=""):
-    if not is_true:
-        errors.append(f"{what}: {found}")
-
-
 PATIENCE = 400.  # [s]; ranks that share a busy core wait for each other at every step
 
 
@@ -95,9 +85,7 @@ class Program:
 
     def __init__(self, folder, options, ranks=1):
         self.out, self.err = folder / "out", folder / "err"
-        command = [arguments.program, *options]
-        if ranks > 1:
-            command = [arguments.mpiexec, "-np", str(ranks), *command]
+        command = on_ranks(arguments.mpiexec, ranks, [arguments.program, *options])
         with open(self.out, "w") as out, open(self.err, "w") as err:
             self.process = subprocess.Popen(command, stdout=out, stderr=err)
 

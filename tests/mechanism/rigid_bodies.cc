@@ -2,13 +2,10 @@
 // Claim: rigid bodies turn, swing and hit as they have to, and keep energy, angular momentum and
 // shape. Expected values: Euler's solution of the free symmetric top; conservation; the elliptic
 // integral of the compound pendulum; the impulse of Newton's laws.
+#include "common.h"
 #include "mechanism/rigid_body_run.h"
 
-#include <gtest/gtest.h>
-
 #include <array>
-#include <cmath>
-#include <vector>
 
 namespace
 {
@@ -129,7 +126,7 @@ TEST(RigidBodies, forces_and_tangents)
 {
   const RigidBody body(spinning({.1, .2, .25}, {}));
   const unsigned int n = body.n_dofs();
-  std::vector<double> U(n), f, plus, minus, column(n), unit(n);
+  std::vector<double> U(n), f, plus, minus;
   for (unsigned int i = 0; i < n; ++i)
     U[i] = .1 * std::sin(1. + 3. * i);
   const auto K = body.tangent(U, 1., false);
@@ -141,10 +138,9 @@ TEST(RigidBodies, forces_and_tangents)
     body.internal_force(there, {}, plus);
     there[j] -= 2. * h;
     body.internal_force(there, {}, minus);
-    std::fill(column.begin(), column.end(), 0.);
-    std::fill(unit.begin(), unit.end(), 0.);
+    std::vector<double> unit(n, 0.);
     unit[j] = 1.;
-    K->vmult_add(1., unit.data(), column.data());
+    const std::vector<double> column = verification::matrix_times(*K, unit);
     for (unsigned int i = 0; i < n; ++i)
       EXPECT_NEAR((plus[i] - minus[i]) / (2. * h), column[i], 1e-9) << i << ' ' << j;
   }

@@ -2,12 +2,12 @@
 #ifndef taut_mechanism_rigid_body_run_h
 #define taut_mechanism_rigid_body_run_h
 
+#include "one_body.h"
+
 #include <taut/mechanism/rigid_body.h>
-#include <taut/time/stepper.h>
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,17 +16,11 @@ namespace mechanism
   const double pi = std::acos(-1.);
 
   /// A rigid body alone in a system, to which constraints may be added.
-  struct OneBody
+  struct OneBody : verification::OneBody<taut::RigidBody>
   {
     explicit OneBody(const taut::RigidBodyData &data)
+        : verification::OneBody<taut::RigidBody>(data.name, data)
     {
-      system.add(data.name,
-                 [&]
-                 {
-                   auto made = std::make_unique<taut::RigidBody>(data);
-                   body = made.get();
-                   return made;
-                 });
     }
 
     /// Holds a place along x, y and z.
@@ -49,18 +43,11 @@ namespace mechanism
         sum += V[i] * MV[i] - P[i] * U[i];
       return sum;
     }
-
-    taut::System system;
-    const taut::RigidBody *body = nullptr;
   };
 
   inline taut::StepperOptions given(const double step, const std::string &scheme = "automatic")
   {
-    taut::StepperOptions options;
-    options.step = step;
-    options.start = taut::Start::given;
-    options.scheme = scheme;
-    return options;
+    return verification::steps_of(step, taut::Start::given, scheme);
   }
 
   /// R x for a rotation by |turn| about it (Rodrigues).

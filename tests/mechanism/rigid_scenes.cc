@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: the scenes of rigid bodies in prm/ have the numbers that their heads expect. Expected
 // values: closed forms that the heads name.
-#include "verification/run.h"
+#include "verification/scene_tests.h"
 
 #include <taut/mechanism/rigid_body.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
 
 namespace
 {

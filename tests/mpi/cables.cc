@@ -2,10 +2,6 @@
 // Claim: nonlinear cables move on any number of ranks as on one. Source: the run of one process.
 #include "nodes.h"
 
-#include <sstream>
-#include <string>
-#include <vector>
-
 using namespace verification;
 
 namespace

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: what ranks exchange, and the errors that they share, are the same on all of them. Source:
 // sums of whole numbers in closed form; ranks, places and kinds of errors drawn by all ranks alike.
+#include "common.h"
+
 #include <taut/base/communicator.h>
-#include <taut/base/exceptions.h>
 #include <taut/base/rank_abort.h>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <limits>
 #include <new>
-#include <random>
 #include <stdexcept>
-#include <string>
 
 namespace
 {

@@ -2,16 +2,9 @@
 #ifndef taut_mpi_nodes_h
 #define taut_mpi_nodes_h
 
-#include "../verification/run.h"
+#include "verification/scene_tests.h"
 
 #include <taut/scene/contact_surface.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <vector>
 
 namespace verification
 {
@@ -47,13 +40,7 @@ namespace verification
   /// Largest difference over the largest number.
   inline double relative_difference(const std::vector<double> &a, const std::vector<double> &b)
   {
-    EXPECT_EQ(a.size(), b.size());
-    double size = 0., error = 0.;
-    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
-    {
-      size = std::max(size, std::fabs(a[i]));
-      error = std::isnan(b[i]) ? INFINITY : std::max(error, std::fabs(a[i] - b[i]));
-    }
+    const double size = largest(a), error = largest_difference(a, b);
     return size > 0. ? error / size : error;
   }
 } // namespace verification

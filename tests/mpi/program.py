@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Every scene of prm/ gives on several ranks the output, the files and the numbers of one process; so do mistakes."""
-import argparse
 import math
 import pathlib
 import re
@@ -10,28 +9,20 @@ import sys
 import tempfile
 
 sys.path.append(str(pathlib.Path(__file__).parents[1]))
-from tables import largest_difference
+from checks import entries, errors, largest_difference, on_ranks, parse
 
-parser = argparse.ArgumentParser(description=__doc__)
-parser.add_argument("--program", required=True)
-parser.add_argument("--mpiexec", required=True)
-parser.add_argument("--prm", type=pathlib.Path, required=True)
-arguments = parser.parse_args()
+arguments = parse(__doc__, "program", "mpiexec", "prm")
 
 # Times of the computer, residuals of rounding, where mpirun has its say.
 VOLATILE = re.compile(r"real time|Results in|residual|Certificate|^\s*\d+ %|with output|without output")
 SHORT = {  # what makes a long scene short
     "bouncing_bar": ["Time/End=1.3"],
 }
-errors = []
 
 
 def run(ranks, options):
-    command = [arguments.program, *options]
-    if ranks > 1:
-        command = [arguments.mpiexec, "-np", str(ranks), *command]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=300)
-    return done
+    command = on_ranks(arguments.mpiexec, ranks, [arguments.program, *options])
+    return subprocess.run(command, capture_output=True, text=True, timeout=300)
 
 
 def words(text):
@@ -60,9 +51,7 @@ def file_names(folder):
 
 
 def check_scene(scene, folder):
-    options = [str(scene), "--overwrite"]
-    for setting in SHORT.get(scene.stem, []):
-        options += ["--set", setting]
+    options = [scene, "--overwrite", *entries(*SHORT.get(scene.stem, []))]
     outputs = {}
     # Three ranks once with a moving contact, once with fewer bodies than ranks.
     several = (2, 3) if scene.stem in ("en50318_2002_250", "oscillator_with_stop") else (2,)

@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: answers do not depend on the number of ranks and parts. Source: the run of one process
 // without cuts.
-#include "../verification/run.h"
+#include "common.h"
+#include "verification/scene_tests.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <functional>
 #include <limits>
-#include <numeric>
-#include <vector>
 
 using namespace verification;
 
@@ -67,23 +61,6 @@ namespace
           is_start = false;
         });
     return result;
-  }
-
-  double largest(const std::vector<double> &x)
-  {
-    double size = 0.;
-    for (const double v : x)
-      size = std::max(size, std::fabs(v));
-    return size;
-  }
-
-  double difference(const std::vector<double> &a, const std::vector<double> &b)
-  {
-    EXPECT_EQ(a.size(), b.size());
-    double error = 0.;
-    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
-      error = std::isnan(b[i]) ? INFINITY : std::max(error, std::fabs(a[i] - b[i]));
-    return error;
   }
 
   /// Links whose state differs although they are clearly open or closed in one of the runs.
@@ -211,9 +188,9 @@ namespace
   {
     const double tolerance = std::max(1e-9, bound);
     const double way = largest(one.displacement);
-    const double u = difference(one.displacement, many.displacement) / way,
-                 d = difference(one.gap, many.gap) / std::max(way, largest(one.gap)),
-                 f = difference(one.force, many.force) / largest(one.force);
+    const double u = largest_difference(one.displacement, many.displacement) / way,
+                 d = largest_difference(one.gap, many.gap) / std::max(way, largest(one.gap)),
+                 f = largest_difference(one.force, many.force) / largest(one.force);
     EXPECT_LT(u, tolerance);
     EXPECT_LT(d, tolerance);
     EXPECT_LT(f, 100. * tolerance);
@@ -278,7 +255,7 @@ TEST(Ranks, probes_and_forces_of_supports_are_the_same)
   for (const int i : {0, 1})
   {
     ASSERT_GT(largest(one[i]), 0.);
-    const double error = difference(one[i], many[i]) / largest(one[i]);
+    const double error = largest_difference(one[i], many[i]) / largest(one[i]);
     EXPECT_LT(error, i == 0 ? 1e-9 : 1e-7);
     figure(where + (i == 0 ? "probes" : "forces of supports"), error);
   }

@@ -3,9 +3,6 @@
 // process without cuts.
 #include "nodes.h"
 
-#include <string>
-#include <vector>
-
 using namespace verification;
 
 namespace

@@ -3,7 +3,6 @@
 """Runs that end by kill -9 at a random moment and are resumed, again and again until one gets to its end, have the files
 of a run that nobody touched, byte for byte; on another number of ranks to 1e-9. A checkpoint that cannot be used is one
 clear error, and what is in the folder stays."""
-import argparse
 import os
 import pathlib
 import random
@@ -16,22 +15,10 @@ import tempfile
 import time
 
 sys.path.append(str(pathlib.Path(__file__).parents[1]))
-from tables import largest_difference
+from checks import entries, expect, finish, largest_difference, on_ranks, parse
 
-parser = argparse.ArgumentParser(description=__doc__)
-parser.add_argument("--program", required=True)
-parser.add_argument("--mpiexec", required=True)
-parser.add_argument("--prm", type=pathlib.Path, required=True)
-parser.add_argument("--serial", type=int, default=0, help="runs of one process that are killed")
-parser.add_argument("--parallel", type=int, default=0, help="runs of two ranks that are killed")
-parser.add_argument("--bad", action="store_true", help="checkpoints that cannot be used")
-parser.add_argument("--seed", type=int, default=1)
-arguments = parser.parse_args()
-
-
-def entries(**values):
-    return [item for path, value in values.items() for item in ("--set", f"{path.replace('__', '/').replace('_', ' ')}={value}")]
-
+arguments = parse(__doc__, "program", "mpiexec", "prm", serial=(0, "runs of one process that are killed"),
+                  parallel=(0, "runs of two ranks that are killed"), bad=(False, "checkpoints that cannot be used"), seed=(1, ""))
 
 LINE = "en50318_2002_250.prm"
 CONTACT = "Catenary/Pantograph pantograph/Contact stiffness"
@@ -57,17 +44,11 @@ SCENES = [
                                         Body_contact_wire__Geometry="linearised")],
     ["line_of_cables_with_weights.prm", *entries(Time__End=0.1, Statistics__Window="", Output__Checkpoint_interval=0.02)],
 ]
-errors = []
-
-
-def expect(what, is_true, found=""):
-    if not is_true:
-        errors.append(f"{what}: {str(found)[:1500]}")
 
 
 def command(options, ranks):
-    own = [arguments.program, str(arguments.prm / options[0]), *options[1:], "--set", "Output/Folder=results"]
-    return own if ranks == 1 else [arguments.mpiexec, "-np", str(ranks), *own]
+    own = [arguments.program, arguments.prm / options[0], *options[1:], *entries("Output/Folder=results")]
+    return on_ranks(arguments.mpiexec, ranks, own)
 
 
 def run(folder, options, ranks=1):
@@ -275,4 +256,4 @@ with tempfile.TemporaryDirectory() as name:
     if arguments.bad:
         check_bad(folder)
 
-sys.exit("\n".join(errors) or None)
+finish()

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Sweeps: each line has the quantities of a run of its own, though the cases share what they have in common; the table is the same, byte for byte, for 1, 2 and 4 workers,
 and when the sweep is killed and resumed; a case that fails is a line; mistakes are one line of error each."""
-import argparse
 import csv
 import json
 import os
@@ -15,23 +14,15 @@ import sys
 import tempfile
 import time
 
-parser = argparse.ArgumentParser(description=__doc__)
-parser.add_argument("--program", required=True)
-parser.add_argument("--mpiexec", required=True)
-parser.add_argument("--prm", type=pathlib.Path, required=True)
-parser.add_argument("--plot", required=True, help="taut-plot")
-arguments = parser.parse_args()
-errors = []
+sys.path.append(str(pathlib.Path(__file__).parents[1]))
+from checks import entries, errors, expect, finish, on_ranks, parse
+
+arguments = parse(__doc__, "program", "mpiexec", "prm", "plot")
 # taut-plot needs matplotlib; there may be another Python before Debian's own.
 PYTHON = next((python for python in (sys.executable, "/usr/bin/python3")
                if subprocess.run([python, "-c", "import matplotlib"], capture_output=True).returncode == 0), sys.executable)
 SCENE = (arguments.prm / "oscillator_with_stop.prm").read_text()
 MASS, STIFFNESS, STEP = "Network/Mass mass/Mass", "Network/Spring spring/Stiffness", "Time/Step"
-
-
-def expect(what, is_true, found=""):
-    if not is_true:
-        errors.append(f"{what}: {str(found)[:1500]}")
 
 
 def scene(folder, name, parameters, **entries):
@@ -45,9 +36,7 @@ def scene(folder, name, parameters, **entries):
 
 
 def taut(folder, *options, ranks=1):
-    command = [arguments.program, *options]
-    if ranks > 1:
-        command = [arguments.mpiexec, "-np", str(ranks), *command]
+    command = on_ranks(arguments.mpiexec, ranks, [arguments.program, *options])
     return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=600)
 
 
@@ -159,18 +148,17 @@ def numbers_in(node):
 def check_sharing(folder):
     """The sweep over pantographs, in short: on any number of workers the same bytes, and in each line the numbers of a run of
     its own, to the last bit, though line, wires and parameters are made once."""
-    short = [word for entry in ("Time/End=0.4", "Statistics/Window=65, 80", "Sweep/Samples=7", "Catenary/Uplift positions=80",
-                                "Output/Folder=short") for word in ("--set", entry)]
+    short = entries("Time/End=0.4", "Statistics/Window=65, 80", "Sweep/Samples=7", "Catenary/Uplift positions=80",
+                                "Output/Folder=short")
     name = str((arguments.prm / "en50318_2002_sweep.prm").resolve())
     first = sweep(folder, name, "on_1", *short)
     for ranks in (2, 4):
         expect(f"pantographs on {ranks} workers", sweep(folder, name, f"on_{ranks}", *short, ranks=ranks) == first)
     table = rows(first)
     expect("pantographs", len(table) == 7 and len({row["masses"] for row in table}) == 7, first[:500])
-    entries = {"masses": "Masses", "stiffnesses": "Stiffnesses", "dampings": "Dampings", "speed": "Speed"}
+    names = {"masses": "Masses", "stiffnesses": "Stiffnesses", "dampings": "Dampings", "speed": "Speed"}
     for row in (table[0], table[4], table[6]):
-        values = [word for column, entry in entries.items()
-                  for word in ("--set", f"Catenary/Pantograph pantograph/{entry}={row[column]}")]
+        values = entries(*(f"Catenary/Pantograph pantograph/{entry}={row[column]}" for column, entry in names.items()))
         result = taut(folder, name, *short, *values, "--overwrite")
         expect("a pantograph alone", result.returncode == 0, result.stderr)
         alone = numbers_in(json.loads((folder / "short" / "statistics.json").read_text()))
@@ -240,4 +228,4 @@ with tempfile.TemporaryDirectory() as name:
         folder.mkdir()
         check(folder)
 
-sys.exit("\n".join(errors) or None)
+finish()

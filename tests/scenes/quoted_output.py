@@ -3,18 +3,16 @@
 """README.md and doc/tutorial.md quote what the program prints: every line of a block marked `text` there is a line of the run
 that the page describes, and the parameter file that the tutorial builds up is the one of prm/. Integers are the same,
 decimals to two units of the last digit quoted or a thousandth, residuals at rounding level on both sides."""
-import argparse
 import pathlib
 import re
 import shutil
 import subprocess
 import sys
 
-parser = argparse.ArgumentParser(description=__doc__)
-parser.add_argument("--root", type=pathlib.Path, required=True)
-parser.add_argument("--program", required=True)
-parser.add_argument("--results", type=pathlib.Path, required=True, help="folder that is made anew")
-arguments = parser.parse_args()
+sys.path.append(str(pathlib.Path(__file__).parents[1]))
+from checks import errors, finish, parse
+
+arguments = parse(__doc__, "root", "program", "results")
 arguments.root = arguments.root.resolve()
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w])")
 ROUNDING = 1e-9
@@ -58,7 +56,7 @@ def run(*command):
     return done.stdout.splitlines()
 
 
-errors, n_lines = [], 0
+n_lines = 0
 
 
 def compare(page, quoted, printed):
@@ -118,4 +116,4 @@ if mast_run is None or statements(mast) != statements((arguments.root / "prm" / 
 print(n_lines, "lines compared")
 if n_lines < 20:
     errors.append("hardly a line is quoted")
-sys.exit("\n".join(errors) or None)
+finish()

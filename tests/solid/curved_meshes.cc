@@ -2,50 +2,37 @@
 // Claim: meshes from files follow curves that entries name, and faces of degree 2 that do not are
 // warned of. Source: the radius of a circle and the height of its chords.
 #include "solid/limits_run.h"
-
-#include <gtest/gtest.h>
+#include "solid/mesh_file.h"
 
 using namespace solid_limits;
+using verification::has;
+using verification::MeshFile;
 
 namespace
 {
   /// A quarter of a ring between the radii 1 and 2 in 4 x 2 straight cells; boundary 7 is its inner
   /// side, 8 its outer one, and 6 its two ends.
-  struct QuarterRing
+  struct QuarterRing : MeshFile
   {
-    const std::filesystem::path path =
-        std::filesystem::temp_directory_path() / ("taut_ring_" + std::to_string(getpid()) + ".msh");
-
     QuarterRing()
     {
-      std::ofstream file(path);
-      file.precision(16);
-      file << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n15\n";
       for (int j = 0; j < 3; ++j)
         for (int i = 0; i < 5; ++i)
-          file << 1 + i + 5 * j << ' ' << (1. + .5 * j) * std::cos(M_PI / 8. * i) << ' '
-               << (1. + .5 * j) * std::sin(M_PI / 8. * i) << " 0\n";
-      file << "$EndNodes\n$Elements\n20\n";
-      int n = 0;
-      const auto line = [&](const int id, const int a, const int b)
-      { file << ++n << " 1 2 " << id << ' ' << id << ' ' << a << ' ' << b << '\n'; };
-      for (int i = 0; i < 4; ++i)
+          add_node((1. + .5 * j) * std::cos(M_PI / 8. * i),
+                   (1. + .5 * j) * std::sin(M_PI / 8. * i));
+      for (std::size_t i = 0; i < 4; ++i)
       {
-        line(7, 1 + i, 2 + i);
-        line(8, 11 + i, 12 + i);
+        add(line, 7, {1 + i, 2 + i});
+        add(line, 8, {11 + i, 12 + i});
       }
-      for (int j = 0; j < 2; ++j)
+      for (std::size_t a = 1; a < 11; a += 5)
       {
-        line(6, 1 + 5 * j, 6 + 5 * j);
-        line(6, 5 + 5 * j, 10 + 5 * j);
+        add(line, 6, {a, a + 5});
+        add(line, 6, {a + 4, a + 9});
+        for (std::size_t i = a; i < a + 4; ++i)
+          add(quadrilateral, 0, {i, i + 5, i + 6, i + 1});
       }
-      for (int j = 0; j < 2; ++j)
-        for (int i = 0; i < 4; ++i)
-          file << ++n << " 3 2 0 0 " << 1 + i + 5 * j << ' ' << 6 + i + 5 * j << ' '
-               << 7 + i + 5 * j << ' ' << 2 + i + 5 * j << '\n';
-      file << "$EndElements\n";
     }
-    ~QuarterRing() { std::filesystem::remove(path); }
   };
 } // namespace
 
@@ -58,7 +45,7 @@ TEST(SolidMeshes, a_mesh_from_a_file_follows_a_circle)
   {
     return run(
         scene("equilibrium",
-              body("ring", "File = " + ring.path.string() + "; " + curve,
+              body("ring", "File = " + ring.path() + "; " + curve,
                    "Degree = 2; Symmetry boundaries = 6; Displacement = 8: -1e-4*x, -1e-4*y"),
               "Contact pin: Slave = ring: 7; Obstacle = cylinder; Point = 0, 0; Direction = 0, 0, "
               "1; Radius = 0.99995\n" +
@@ -166,11 +153,8 @@ namespace
 {
   /// A block below y = sqrt(1 - x^2), x up to 0.6 m, of straight quadrilaterals, those below its
   /// top 0.04 m wide: boundary 11 is x = 0, 12 y = 0, 14 the top.
-  struct RoundBlock
+  struct RoundBlock : MeshFile
   {
-    const std::filesystem::path path =
-        std::filesystem::temp_directory_path() / ("taut_top_" + std::to_string(getpid()) + ".msh");
-
     RoundBlock()
     {
       std::vector<double> x = {0.}, part = {1.};
@@ -180,31 +164,22 @@ namespace
         part.push_back(part.back() - height);
       part.back() = 0.;
       const std::size_t nx = x.size(), ny = part.size();
-      std::ofstream file(path);
-      file.precision(16);
-      file << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" << nx * ny << '\n';
       for (std::size_t j = 0; j < ny; ++j)
-        for (std::size_t i = 0; i < nx; ++i)
-          file << 1 + i + nx * j << ' ' << x[i] << ' '
-               << part[ny - 1 - j] * std::sqrt(1. - x[i] * x[i]) << " 0\n";
-      file << "$EndNodes\n$Elements\n" << 2 * (nx - 1) + ny - 1 + (nx - 1) * (ny - 1) << '\n';
-      std::size_t n = 0;
-      const auto line = [&](const int id, const std::size_t a, const std::size_t b)
-      { file << ++n << " 1 2 " << id << ' ' << id << ' ' << 1 + a << ' ' << 1 + b << '\n'; };
-      for (std::size_t i = 0; i + 1 < nx; ++i)
+        for (const double at : x)
+          add_node(at, part[ny - 1 - j] * std::sqrt(1. - at * at));
+      const std::size_t top = nx * (ny - 1);
+      for (std::size_t i = 1; i < nx; ++i)
       {
-        line(12, i, i + 1);
-        line(14, i + nx * (ny - 1), i + 1 + nx * (ny - 1));
+        add(line, 12, {i, i + 1});
+        add(line, 14, {i + top, i + 1 + top});
       }
-      for (std::size_t j = 0; j + 1 < ny; ++j)
-        line(11, nx * j, nx * (j + 1));
-      for (std::size_t j = 0; j + 1 < ny; ++j)
-        for (std::size_t i = 0; i + 1 < nx; ++i)
-          file << ++n << " 3 2 0 0 " << 1 + i + nx * j << ' ' << 2 + i + nx * j << ' '
-               << 2 + i + nx * (j + 1) << ' ' << 1 + i + nx * (j + 1) << '\n';
-      file << "$EndElements\n";
+      for (std::size_t a = 1; a < top; a += nx)
+      {
+        add(line, 11, {a, a + nx});
+        for (std::size_t i = a; i + 1 < a + nx; ++i)
+          add(quadrilateral, 0, {i, i + 1, i + 1 + nx, i + nx});
+      }
     }
-    ~RoundBlock() { std::filesystem::remove(path); }
   };
 
   /// Largest deviation of the pressures of nodes from Hertz' over the largest pressure, within 0.8
@@ -242,7 +217,7 @@ TEST(SolidMeshes, a_cylinder_from_a_file_is_pressed_as_by_hertz)
   const auto pressed = [&](const std::string &curve, const std::string &degree)
   {
     return run(scene("equilibrium",
-                     body("cylinder", "File = " + block.path.string() + "; " + curve,
+                     body("cylinder", "File = " + block.path() + "; " + curve,
                           "Degree = " + degree + "; Symmetry boundaries = 11, 12"),
                      "Contact plate: Slave = cylinder: 14; Obstacle = plane; Point = 0, 1; "
                      "Direction = 0, -1; Gap = -0.04\n" +
@@ -270,42 +245,28 @@ namespace
 {
   /// A shell of 2 x 2 hexahedra between the radii 1 and 2, boundary 7 its inner side; of a sphere,
   /// or of a cylinder about z.
-  struct Shell
+  struct Shell : MeshFile
   {
-    const std::filesystem::path path = std::filesystem::temp_directory_path() /
-                                       ("taut_shell_" + std::to_string(getpid()) + ".msh");
-
     explicit Shell(const bool is_sphere)
     {
-      std::ofstream file(path);
-      file.precision(16);
-      file << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n18\n";
       for (int k = 0; k < 2; ++k)
         for (int j = 0; j < 3; ++j)
           for (int i = 0; i < 3; ++i)
           {
             const double x = .4 * (i - 1), y = .4 * (j - 1), r = 1. + k,
-                         size = std::sqrt(1. + x * x + (is_sphere ? y * y : 0.));
+                         size = std::sqrt(1. + x * x + (is_sphere ? y * y : 0.)) / r;
             // Right-handed: x, y and outwards.
-            file << 1 + i + 3 * j + 9 * k << ' ' << r * x / size << ' ';
             if (is_sphere)
-              file << r * y / size << ' ' << r / size << '\n';
+              add_node(x / size, y / size, 1. / size);
             else
-              file << -r / size << ' ' << y << '\n';
+              add_node(x / size, -1. / size, y);
           }
-      file << "$EndNodes\n$Elements\n8\n";
-      for (int e = 0; e < 8; ++e)
+      for (const std::size_t a : {1, 2, 4, 5})
       {
-        const int a = 1 + e % 2 + 3 * (e / 2 % 2), square[] = {a, a + 1, a + 4, a + 3};
-        file << 1 + e << (e < 4 ? " 3 2 7 7" : " 5 2 0 0");
-        for (int k = 0; k < (e < 4 ? 1 : 2); ++k)
-          for (const int node : square)
-            file << ' ' << node + 9 * k;
-        file << '\n';
+        add(quadrilateral, 7, {a, a + 1, a + 4, a + 3});
+        add(hexahedron, 0, {a, a + 1, a + 4, a + 3, a + 9, a + 10, a + 13, a + 12});
       }
-      file << "$EndElements\n";
     }
-    ~Shell() { std::filesystem::remove(path); }
   };
 } // namespace
 
@@ -318,15 +279,14 @@ TEST(SolidMeshes, hexahedra_follow_a_sphere_and_a_cylinder)
     {
       const Shell shell(is_sphere);
       const std::string curve = is_sphere ? "sphere, 0, 0, 0" : "cylinder, 0, 0, 5, 0, 0, 2";
-      const Ran found =
-          run(scene("given",
-                    body("shell",
-                         "File = " + shell.path.string() +
-                             (follows ? "; Curved boundaries = 7: " + curve : ""),
-                         "Degree = 2; Dimension = 3"),
-                    "Contact pin: Slave = shell: 7; Obstacle = " +
-                        std::string(is_sphere ? "sphere" : "cylinder; Direction = 0, 0, 1") +
-                        "; Point = 0, 0, 0; Radius = 0.5\n" + at_rest));
+      const Ran found = run(scene(
+          "given",
+          body("shell",
+               "File = " + shell.path() + (follows ? "; Curved boundaries = 7: " + curve : ""),
+               "Degree = 2; Dimension = 3"),
+          "Contact pin: Slave = shell: 7; Obstacle = " +
+              std::string(is_sphere ? "sphere" : "cylinder; Direction = 0, 0, 1") +
+              "; Point = 0, 0, 0; Radius = 0.5\n" + at_rest));
       ASSERT_EQ(found.error, "");
       ASSERT_EQ(found.constraints.size(), 25u);
       double least = 2., largest = 0.;

@@ -2,14 +2,9 @@
 // Claim: FETI needs the iterations that theory and others need, and parts of solids hang together.
 // Source: an independent program for the same boxes.
 #include "solid/box_in_parts.h"
-#include "verification/run.h"
+#include "verification/scene_tests.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <set>
-#include <string>
 
 namespace
 {

@@ -4,8 +4,6 @@
 // hand; the same scene without rounding, or by other entries.
 #include "solid/limits_run.h"
 
-#include <gtest/gtest.h>
-
 using namespace solid_limits;
 
 // Claim: a gap that starts at -5.6e-17 m, 0.3 less 0.1 + 0.2, is one of 0 m, without a force of its

@@ -2,24 +2,17 @@
 #ifndef taut_solid_limits_run_h
 #define taut_solid_limits_run_h
 
-#include "verification/run.h"
+#include "verification/scene_tests.h"
 
-#include <taut/base/exceptions.h>
 #include <taut/model/surface_constraints.h>
 
 #include <nlohmann/json.hpp>
 
-#include <unistd.h>
-
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <string>
-#include <vector>
 
 namespace solid_limits
 {
+  using verification::has;
   using verification::Overrides;
 
   struct Ran
@@ -34,44 +27,35 @@ namespace solid_limits
   inline Ran run(const std::string &text, const Overrides &overrides = {})
   {
     Ran result;
-    try
-    {
-      verification::Session session(text, overrides);
-      try
-      {
-        session.run(
-            [&](const taut::StepView &view)
-            {
-              result.forces = view.state.multiplier;
-              result.peaks.resize(result.forces.size(), 0.);
-              for (std::size_t i = 0; i < result.peaks.size(); ++i)
-                result.peaks[i] = std::fmax(result.peaks[i], result.forces[i]);
-              if (result.constraints.empty() && !view.scene.contacts.empty())
-                result.constraints = taut::contact_geometry(view.scene, 0).constraints;
-            });
-      }
-      catch (const taut::UserError &e)
-      {
-        result.error = e.what();
-      }
-      result.log = session.log();
-      if (std::ifstream file(session.folder() + "/statistics.json"); file)
-      {
-        const nlohmann::json all = nlohmann::json::parse(file);
-        for (const auto &warning : all.at("warnings"))
-          result.warnings.push_back(warning.at("kind"));
-      }
-    }
-    catch (const taut::UserError &e)
-    {
-      result.error = e.what();
-    }
+    const std::string refusal = verification::error_of(
+        [&]
+        {
+          verification::Session session(text, overrides);
+          result.error = verification::error_of(
+              [&]
+              {
+                session.run(
+                    [&](const taut::StepView &view)
+                    {
+                      result.forces = view.state.multiplier;
+                      result.peaks.resize(result.forces.size(), 0.);
+                      for (std::size_t i = 0; i < result.peaks.size(); ++i)
+                        result.peaks[i] = std::fmax(result.peaks[i], result.forces[i]);
+                      if (result.constraints.empty() && !view.scene.contacts.empty())
+                        result.constraints = taut::contact_geometry(view.scene, 0).constraints;
+                    });
+              });
+          result.log = session.log();
+          if (std::ifstream file(session.folder() + "/statistics.json"); file)
+          {
+            const nlohmann::json all = nlohmann::json::parse(file);
+            for (const auto &warning : all.at("warnings"))
+              result.warnings.push_back(warning.at("kind"));
+          }
+        });
+    if (!refusal.empty())
+      result.error = refusal;
     return result;
-  }
-
-  inline bool has(const std::string &text, const std::string &part)
-  {
-    return text.find(part) != std::string::npos;
   }
 
   inline std::string body(const std::string &name, const std::string &cells,

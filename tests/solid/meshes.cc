@@ -2,19 +2,14 @@
 // Claim: meshes of gmsh and of generators are what they say, and what is none ends in one error
 // with file, entry and remedy. Expected values: two materials under tension; the stress beside a
 // hole by R. C. J. Howland, Phil. Trans. R. Soc. A 229 (1930), and R. B. Heywood's formula for it.
-#include "verification/run.h"
+#include "solid/mesh_file.h"
+#include "verification/scene_tests.h"
 
-#include <taut/base/exceptions.h>
 #include <taut/scene/contact_surface.h>
 
-#include <gtest/gtest.h>
+#include <array>
 
-#include <unistd.h>
-
-#include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <limits>
+using verification::has;
 
 namespace
 {
@@ -30,37 +25,24 @@ namespace
     return std::string(TAUT_MESH_FOLDER) + "/" + name;
   }
 
-  /// A file with one quadrilateral of these corners, in the format 2.2 of gmsh.
-  class OneCell
+  /// A file with one quadrilateral of these corners.
+  struct OneCell : verification::MeshFile
   {
-  public:
-    explicit OneCell(const std::string &corners)
-        : path(std::filesystem::temp_directory_path() /
-               ("taut_cell_" + std::to_string(getpid()) + ".msh"))
+    explicit OneCell(const std::vector<std::array<double, 2>> &corners)
     {
-      std::ofstream(path) << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n"
-                          << corners
-                          << "$EndNodes\n$Elements\n2\n1 1 2 11 1 1 2\n2 3 2 1 1 1 2 3 4\n"
-                             "$EndElements\n";
+      for (const auto &[x, y] : corners)
+        add_node(x, y);
+      add(line, 11, {1, 2});
+      add(quadrilateral, 1, {1, 2, 3, 4});
     }
-    ~OneCell() { std::filesystem::remove(path); }
-    const std::filesystem::path path;
   };
 
   void expect_error(const std::string &text, const std::vector<std::string> &parts)
   {
-    try
-    {
-      verification::Session session(text);
-      session.run([](const taut::StepView &) {});
-      ADD_FAILURE() << "no error: " << text;
-    }
-    catch (const taut::UserError &e)
-    {
-      for (const std::string &part : parts)
-        EXPECT_NE(std::string(e.what()).find(part), std::string::npos)
-            << part << " in " << e.what();
-    }
+    const std::string error = verification::error_of([&] { verification::Session(text).run(); });
+    EXPECT_NE(error, "") << text;
+    for (const std::string &part : parts)
+      EXPECT_TRUE(has(error, part)) << part << " in " << error;
   }
 
   /// Points of the boundary and their displacements along x in the equilibrium.
@@ -163,16 +145,14 @@ TEST(SolidMeshes, that_are_none_end_in_one_error)
   wrong_materials("77: 1e9, 0, 0", "cells of material 1, of which no material is given");
   wrong_materials("1: 1e9, 0, 0; 2: 1e9, 0, 0; 1: 2e9, 0, 0", "material 1 is given twice");
   wrong_materials("-1: 1e9, 0, 0", "does not begin with the number of an id");
-  for (const std::string corners :
-       {"1 0 0 0\n2 1 0 0\n3 2 0 0\n4 3 0 0\n", "1 0 0 0\n2 1 0 0\n3 0 1 0\n4 1 1 0\n",
-        "1 0 0 0\n2 1 0 0\n3 0.1 0.1 0\n4 0 1 0\n"})
-  {
-    const OneCell cell(corners);
-    expect_error(scene(one_material, file + cell.path.string()), {"Body plate/Mesh/File"});
-  }
+  using Corners = std::vector<std::array<double, 2>>;
+  for (const Corners &corners : {Corners{{0., 0.}, {1., 0.}, {2., 0.}, {3., 0.}},
+                                 Corners{{0., 0.}, {1., 0.}, {0., 1.}, {1., 1.}},
+                                 Corners{{0., 0.}, {1., 0.}, {.1, .1}, {0., 1.}}})
+    expect_error(scene(one_material, file + OneCell(corners).path()), {"Body plate/Mesh/File"});
   // One that runs the other way round is turned.
-  const OneCell clockwise("1 0 0 0\n2 0 1 0\n3 1 1 0\n4 1 0 0\n");
-  EXPECT_EQ(equilibrium(scene(one_material, file + clockwise.path.string())).points.size(), 4u);
+  const OneCell clockwise({{0., 0.}, {0., 1.}, {1., 1.}, {1., 0.}});
+  EXPECT_EQ(equilibrium(scene(one_material, file + clockwise.path())).points.size(), 4u);
 }
 
 TEST(SolidMeshes, of_plates_with_a_hole_are_checked)

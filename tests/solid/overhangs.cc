@@ -4,8 +4,6 @@
 // lateral contraction between plates, where all is the pressure on top.
 #include "solid/limits_run.h"
 
-#include <gtest/gtest.h>
-
 using namespace solid_limits;
 
 namespace
@@ -23,26 +21,23 @@ namespace
   {
     Pressures result;
     verification::Session session(text);
-    try
-    {
-      session.run(
-          [&](const taut::StepView &view)
-          {
-            std::size_t row = 0;
-            for (std::size_t c = 0; c < view.scene.contacts.size(); ++c)
-              for (const taut::SurfaceConstraint &s :
-                   taut::contact_geometry(view.scene, c).constraints)
+    result.error = verification::error_of(
+        [&]
+        {
+          session.run(
+              [&](const taut::StepView &view)
               {
-                const double p = view.state.multiplier[row++] / s.area / pressure;
-                result.least = std::fmin(result.least, p);
-                result.largest = std::fmax(result.largest, p);
-              }
-          });
-    }
-    catch (const taut::UserError &e)
-    {
-      result.error = e.what();
-    }
+                std::size_t row = 0;
+                for (std::size_t c = 0; c < view.scene.contacts.size(); ++c)
+                  for (const taut::SurfaceConstraint &s :
+                       taut::contact_geometry(view.scene, c).constraints)
+                  {
+                    const double p = view.state.multiplier[row++] / s.area / pressure;
+                    result.least = std::fmin(result.least, p);
+                    result.largest = std::fmax(result.largest, p);
+                  }
+              });
+        });
     result.log = session.log();
     result.is_named = has(result.log, "Warning: contact");
     return result;

@@ -1,22 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: contacts of surfaces pass on forces as exact solutions do. Sources: the patch test,
 // Hertz's cylinder and ball.
+#include "solid/mesh_file.h"
 #include "solid/wavy_floor.h"
-#include "verification/run.h"
+#include "verification/scene_tests.h"
 
 #include <taut/model/surface_constraints.h>
-
-#include <gtest/gtest.h>
-
-#include <unistd.h>
-
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-#include <string>
-#include <vector>
 
 namespace
 {
@@ -114,53 +103,38 @@ namespace
 
   /// A mesh in gmsh's format of a square from -1 to 1 in 16 x 16 cells with a slit in x = 0, y < 0.
   /// Boundaries: 1 and 2 are its left and right side, 3 is the rest.
-  struct SlitSquare
+  struct SlitSquare : verification::MeshFile
   {
-    const std::filesystem::path path =
-        std::filesystem::temp_directory_path() / ("taut_slit_" + std::to_string(getpid()) + ".msh");
-
     SlitSquare()
     {
-      constexpr int n = 16, middle = n / 2;
+      constexpr std::size_t n = 16, middle = n / 2;
       // Nodes of the right side come after all others.
-      const auto node = [](const int i, const int j, const bool is_right) {
+      const auto node = [](const std::size_t i, const std::size_t j, const bool is_right) {
         return 1 +
                (i == middle && j < middle && is_right ? (n + 1) * (n + 1) + j : i + (n + 1) * j);
       };
-      std::ostringstream points, elements;
-      const auto add_point = [&](const int number, const int i, const int j)
-      { points << number << ' ' << 2. * i / n - 1. << ' ' << 2. * j / n - 1. << " 0\n"; };
-      int n_elements = 0;
-      const auto add_line = [&](const int id, const int a, const int b)
-      { elements << ++n_elements << " 1 2 " << id << ' ' << id << ' ' << a << ' ' << b << '\n'; };
-      for (int j = 0; j <= n; ++j)
-        for (int i = 0; i <= n; ++i)
-          add_point(node(i, j, false), i, j);
-      for (int j = 0; j < middle; ++j)
+      for (std::size_t j = 0; j <= n; ++j)
+        for (std::size_t i = 0; i <= n; ++i)
+          add_node(2. * i / n - 1., 2. * j / n - 1.);
+      for (std::size_t j = 0; j < middle; ++j)
       {
-        add_point(node(middle, j, true), middle, j);
-        add_line(1, node(middle, j, false), node(middle, j + 1, false));
-        add_line(2, node(middle, j, true), node(middle, j + 1, true));
+        add_node(2. * middle / n - 1., 2. * j / n - 1.);
+        add(line, 1, {node(middle, j, false), node(middle, j + 1, false)});
+        add(line, 2, {node(middle, j, true), node(middle, j + 1, true)});
       }
-      for (int i = 0; i < n; ++i)
+      for (std::size_t i = 0; i < n; ++i)
       {
         const bool is_right = i >= middle;
-        add_line(3, node(i, 0, is_right), node(i + 1, 0, is_right));
-        add_line(3, node(i, n, false), node(i + 1, n, false));
-        add_line(3, node(0, i, false), node(0, i + 1, false));
-        add_line(3, node(n, i, false), node(n, i + 1, false));
-        for (int j = 0; j < n; ++j)
-          elements << ++n_elements << " 3 2 0 0 " << node(i, j, is_right) << ' '
-                   << node(i + 1, j, is_right) << ' ' << node(i + 1, j + 1, is_right) << ' '
-                   << node(i, j + 1, is_right) << '\n';
+        add(line, 3, {node(i, 0, is_right), node(i + 1, 0, is_right)});
+        add(line, 3, {node(i, n, false), node(i + 1, n, false)});
+        add(line, 3, {node(0, i, false), node(0, i + 1, false)});
+        add(line, 3, {node(n, i, false), node(n, i + 1, false)});
+        for (std::size_t j = 0; j < n; ++j)
+          add(quadrilateral, 0,
+              {node(i, j, is_right), node(i + 1, j, is_right), node(i + 1, j + 1, is_right),
+               node(i, j + 1, is_right)});
       }
-      std::ofstream(path) << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n"
-                          << (n + 1) * (n + 1) + middle << '\n'
-                          << points.str() << "$EndNodes\n$Elements\n"
-                          << n_elements << '\n'
-                          << elements.str() << "$EndElements\n";
     }
-    ~SlitSquare() { std::filesystem::remove(path); }
   };
 } // namespace
 
@@ -230,7 +204,7 @@ TEST(SurfaceContacts, a_slit_is_pressed_shut)
     const Found found = equilibrium(R"(Generator = network; Gravity = 0, 0; Start = equilibrium
 Body square: Type = solid; Young's modulus = 1e9; Poisson's ratio = 0.3; Density = 2000;
   Displacement = 3: -1e-3*x, 0
-Body square/Mesh: File = )" + mesh.path.string() +
+Body square/Mesh: File = )" + mesh.path() +
                                     R"(
 Contact slit: Slave = square: 1; Master = square: 2
 Time: End = 0

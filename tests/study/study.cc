@@ -2,31 +2,26 @@
 // Claim: a study measures errors that are the real ones (free oscillator, u = cos(w t)), its
 // refined reference is as far from the exact value as it says, a setting that fails is a row, and
 // Accuracy takes the cheapest setting of a study of the same scene and of no other.
-#include "verification/error_of.h"
+#include "common.h"
 #include "verification/scene_builder.h"
 
-#include <taut/base/exceptions.h>
 #include <taut/simulation/simulation.h>
 #include <taut/study/study.h>
-
-#include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
 #include <unistd.h>
 
-#include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <limits>
-#include <sstream>
 
 namespace
 {
   namespace fs = std::filesystem;
   using Texts = std::vector<std::string>;
   using verification::error_of;
+  using verification::has;
   using verification::prm;
 
   // w = 10 1/s; at t = 1.3 s the mass is at cos(13) m.
@@ -71,9 +66,8 @@ Quantity motion: Of = place; Quantity = history
     static void expect_fragments(const std::string &message, const Texts &fragments)
     {
       for (const std::string &fragment : fragments)
-        EXPECT_NE(message.find(fragment), std::string::npos)
-            << "'" << fragment << "' is not in '" << message << "'";
-      EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+        EXPECT_TRUE(has(message, fragment)) << "'" << fragment << "' is not in '" << message << "'";
+      EXPECT_FALSE(has(message, "\n")) << message;
     }
 
     /// Of a run by itself [m].
@@ -213,9 +207,8 @@ TEST_F(StudyTest, a_setting_that_fails_is_a_row_with_its_reason)
       expect_fragments(setting.message, {"Time/Scheme = 'Euler' is not allowed"});
   }
   EXPECT_EQ(n_failed, 3);
-  std::ifstream table("results/study/work_precision.csv");
-  const std::string text(std::istreambuf_iterator<char>(table), {});
-  EXPECT_NE(text.find("shorter than one step"), std::string::npos);
+  const std::string text = verification::file_text("results/study/work_precision.csv");
+  EXPECT_TRUE(has(text, "shorter than one step"));
 }
 
 TEST_F(StudyTest, a_step_that_does_not_divide_the_run_is_measured_to_its_last_step)
@@ -296,7 +289,7 @@ TEST_F(StudyTest, accuracy_takes_the_cheapest_setting_that_has_it)
 
   again.read("scene.prm", {"Study/Accuracy=0.02", "Study/Folder=elsewhere"});
   taut::Simulation(again, said).check();
-  EXPECT_NE(said.str().find(again.accuracy_choice()), std::string::npos);
+  EXPECT_TRUE(has(said.str(), again.accuracy_choice()));
 }
 
 TEST_F(StudyTest, accuracy_refuses_a_study_of_another_scene)

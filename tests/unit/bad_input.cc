@@ -2,24 +2,16 @@
 // Claim: a mistake in the input is one error of one line that names file, line, entry, value and
 // remedy; results of an earlier run are as they were. Source: the rows of bad_input.txt and the
 // table below; each case changes a scene that runs.
+#include "common.h"
 #include "verification/scene_builder.h"
 
 #include <taut/simulation/simulation.h>
 
-#include <gtest/gtest.h>
-
 #include <unistd.h>
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <set>
-#include <sstream>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace
 {
@@ -291,9 +283,9 @@ namespace
   void expect_fragments(const std::string &message, const Texts &fragments)
   {
     EXPECT_NE(message, "") << "accepted";
-    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    EXPECT_FALSE(verification::has(message, "\n")) << message;
     for (const std::string &fragment : fragments)
-      EXPECT_NE(message.find(fragment), std::string::npos)
+      EXPECT_TRUE(verification::has(message, fragment))
           << "'" << fragment << "' is missing in: " << message;
   }
 
@@ -416,14 +408,14 @@ TEST_F(BadInput, EntriesOfAnotherSchemeAreSaidNotToBeUsed)
   for (const char *sentence :
        {"  not used by it: Time/Generalised-alpha/Spectral radius = 0.5\n",
         "# Not used by it: Time/Generalised-alpha/Spectral radius = 0.5\n", "# The scheme was "})
-    EXPECT_NE(said.find(sentence), std::string::npos) << said;
+    EXPECT_TRUE(verification::has(said, sentence)) << said;
   // A default is not worth a word, however it is written.
-  EXPECT_EQ(log_and_used({"Time.Generalised-alpha.Spectral radius=0.80"}).find("ot used by it"),
-            std::string::npos);
-  EXPECT_EQ(log_and_used({"Time.Scheme=generalised-alpha", "Time.Allow unsuitable scheme=true",
-                          "Time.Generalised-alpha.Spectral radius=0.5"})
-                .find("ot used by it"),
-            std::string::npos);
+  EXPECT_FALSE(verification::has(log_and_used({"Time.Generalised-alpha.Spectral radius=0.80"}),
+                                 "ot used by it"));
+  EXPECT_FALSE(verification::has(
+      log_and_used({"Time.Scheme=generalised-alpha", "Time.Allow unsuitable scheme=true",
+                    "Time.Generalised-alpha.Spectral radius=0.5"}),
+      "ot used by it"));
 }
 
 TEST_F(BadInput, ARunThatFailsKeepsWhatItHad)
@@ -435,5 +427,5 @@ TEST_F(BadInput, ARunThatFailsKeepsWhatItHad)
   for (std::string line; std::getline(lines, line);)
     ++n;
   EXPECT_EQ(n, 4) << "head, start and two steps";
-  EXPECT_NE(content("results/statistics.json").find("\"partial\": true"), std::string::npos);
+  EXPECT_TRUE(verification::has(content("results/statistics.json"), "\"partial\": true"));
 }

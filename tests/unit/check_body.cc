@@ -2,17 +2,13 @@
 // Claim: check_body() finds nothing in a body whose energy, forces and tangents belong together,
 // and names the function of each that do not. Source: a chain of springs with a cubic law, whose
 // functions are derivatives of its energy by hand; mistakes of a thousandth in each of them.
-#include <taut/base/exceptions.h>
+#include "common.h"
+
 #include <taut/cable/cable.h>
 #include <taut/mechanism/rigid_body.h>
 #include <taut/substructure/check_body.h>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <map>
-#include <string>
-#include <vector>
 
 namespace
 {
@@ -176,7 +172,7 @@ TEST(CheckBody, finds_each_mistake)
     if (name.empty())
       EXPECT_EQ(found, "");
     else
-      EXPECT_NE(found.find("body 'row': " + name), std::string::npos) << found;
+      EXPECT_TRUE(verification::has(found, "body 'row': " + name)) << found;
   }
 }
 
@@ -207,7 +203,7 @@ TEST(CheckBody, linear_bodies_and_their_null_space)
   const Vector U = some_displacement(4, 3.);
   EXPECT_EQ(text_of(taut::check_body(Row(4, Mistake::none, true), U)), "");
   const std::string found = text_of(taut::check_body(Row(4, Mistake::null_space, true), U));
-  EXPECT_NE(found.find("null_space()"), std::string::npos) << found;
+  EXPECT_TRUE(verification::has(found, "null_space()")) << found;
 }
 
 TEST(CheckBody, bodies_of_the_library_are_sound)

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: the complementarity solvers solve 10 000 generated problems. Source: residuals computed
 // here, from the raw matrix and in long double. The seed is printed; TAUT_SEED sets another one.
+#include "common.h"
 #include "complementarity_reference.h"
 
-#include <taut/base/exceptions.h>
 #include <taut/complementarity/solver.h>
-
-#include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <iostream>
-#include <numeric>
-#include <random>
 
 namespace
 {

@@ -6,6 +6,7 @@
 #include <taut/scene/contact_surface.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -28,6 +29,20 @@ namespace contact_meshes
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
   }
 
+  using Curve = std::function<Coordinates(double)>;
+
+  /// y = f(x) of x.
+  inline Curve graph(const std::function<double(double)> &f)
+  {
+    return [f](const double x) { return Coordinates{x, f(x), 0.}; };
+  }
+
+  /// A line at a height.
+  inline Curve level(const double y)
+  {
+    return graph([y](double) { return y; });
+  }
+
   /// Positions of the ends of @p n edges from @p begin to @p end; none is shorter than a fifth of
   /// their mean.
   inline std::vector<double> random_grid(const unsigned int n, const double begin, const double end,
@@ -46,8 +61,7 @@ namespace contact_meshes
   /// A surface of edges on a curve; nodes are numbered at random, edges turned at random.
   /// @p left: the body is on the right of the curve, and outwards is to its left.
   inline ContactSurface on_curve(const std::vector<double> &grid, const unsigned int degree,
-                                 const std::function<Coordinates(double)> &curve, const bool left,
-                                 std::mt19937 &random)
+                                 const Curve &curve, const bool left, std::mt19937 &random)
   {
     ContactSurface surface;
     surface.name = left ? "lower" : "upper";
@@ -75,6 +89,20 @@ namespace contact_meshes
       surface.faces.push_back(face);
     }
     return surface;
+  }
+
+  /// One surface of two that share no node.
+  inline void append(ContactSurface &surface, const ContactSurface &more)
+  {
+    const auto n = static_cast<unsigned int>(surface.points.size());
+    surface.points.insert(surface.points.end(), more.points.begin(), more.points.end());
+    for (std::vector<unsigned int> face : more.faces)
+    {
+      for (unsigned int &node : face)
+        node += n;
+      surface.faces.push_back(face);
+    }
+    surface.outward.insert(surface.outward.end(), more.outward.begin(), more.outward.end());
   }
 
   /// Forces of pressure p = N / area on the nodes of one side.
@@ -141,6 +169,14 @@ namespace contact_meshes
     for (const taut::NodeWeight &w : c.master)
       d += dot(w.weight, u_master(master.points[w.node]));
     return d;
+  }
+
+  /// Duration of some work [s].
+  inline double seconds_of(const std::function<void()> &work)
+  {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 
   inline double total_area(const std::vector<SurfaceConstraint> &constraints)

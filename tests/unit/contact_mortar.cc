@@ -103,17 +103,16 @@ namespace
   TEST(Mortar, PunchInsideAnEdge)
   {
     std::mt19937 random(2);
-    const auto line = [](const double s) { return Coordinates{s, 0., 0.}; };
     for (const unsigned int degree : {1u, 2u})
       for (const double width : {.5, .1, 1e-3, 1e-6})
       {
         Pair pair;
         pair.origin = {};
         pair.direction = {1., 0., 0.};
-        pair.lower = on_curve({0., 1.}, degree, line, true, random);
+        pair.lower = on_curve({0., 1.}, degree, level(0.), true, random);
         pair.begin = .3;
         pair.end = .3 + width;
-        pair.upper = on_curve({.3, .3 + width}, 1, line, false, random);
+        pair.upper = on_curve({.3, .3 + width}, 1, level(0.), false, random);
         expect_patch(pair, true);
         const Constraints constraints = mortar_constraints(pair.lower, pair.upper);
         EXPECT_GE(constraints.size(), 2u);
@@ -128,17 +127,12 @@ namespace
   TEST(Mortar, HolesInsideAnEdge)
   {
     std::mt19937 random(3);
-    const auto line = [](const double s) { return Coordinates{s, 0., 0.}; };
     for (const unsigned int degree : {1u, 2u})
       for (const double width : {.3, 1e-3, 1e-6})
       {
-        const ContactSurface slave = on_curve({0., 1., 2.}, degree, line, true, random);
-        ContactSurface master = on_curve({.1, .1 + width}, 1, line, false, random);
-        const ContactSurface piece = on_curve({.6, 1.8}, 1, line, false, random);
-        for (unsigned int i = 0; i < 2; ++i)
-          master.points.push_back(piece.points[i]);
-        master.faces.push_back({piece.faces[0][0] + 2, piece.faces[0][1] + 2});
-        master.outward.push_back(piece.outward[0]);
+        const ContactSurface slave = on_curve({0., 1., 2.}, degree, level(0.), true, random);
+        ContactSurface master = on_curve({.1, .1 + width}, 1, level(0.), false, random);
+        append(master, on_curve({.6, 1.8}, 1, level(0.), false, random));
         const Constraints constraints = mortar_constraints(slave, master);
         EXPECT_NEAR(total_area(constraints), width + 1.2, exact);
         const Coordinates down = {0., -1., 0.};
@@ -164,21 +158,12 @@ namespace
       for (const double part : {1e-6, .01, .05, .3, .6, 1.})
       {
         const std::vector<double> grid = random_grid(5, 0., 1., random);
-        const ContactSurface slave = on_curve(
-            grid, degree,
-            [](const double s) {
-              return Coordinates{s, 0., 0.};
-            },
-            true, random);
+        const ContactSurface slave = on_curve(grid, degree, level(0.), true, random);
         const auto f = [degree](const double x)
         { return .02 + .1 * x + (degree == 2 ? .05 * x * x : 0.); };
         const double begin = grid[1] - part * (grid[1] - grid[0]);
-        const ContactSurface master = on_curve(
-            random_grid(4, begin, 1.3, random), degree,
-            [&f](const double s) {
-              return Coordinates{s, f(s), 0.};
-            },
-            false, random);
+        const ContactSurface master =
+            on_curve(random_grid(4, begin, 1.3, random), degree, graph(f), false, random);
         const Constraints constraints = mortar_constraints(slave, master);
         double moment[2] = {};
         for (const SurfaceConstraint &c : constraints)

@@ -2,14 +2,11 @@
 // Claim: nodal constraints against rigid obstacles have exact distances, positive areas that add up
 // to those of the faces, and the consistent loads of a uniform pressure. Expected: closed forms,
 // and quadrature of the shape functions' own.
+#include "common.h"
 #include "contact_meshes_space.h"
-#include <taut/base/exceptions.h>
+
 #include <taut/solid/contact_constraints.h>
 #include <taut/solid/rigid_obstacle.h>
-
-#include <gtest/gtest.h>
-
-#include <string>
 
 namespace
 {
@@ -265,12 +262,7 @@ namespace
           obstacle_constraints(block, taut::PlaneObstacle({0., -.1, 0.}, {0., 1., 0.}), .5);
       EXPECT_EQ(constraints.size(), 3 * degree + 1);
       EXPECT_NEAR(total_area(constraints), .5, exact);
-      const ContactSurface bottom = on_curve(
-          {0., .3, .4, 1.}, degree,
-          [](const double s) {
-            return Coordinates{s, 0., 0.};
-          },
-          false, random);
+      const ContactSurface bottom = on_curve({0., .3, .4, 1.}, degree, level(0.), false, random);
       const Vectors expected = consistent_loads(bottom, {}, {1., 0., 0.}, 0., 1., {0., .5, 0.});
       for (const SurfaceConstraint &c : constraints)
         for (std::size_t i = 0; i < expected.size(); ++i)
@@ -285,20 +277,11 @@ namespace
   {
     std::mt19937 random(5);
     const ContactSurface surface = square({1, false}, 2, random);
-    const auto message = [&surface](const taut::RigidObstacle &obstacle, const double distance)
-    {
-      try
-      {
-        obstacle_constraints(surface, obstacle, 1., distance);
-      }
-      catch (const taut::UserError &e)
-      {
-        return std::string(e.what());
-      }
-      return std::string();
+    const auto message = [&surface](const taut::RigidObstacle &obstacle, const double distance) {
+      return verification::error_of([&] { obstacle_constraints(surface, obstacle, 1., distance); });
     };
     const auto has = [](const std::string &text, const std::string &part)
-    { EXPECT_NE(text.find(part), std::string::npos) << text; };
+    { EXPECT_TRUE(verification::has(text, part)) << text; };
     const taut::PlaneObstacle below({0., 0., -1.}, {0., 0., 1.}),
         above({0., 0., 1.}, {0., 0., -1.});
     EXPECT_EQ(message(below, 2.), "");

@@ -2,8 +2,7 @@
 // Claim: what a program or a scene of a plugin says that makes no sense is one UserError that names
 // the body, the constraint or the item, and what was there before is as it was. Source: the tables
 // below; what is not wrong in them runs.
-#include "verification/error_of.h"
-
+#include "common.h"
 #include "fuzz/door_bodies.h"
 
 #include <taut/cable/cable.h>
@@ -12,16 +11,10 @@
 #include <taut/time/stepper.h>
 #include <taut/wire/wire_component.h>
 
-#include <gtest/gtest.h>
-
-#include <functional>
-#include <string>
-#include <utility>
-#include <vector>
-
 namespace
 {
   using verification::error_of;
+  using verification::has;
   using namespace door;
   using taut::Constraint;
   using taut::Scene;
@@ -29,9 +22,8 @@ namespace
   void expect_refused(const std::function<void()> &work, const std::string &name)
   {
     const std::string message = error_of(work);
-    EXPECT_NE(message.find(name), std::string::npos)
-        << "'" << name << "' is not in: '" << message << "'";
-    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    EXPECT_TRUE(has(message, name)) << "'" << name << "' is not in: '" << message << "'";
+    EXPECT_FALSE(has(message, "\n")) << message;
   }
 
   const taut::Coordinates up = {0., 1., 0.};
@@ -45,10 +37,8 @@ namespace
 
     explicit Hanging(const Defect defect = Defect::none)
         : body(system.add("hanging",
-                          [&]
-                          {
-                            return std::make_unique<Chain>("hanging", std::vector<double>{1., 1.},
-                                                           std::vector<double>{200., 100.}, defect);
+                          [&] {
+                            return chain_of("hanging", {1., 1.}, {200., 100.}, defect);
                           }))
     {
       if (static_cast<int>(defect) < first_of_places)
@@ -89,20 +79,16 @@ TEST(Door, every_defect_of_a_body_is_named)
   for (int i = 0; i < n_defects; ++i)
   {
     const auto defect = static_cast<Defect>(i);
-    std::string message;
-    try
-    {
-      Hanging hanging(defect);
-      hanging.height = hanging.system.displacement(hanging.body, {1.}, up);
-      taut::StepperOptions options;
-      options.start = taut::Start::given;
-      taut::Stepper stepper(hanging.system, options);
-      stepper.advance();
-    }
-    catch (const taut::UserError &e)
-    {
-      message = e.what();
-    }
+    const std::string message = error_of(
+        [&]
+        {
+          Hanging hanging(defect);
+          hanging.height = hanging.system.displacement(hanging.body, {1.}, up);
+          taut::StepperOptions options;
+          options.start = taut::Start::given;
+          taut::Stepper stepper(hanging.system, options);
+          stepper.advance();
+        });
     EXPECT_EQ(message.empty(), defect == Defect::none) << i << ": " << message;
     EXPECT_EQ(message.find("hanging") == std::string::npos, message.empty()) << message;
   }
@@ -131,11 +117,7 @@ TEST(Door, a_stepper_knows_what_there_was)
   const double u0 = (100. * -.05 - gravity) / 300.;
   EXPECT_NEAR(N, gravity + 100. * (-.05 - u0), 1e-9);
   const std::size_t late = hanging.system.add(Constraint::unilateral("late", hanging.height));
-  const std::size_t body = hanging.system.add(
-      "late",
-      [] {
-        return std::make_unique<Chain>("late", std::vector<double>{1.}, std::vector<double>{9.});
-      });
+  const std::size_t body = hanging.system.add("late", [] { return chain_of("late", {1.}, {9.}); });
   const taut::Displacement form = hanging.system.displacement(body, {}, up);
   expect_refused([&] { stepper.multiplier(late); }, "number 1");
   expect_refused([&] { stepper.gap(99); }, "number 99");
@@ -169,7 +151,7 @@ TEST(Door, a_place_that_moves_is_watched)
           while (stepper.time() < .01)
             stepper.advance();
         });
-    EXPECT_NE(message.find(name), std::string::npos) << message;
+    EXPECT_TRUE(has(message, name)) << message;
     EXPECT_EQ(message.find("constraint 'contact'") == std::string::npos, name.empty()) << message;
     EXPECT_NEAR(stepper.time(), name.empty() ? .01 : .005, 1e-12) << name;
   }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: the Hermite element agrees with closed forms. Sources: polynomials, textbook matrices,
 // frequencies of a beam.
-#include <taut/base/exceptions.h>
+#include "common.h"
+
 #include <taut/wire/fe_cubic_hermite.h>
 #include <taut/wire/hermite_shape.h>
 
@@ -22,15 +23,9 @@
 #include <deal.II/numerics/data_out.h>
 #include <deal.II/numerics/vector_tools.h>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <functional>
 #include <iostream>
 #include <set>
-#include <vector>
 
 namespace
 {
@@ -113,6 +108,41 @@ namespace
     Scalar along_value, along_slope;
   };
 
+  /// The element on a wire, and a vector of its DoFs.
+  template <int spacedim>
+  struct WireSpace
+  {
+    explicit WireSpace(const std::vector<double> &nodes = unequal_nodes,
+                       const std::set<unsigned int> &backward_cells = {})
+    {
+      make_wire(nodes, triangulation, backward_cells);
+      distribute();
+    }
+
+    void distribute()
+    {
+      dof_handler.distribute_dofs(fe);
+      w.reinit(dof_handler.n_dofs());
+    }
+
+    void interpolate(const AlongWire<spacedim> &function)
+    {
+      FE_CubicHermite<1, spacedim>::interpolate(dof_handler, function, w);
+    }
+
+    Triangulation<1, spacedim> triangulation;
+    const FE_CubicHermite<1, spacedim> fe;
+    DoFHandler<1, spacedim> dof_handler{triangulation};
+    Vector<double> w;
+  };
+
+  /// Cells that run backward, where the space has room for them.
+  template <int spacedim>
+  std::set<unsigned int> backward(const std::set<unsigned int> &cells)
+  {
+    return spacedim > 1 ? cells : std::set<unsigned int>();
+  }
+
   double cubic(const double s)
   {
     return 1. - 2. * s + 0.7 * s * s + 0.3 * s * s * s;
@@ -134,16 +164,11 @@ namespace
   }
 
   template <int spacedim>
-  void expect_cubic_reproduced(const Triangulation<1, spacedim> &triangulation)
+  void expect_cubic_reproduced(WireSpace<spacedim> &wire)
   {
-    const FE_CubicHermite<1, spacedim> fe;
-    DoFHandler<1, spacedim> dof_handler(triangulation);
-    dof_handler.distribute_dofs(fe);
-    Vector<double> w(dof_handler.n_dofs());
-    FE_CubicHermite<1, spacedim>::interpolate(dof_handler, AlongWire<spacedim>(cubic, cubic_slope),
-                                              w);
-
-    FEValues<1, spacedim> fe_values(fe, QGauss<1>(5),
+    wire.distribute();
+    wire.interpolate({cubic, cubic_slope});
+    FEValues<1, spacedim> fe_values(wire.fe, QGauss<1>(5),
                                     update_values | update_gradients | update_hessians |
                                         update_3rd_derivatives | update_quadrature_points);
     std::vector<double> values(5);
@@ -151,13 +176,13 @@ namespace
     std::vector<Tensor<2, spacedim>> hessians(5);
     std::vector<Tensor<3, spacedim>> thirds(5);
     const auto t = wire_direction<spacedim>();
-    for (const auto &cell : dof_handler.active_cell_iterators())
+    for (const auto &cell : wire.dof_handler.active_cell_iterators())
     {
       fe_values.reinit(cell);
-      fe_values.get_function_values(w, values);
-      fe_values.get_function_gradients(w, gradients);
-      fe_values.get_function_hessians(w, hessians);
-      fe_values.get_function_third_derivatives(w, thirds);
+      fe_values.get_function_values(wire.w, values);
+      fe_values.get_function_gradients(wire.w, gradients);
+      fe_values.get_function_hessians(wire.w, hessians);
+      fe_values.get_function_third_derivatives(wire.w, thirds);
       for (unsigned int q = 0; q < values.size(); ++q)
       {
         const double s = AlongWire<spacedim>::arc_length(fe_values.quadrature_point(q));
@@ -186,16 +211,14 @@ namespace
 
   /// The matrices of the whole wire through FEValues, rows by vertex.
   template <int spacedim>
-  Matrices assemble(const Triangulation<1, spacedim> &triangulation)
+  Matrices assemble(const WireSpace<spacedim> &wire)
   {
-    const FE_CubicHermite<1, spacedim> fe;
-    DoFHandler<1, spacedim> dof_handler(triangulation);
-    dof_handler.distribute_dofs(fe);
-    FEValues<1, spacedim> fe_values(
-        fe, QGauss<1>(4), update_values | update_gradients | update_hessians | update_JxW_values);
-    const unsigned int n = dof_handler.n_dofs();
+    FEValues<1, spacedim> fe_values(wire.fe, QGauss<1>(4),
+                                    update_values | update_gradients | update_hessians |
+                                        update_JxW_values);
+    const unsigned int n = wire.dof_handler.n_dofs();
     Matrices matrices{FullMatrix<double>(n), FullMatrix<double>(n), FullMatrix<double>(n)};
-    for (const auto &cell : dof_handler.active_cell_iterators())
+    for (const auto &cell : wire.dof_handler.active_cell_iterators())
     {
       fe_values.reinit(cell);
       const auto rows = vertex_rows<spacedim>(cell);
@@ -289,21 +312,19 @@ namespace
   // is an inclined line, where they are t w', t x t w'', t x t x t w'''.
   TYPED_TEST(FECubicHermiteIn, cubics_are_reproduced_on_unequal_cells)
   {
-    Triangulation<1, TypeParam::value> triangulation;
-    make_wire(unequal_nodes, triangulation);
-    expect_cubic_reproduced(triangulation);
+    WireSpace<TypeParam::value> wire;
+    expect_cubic_reproduced(wire);
   }
 
   // As above: refining some cells only changes nothing about it.
   TYPED_TEST(FECubicHermiteIn, cubics_are_reproduced_on_locally_refined_cells)
   {
-    Triangulation<1, TypeParam::value> triangulation;
-    make_wire(unequal_nodes, triangulation);
-    triangulation.begin_active()->set_refine_flag();
-    triangulation.last_active()->set_refine_flag();
-    triangulation.execute_coarsening_and_refinement();
-    ASSERT_EQ(triangulation.n_active_cells(), 7u);
-    expect_cubic_reproduced(triangulation);
+    WireSpace<TypeParam::value> wire;
+    wire.triangulation.begin_active()->set_refine_flag();
+    wire.triangulation.last_active()->set_refine_flag();
+    wire.triangulation.execute_coarsening_and_refinement();
+    ASSERT_EQ(wire.triangulation.n_active_cells(), 7u);
+    expect_cubic_reproduced(wire);
   }
 
   // Value and slope are the same from both sides of a node for arbitrary DoFs: the definition of
@@ -311,22 +332,17 @@ namespace
   TYPED_TEST(FECubicHermiteIn, slopes_are_continuous_across_unequal_cells)
   {
     constexpr int spacedim = TypeParam::value;
-    Triangulation<1, spacedim> triangulation;
-    make_wire(unequal_nodes, triangulation,
-              spacedim > 1 ? std::set<unsigned int>{2, 3} : std::set<unsigned int>{});
-    const FE_CubicHermite<1, spacedim> fe;
-    DoFHandler<1, spacedim> dof_handler(triangulation);
-    dof_handler.distribute_dofs(fe);
-    Vector<double> w(dof_handler.n_dofs());
+    WireSpace<spacedim> wire(unequal_nodes, backward<spacedim>({2, 3}));
+    Vector<double> &w = wire.w;
     for (unsigned int i = 0; i < w.size(); ++i)
       w(i) = std::sin(1. + 7. * i);
 
-    FEValues<1, spacedim> fe_values(fe, QTrapezoid<1>(), update_values | update_gradients);
-    std::vector<std::vector<double>> values(triangulation.n_vertices());
-    std::vector<std::vector<Tensor<1, spacedim>>> gradients(triangulation.n_vertices());
+    FEValues<1, spacedim> fe_values(wire.fe, QTrapezoid<1>(), update_values | update_gradients);
+    std::vector<std::vector<double>> values(wire.triangulation.n_vertices());
+    std::vector<std::vector<Tensor<1, spacedim>>> gradients(wire.triangulation.n_vertices());
     std::vector<double> cell_values(2);
     std::vector<Tensor<1, spacedim>> cell_gradients(2);
-    for (const auto &cell : dof_handler.active_cell_iterators())
+    for (const auto &cell : wire.dof_handler.active_cell_iterators())
     {
       fe_values.reinit(cell);
       fe_values.get_function_values(w, cell_values);
@@ -353,9 +369,7 @@ namespace
   {
     for (const double h : {0.7, 2.3})
     {
-      Triangulation<1, TypeParam::value> triangulation;
-      make_wire({0., h}, triangulation);
-      const Matrices matrices = assemble(triangulation);
+      const Matrices matrices = assemble(WireSpace<TypeParam::value>({0., h}));
       expect_equal(matrices.mass, h / 420,
                    {{{156, 22 * h, 54, -13 * h},
                      {22 * h, 4 * h * h, 13 * h, -3 * h * h},
@@ -377,11 +391,8 @@ namespace
   // The order of the vertices of a cell is no physics: same matrices as on the ordered mesh.
   TEST(FECubicHermite, backward_cells_change_no_matrix)
   {
-    Triangulation<1, 3> forward, mixed;
-    make_wire(unequal_nodes, forward);
-    make_wire(unequal_nodes, mixed, {1, 2, 4});
-    const Matrices expected = assemble(forward);
-    const Matrices matrices = assemble(mixed);
+    WireSpace<3> mixed(unequal_nodes, {1, 2, 4});
+    const Matrices expected = assemble(WireSpace<3>()), matrices = assemble(mixed);
     for (const auto part : {&Matrices::mass, &Matrices::bending, &Matrices::tension})
       for (unsigned int i = 0; i < expected.mass.m(); ++i)
         for (unsigned int j = 0; j < expected.mass.n(); ++j)
@@ -389,44 +400,39 @@ namespace
                       1e-13 * std::sqrt((expected.*part)(i, i) * (expected.*part)(j, j)));
     expect_cubic_reproduced(mixed);
 
-    mixed.refine_global(1);
+    mixed.triangulation.refine_global(1);
     expect_cubic_reproduced(mixed);
   }
 
   // A wire runs as its first cell does: if that one is backward, the signs of all slopes change.
   TEST(FECubicHermite, first_cell_gives_the_wire_its_direction)
   {
-    Triangulation<1, 3> triangulation;
-    make_wire(unequal_nodes, triangulation, {0});
-    auto cell = triangulation.begin_active();
+    WireSpace<3> wire(unequal_nodes, {0});
+    auto cell = wire.triangulation.begin_active();
     EXPECT_NEAR((FE_CubicHermite<1, 3>::signed_length(cell)), 0.3, 1e-15);
     EXPECT_NEAR((FE_CubicHermite<1, 3>::signed_length(++cell)), -0.5, 1e-15);
 
-    const FE_CubicHermite<1, 3> fe;
-    DoFHandler<1, 3> dof_handler(triangulation);
-    dof_handler.distribute_dofs(fe);
-    Vector<double> w(dof_handler.n_dofs());
-    FE_CubicHermite<1, 3>::interpolate(dof_handler, AlongWire<3>(cubic, cubic_slope), w);
-    for (const auto &cell : dof_handler.active_cell_iterators())
+    wire.interpolate({cubic, cubic_slope});
+    for (const auto &cell : wire.dof_handler.active_cell_iterators())
       for (unsigned int v = 0; v < 2; ++v)
-        EXPECT_NEAR(w(cell->vertex_dof_index(v, 1)),
+        EXPECT_NEAR(wire.w(cell->vertex_dof_index(v, 1)),
                     -cubic_slope(AlongWire<3>::arc_length(cell->vertex(v))), 1e-13);
-    expect_cubic_reproduced(triangulation);
+    expect_cubic_reproduced(wire);
   }
 
   // Refinement does not turn the wire around, even where it makes another cell the first active
   // one.
   TEST(FECubicHermite, refinement_keeps_the_direction_of_the_wire)
   {
-    Triangulation<1, 3> triangulation;
-    make_wire(unequal_nodes, triangulation, {0});
+    WireSpace<3> wire(unequal_nodes, {0});
+    Triangulation<1, 3> &triangulation = wire.triangulation;
     triangulation.begin_active()->set_refine_flag();
     triangulation.execute_coarsening_and_refinement();
     const auto first_active = triangulation.begin_active();
     ASSERT_EQ(first_active->level(), 0);
     EXPECT_NEAR((FE_CubicHermite<1, 3>::signed_length(first_active)), -0.5, 1e-15);
     EXPECT_NEAR((FE_CubicHermite<1, 3>::signed_length(triangulation.last_active())), 0.15, 1e-15);
-    expect_cubic_reproduced(triangulation);
+    expect_cubic_reproduced(wire);
   }
 
   // No sign can be given to the slopes of a cell that stands across its wire.
@@ -478,20 +484,17 @@ namespace
   {
     constexpr int spacedim = TypeParam::value;
     MultithreadInfo::set_thread_limit(1);
-    Triangulation<1, spacedim> triangulation;
-    make_wire({0., 1., 2., 3., 5., 7., 7.5, 8., 9.}, triangulation,
-              spacedim > 1 ? std::set<unsigned int>{2} : std::set<unsigned int>{});
-    const FE_CubicHermite<1, spacedim> fe;
+    const WireSpace<spacedim> wire({0., 1., 2., 3., 5., 7., 7.5, 8., 9.}, backward<spacedim>({2}));
     const QGauss<1> quadrature(3);
     const UpdateFlags flags = update_values | update_gradients | update_hessians |
                               update_3rd_derivatives | update_JxW_values;
-    FEValues<1, spacedim> reused(fe, quadrature, flags);
+    FEValues<1, spacedim> reused(wire.fe, quadrature, flags);
     unsigned int n_similar = 0;
-    for (const auto &cell : triangulation.active_cell_iterators())
+    for (const auto &cell : wire.triangulation.active_cell_iterators())
     {
       reused.reinit(cell);
       n_similar += reused.get_cell_similarity() != CellSimilarity::none;
-      FEValues<1, spacedim> fresh(fe, quadrature, flags);
+      FEValues<1, spacedim> fresh(wire.fe, quadrature, flags);
       fresh.reinit(cell);
       for (unsigned int i = 0; i < 4; ++i)
         for (const unsigned int q : reused.quadrature_point_indices())
@@ -510,15 +513,12 @@ namespace
   TYPED_TEST(FECubicHermiteIn, fast_shape_functions_agree_with_fe_values)
   {
     constexpr int spacedim = TypeParam::value;
-    Triangulation<1, spacedim> triangulation;
-    make_wire({0., 0.02, 0.7, 65.}, triangulation,
-              spacedim > 1 ? std::set<unsigned int>{1, 2} : std::set<unsigned int>{});
-    const FE_CubicHermite<1, spacedim> fe;
+    const WireSpace<spacedim> wire({0., 0.02, 0.7, 65.}, backward<spacedim>({1, 2}));
     const QIterated<1> quadrature(QTrapezoid<1>(), 10);
-    FEValues<1, spacedim> fe_values(fe, quadrature,
+    FEValues<1, spacedim> fe_values(wire.fe, quadrature,
                                     update_values | update_gradients | update_hessians);
     const auto t = wire_direction<spacedim>();
-    for (const auto &cell : triangulation.active_cell_iterators())
+    for (const auto &cell : wire.triangulation.active_cell_iterators())
     {
       fe_values.reinit(cell);
       const double signed_h = FE_CubicHermite<1, spacedim>::signed_length(cell);
@@ -542,12 +542,9 @@ namespace
   TYPED_TEST(FECubicHermiteIn, face_values_are_nodal)
   {
     constexpr int spacedim = TypeParam::value;
-    Triangulation<1, spacedim> triangulation;
-    make_wire(unequal_nodes, triangulation,
-              spacedim > 1 ? std::set<unsigned int>{2} : std::set<unsigned int>{});
-    const FE_CubicHermite<1, spacedim> fe;
-    FEFaceValues<1, spacedim> fe_values(fe, QGauss<0>(1), update_values | update_gradients);
-    for (const auto &cell : triangulation.active_cell_iterators())
+    const WireSpace<spacedim> wire(unequal_nodes, backward<spacedim>({2}));
+    FEFaceValues<1, spacedim> fe_values(wire.fe, QGauss<0>(1), update_values | update_gradients);
+    for (const auto &cell : wire.triangulation.active_cell_iterators())
       for (const unsigned int face : cell->face_indices())
       {
         fe_values.reinit(cell, face);
@@ -563,13 +560,11 @@ namespace
   // Two planes of motion as one system of two elements: each component reproduces its own cubic.
   TEST(FECubicHermite, works_inside_a_system)
   {
-    Triangulation<1, 3> triangulation;
-    make_wire(unequal_nodes, triangulation);
-    const FE_CubicHermite<1, 3> fe;
-    const FESystem<1, 3> system(fe, 2);
-    FEValues<1, 3> scalar_values(fe, QGauss<1>(3), update_values | update_hessians);
+    const WireSpace<3> wire;
+    const FESystem<1, 3> system(wire.fe, 2);
+    FEValues<1, 3> scalar_values(wire.fe, QGauss<1>(3), update_values | update_hessians);
     FEValues<1, 3> system_values(system, QGauss<1>(3), update_values | update_hessians);
-    for (const auto &cell : triangulation.active_cell_iterators())
+    for (const auto &cell : wire.triangulation.active_cell_iterators())
     {
       scalar_values.reinit(cell);
       system_values.reinit(cell);
@@ -591,11 +586,8 @@ namespace
   // node.
   TEST(FECubicHermite, matrices_are_block_tridiagonal)
   {
-    Triangulation<1, 3> triangulation;
-    make_wire(unequal_nodes, triangulation);
-    const FE_CubicHermite<1, 3> fe;
-    DoFHandler<1, 3> dof_handler(triangulation);
-    dof_handler.distribute_dofs(fe);
+    const WireSpace<3> wire;
+    const DoFHandler<1, 3> &dof_handler = wire.dof_handler;
     ASSERT_EQ(dof_handler.n_dofs(), 12u);
     DynamicSparsityPattern pattern(dof_handler.n_dofs());
     DoFTools::make_sparsity_pattern(dof_handler, pattern);
@@ -612,19 +604,13 @@ namespace
   // Output in space: with subdivisions a patch shows the cubic inside a cell, not only its ends.
   TEST(FECubicHermite, data_out_shows_the_cubic_inside_cells)
   {
-    Triangulation<1, 3> triangulation;
-    make_wire(unequal_nodes, triangulation);
-    const FE_CubicHermite<1, 3> fe;
-    DoFHandler<1, 3> dof_handler(triangulation);
-    dof_handler.distribute_dofs(fe);
-    Vector<double> w(dof_handler.n_dofs());
-    FE_CubicHermite<1, 3>::interpolate(dof_handler, AlongWire<3>(cubic, cubic_slope), w);
-
+    WireSpace<3> wire;
+    wire.interpolate({cubic, cubic_slope});
     PatchesOf data_out;
-    data_out.attach_dof_handler(dof_handler);
-    data_out.add_data_vector(w, "w");
+    data_out.attach_dof_handler(wire.dof_handler);
+    data_out.add_data_vector(wire.w, "w");
     data_out.build_patches(4);
-    ASSERT_EQ(data_out.get_patches().size(), triangulation.n_active_cells());
+    ASSERT_EQ(data_out.get_patches().size(), wire.triangulation.n_active_cells());
     for (const auto &patch : data_out.get_patches())
       for (unsigned int p = 0; p <= 4; ++p)
       {
@@ -646,27 +632,21 @@ namespace
     std::vector<double> nodes = refined(unequal_nodes);
     for (unsigned int level = 0; level < 4; ++level, nodes = refined(nodes))
     {
-      Triangulation<1, spacedim> triangulation;
-      make_wire(nodes, triangulation);
-      const FE_CubicHermite<1, spacedim> fe;
-      DoFHandler<1, spacedim> dof_handler(triangulation);
-      dof_handler.distribute_dofs(fe);
-      Vector<double> w(dof_handler.n_dofs());
-      FE_CubicHermite<1, spacedim>::interpolate(dof_handler, sine, w);
-
-      Vector<double> cell_errors(triangulation.n_active_cells());
-      VectorTools::integrate_difference(dof_handler, w, sine, cell_errors, QGauss<1>(6),
+      WireSpace<spacedim> wire(nodes);
+      wire.interpolate(sine);
+      Vector<double> cell_errors(wire.triangulation.n_active_cells());
+      VectorTools::integrate_difference(wire.dof_handler, wire.w, sine, cell_errors, QGauss<1>(6),
                                         VectorTools::L2_norm);
       value_errors.push_back(cell_errors.l2_norm());
 
       FEValues<1, spacedim> fe_values(
-          fe, QGauss<1>(6), update_hessians | update_quadrature_points | update_JxW_values);
+          wire.fe, QGauss<1>(6), update_hessians | update_quadrature_points | update_JxW_values);
       std::vector<Tensor<2, spacedim>> hessians(6);
       double squared = 0;
-      for (const auto &cell : dof_handler.active_cell_iterators())
+      for (const auto &cell : wire.dof_handler.active_cell_iterators())
       {
         fe_values.reinit(cell);
-        fe_values.get_function_hessians(w, hessians);
+        fe_values.get_function_hessians(wire.w, hessians);
         for (unsigned int q = 0; q < hessians.size(); ++q)
         {
           const double s = AlongWire<spacedim>::arc_length(fe_values.quadrature_point(q));
@@ -695,9 +675,7 @@ namespace
     std::vector<double> nodes;
     for (unsigned int n = 0; n <= n_cells; ++n)
       nodes.push_back(n * length / n_cells);
-    Triangulation<1, 3> triangulation;
-    make_wire(nodes, triangulation);
-    const Matrices matrices = assemble(triangulation);
+    const Matrices matrices = assemble(WireSpace<3>(nodes));
 
     std::vector<unsigned int> free_rows;
     for (unsigned int row = 1; row < 2 * n_cells + 2; ++row)

@@ -3,12 +3,9 @@
 // changes and exactly once it stays, from the multipliers it has; the answer is that of a direct
 // operator. Expected: the direct answer, fewer inner iterations than with exact solves throughout,
 // and fewer still from the multipliers of a neighbouring problem.
+#include "common.h"
+
 #include <taut/complementarity/solver.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace
 {

@@ -2,14 +2,9 @@
 // Claim: mass and stiffness of a wire as Structure assembles them give the natural frequencies of
 // beam, string and bar. Source: simply supported tensioned beam, omega_n^2 = (T q^2 + EI q^4)/m,
 // q = n pi/L; fixed bar or string, omega_n = n pi c/L.
-#include "run.h"
+#include "scene_tests.h"
 
 #include <deal.II/lac/lapack_templates.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 
 using namespace verification;
 
@@ -84,6 +79,27 @@ namespace
       v = std::sqrt(v);
     return values;
   }
+
+  /// Frequencies of a string of tension T with a point mass [1/s].
+  std::vector<double> string_with_a_mass(const double T, const std::vector<double> &supports,
+                                         const double place, const double mass)
+  {
+    taut::Scene scene = wire_scene(.05);
+    scene.wires[0].transverse = taut::TransverseKind::string;
+    scene.wires[0].tension = T;
+    scene.supports.resize(1);
+    scene.supports[0].positions = supports;
+    scene.point_masses.resize(1);
+    scene.point_masses[0].positions = {place};
+    scene.point_masses[0].mass = mass;
+    return roots(eigenvalues(taut::SceneBodies(scene)[0]));
+  }
+
+  /// z tan(z) = a within a quarter of a circle from @p low on.
+  double root_of_z_tan_z(const double a, const double low)
+  {
+    return end_of(low, low + .5 * std::acos(-1.), [a](double z) { return z * std::tan(z) < a; });
+  }
 } // namespace
 
 TEST(Frequencies, tensioned_beam_converges_with_order_4)
@@ -142,21 +158,8 @@ TEST(Frequencies, string_and_bar_converge_with_twice_their_degree)
 TEST(Frequencies, point_mass_on_a_string)
 {
   const double L = 6., m = 1.35, T = 2000., mass = 2.7, c = std::sqrt(T / m);
-  taut::Scene scene = wire_scene(.05);
-  scene.wires[0].transverse = taut::TransverseKind::string;
-  scene.wires[0].tension = T;
-  scene.supports.resize(1);
-  scene.supports[0].positions = {0., L};
-  scene.point_masses.resize(1);
-  scene.point_masses[0].positions = {.5 * L};
-  scene.point_masses[0].mass = mass;
-  const std::vector<double> w = roots(eigenvalues(taut::SceneBodies(scene)[0]));
-  double low = 0., high = .5 * std::acos(-1.);
-  for (int i = 0; i < 100; ++i)
-  {
-    const double z = .5 * (low + high);
-    (z * std::tan(z) < m * L / mass ? low : high) = z;
-  }
+  const std::vector<double> w = string_with_a_mass(T, {0., L}, .5 * L, mass);
+  const double low = root_of_z_tan_z(m * L / mass, 0.);
   const double exact = 2. * c * low / L;
   figure("string with a point mass, error of the first frequency", w[0] / exact - 1.);
   figure("string with a point mass, error of the second frequency",
@@ -170,24 +173,10 @@ TEST(Frequencies, point_mass_on_a_string)
 TEST(Frequencies, point_mass_at_the_free_end_of_a_string)
 {
   const double L = 6., m = 1.35, T = 2000., mass = 2.7, c = std::sqrt(T / m), pi = std::acos(-1.);
-  taut::Scene scene = wire_scene(.05);
-  scene.wires[0].transverse = taut::TransverseKind::string;
-  scene.wires[0].tension = T;
-  scene.supports.resize(1);
-  scene.supports[0].positions = {0.};
-  scene.point_masses.resize(1);
-  scene.point_masses[0].positions = {L};
-  scene.point_masses[0].mass = mass;
-  const std::vector<double> w = roots(eigenvalues(taut::SceneBodies(scene)[0]));
+  const std::vector<double> w = string_with_a_mass(T, {0.}, L, mass);
   for (int n = 0; n < 2; ++n)
   {
-    double low = n * pi, high = (n + .5) * pi;
-    for (int i = 0; i < 100; ++i)
-    {
-      const double z = .5 * (low + high);
-      (z * std::tan(z) < m * L / mass ? low : high) = z;
-    }
-    const double exact = low * c / L;
+    const double exact = root_of_z_tan_z(m * L / mass, n * pi) * c / L;
     EXPECT_NEAR(w[n], exact, 1e-7 * exact);
     figure("string with a point mass at its end, error of frequency " + std::to_string(n + 1),
            w[n] / exact - 1.);

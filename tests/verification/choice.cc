@@ -4,14 +4,7 @@
 // contact nodes where that suits, says which and why, and is nearer to exact solutions than what
 // else it might have taken. Sources: wave equation (prm/bar_on_wall.prm), free fall onto a rigid
 // floor.
-#include "run.h"
-
-#include <taut/base/exceptions.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
+#include "scene_tests.h"
 
 using namespace verification;
 
@@ -20,21 +13,18 @@ namespace
   /// The line of the log about the scheme, and whether nodes gave their mass; or the error.
   std::string choice(const std::string &scene, const Overrides &more)
   {
-    Overrides overrides = {"Time.Scheme=automatic"};
-    overrides.insert(overrides.end(), more.begin(), more.end());
-    try
-    {
-      Session session(scene, overrides);
-      session.run([](const taut::StepView &) {});
-      const std::string log = session.log(), mark = "Scheme (automatic): ";
-      const std::size_t at = log.find(mark) + mark.size();
-      return log.substr(at, log.find('\n', at) - at) +
-             (log.find("gave their mass") == std::string::npos ? "" : "; nodes gave their mass");
-    }
-    catch (const taut::UserError &e)
-    {
-      return std::string("error: ") + e.what();
-    }
+    std::string result;
+    const std::string error = error_of(
+        [&]
+        {
+          Session session(scene, Overrides{"Time.Scheme=automatic"} + more);
+          session.run();
+          const std::string log = session.log(), mark = "Scheme (automatic): ";
+          const std::size_t at = log.find(mark) + mark.size();
+          result = log.substr(at, log.find('\n', at) - at) +
+                   (has(log, "gave their mass") ? "; nodes gave their mass" : "");
+        });
+    return error.empty() ? result : "error: " + error;
   }
 
   void expect_choice(const std::string &scene, const Overrides &more, const std::string &scheme,
@@ -42,7 +32,7 @@ namespace
   {
     const std::string line = choice(scene, more);
     EXPECT_EQ(line.substr(0, scheme.size()), scheme) << line;
-    EXPECT_NE(line.find(reason), std::string::npos) << line;
+    EXPECT_TRUE(has(line, reason)) << line;
   }
 
   /// Two masses on a spring fall 0.8 m onto a floor.
@@ -61,19 +51,19 @@ Time: Step = 1e-3; End = 0.7
   /// Root mean square error of the lower end of the bar on the wall over that of its motion.
   double bar_error(const double elements, const Overrides &more)
   {
-    Overrides overrides = {"Network.Wire bar.Element size=0.1",
-                           "Time.Step=" + number(elements * .1 / 30.)};
-    overrides.insert(overrides.end(), more.begin(), more.end());
     double error = 0., size = 0.;
-    run_scene(scene_file("bar_on_wall"), overrides,
-              [&](const taut::StepView &view)
-              {
-                const double t = view.state.time,
-                             exact = t < .5 ? -10. * t : std::max(-5., -5. + 10. * (t - 7. / 6.)),
-                             e = displacement(view, 0, 0.) - exact;
-                error += e * e;
-                size += exact * exact;
-              });
+    run_scene(
+        scene_file("bar_on_wall"),
+        Overrides{"Network.Wire bar.Element size=0.1", "Time.Step=" + number(elements * .1 / 30.)} +
+            more,
+        [&](const taut::StepView &view)
+        {
+          const double t = view.state.time,
+                       exact = t < .5 ? -10. * t : std::max(-5., -5. + 10. * (t - 7. / 6.)),
+                       e = displacement(view, 0, 0.) - exact;
+          error += e * e;
+          size += exact * exact;
+        });
     return std::sqrt(error / size);
   }
 } // namespace
@@ -118,14 +108,8 @@ TEST(Schemes, automatic_follows_from_links_bodies_and_step)
   const Overrides oblique = {"Network.Wire bar.Components=bar, string",
                              "Network.Wire bar.Tension=9", "Network.Link floor.Direction=0.6, 0.8",
                              soon};
-  const auto obliquely = [&](const std::string &step)
-  {
-    Overrides overrides = oblique;
-    overrides.push_back("Time.Step=" + step);
-    return overrides;
-  };
-  expect_choice(bar, obliquely("3.3e-3"), smooth, massless);
-  expect_choice(bar, obliquely("3.5e-3"), rigid, stiffer);
+  expect_choice(bar, oblique + Overrides{"Time.Step=3.3e-3"}, smooth, massless);
+  expect_choice(bar, oblique + Overrides{"Time.Step=3.5e-3"}, rigid, stiffer);
   // Beams keep their mass.
   expect_choice(beam, {soon}, rigid, "'support 1' acts as rigid");
   expect_choice(beam, {"Time.Step=1e-5", "Time.End=1e-4"}, rigid, "'support 1' acts as rigid");
@@ -155,16 +139,16 @@ TEST(Schemes, automatic_leaves_mass_beside_stiff_stops)
                      "Network.Link roof.Type=stop", "Network.Link roof.From=bar @ 10",
                      "Network.Link roof.To=ground", "Network.Link roof.Direction=0, 1",
                      "Network.Link roof.Gap=50", "Network.Link roof.Stiffness=" + stiffness});
-    session.run([](const taut::StepView &) {});
+    session.run();
     return session.log();
   };
   const std::string taken = "Mass redistribution: nodes of wires under ",
                     kept = "Moreau-Jean (theta 0.5, gaps then velocities";
   const std::string compliant = run("1e3"), stiff = run("1e8");
-  EXPECT_NE(compliant.find(taken + "'floor' gave"), std::string::npos) << compliant;
-  EXPECT_NE(compliant.find("generalised-alpha (spectral radius 0.8)"), std::string::npos);
-  EXPECT_EQ(stiff.find(taken), std::string::npos) << stiff;
-  EXPECT_NE(stiff.find(kept), std::string::npos) << stiff;
+  EXPECT_TRUE(has(compliant, taken + "'floor' gave")) << compliant;
+  EXPECT_TRUE(has(compliant, "generalised-alpha (spectral radius 0.8)"));
+  EXPECT_FALSE(has(stiff, taken)) << stiff;
+  EXPECT_TRUE(has(stiff, kept)) << stiff;
 }
 
 TEST(Schemes, automatic_knows_restitution_or_says_so)
@@ -185,12 +169,9 @@ TEST(Schemes, automatic_knows_restitution_or_says_so)
                 "Moreau-Jean (theta 0.5, gaps then velocities, restitution 0.5)", "'floor'");
   for (const Overrides &more : {Overrides{half, soon}, Overrides{half, gaps, soon}})
   {
-    Overrides overrides = {"Time.Scheme=BDF2"};
-    overrides.insert(overrides.end(), more.begin(), more.end());
-    Session by_name(falling_masses(), overrides);
+    Session by_name(falling_masses(), Overrides{"Time.Scheme=BDF2"} + more);
     by_name.run([](const taut::StepView &) {});
-    EXPECT_NE(by_name.log().find("not used by it: Time/Moreau-Jean/Restitution = 0.5"),
-              std::string::npos);
+    EXPECT_TRUE(has(by_name.log(), "not used by it: Time/Moreau-Jean/Restitution = 0.5"));
   }
 }
 

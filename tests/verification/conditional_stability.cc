@@ -4,16 +4,7 @@
 // Sources: Hughes, The Finite Element Method, 1987, section 9.1; u of a mass on a spring k under P
 // (1 - cos Omega t), P/k [1 - (omega^2 cos Omega t - Omega^2 cos omega t)/(omega^2 - Omega^2)];
 // frequencies of two masses on springs.
-#include "run.h"
-
-#include <taut/base/exceptions.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
+#include "scene_tests.h"
 
 using namespace verification;
 
@@ -101,7 +92,7 @@ TEST(ConditionalStability, unstable_steps_are_refused_and_no_others)
   catch (const taut::EntryError &e)
   {
     EXPECT_EQ(e.entry(), "Time/Step");
-    EXPECT_NE(std::string(e.what()).find("stable for steps up to"), std::string::npos);
+    EXPECT_TRUE(has(e.what(), "stable for steps up to"));
   }
   const std::vector<std::string> anyway = {"Time/Allow unsuitable scheme=true"};
   EXPECT_LT(largest_motion(.999 * limit, anyway), .04);

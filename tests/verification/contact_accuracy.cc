@@ -3,12 +3,7 @@
 // in time as an independent program found them with the same scheme, times 1.5, and of second order
 // where they are smooth. Reference: the same discrete scene with a much smaller step of the same
 // scheme, which BDF2 at a small step agrees with.
-#include "run.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
+#include "scene_tests.h"
 
 using namespace verification;
 
@@ -31,14 +26,13 @@ namespace
                   bdf2 = {"Time.Scheme=BDF2", "Time.Mass redistribution=no",
                           "Time.Allow unsuitable scheme=true", "Time.Allow energy gain=true"};
 
-  History run(const Problem &problem, Overrides overrides, const double step)
+  History run(const Problem &problem, const Overrides &overrides, const double step)
   {
-    overrides.push_back("Time.Step=" + number(step));
-    overrides.push_back("Time.End=" + number(problem.end));
     const long every = std::lround(problem.interval / step);
     History history;
     long i = 0;
-    run_scene(problem.scene, overrides,
+    run_scene(problem.scene,
+              overrides + Overrides{"Time.Step=" + number(step), "Time.End=" + number(problem.end)},
               [&](const taut::StepView &view)
               {
                 if (i++ % every != 0)
@@ -132,22 +126,17 @@ TEST(ContactAccuracy, beam_over_supports)
 
 TEST(ContactAccuracy, beam_on_stiff_stops)
 {
-  std::string path = scene_file("beam_over_supports");
-  Problem problem = {"beam on stops of 1e6 N/m", path, 2., 4e-3, 10.};
-  Overrides stiff = {"Network.Link support.Stiffness=1e6"};
-  const auto with = [&](Overrides base)
-  {
-    base.insert(base.end(), stiff.begin(), stiff.end());
-    return base;
-  };
-  const History reference = run(problem, with(ours), 6.25e-5);
-  const double apart = error(run(problem, with(bdf2), 6.25e-5), reference);
+  const Problem problem = {"beam on stops of 1e6 N/m", scene_file("beam_over_supports"), 2., 4e-3,
+                           10.};
+  const Overrides stiff = {"Network.Link support.Stiffness=1e6"};
+  const History reference = run(problem, ours + stiff, 6.25e-5);
+  const double apart = error(run(problem, bdf2 + stiff, 6.25e-5), reference);
   figure("beam on stops of 1e6 N/m, BDF2 minus the reference", apart);
   EXPECT_LT(apart, 2e-4);
   for (const auto &[step, bound] :
        std::vector<std::pair<double, double>>{{2e-3, .0085}, {1e-3, .0029}, {5e-4, .0007}})
   {
-    const double e = error(run(problem, with(ours), step), reference);
+    const double e = error(run(problem, ours + stiff, step), reference);
     figure("beam on stops of 1e6 N/m, step " + number(step) + " s, error (table: " + number(bound) +
                ")",
            e);

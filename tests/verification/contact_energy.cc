@@ -2,17 +2,10 @@
 // Claim: with conditions on gaps, then velocities, fixed rigid unilateral links never give energy,
 // whatever bodies, links and steps, and BDF2 does. Source: kinetic and strain energy, measured here
 // by M and K, of random problems without loads: contacts, joints and dampers can only take it.
-#include "run.h"
+#include "scene_tests.h"
 
 #include <taut/model/scene_constraints.h>
 #include <taut/time/time_stepper.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <random>
 
 using namespace verification;
 
@@ -173,16 +166,7 @@ namespace
   double energy(const taut::Structure &structure, const taut::Constraints &constraints,
                 const taut::State &state)
   {
-    double sum = 0.;
-    for (std::size_t k = 0; k < structure.size(); ++k)
-    {
-      const std::vector<double> &U = state.U[k], &V = state.V[k];
-      std::vector<double> MV(U.size(), 0.), KU(U.size(), 0.);
-      structure[k].mass().vmult_add(1., V.data(), MV.data());
-      structure[k].stiffness().vmult_add(1., U.data(), KU.data());
-      for (std::size_t i = 0; i < U.size(); ++i)
-        sum += .5 * (MV[i] * V[i] + KU[i] * U[i]);
-    }
+    double sum = energy_of_bodies(structure, state);
     for (std::size_t i = 0; i < constraints.size(); ++i)
       if (!constraints[i].spring.is_rigid())
         sum += .5 * constraints[i].spring.stiffness *
@@ -197,7 +181,7 @@ namespace
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       const std::size_t n = structure[k].n_dofs();
-      std::vector<double> diagonal(n), x(n), y;
+      std::vector<double> diagonal(n), x(n);
       structure[k].mass().visit(
           [&](unsigned int i, unsigned int j, double value)
           {
@@ -208,8 +192,7 @@ namespace
         x[i] = 1. + .1 * i;
       for (int iteration = 0; iteration < 50; ++iteration)
       {
-        y.assign(n, 0.);
-        structure[k].stiffness().vmult_add(1., x.data(), y.data());
+        std::vector<double> y = matrix_times(structure[k].stiffness(), x);
         double size = 0.;
         for (std::size_t i = 0; i < n; ++i)
           size = std::max(size, std::fabs(y[i] /= diagonal[i]));

@@ -4,14 +4,7 @@
 // and others that give are added; and a run that does what the message advises has no warning.
 // Sources: energy of a falling mass in flight, m v^2 / 2 + m g y, before and after each contact;
 // the time of a contact in closed form.
-#include "run.h"
-
-#include <taut/base/exceptions.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <sstream>
+#include "scene_tests.h"
 
 using namespace verification;
 
@@ -61,38 +54,29 @@ Time: Step = )" +
       (flight < before ? fall.taken : fall.given) += std::fabs(flight - before);
       before = flight;
     };
-    try
-    {
-      session.run(
-          [&](const taut::StepView &view)
-          {
-            const bool is_closed = view.state.multiplier[0] > 0.;
-            const double v = view.state.V[0][0];
-            if (is_closed && !was_closed)
-              end_flight();
-            if (!is_closed)
-              flight = .5 * v * v + g * view.state.U[0][0];
-            was_closed = is_closed;
-            fall.summary = view.measures.summary();
-            fall.warnings.clear();
-            for (const auto &warning : view.measures.warnings())
-              if (warning.kind == "contact_energy")
-                fall.warnings.push_back(warning);
-          });
-      end_flight();
-    }
-    catch (const taut::UserError &e)
-    {
-      fall.error = e.what();
-      end_flight();
-    }
+    fall.error = error_of(
+        [&]
+        {
+          session.run(
+              [&](const taut::StepView &view)
+              {
+                const bool is_closed = view.state.multiplier[0] > 0.;
+                const double v = view.state.V[0][0];
+                if (is_closed && !was_closed)
+                  end_flight();
+                if (!is_closed)
+                  flight = .5 * v * v + g * view.state.U[0][0];
+                was_closed = is_closed;
+                fall.summary = view.measures.summary();
+                fall.warnings.clear();
+                for (const auto &warning : view.measures.warnings())
+                  if (warning.kind == "contact_energy")
+                    fall.warnings.push_back(warning);
+              });
+        });
+    end_flight();
     fall.log = session.log();
     return fall;
-  }
-
-  bool has(const std::string &text, const std::string &part)
-  {
-    return text.find(part) != std::string::npos;
   }
 
   const std::string of_scheme = "Set 'Time/Scheme' to 'automatic', or take a smaller step",

@@ -2,13 +2,7 @@
 // Claim: a tensioned beam without load that its supports move as a rigid body is at rest on a
 // straight line, however many parts it is cut in, with each form of the interface operator. All
 // slopes and moments of its cuts are rounding there or cancel. Source: w(s) = u0 + (u1 - u0) s / L.
-#include "run.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <sstream>
+#include "scene_tests.h"
 
 using namespace verification;
 

@@ -2,56 +2,27 @@
 // Claim: the lengths of droppers in start.csv are those that the entry Lengths takes: a line with
 // them has the state at rest of the line whose lengths were found. Sources: the found line itself;
 // N/k, the stretch of a dropper.
-#include "run.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <fstream>
-#include <map>
-#include <sstream>
+#include "scene_tests.h"
 
 using namespace verification;
 
 namespace
 {
-  /// The columns of start.csv by their names.
-  std::map<std::string, std::vector<double>> start_of(const Session &session)
-  {
-    std::ifstream file(session.folder() + "/start.csv");
-    std::string line, cell;
-    std::vector<std::string> names;
-    std::getline(file, line);
-    for (std::istringstream cells(line); std::getline(cells, cell, ',');)
-      names.push_back(cell);
-    std::map<std::string, std::vector<double>> columns;
-    while (std::getline(file, line))
-    {
-      std::istringstream cells(line);
-      for (std::size_t i = 0; std::getline(cells, cell, ','); ++i)
-        if (i > 0)
-          columns[names.at(i)].push_back(std::stod(cell));
-    }
-    return columns;
-  }
-
   struct AtRest
   {
     std::vector<double> force, length, stretched, height;
   };
 
-  AtRest at_rest(Overrides overrides, const std::vector<double> &lengths)
+  AtRest at_rest(const Overrides &overrides, const std::vector<double> &lengths)
   {
-    overrides.insert(overrides.end(), {"Time/End=0", "Catenary/Number of spans=1",
-                                       "Catenary/Uplift positions=", "Statistics/Window="});
-    if (!lengths.empty())
-    {
-      std::string list = "Catenary/Droppers/Lengths=";
-      for (const double length : lengths)
-        list += (list.back() == '=' ? "" : ", ") + number(length);
-      overrides.push_back(list);
-    }
-    Session session(scene_file("en50318_2002_250"), overrides);
+    std::string list;
+    for (const double length : lengths)
+      list += (list.empty() ? "Catenary/Droppers/Lengths=" : ", ") + number(length);
+    Session session(scene_file("en50318_2002_250"),
+                    overrides +
+                        Overrides{"Time/End=0", "Catenary/Number of spans=1",
+                                  "Catenary/Uplift positions=", "Statistics/Window="} +
+                        (list.empty() ? Overrides() : Overrides{list}));
     AtRest result;
     session.run(
         [&](const taut::StepView &step)
@@ -60,7 +31,7 @@ namespace
             for (const std::size_t wire : {0, 1})
               result.height.push_back(displacement(step, wire, x));
         });
-    auto start = start_of(session);
+    auto start = read_table(session.folder() + "/start.csv");
     for (std::size_t i = 0; i < 9; ++i)
     {
       result.force.push_back(start.at("force [N or N m]").at(i));

@@ -2,13 +2,7 @@
 // Claim: energy.csv accounts for all energy of a run. Sources: closed form of a damped oscillator
 // under a constant force; an identity of each scheme elsewhere (the error is rounding); a rigid
 // impact takes what Newton's law says.
-#include "run.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <fstream>
+#include "scene_tests.h"
 
 using namespace verification;
 
@@ -31,24 +25,20 @@ namespace
     n_columns
   };
 
-  std::vector<std::vector<double>> energies(const std::string &scene, Overrides overrides)
+  std::vector<std::vector<double>> energies(const std::string &scene, const Overrides &overrides)
   {
-    overrides.push_back("Output.Observers=energy");
-    overrides.push_back("Output.Interval=0");
-    Session session(scene, overrides);
-    session.run([](const taut::StepView &) {});
-    std::ifstream file(session.folder() + "/energy.csv");
+    Session session(scene, overrides + Overrides{"Output.Observers=energy", "Output.Interval=0"});
+    session.run();
+    std::istringstream lines(file_text(session.folder() + "/energy.csv"));
     std::vector<std::vector<double>> table;
     std::string line;
-    std::getline(file, line);
-    while (std::getline(file, line))
+    std::getline(lines, line);
+    while (std::getline(lines, line))
     {
-      std::vector<double> constraint;
-      std::istringstream cells(line);
-      for (std::string cell; std::getline(cells, cell, ',');)
-        constraint.push_back(std::stod(cell));
-      table.push_back(constraint);
-      EXPECT_EQ(constraint.size(), std::size_t(n_columns));
+      table.emplace_back();
+      for (const std::string &cell : cells_of(line))
+        table.back().push_back(std::stod(cell));
+      EXPECT_EQ(table.back().size(), std::size_t(n_columns));
     }
     return table;
   }

@@ -2,14 +2,10 @@
 // Claim: energy that a body of large motions gains from nowhere is a warning and an error whatever
 // moves beside it, and the message advises what the scheme and the steps of the run leave to do.
 // Source: the same pendulum, whose mean force is a part of what its energy asks for, alone.
+#include "common.h"
 #include "elastic_pendulum.h"
 
-#include <taut/base/exceptions.h>
 #include <taut/time/stepper.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
 
 using namespace verification;
 
@@ -87,10 +83,6 @@ namespace
             stepper.measures().error()};
   }
 
-  bool has(const std::string &text, const std::string &part)
-  {
-    return text.find(part) != std::string::npos;
-  }
 } // namespace
 
 TEST(EnergyAccount, energy_from_nowhere_is_an_error)

@@ -2,14 +2,10 @@
 // Claim: the low-pass filter has the amplitude 1/(1 + (f/f_c)^6) of a third-order Butterworth
 // filter run forwards and backwards, f_c = 20/(sqrt(2) - 1)^(1/6) Hz for -3 dB at 20 Hz, and no
 // phase.
-#include "run.h"
+#include "scene_tests.h"
 
 #include <taut/output/low_pass.h>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <complex>
 
 using namespace verification;

@@ -3,12 +3,8 @@
 // solutions say: d'Alembert's waves (bar on a wall: D. Doyen, A. Ern, S. Piperno, SIAM J. Sci.
 // Comput. 33 (2011), without gravity; string on a stop: point impedance 2 sqrt(T m)), half-waves of
 // an oscillator.
-#include "run.h"
+#include "scene_tests.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <map>
 
 using namespace verification;
@@ -55,25 +51,8 @@ namespace
 
   double momentum(const taut::StepView &view)
   {
-    const taut::Substructure &body = view.structure[0];
-    std::vector<double> MV(body.n_dofs(), 0.);
-    body.mass().vmult_add(1., view.state.V[0].data(), MV.data());
-    double sum = 0.;
-    for (const double p : MV)
-      sum += p;
-    return sum;
-  }
-
-  double energy(const taut::StepView &view)
-  {
-    const taut::Substructure &body = view.structure[0];
-    std::vector<double> MV(body.n_dofs(), 0.), KU(body.n_dofs(), 0.);
-    body.mass().vmult_add(1., view.state.V[0].data(), MV.data());
-    body.stiffness().vmult_add(1., view.state.U[0].data(), KU.data());
-    double sum = 0.;
-    for (std::size_t i = 0; i < MV.size(); ++i)
-      sum += .5 * (MV[i] * view.state.V[0][i] + KU[i] * view.state.U[0][i]);
-    return sum;
+    const std::vector<double> MV = matrix_times(view.structure[0].mass(), view.state.V[0]);
+    return std::accumulate(MV.begin(), MV.end(), 0.);
   }
 
   ContactRecord record(const std::string &scene, const Overrides &overrides)
@@ -87,7 +66,7 @@ namespace
                 if (r.time.empty())
                 {
                   r.momentum_before = momentum(view);
-                  energy_before = energy(view);
+                  energy_before = energy_of_bodies(view.structure, view.state);
                 }
                 const double dt = r.time.empty() ? 0. : t - r.time.back();
                 r.time.push_back(t);
@@ -96,7 +75,7 @@ namespace
                 r.least_force = std::min(r.least_force, N);
                 r.least_gap = std::min(r.least_gap, view.state.gap[0]);
                 r.momentum_after = momentum(view);
-                r.energy_kept = energy(view) / energy_before;
+                r.energy_kept = energy_of_bodies(view.structure, view.state) / energy_before;
                 if (N > 0. && r.first == 0.)
                   r.first = t;
                 if (N > 0.)

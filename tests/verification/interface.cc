@@ -2,12 +2,8 @@
 // Claim: each named way to solve for the multipliers gives the answers of the dense one. Sources:
 // the dense one; its neighbour where theory says how they differ.
 #include "interface_problem.h"
-#include "run.h"
+#include "scene_tests.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 using namespace verification;
@@ -18,9 +14,10 @@ namespace
 
   taut::Scene catenary(const std::string &n_spans, const Overrides &more = {})
   {
-    Overrides all = {"Catenary.Number of spans=" + n_spans,
-                     "Catenary.Uplift positions=", "Statistics.Window=", "Time.End=0.1"};
-    all.insert(all.end(), more.begin(), more.end());
+    const Overrides all =
+        Overrides{"Catenary.Number of spans=" + n_spans,
+                  "Catenary.Uplift positions=", "Statistics.Window=", "Time.End=0.1"} +
+        more;
     taut::Parameters parameters;
     parameters.read(scene_file("en50318_2002_250"), all);
     return parameters.scene();
@@ -47,13 +44,7 @@ namespace
 
   double difference(const std::vector<double> &a, const std::vector<double> &b)
   {
-    double error = 0., size = 0.;
-    for (std::size_t i = 0; i < a.size(); ++i)
-    {
-      error = std::max(error, std::fabs(a[i] - b[i]));
-      size = std::max(size, std::fabs(a[i]));
-    }
-    return error / size;
+    return largest_difference(a, b) / largest(a);
   }
 
   long iterations(const InterfaceProblem &problem, const double step,

@@ -4,14 +4,10 @@
 // would be 0.8 GB, and its factor as much). Expected: the peak of the process below 10 times the 17
 // vectors of a run and the factors, what the solve adds below 4 times the factors and its 4
 // vectors.
+#include "common.h"
 #include "interface_problem.h"
 
 #include <taut/simulation/parameters.h>
-
-#include <gtest/gtest.h>
-
-#include <fstream>
-#include <string>
 
 namespace
 {

@@ -4,15 +4,10 @@
 // of EN 50318:2002, dropper forces 102.6, 79.5, 86.1, ... N, lengths 0.9856, 0.8041, 0.6473,
 // 0.5533, 0.5220 m; a published simple line of 55 m spans, lengths 1.017, 0.896, 0.810, 0.758,
 // 0.741 m.
-#include "run.h"
+#include "scene_tests.h"
 
 #include <taut/model/scene_constraints.h>
 #include <taut/time/time_stepper.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 
 using namespace verification;
 
@@ -74,10 +69,10 @@ namespace
              const Overrides &more = {})
   {
     Found found;
-    Overrides overrides = {"Time.Step=1e-3", "Time.End=1e-3", "Time.Scheme=backward Euler",
-                           "Statistics.Window="};
-    overrides.insert(overrides.end(), more.begin(), more.end());
-    run_scene(file, overrides,
+    run_scene(file,
+              Overrides{"Time.Step=1e-3", "Time.End=1e-3", "Time.Scheme=backward Euler",
+                        "Statistics.Window="} +
+                  more,
               [&](const taut::StepView &view)
               {
                 if (view.state.time > 0.)
@@ -96,17 +91,25 @@ namespace
     return found;
   }
 
-  const StringLine en50318 = {60.,
-                              1.2,
-                              1.35,
-                              20000.,
-                              1.07,
-                              16000.,
-                              0.,
-                              0.,
-                              0.,
-                              {5., 10.5, 17., 23.5, 30., 36.5, 43., 49.5, 55.},
-                              std::vector<double>(9, 0.)};
+  StringLine string_line(const double span, const double contact_tension,
+                         const double messenger_mass, const std::vector<double> &p,
+                         const std::vector<double> &sag)
+  {
+    StringLine line;
+    line.span = span;
+    line.encumbrance = 1.2;
+    line.contact_mass = 1.35;
+    line.contact_tension = contact_tension;
+    line.messenger_mass = messenger_mass;
+    line.messenger_tension = 16000.;
+    line.p = p;
+    line.sag = sag;
+    return line;
+  }
+
+  const StringLine en50318 =
+      string_line(60., 20000., 1.07, {5., 10.5, 17., 23.5, 30., 36.5, 43., 49.5, 55.},
+                  std::vector<double>(9, 0.));
 } // namespace
 
 TEST(LineOfStrings, forces_and_lengths_are_those_of_sums_of_forces)
@@ -205,17 +208,12 @@ TEST(LineOfBeams, bending_lengthens_the_droppers_by_the_rounding_of_the_kinks)
 
 TEST(Line55m, lengths_and_forces_are_the_published_ones)
 {
-  const StringLine line = {55.,
-                           1.2,
-                           1.35,
-                           22000.,
-                           1.08,
-                           16000.,
-                           .117,
-                           .195,
-                           .165,
-                           {4.5, 10.25, 16., 21.75, 27.5, 33.25, 39., 44.75, 50.5},
-                           {0., .024, .041, .052, .055, .052, .041, .024, 0.}};
+  StringLine line =
+      string_line(55., 22000., 1.08, {4.5, 10.25, 16., 21.75, 27.5, 33.25, 39., 44.75, 50.5},
+                  {0., .024, .041, .052, .055, .052, .041, .024, 0.});
+  line.dropper_mass = .117;
+  line.messenger_clamp = .195;
+  line.contact_clamp = .165;
   std::vector<double> tension, length;
   line.solve(tension, length);
   const double published[] = {1.017, .896, .810, .758, .741},
@@ -345,15 +343,14 @@ TEST(Rest, mass_held_by_stops_alone)
                 });
       // The sum of the forces falls with the height u of the mass: halve the interval of its zero.
       const double c = opposed ? -1. : 1., weight = opposed ? 0. : .7 * g;
-      double low = -1., high = 1.;
-      for (int halving = 0; halving < 200; ++halving)
+      const auto is_pushed_up = [&](const double u)
       {
-        const double u = .5 * (low + high);
-        const double sum = 1013. * std::max(0., .013 - u) + 331. * std::max(0., .011 - u) +
-                           c * k * std::max(0., .017 - c * u) - weight;
-        (sum > 0. ? low : high) = u;
-      }
-      EXPECT_NEAR(at_start[0], 1013. * std::max(0., .013 - .5 * (low + high)), 1e-10);
+        return 1013. * std::max(0., .013 - u) + 331. * std::max(0., .011 - u) +
+                   c * k * std::max(0., .017 - c * u) >
+               weight;
+      };
+      const double height = end_of(-1., 1., is_pushed_up);
+      EXPECT_NEAR(at_start[0], 1013. * std::max(0., .013 - height), 1e-10);
     }
   figure("mass on stops alone, largest certificate", worst);
   figure("mass on stops alone, largest relative change of a force in 50 steps", change_of_force);

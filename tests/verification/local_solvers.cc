@@ -3,13 +3,9 @@
 // constrained unknowns; a matrix that is singular up to rounding is an error, never an answer.
 // Sources: the product with the matrix has to give back the right-hand side; a string of equal
 // springs is singular if nothing holds its end.
-#include <taut/base/exceptions.h>
+#include "common.h"
+
 #include <taut/substructure/local_solver.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
 
 namespace
 {
@@ -43,6 +39,39 @@ namespace
                                           {4, Blocks::all}, {6, Blocks::all}, {6, Blocks::plane},
                                           {6, Blocks::none}};
 
+  using Vector = std::vector<double>;
+
+  /// Numbers between -1 and 1.
+  class Numbers
+  {
+  public:
+    explicit Numbers(const unsigned int seed) : random(seed) {}
+    double operator()() { return value(random); }
+    Vector operator()(const std::size_t n)
+    {
+      Vector result(n);
+      for (double &v : result)
+        v = value(random);
+      return result;
+    }
+
+    /// A matrix with random blocks, made definite by its diagonal.
+    std::unique_ptr<taut::SymmetricMatrix> matrix(const Blocks &blocks, const unsigned int n_nodes)
+    {
+      const unsigned int b = blocks.size;
+      auto result = taut::make_block_tridiagonal(b, b * n_nodes);
+      for (unsigned int i = 0; i < b * n_nodes; ++i)
+        for (unsigned int j = i / b == 0 ? 0 : b * (i / b - 1); j <= i; ++j)
+          if (blocks.couple(i, j))
+            result->add(i, j, i == j ? 4. * b : value(random));
+      return result;
+    }
+
+  private:
+    std::mt19937 random;
+    std::uniform_real_distribution<double> value{-1., 1.};
+  };
+
   /// Springs of 1 N/m between n points, the first point on a spring of k.
   std::unique_ptr<taut::SymmetricMatrix> string(const double k)
   {
@@ -66,7 +95,7 @@ TEST(LocalSolvers, hold_what_is_held)
     const auto solver = taut::make_local_solver(name, *matrix);
     solver->factor({{1., matrix.get()}}, {});
     // 1 N at the far end stretches every spring by 1 m, and the first one by 2 m.
-    std::vector<double> x(n, 0.);
+    Vector x(n, 0.);
     x.back() = 1.;
     solver->solve(x);
     for (unsigned int i = 0; i < n; ++i)
@@ -78,8 +107,7 @@ TEST(LocalSolvers, hold_what_is_held)
 // long before the ends, so that those of the block solver come from its recurrences.
 TEST(LocalSolvers, products_give_back_what_was_solved)
 {
-  std::mt19937 random(1);
-  std::uniform_real_distribution<double> value(-1., 1.);
+  Numbers value(1);
   constexpr unsigned int n_nodes = 201;
   for (const Blocks &blocks : all_blocks)
     for (const std::string name : {"block tridiagonal", "sparse direct"})
@@ -87,19 +115,15 @@ TEST(LocalSolvers, products_give_back_what_was_solved)
       SCOPED_TRACE(name + ", " + blocks.name());
       const unsigned int b = blocks.size;
       const unsigned int size = b * n_nodes;
-      const auto matrix = taut::make_block_tridiagonal(b, size);
-      for (unsigned int i = 0; i < size; ++i)
-        for (unsigned int j = i / b == 0 ? 0 : b * (i / b - 1); j <= i; ++j)
-          if (blocks.couple(i, j))
-            matrix->add(i, j, i == j ? 4. * b : value(random));
+      const auto matrix = value.matrix(blocks, n_nodes);
       const std::vector<unsigned int> held = {0, b * (n_nodes / 2) + 2 % b, size - 1};
       const auto solver = taut::make_local_solver(name, *matrix);
       solver->factor({{.5, matrix.get()}, {1.5, matrix.get()}}, held);
-      const auto check = [&](std::vector<double> x, const std::vector<double> &rhs)
+      const auto check = [&](Vector x, const Vector &rhs)
       {
         for (const unsigned int dof : held)
           EXPECT_EQ(x[dof], 0.);
-        std::vector<double> product(size, 0.);
+        Vector product(size, 0.);
         matrix->vmult_add(2., x.data(), product.data());
         for (unsigned int i = 0; i < size; ++i)
           if (i != held[0] && i != held[1] && i != held[2])
@@ -107,26 +131,24 @@ TEST(LocalSolvers, products_give_back_what_was_solved)
             EXPECT_NEAR(product[i], rhs[i], 1e-12) << i;
           }
       };
-      std::vector<double> rhs(size);
-      for (double &v : rhs)
-        v = value(random);
-      std::vector<double> x = rhs;
+      Vector rhs = value(size);
+      Vector x = rhs;
       solver->solve(x);
       check(x, rhs);
 
       for (unsigned int node = 0; node + 1 < n_nodes; ++node)
       {
         taut::LinearForm form;
-        std::vector<double> load(size, 0.);
+        Vector load(size, 0.);
         for (unsigned int i = b * node; i < b * (node + 2); ++i)
-          form.add(i, load[i] = value(random));
+          form.add(i, load[i] = value());
         taut::WindowedVector column;
         solver->column(form, column);
         if (name == "block tridiagonal")
         {
           EXPECT_LT(column.value.size(), size);
         }
-        std::vector<double> full(size, 0.);
+        Vector full(size, 0.);
         std::copy(column.value.begin(), column.value.end(), full.begin() + column.first);
         check(full, load);
       }
@@ -138,15 +160,15 @@ TEST(LocalSolvers, products_give_back_what_was_solved)
       {
         const unsigned int first = b * (r * r % (n_nodes - 1));
         for (const unsigned int i : {first, first + 2 * b - 1, first})
-          forms[r].add(i, value(random));
+          forms[r].add(i, value());
         rows.push_back(&forms[r]);
       }
-      std::vector<double> F;
+      Vector F;
       solver->flexibilities(rows, F);
       ASSERT_EQ(F.size(), forms.size() * (forms.size() + 1) / 2);
       for (std::size_t i = 0, entry = 0; i < forms.size(); ++i)
       {
-        std::vector<double> solution(size, 0.);
+        Vector solution(size, 0.);
         forms[i].add_to(1., solution);
         solver->solve(solution);
         EXPECT_NEAR(solver->flexibility(forms[i]), forms[i].dot(solution), 1e-14);
@@ -160,17 +182,14 @@ TEST(LocalSolvers, products_give_back_what_was_solved)
 // with each entry read, whole or by some constraints at a time.
 TEST(LocalSolvers, repeated_rows_multiply_as_if_they_were_read)
 {
-  std::mt19937 random(2);
-  std::uniform_real_distribution<double> value(-1., 1.);
+  Numbers value(2);
   for (const Blocks &blocks : all_blocks)
     for (const unsigned int n_nodes : {1u, 2u, 3u, 4u, 5u, 301u})
     {
       SCOPED_TRACE(blocks.name() + ", nodes: " + std::to_string(n_nodes));
       const unsigned int b = blocks.size;
       const unsigned int size = b * n_nodes;
-      std::vector<double> element(4 * b * b);
-      for (double &v : element)
-        v = value(random);
+      const Vector element = value(4 * b * b);
       const auto matrix = taut::make_block_tridiagonal(b, size);
       for (unsigned int node = 0; node + 1 < n_nodes; ++node)
         for (unsigned int i = 0; i < 2 * b; ++i)
@@ -181,9 +200,8 @@ TEST(LocalSolvers, repeated_rows_multiply_as_if_they_were_read)
       if (blocks.coupling == Blocks::all)
         matrix->add(b * (2 * n_nodes / 3) + b - 1, b * (2 * n_nodes / 3), 2.);
 
-      std::vector<double> x(size), expected(size, 0.);
-      for (double &v : x)
-        v = value(random);
+      const Vector x = value(size);
+      Vector expected(size, 0.);
       matrix->visit(
           [&](const unsigned int i, const unsigned int j, const double v)
           {
@@ -195,7 +213,7 @@ TEST(LocalSolvers, repeated_rows_multiply_as_if_they_were_read)
       {
         if (repeated)
           matrix->find_repetitions();
-        std::vector<double> product(size, 1.);
+        Vector product(size, 1.);
         matrix->vmult_add(2., x.data(), product.data());
         for (unsigned int i = 0; i < size; ++i)
           EXPECT_NEAR(product[i], 1. + 2. * expected[i], 1e-13) << i;
@@ -204,7 +222,7 @@ TEST(LocalSolvers, repeated_rows_multiply_as_if_they_were_read)
           {
             if (end <= begin || end > size)
               continue;
-            std::vector<double> part(end - begin, 1.);
+            Vector part(end - begin, 1.);
             matrix->vmult_rows(begin, end, x.data(), part.data());
             for (unsigned int i = begin; i < end; ++i)
               EXPECT_NEAR(part[i - begin], expected[i], 1e-13) << i;
@@ -213,14 +231,14 @@ TEST(LocalSolvers, repeated_rows_multiply_as_if_they_were_read)
       // Nothing at all is a repetition, too.
       const auto zero = taut::make_block_tridiagonal(b, size);
       zero->find_repetitions();
-      std::vector<double> nothing(size, 1.);
+      Vector nothing(size, 1.);
       zero->vmult_rows(0, size, x.data(), nothing.data());
-      EXPECT_EQ(nothing, std::vector<double>(size, 0.));
+      EXPECT_EQ(nothing, Vector(size, 0.));
 
       // What is added later counts.
       const unsigned int later = b * (n_nodes / 2);
       matrix->add(later, later, 1.);
-      std::vector<double> product(size);
+      Vector product(size);
       matrix->vmult_rows(0, size, x.data(), product.data());
       EXPECT_NEAR(product[later], expected[later] + x[later], 1e-13);
     }
@@ -231,17 +249,12 @@ TEST(LocalSolvers, repeated_rows_multiply_as_if_they_were_read)
 TEST(LocalSolvers, matrices_of_two_kinds_are_added)
 {
   constexpr unsigned int b = 6, n_nodes = 40, size = b * n_nodes, node = 17;
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> value(-1., 1.);
+  Numbers value(5);
   for (const bool cable_couples : {false, true})
     for (const bool spring_couples : {false, true})
     {
       SCOPED_TRACE(std::to_string(cable_couples) + ", " + std::to_string(spring_couples));
-      const auto cable = taut::make_block_tridiagonal(b, size);
-      for (unsigned int i = 0; i < size; ++i)
-        for (unsigned int j = i / b == 0 ? 0 : b * (i / b - 1); j <= i; ++j)
-          if (Blocks{b, cable_couples ? Blocks::all : Blocks::plane}.couple(i, j))
-            cable->add(i, j, i == j ? 4. * b : value(random));
+      const auto cable = value.matrix({b, cable_couples ? Blocks::all : Blocks::plane}, n_nodes);
       taut::CoordinateMatrix spring(size);
       const double direction[3] = {.6, .8, spring_couples ? .5 : 0.};
       for (unsigned int i = 0; i < 3; ++i)
@@ -249,10 +262,9 @@ TEST(LocalSolvers, matrices_of_two_kinds_are_added)
           spring.add(b * node + i, b * node + j, 30. * direction[i] * direction[j]);
       const auto solver = taut::make_local_solver("block tridiagonal", *cable);
       solver->factor({{2., cable.get()}, {1., &spring}}, {});
-      std::vector<double> rhs(size), product(size, 0.);
-      for (double &v : rhs)
-        v = value(random);
-      std::vector<double> x = rhs;
+      const Vector rhs = value(size);
+      Vector product(size, 0.);
+      Vector x = rhs;
       solver->solve(x);
       cable->vmult_add(2., x.data(), product.data());
       spring.vmult_add(1., x.data(), product.data());
@@ -264,8 +276,7 @@ TEST(LocalSolvers, matrices_of_two_kinds_are_added)
 // Two bodies of different lengths, in one loop and one after the other; and of different solvers.
 TEST(LocalSolvers, bodies_side_by_side_are_solved_like_one_by_one)
 {
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> value(-1., 1.);
+  Numbers value(3);
   for (const Blocks &blocks : all_blocks)
     for (const std::string name : {"block tridiagonal", "sparse direct"})
       for (const unsigned int n_nodes : {1u, 2u, 3u, 40u, 93u})
@@ -273,26 +284,14 @@ TEST(LocalSolvers, bodies_side_by_side_are_solved_like_one_by_one)
         SCOPED_TRACE(name + ", " + blocks.name() + ", nodes: " + std::to_string(n_nodes));
         const unsigned int b = blocks.size;
         // A decoupled body stands beside a coupled one, or beside another decoupled one.
-        const auto make = [&](const unsigned int nodes, const Blocks &of)
-        {
-          auto matrix = taut::make_block_tridiagonal(b, b * nodes);
-          for (unsigned int i = 0; i < b * nodes; ++i)
-            for (unsigned int j = i / b == 0 ? 0 : b * (i / b - 1); j <= i; ++j)
-              if (of.couple(i, j))
-                matrix->add(i, j, i == j ? 4. * b : value(random));
-          return matrix;
-        };
-        const auto A = make(40, blocks),
-                   B = make(n_nodes, n_nodes % 2 == 0 ? Blocks{b, Blocks::all} : blocks);
+        const auto A = value.matrix(blocks, 40),
+                   B = value.matrix(n_nodes % 2 == 0 ? Blocks{b, Blocks::all} : blocks, n_nodes);
         const auto first = taut::make_local_solver("block tridiagonal", *A),
                    second = taut::make_local_solver(name, *B);
         first->factor({{1., A.get()}}, {1});
         second->factor({{1., B.get()}}, {b * n_nodes - 1});
-        std::vector<double> x(40 * b), y(n_nodes * b);
-        for (std::vector<double> *v : {&x, &y})
-          for (double &entry : *v)
-            entry = value(random);
-        std::vector<double> x_alone = x, y_alone = y;
+        Vector x = value(40 * b), y = value(n_nodes * b);
+        Vector x_alone = x, y_alone = y;
         first->solve_beside(x, *second, y);
         first->solve(x_alone);
         second->solve(y_alone);
@@ -306,11 +305,8 @@ TEST(LocalSolvers, bodies_side_by_side_are_solved_like_one_by_one)
 // Windows of any length at any place, padded or not.
 TEST(LocalSolvers, scalar_products_of_windows_are_sums_of_their_terms)
 {
-  std::mt19937 random(4);
-  std::uniform_real_distribution<double> value(-1., 1.);
-  std::vector<double> x(60);
-  for (double &v : x)
-    v = value(random);
+  Numbers value(4);
+  Vector x = value(60);
   for (unsigned int first : {0u, 1u, 20u, 50u})
     for (unsigned int length = 0; first + length <= x.size(); ++length)
     {
@@ -319,7 +315,7 @@ TEST(LocalSolvers, scalar_products_of_windows_are_sums_of_their_terms)
       double sum = 0., size = 0.;
       for (unsigned int i = first; i < first + length; ++i)
       {
-        window.value.push_back(value(random));
+        window.value.push_back(value());
         sum += window.value.back() * x[i];
         size += std::fabs(window.value.back() * x[i]);
       }
@@ -363,16 +359,11 @@ TEST(LocalSolvers, name_what_is_not_held)
       if (coupled)
         matrix->add(1, 2, .1);
       const auto solver = taut::make_local_solver("block tridiagonal", *matrix);
-      std::string message;
-      try
-      {
-        solver->factor({{1., matrix.get()}}, {});
-      }
-      catch (const taut::BodyNotHeld &error)
-      {
-        message = error.what();
-      }
-      EXPECT_NE(message.find("node 2, DoF " + std::to_string(loose)), std::string::npos)
+      const std::string message = verification::error_of(
+          [&] {
+            solver->factor({{1., matrix.get()}}, {});
+          });
+      EXPECT_TRUE(verification::has(message, "node 2, DoF " + std::to_string(loose)))
           << coupled << ", " << message;
     }
 }

@@ -3,15 +3,10 @@
 // those of bodies that nothing connects for themselves, those of one mass by their sum.
 // Source: a mass m on a stop k has the ratio k step^2 / (3.9 m), as generalised-alpha with spectral
 // radius 0.8 has M / (beta' step^2) in the matrix of a step; n stops side by side are one of n k.
-#include "run.h"
+#include "scene_tests.h"
 
 #include <taut/model/scene_constraints.h>
 #include <taut/time/choose_scheme.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 
 using namespace verification;
 

@@ -3,14 +3,9 @@
 // total mass, its centre and its moment of inertia (the conditions of H. B. Khenous, P. Laborde,
 // Y. Renard, European Journal of Mechanics A 27 (2008)), and leaves a mass matrix that is definite
 // elsewhere; the first force of an impact then no longer grows like m v / step, for any scheme.
-#include "run.h"
+#include "scene_tests.h"
 
 #include <taut/wire/wire_component.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 
 using namespace verification;
 
@@ -82,12 +77,8 @@ Time: Scheme = BDF2; Step = 1e-3; End = 1e-3; Mass redistribution = )" +
     }
     const auto product = [&](const std::vector<double> &x, const std::vector<double> &y)
     {
-      std::vector<double> My(n, 0.);
-      body.mass().vmult_add(1., y.data(), My.data());
-      double sum = 0.;
-      for (int i = 0; i < n; ++i)
-        sum += x[i] * My[i];
-      return sum;
+      const std::vector<double> My = matrix_times(body.mass(), y);
+      return std::inner_product(x.begin(), x.end(), My.begin(), 0.);
     };
     result.mass = product(one, one);
     result.first = product(one, s);
@@ -174,11 +165,7 @@ TEST(MasslessContact, an_impact_makes_no_peak_that_grows_as_the_step_falls)
   for (const std::string scheme : {"BDF2", "Newmark", "HHT", "generalised-alpha"})
   {
     const Overrides common = {"Time.Scheme=" + scheme, "Time.End=0.6"};
-    const auto with = [&](Overrides more)
-    {
-      more.insert(more.end(), common.begin(), common.end());
-      return bar_on_wall(more);
-    };
+    const auto with = [&](const Overrides &more) { return bar_on_wall(more + common); };
     const Impact coarse = with({"Time.Step=1e-4", "Time.Mass redistribution=mass"}),
                  fine = with({"Time.Step=1e-5", "Time.Mass redistribution=mass"});
     figure("bar on wall without mass at the node, largest force, 1e-5 s, " + scheme,

@@ -2,18 +2,11 @@
 // Claim: the scheme of a moving elastic contact is that of the most flexible place of its way, and
 // of each step where the way is not known before the run. Sources: the same scene in a sixteenth of
 // the step by other schemes; the load that pushes the roller.
-#include "run.h"
+#include "scene_tests.h"
 
-#include <taut/base/exceptions.h>
 #include <taut/scene/scene.h>
 #include <taut/time/stepper.h>
 #include <taut/wire/wire_component.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <memory>
 
 using namespace verification;
 
@@ -50,31 +43,23 @@ Time: Step = 1e-3; End = 0.38
   {
     Result result;
     std::unique_ptr<Session> session;
-    try
-    {
-      session = std::make_unique<Session>(text, overrides);
-      session->run(
-          [&](const taut::StepView &view)
-          {
-            const double N = view.state.multiplier.back(), dt = view.state.last_step;
-            result.peak = std::max(result.peak, N);
-            result.open += N > 0. ? 0. : dt;
-            result.impulse += N * dt;
-            result.height = view.state.U[1][0] + view.reference.displacement[1][0];
-          });
-    }
-    catch (const taut::UserError &e)
-    {
-      result.error = e.what();
-    }
+    result.error = verification::error_of(
+        [&]
+        {
+          session = std::make_unique<Session>(text, overrides);
+          session->run(
+              [&](const taut::StepView &view)
+              {
+                const double N = view.state.multiplier.back(), dt = view.state.last_step;
+                result.peak = std::max(result.peak, N);
+                result.open += N > 0. ? 0. : dt;
+                result.impulse += N * dt;
+                result.height = view.state.U[1][0] + view.reference.displacement[1][0];
+              });
+        });
     if (session)
       result.log = session->log();
     return result;
-  }
-
-  bool has(const std::string &text, const std::string &part)
-  {
-    return text.find(part) != std::string::npos;
   }
 } // namespace
 
@@ -107,9 +92,8 @@ TEST(MovingContacts, press_a_roller_on_a_wire_from_support_to_support)
                       text = roller(is_beam);
     const Overrides other = {"Time.Scheme=generalised-alpha", "Time.Allow unsuitable scheme=true",
                              "Time.Allow energy gain=true"};
-    Overrides fine = other;
-    fine.push_back("Time.Step=6.25e-5");
-    const Result reference = run(text, fine), chosen = run(text), old = run(text, other);
+    const Result reference = run(text, other + Overrides{"Time.Step=6.25e-5"}), chosen = run(text),
+                 old = run(text, other);
     ASSERT_EQ(chosen.error, "");
     ASSERT_EQ(reference.error, "");
     for (const auto &[what, r] : {std::pair<std::string, const Result &>("fine", reference),
@@ -262,15 +246,12 @@ namespace
     taut::Stepper stepper(rolling.system, options);
     Stepped result;
     result.scheme = stepper.scheme();
-    try
-    {
-      while (stepper.time() < end - .5 * step)
-        stepper.advance();
-    }
-    catch (const taut::UserError &e)
-    {
-      result.error = e.what();
-    }
+    result.error = verification::error_of(
+        [&]
+        {
+          while (stepper.time() < end - .5 * step)
+            stepper.advance();
+        });
     result.last = stepper.time();
     return result;
   }

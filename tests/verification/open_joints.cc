@@ -2,17 +2,11 @@
 // Claim: a rigid joint that starts open is refused, for it would close within one step of any
 // length; one that is closed but for rounding, elastic or at rest is taken. Expected values: the
 // messages; the place where a joint holds.
-#include "run.h"
-
-#include <taut/base/exceptions.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
+#include "scene_tests.h"
 
 namespace
 {
+  using verification::has;
   using verification::Overrides;
 
   const std::string pendulum = R"(Gravity = 0, -9.81; Start = given
@@ -65,7 +59,7 @@ TEST(OpenJoints, are_refused_at_the_start)
       height(entries, &error);
       for (const char *const part :
            {"Network/Link rod: joint 'rod' starts with a gap of ", "give it a Stiffness"})
-        EXPECT_NE(error.find(part), std::string::npos) << open.back() << ": " << error;
+        EXPECT_TRUE(has(error, part)) << open.back() << ": " << error;
     }
 }
 

@@ -4,14 +4,10 @@
 // hang on. The reference knows nothing of the time stepper: the matrices of the bodies, joints
 // eliminated, integrated by the classical Runge-Kutta method of fourth order with a step of 1/16 of
 // the smallest tested one or less.
-#include "run.h"
+#include "scene_tests.h"
 
 #include <deal.II/lac/full_matrix.h>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <map>
 
 using namespace verification;
@@ -333,9 +329,9 @@ namespace
         // Backward Euler reaches its order at shorter steps only.
         const int ratio = (scheme.order == 1. ? 16 : 1) << k;
         steps.push_back(end / (coarsest * ratio));
-        Overrides overrides = scheme.overrides;
-        overrides.push_back("Time.Step=" + number(steps.back()));
-        overrides.push_back("Time.End=" + number(end));
+        const Overrides overrides =
+            scheme.overrides +
+            Overrides{"Time.Step=" + number(steps.back()), "Time.End=" + number(end)};
         double error = 0., force_error = 0.;
         int i = 0;
         run_scene(scene, overrides,

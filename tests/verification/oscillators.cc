@@ -4,12 +4,7 @@
 // outside keep their momentum, and their distance is a damped oscillator of the reduced mass; a
 // mass on a spring whose other end moves by a (1 - cos omega t) moves by a [1 - (Omega^2 cos omega
 // t - omega^2 cos Omega t)/(Omega^2 - omega^2)].
-#include "run.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
+#include "scene_tests.h"
 
 using namespace verification;
 

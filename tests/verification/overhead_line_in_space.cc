@@ -3,20 +3,14 @@
 // the plane; at rest they are taut strings with ropes between them, also in wind. Sources: the
 // scene in the plane; closed forms of a string and of a tensioned beam; the nonlinear equilibrium
 // of strings and ropes that may turn, found here by Newton's method.
-#include "run.h"
+#include "scene_tests.h"
 
 #include <taut/output/reactions.h>
 
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <string>
-#include <vector>
 
 using namespace verification;
 

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: answers do not depend on the cuts of wires, and cuts spare droppers and balance parts.
 // Source: the uncut run; counts of nodes.
-#include "run.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
+#include "scene_tests.h"
 
 using namespace verification;
 
@@ -45,13 +40,8 @@ namespace
   /// Largest difference over the largest value, or over @p size if that is larger.
   double difference(const std::vector<double> &a, const std::vector<double> &b, double size = 0.)
   {
-    double error = a.size() == b.size() ? 0. : INFINITY;
-    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
-    {
-      error = std::max(error, std::fabs(a[i] - b[i]));
-      size = std::max(size, std::fabs(a[i]));
-    }
-    return size > 0. ? error / size : error;
+    size = std::max(size, largest(a));
+    return largest_difference(a, b) / (size > 0. ? size : 1.);
   }
 
   void expect_same(const std::string &scene, const Overrides &overrides,
@@ -61,9 +51,7 @@ namespace
     const Record uncut = record(scene, overrides, "");
     // A link that never opens has gaps of nothing but rounding: the motion of the bodies counts
     // too.
-    double way = 0.;
-    for (const double u : uncut.probe)
-      way = std::max(way, std::fabs(u));
+    const double way = largest(uncut.probe);
     for (const std::string &partition : partitions)
     {
       SCOPED_TRACE(scene + ", " + partition);

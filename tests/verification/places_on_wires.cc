@@ -2,14 +2,9 @@
 // Claim: places on a wire that differ by less than 1e-6 of an element are one node, so that scenes
 // whose positions are written with different numbers of digits are those with equal ones.
 #include "cable/errors_of_runs.h"
+#include "common.h"
 
-#include <taut/base/exceptions.h>
 #include <taut/scene/shared_places.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 
 using namespace verification;
 
@@ -101,11 +96,10 @@ TEST(PlacesOnWires, that_are_too_close_are_named)
         scene(components, {"3.333333", "3.333333", "3.333333", "3.333333"}, "10");
     const std::string held_twice =
         error_of(text + "Support spring: -Type; -Stiffness; Positions = 3.333333, 3.3333333333\n");
-    EXPECT_NE(held_twice.find("is held there already, at 3.333333 m"), std::string::npos)
-        << held_twice;
+    EXPECT_TRUE(has(held_twice, "is held there already, at 3.333333 m")) << held_twice;
     const std::string two_links =
         error_of(text + "Link dropper: To = wire @ 3.333333, 3.3333333333\n");
-    EXPECT_NE(two_links.find("between the same two points"), std::string::npos) << two_links;
+    EXPECT_TRUE(has(two_links, "between the same two points")) << two_links;
   }
 }
 

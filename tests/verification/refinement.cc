@@ -3,12 +3,7 @@
 // that let go have no force, stops that are reached push, joints hold, compliant stops follow their
 // springs and dampers, with each scheme that carries forces of the step before. Expected: the
 // equations of one step, solved by hand.
-#include "run.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <sstream>
+#include "scene_tests.h"
 
 using namespace verification;
 

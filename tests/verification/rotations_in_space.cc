@@ -1,16 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: moments, angular gaps and recorded rotations of wires are about any axis in space.
-#include "run.h"
-
-#include <taut/base/exceptions.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <sstream>
-#include <string>
-#include <vector>
+#include "scene_tests.h"
 
 using namespace verification;
 using taut::add_scaled;
@@ -53,18 +43,11 @@ namespace
     std::vector<double> moment, slope, middle;
     double difference(const Motion &other) const
     {
-      double worst = 0., size = 0.;
+      double worst = 0.;
       for (const auto &[a, b] :
            {std::pair(&moment, &other.moment), {&slope, &other.slope}, {&middle, &other.middle}})
       {
-        EXPECT_EQ(a->size(), b->size());
-        size = 0.;
-        double error = 0.;
-        for (std::size_t i = 0; i < std::min(a->size(), b->size()); ++i)
-        {
-          size = std::max(size, std::fabs((*a)[i]));
-          error = std::max(error, std::fabs((*a)[i] - (*b)[i]));
-        }
+        const double size = largest(*a), error = largest_difference(*a, *b);
         EXPECT_GT(size, 0.);
         EXPECT_LE(error, size); // of numbers only
         worst = std::max(worst, error / size);
@@ -91,15 +74,8 @@ namespace
 
   std::string error_of(const Overrides &overrides)
   {
-    try
-    {
-      Session session(scene_file("beam_angular_stop"), overrides);
-    }
-    catch (const taut::UserError &e)
-    {
-      return e.what();
-    }
-    return "";
+    return verification::error_of([&]
+                                  { Session session(scene_file("beam_angular_stop"), overrides); });
   }
 } // namespace
 
@@ -171,6 +147,6 @@ TEST(RotationsInSpace, an_axis_that_nothing_turns_about_is_an_error)
            {{"Output/Probe left slope/Axis = 0, 1, 0"}, "cannot turn about it"}})
   {
     const std::string error = error_of(overrides);
-    EXPECT_NE(error.find(part), std::string::npos) << overrides[0] << ": " << error;
+    EXPECT_TRUE(has(error, part)) << overrides[0] << ": " << error;
   }
 }

@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 namespace verification
 {
@@ -18,7 +17,11 @@ namespace verification
     {
     public:
       explicit Guest(const Callback &callback) : callback(callback) {}
-      void record(const taut::StepView &view) override { callback(view); }
+      void record(const taut::StepView &view) override
+      {
+        if (callback)
+          callback(view);
+      }
 
     private:
       const Callback &callback;
@@ -50,10 +53,9 @@ namespace verification
       file = scratch + "/scene.prm";
       std::ofstream(file) << prm(file_or_text);
     }
-    Overrides all = {"Output.Folder=" + scratch + "/results", "Output.Interval=1e9",
-                     "Output.Link interval=1e9"};
-    all.insert(all.end(), overrides.begin(), overrides.end());
-    values.read(file, all);
+    values.read(file, Overrides{"Output.Folder=" + scratch + "/results", "Output.Interval=1e9",
+                                "Output.Link interval=1e9"} +
+                          overrides);
     runner = std::make_unique<taut::Simulation>(values, text, processes);
   }
 

@@ -15,6 +15,12 @@
 namespace verification
 {
   using Overrides = std::vector<std::string>;
+  inline Overrides operator+(Overrides a, const Overrides &b)
+  {
+    a.insert(a.end(), b.begin(), b.end());
+    return a;
+  }
+
   using Callback = std::function<void(const taut::StepView &)>;
 
   /// Path of a scene of the folder prm/, by its name without extension.
@@ -36,7 +42,7 @@ namespace verification
     ~Session();
 
     /// Runs to the end; @p callback sees the start and each step.
-    void run(const Callback &callback);
+    void run(const Callback &callback = {});
 
     taut::Simulation &simulation() { return *runner; }
     const taut::Parameters &parameters() const { return values; }

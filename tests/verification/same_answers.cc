@@ -2,16 +2,12 @@
 // Claim: what a scene answers does not depend on how it is computed: both local solvers, assembled
 // and matrix-free interface operator, and both complementarity methods give the same forces and
 // displacements, to 1e-10 of the largest one or 10 eps cond(F), whichever is more.
-#include "run.h"
+#include "scene_tests.h"
 
 #include <taut/interface/schur_complement.h>
 
 #include <deal.II/lac/lapack_templates.h>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 using namespace verification;
@@ -78,8 +74,7 @@ namespace
           r.n_fallbacks += view.certificate.fallback;
           if (r.forces.size() == 1)
             for (const std::vector<double> &u : view.reference.displacement)
-              for (const double value : u)
-                r.displacement = std::max(r.displacement, std::fabs(value));
+              r.displacement = std::max(r.displacement, largest(u));
         });
     const taut::Structure &structure = session.simulation().structure();
     r.condition =
@@ -97,14 +92,13 @@ namespace
                     const std::vector<std::vector<double>> &b, double size)
   {
     EXPECT_EQ(a.size(), b.size());
-    double largest = 0.;
+    double error = 0.;
     for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
-      for (std::size_t j = 0; j < a[i].size(); ++j)
-      {
-        largest = std::max(largest, std::fabs(a[i][j] - b[i][j]));
-        size = std::max(size, std::fabs(a[i][j]));
-      }
-    return size > 0. ? largest / size : largest;
+    {
+      error = std::max(error, largest_difference(a[i], b[i]));
+      size = std::max(size, largest(a[i]));
+    }
+    return size > 0. ? error / size : error;
   }
 
   struct Case
@@ -116,10 +110,7 @@ namespace
   /// Largest difference over what is allowed.
   double compare(const Case &c, const Overrides &other, const std::string &name)
   {
-    Overrides overrides = c.overrides;
-    const Record one = record(c.scene, overrides);
-    overrides.insert(overrides.end(), other.begin(), other.end());
-    const Record two = record(c.scene, overrides);
+    const Record one = record(c.scene, c.overrides), two = record(c.scene, c.overrides + other);
     EXPECT_EQ(one.n_fallbacks, 0) << c.scene << ": these scenes do not make Newton's method cycle";
     const double forces = difference(one.forces, two.forces, 0.),
                  probes = difference(one.probes, two.probes, one.displacement),

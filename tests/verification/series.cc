@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: a table with an interval shows what happened between its lines. Source: forces, gaps and
 // displacements that an observer of the same run sees in every step.
-#include "run.h"
+#include "scene_tests.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <cctype>
-#include <cmath>
-#include <fstream>
-#include <map>
-#include <sstream>
 
 using namespace verification;
 
@@ -29,38 +22,6 @@ Probe ball: Point = ball
 )";
 
   using Table = std::map<std::string, std::vector<double>>;
-
-  std::vector<std::string> cells_of(const std::string &line)
-  {
-    std::vector<std::string> cells;
-    std::istringstream in(line);
-    for (std::string cell; std::getline(in, cell, ',');)
-      cells.push_back(cell);
-    return cells;
-  }
-
-  Table read(const std::string &path)
-  {
-    std::ifstream in(path);
-    std::string line;
-    std::getline(in, line);
-    const std::vector<std::string> head = cells_of(line);
-    Table table;
-    while (std::getline(in, line))
-    {
-      const std::vector<std::string> cells = cells_of(line);
-      EXPECT_EQ(cells.size(), head.size()) << line;
-      for (std::size_t i = 0; i < std::min(head.size(), cells.size()); ++i)
-        table[head[i]].push_back(std::stod(cells[i]));
-    }
-    return table;
-  }
-
-  std::string text(const std::string &path)
-  {
-    std::ifstream in(path);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
 
   Table read_binary(const std::string &path)
   {
@@ -98,8 +59,8 @@ TEST(Series, lines_at_intervals_show_a_hit_between_them)
 {
   Session session(scene, {"Output.Link interval=0.01", "Output.Interval=0.01"});
   const std::vector<Step> steps = run(session);
-  const Table links = read(session.folder() + "/links.csv"),
-              probes = read(session.folder() + "/probes.csv");
+  const Table links = read_table(session.folder() + "/links.csv"),
+              probes = read_table(session.folder() + "/probes.csv");
   const std::vector<double> &time = links.at("time [s]");
   const std::vector<double> expected_times = {0., .01, .02, .03, .0345};
   ASSERT_EQ(time, expected_times) << "the last line covers the rest";
@@ -139,10 +100,10 @@ TEST(Series, a_line_each_step_has_no_more_columns)
 {
   Session session(scene, {"Output.Link interval=0", "Output.Interval=0"});
   const std::vector<Step> steps = run(session);
-  const std::string links = text(session.folder() + "/links.csv");
+  const std::string links = file_text(session.folder() + "/links.csv");
   EXPECT_EQ(links.substr(0, links.find('\n')),
             "time [s],buffer force [N],buffer gap [m],rod force [N],rod gap [m]");
-  const Table table = read(session.folder() + "/links.csv");
+  const Table table = read_table(session.folder() + "/links.csv");
   ASSERT_EQ(table.at("time [s]").size(), steps.size());
   for (std::size_t i = 0; i < steps.size(); ++i)
     EXPECT_EQ(table.at("buffer force [N]")[i], steps[i].force);
@@ -154,17 +115,15 @@ TEST(Series, binary_tables_have_the_same_numbers)
 {
   for (const char *interval : {"0", "0.01"})
   {
-    const std::vector<std::string> settings = {std::string("Output.Link interval=") + interval,
-                                               std::string("Output.Interval=") + interval};
+    const Overrides settings = {std::string("Output.Link interval=") + interval,
+                                std::string("Output.Interval=") + interval};
     Session text_session(scene, settings);
     run(text_session);
-    std::vector<std::string> with_binary = settings;
-    with_binary.push_back("Output.Tables=binary");
-    Session binary_session(scene, with_binary);
+    Session binary_session(scene, settings + Overrides{"Output.Tables=binary"});
     run(binary_session);
     for (const std::string name : {"/links", "/probes", "/certificate"})
     {
-      Table expected = read(text_session.folder() + name + ".csv"),
+      Table expected = read_table(text_session.folder() + name + ".csv"),
             found = read_binary(binary_session.folder() + name + ".bin");
       ASSERT_GT(expected.size(), 1u);
       const std::vector<double> time = expected.at("time [s]");
@@ -173,7 +132,7 @@ TEST(Series, binary_tables_have_the_same_numbers)
         EXPECT_NEAR(found["time [s]"][i], time[i], 1e-14);
       found["time [s]"] = time;
       EXPECT_EQ(found, expected) << name;
-      EXPECT_EQ(text(binary_session.folder() + name + ".csv"), "") << "of one kind only";
+      EXPECT_EQ(file_text(binary_session.folder() + name + ".csv"), "") << "of one kind only";
     }
   }
 }
@@ -187,7 +146,7 @@ TEST(Series, times_are_written_as_multiples_of_the_step)
   run(session);
   for (const char *name : {"links", "probes", "certificate", "energy"})
   {
-    std::istringstream lines(text(session.folder() + "/" + name + ".csv"));
+    std::istringstream lines(file_text(session.folder() + "/" + name + ".csv"));
     std::string line;
     std::getline(lines, line);
     for (int n = 0; n <= 30; ++n)
@@ -211,10 +170,10 @@ TEST(Series, columns_have_names_that_numpy_can_tell_apart)
                    "Catenary.Contact wire.Element size=4", "Catenary.Messenger wire.Element size=4",
                    "Catenary.Uplift positions=24.5, 245, 2.45",
                    "Statistics.Window=", "Output.Field interval=0"});
-  session.run([](const taut::StepView &) {});
+  session.run();
   for (const char *name : {"links", "probes", "supports", "sliding", "certificate", "start"})
   {
-    std::istringstream lines(text(session.folder() + "/" + name + ".csv"));
+    std::istringstream lines(file_text(session.folder() + "/" + name + ".csv"));
     std::string head;
     std::getline(lines, head);
     std::map<std::string, std::string> known;

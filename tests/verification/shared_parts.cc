@@ -2,15 +2,12 @@
 // Claim: what the cases of a sweep have in common is made once, and no bit of a result shows it.
 // Source: the same case by itself, from a parameter file that is read anew, with nothing shared;
 // and the members of scene.h, each changed in turn.
-#include "run.h"
+#include "scene_tests.h"
 
-#include <taut/base/exceptions.h>
 #include <taut/model/form_finding.h>
 #include <taut/model/scene_bodies.h>
 #include <taut/scene/scene_values.h>
 #include <taut/study/case_runner.h>
-
-#include <gtest/gtest.h>
 
 using namespace verification;
 
@@ -30,25 +27,21 @@ namespace
                               std::string &message)
   {
     std::vector<double> values;
-    try
-    {
-      const taut::CaseResult result = runner.run(entries);
-      for (const auto &quantity : result.quantities)
-        values.push_back(quantity.value);
-      values.push_back(result.worst.complementarity);
-      values.push_back(result.worst.balance);
-    }
-    catch (const taut::UserError &e)
-    {
-      message = e.what();
-    }
+    message = verification::error_of(
+        [&]
+        {
+          const taut::CaseResult result = runner.run(entries);
+          for (const auto &quantity : result.quantities)
+            values.push_back(quantity.value);
+          values.push_back(result.worst.complementarity);
+          values.push_back(result.worst.balance);
+        });
     return values;
   }
 
   taut::Scene line(const Overrides &overrides = {})
   {
-    Overrides all = short_run;
-    all.insert(all.end(), overrides.begin(), overrides.end());
+    const Overrides all = short_run + overrides;
     taut::Parameters parameters;
     parameters.read(scene_file("en50318_2002_250"), all);
     return taut::find_lengths(parameters.scene(), parameters.solver);

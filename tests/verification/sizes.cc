@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: the sizes that certificates divide by are those of the vectors and constraints,
 // not-a-number included. Source: a loop over all entries.
-#include "run.h"
+#include "scene_tests.h"
 
 #include <taut/interface/constraints.h>
 #include <taut/model/scene_constraints.h>
 #include <taut/time/matrix_norms.h>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <limits>
-#include <random>
 
 using namespace verification;
 
@@ -94,7 +90,7 @@ TEST(Sizes, largest_entries_of_vectors_are_those_of_a_loop)
 TEST(Sizes, largest_forces_of_rows_are_those_of_a_loop)
 {
   Session session(scene_file("en50318_2002_250_two"), {"Time.End=0.01", "Statistics.Window="});
-  session.run([](const taut::StepView &) {});
+  session.run();
   const taut::SceneBodies &structure = session.simulation().structure();
   taut::Constraints constraints = taut::scene_constraints(session.simulation().scene(), structure);
   std::mt19937 random(2);

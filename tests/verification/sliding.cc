@@ -3,12 +3,7 @@
 // Sources: on a wire that hardly yields, a mass on a contact spring is an oscillator shaken by the
 // profile, m x" + (k + k_0) x = k r(v t), solved here in closed form; a contact pressed by a
 // constant force without mass raises a string as a moving force does.
-#include "run.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
+#include "scene_tests.h"
 
 using namespace verification;
 

@@ -2,14 +2,9 @@
 // Claim: static states are those of string and beam theory. Sources: sums of forces (strings), beam
 // theory (flexibilities L^3/(3 EI), F L^2/(16 EI), M L/(3 EI)), the heavy beam lifted from a floor:
 // lifted length (24 EI h/q)^(1/4), end force and point reaction q l/2.
-#include "run.h"
+#include "scene_tests.h"
 
 #include <taut/time/static_equilibrium.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 
 using namespace verification;
 

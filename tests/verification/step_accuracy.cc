@@ -1,14 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: a run says by how much its steps are too long, and which step it needs. Source: the phase
 // of a mass on a spring, the parabola of a ball on a rigid floor.
-#include "run.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <sstream>
-#include <string>
+#include "scene_tests.h"
 
 using namespace verification;
 
@@ -87,7 +80,7 @@ TEST(StepAccuracy, the_phase_of_an_oscillator_is_off)
          coarse.reported / coarse.error);
   EXPECT_GT(coarse.error, .1);
   EXPECT_NEAR(coarse.reported, coarse.error, .1 * coarse.error);
-  EXPECT_NE(coarse.log.find("the place of 'bob'"), std::string::npos) << coarse.log;
+  EXPECT_TRUE(has(coarse.log, "the place of 'bob'")) << coarse.log;
   ASSERT_GT(coarse.needed, 0.);
   const Checked needed = run(oscillator, exact_oscillator, {"Time.Step=" + number(coarse.needed)});
   figure("the same with the step that the warning names, error", needed.error);
@@ -131,13 +124,13 @@ TEST(StepAccuracy, adaptive_steps_ask_for_a_tolerance)
                             {"Time.Step=0.01", "Time.Step control=adaptive",
                              "Time.Adaptive step.Tolerance=" + number(tolerance)});
   EXPECT_LT(tight.error, .02);
-  EXPECT_EQ(tight.log.find("Take a Tolerance"), std::string::npos) << tight.log;
+  EXPECT_FALSE(has(tight.log, "Take a Tolerance")) << tight.log;
 }
 
 TEST(StepAccuracy, runs_that_cost_much_are_checked_if_asked_for)
 {
   const Overrides many = {"Time.Step=1e-4"};
-  EXPECT_EQ(run(oscillator, exact_oscillator, many).log.find("Steps: "), std::string::npos);
+  EXPECT_FALSE(has(run(oscillator, exact_oscillator, many).log, "Steps: "));
   const Checked asked =
       run(oscillator, exact_oscillator, {"Time.Step=1e-4", "Time.Check steps=yes"});
   EXPECT_GE(asked.reported, asked.error);

@@ -3,14 +3,10 @@
 // fewer steps, impacts and short loads included, and create no force at rest. Sources: half-waves
 // of an oscillator with an elastic stop (prm/oscillator_with_stop.prm), free fall and rebound, the
 // answer of a mass on a spring, the wave equation (prm/bar_on_wall.prm), rest.
-#include "run.h"
+#include "scene_tests.h"
 
 #include <taut/output/statistics.h>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <set>
 
 using namespace verification;
@@ -71,9 +67,7 @@ namespace
                            const Overrides &more = {})
   {
     AdaptiveRun result;
-    Overrides overrides = {adaptive, "Time.Adaptive step.Tolerance=" + tolerance};
-    overrides.insert(overrides.end(), more.begin(), more.end());
-    run_scene(scene, overrides,
+    run_scene(scene, Overrides{adaptive, "Time.Adaptive step.Tolerance=" + tolerance} + more,
               [&](const taut::StepView &view)
               {
                 ++result.n_steps;

@@ -1,25 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: ropes, props and rods that a program adds to a System are the links of a parameter file
 // that turn. Expected values: the same pendulums from a parameter file; the lowest place.
-#include "error_of.h"
+#include "one_body.h"
 #include "turning_scene.h"
-
-#include <taut/base/exceptions.h>
-#include <taut/time/stepper.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <memory>
-#include <string>
-#include <vector>
 
 using namespace turning;
 
 namespace
 {
   using verification::error_of;
+  using verification::has;
   const Coordinates start = {.6, -.5, .2}, speed = {.3, 1., -.4};
   constexpr double mass = 3.;
 
@@ -54,7 +44,6 @@ namespace
                          stepper.displacement(motion[2])});
     }
   };
-
 } // namespace
 
 TEST(TurningLibrary, pendulums_are_those_of_a_parameter_file)
@@ -74,19 +63,14 @@ TEST(TurningLibrary, pendulums_are_those_of_a_parameter_file)
             ? Constraint::rope("link", pivot, pendulum.bob, length).stiffness(500.).damping(4.)
             : Constraint::rope("link", pivot, pendulum.bob, length);
     const std::size_t number = pendulum.system.add(link);
-    taut::StepperOptions options;
-    options.start = taut::Start::given;
-    options.step = 2e-3;
-    taut::Stepper stepper(pendulum.system, options);
+    constexpr double step = 2e-3;
+    taut::Stepper stepper(pendulum.system, verification::steps_of(step, taut::Start::given));
 
-    Scene scene;
-    scene.masses = {{mass, start, speed}};
-    scene.links = {"From = ground @ " + text(pivot.position) + "; To = m0; Type = " +
-                   (is_elastic ? "dropper; Stiffness = 500; Damping = 4" : type) +
-                   "; Length = " + verification::number(length)};
-    scene.start = "given";
-    scene.step = options.step;
-    scene.end = 1.5;
+    Scene scene = thrown({{mass, start, speed}},
+                         {"From = ground @ " + text(pivot.position) + "; To = m0; Type = " +
+                          (is_elastic ? "dropper; Stiffness = 500; Damping = 4" : type) +
+                          "; Length = " + verification::number(length)},
+                         1.5, step);
     double largest = 0.;
     scene.run(
         [&](const Motion &m)
@@ -119,7 +103,7 @@ TEST(TurningLibrary, what_cannot_turn_is_refused)
 {
   const Pendulum pendulum;
   const auto expect = [](const std::string &error, const std::string &part)
-  { EXPECT_NE(error.find(part), std::string::npos) << error; };
+  { EXPECT_TRUE(has(error, part)) << error; };
   using taut::Constraint;
   expect(error_of([&] { Constraint::rope("r", {start}, pendulum.bob, 1.); }),
          "start at one place, (0.6, -0.5, 0.2) m");

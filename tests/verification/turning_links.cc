@@ -5,13 +5,8 @@
 #include "turning_scene.h"
 
 #include <boost/math/special_functions/ellint_1.hpp>
-#include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <string>
 #include <tuple>
-#include <vector>
 
 using namespace turning;
 
@@ -28,12 +23,9 @@ namespace
   {
     const double period = 4. * std::sqrt(1. / g) * boost::math::ellint_1(std::sin(.5 * angle)),
                  step = period / steps_a_period;
-    Scene scene;
-    scene.masses = {{2., {std::sin(angle), -std::cos(angle), 0.}, {}}};
-    scene.links = {"Type = " + type + "; From = ground @ 0, 0; To = m0; Length = 1"};
-    scene.start = "given";
-    scene.step = step;
-    scene.end = 5. * period;
+    Scene scene = thrown({{2., {std::sin(angle), -std::cos(angle), 0.}, {}}},
+                         {"Type = " + type + "; From = ground @ 0, 0; To = m0; Length = 1"},
+                         5. * period, step);
     Swing result;
     double first_energy = 0., before = 0., t = 0.;
     std::vector<double> crossings;
@@ -108,10 +100,9 @@ TEST(TurningLinks, slack_rope_catches_a_mass_that_is_thrown)
   const auto place = [&](const double t) {
     return Coordinates{start.x + v.x * t, start.y + v.y * t - .5 * g * t * t, 0.};
   };
-  double low = 0., high = .6;
-  for (int i = 0; i < 100; ++i)
-    (norm(place(.5 * (low + high))) < 1. ? low : high) = .5 * (low + high);
-  const Coordinates at = place(low), rate = {v.x, v.y - g * low, 0.};
+  const double tight =
+      verification::end_of(0., .6, [&](const double t) { return norm(place(t)) < 1.; });
+  const Coordinates at = place(tight), rate = {v.x, v.y - g * tight, 0.};
   const double radial = dot(at, rate), lost = .5 * 3. * radial * radial;
   double caught = 0., first = 0., last = 0., highest = -1e9, gained = 0., before = 0.;
   scene.run(
@@ -125,7 +116,7 @@ TEST(TurningLinks, slack_rope_catches_a_mass_that_is_thrown)
         before = last = m.energy;
         highest = std::max(highest, norm(m.place[0]));
       });
-  EXPECT_NEAR(caught, low, 2.1 * scene.step);
+  EXPECT_NEAR(caught, tight, 2.1 * scene.step);
   EXPECT_NEAR(first - last, lost, 1e-2 * lost);
   EXPECT_LT(gained, 1e-9);
   EXPECT_LT(highest, 1. + 1e-10);
@@ -180,12 +171,8 @@ TEST(TurningLinks, mass_bounces_on_an_elastic_rope)
     for (int phase = 0; phase < n_phases; ++phase)
     {
       const double begin = step * phase / n_phases;
-      Scene scene;
-      scene.masses = {{m, {0., -1. - .5 * g * begin * begin, 0.}, {0., -g * begin, 0.}}};
-      scene.links = {rope("ground @ 0, 0", "m0", 3.) + "; Stiffness = 1e4"};
-      scene.start = "given";
-      scene.step = step;
-      scene.end = 1.6;
+      Scene scene = thrown({{m, {0., -1. - .5 * g * begin * begin, 0.}, {0., -g * begin, 0.}}},
+                           {rope("ground @ 0, 0", "m0", 3.) + "; Stiffness = 1e4"}, 1.6, step);
       double N = 0., at_end = 0., first = 0., top = -10.;
       scene.run(
           [&](const Motion &at)

@@ -2,15 +2,10 @@
 #ifndef taut_verification_turning_scene_h
 #define taut_verification_turning_scene_h
 
+#include "common.h"
 #include "run.h"
 
 #include <taut/mechanism/mechanism.h>
-
-#include <cmath>
-#include <functional>
-#include <sstream>
-#include <string>
-#include <vector>
 
 /// Point masses in space and links between them that turn.
 namespace turning
@@ -117,6 +112,16 @@ namespace turning
                               [&](const taut::StepView &view) { callback(motion(view)); });
     }
   };
+
+  /// Masses that start with their velocities.
+  inline Scene thrown(const std::vector<Mass> &masses, const std::vector<std::string> &links,
+                      const double end, const double step = 1e-3,
+                      const Coordinates &gravity = {0., -g, 0.})
+  {
+    return {masses, links, gravity, "given", step, end};
+  }
+
+  const Coordinates weightless = {0., 0., 0.};
 } // namespace turning
 
 #endif

@@ -4,15 +4,6 @@
 // critical stiffness P/L of a prop, eigenvalues of two props, guys with their own tension.
 #include "turning_scene.h"
 
-#include <taut/base/exceptions.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-#include <utility>
-#include <vector>
-
 using namespace turning;
 
 namespace
@@ -85,7 +76,7 @@ namespace
   {
     for (const std::string &part :
          {"Network/Link " + name, "link '" + name + "' with", std::string("Hold its ends")})
-      EXPECT_NE(error.find(part), std::string::npos) << part << " in: " << error;
+      EXPECT_TRUE(verification::has(error, part)) << part << " in: " << error;
   }
 
   /// At this part of the critical stiffness the weights are refused, and at the inverse they stand.

@@ -3,14 +3,6 @@
 // and what such links cannot be is an error that says what to do.
 #include "turning_scene.h"
 
-#include <taut/base/exceptions.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-#include <vector>
-
 using namespace turning;
 
 namespace
@@ -31,20 +23,8 @@ namespace
 
   std::string error_of(const std::string &entries, const Overrides &overrides = {})
   {
-    Scene scene;
-    scene.masses = {{1., {1., 0., 0.}, {}}, {1., {2., 0., 0.}, {}}};
-    scene.links = {entries};
-    scene.start = "given";
-    scene.end = .01;
-    try
-    {
-      at_rest(scene, overrides);
-    }
-    catch (const taut::UserError &e)
-    {
-      return e.what();
-    }
-    return "";
+    Scene scene = thrown({{1., {1., 0., 0.}, {}}, {1., {2., 0., 0.}, {}}}, {entries}, .01);
+    return verification::error_of([&] { at_rest(scene, overrides); });
   }
 } // namespace
 
@@ -56,10 +36,9 @@ TEST(TurningStatics, weight_on_two_ropes)
            {Coordinates{.3, -.5, 0.}, {1.2, -1.4, .7}, {.9, -.05, 0.}, {.5, .2, .1}})
       {
         const double a = 1. * size, b = .9 * size, distance = 1.5 * size;
-        Scene scene;
-        scene.masses = {{weight / g, add_scaled({}, size, guess), {}}};
-        scene.links = {rope("ground @ 0, 0", "m0", a),
-                       rope("m0", "ground @ " + verification::number(distance) + ", 0", b)};
+        Scene scene = {{{weight / g, add_scaled({}, size, guess), {}}},
+                       {rope("ground @ 0, 0", "m0", a),
+                        rope("m0", "ground @ " + verification::number(distance) + ", 0", b)}};
         const Motion m = at_rest(scene);
         const Coordinates expected = below(distance, a, b);
         EXPECT_LT(norm(m.place[0] - expected), 1e-9 * size);
@@ -76,9 +55,8 @@ TEST(TurningStatics, weight_on_one_rope_hangs_down)
   for (const double degrees : {10., 90., 130.})
   {
     const double angle = degrees * pi / 180.;
-    Scene scene;
-    scene.masses = {{20., {2. * std::sin(angle), -2. * std::cos(angle), .3}, {}}};
-    scene.links = {rope("ground @ 0, 0", "m0", 2.)};
+    Scene scene = {{{20., {2. * std::sin(angle), -2. * std::cos(angle), .3}, {}}},
+                   {rope("ground @ 0, 0", "m0", 2.)}};
     const Motion m = at_rest(scene);
     EXPECT_LT(norm(m.place[0] - Coordinates{0., -2., 0.}), 1e-8) << degrees;
     EXPECT_NEAR(m.multiplier[0], 20. * g, 1e-8 * 20. * g);
@@ -127,14 +105,11 @@ TEST(TurningStatics, a_scene_that_is_turned_in_space_has_the_same_answers)
   std::vector<Motion> found[2];
   for (const bool is_turned : {false, true})
   {
-    Scene scene;
-    scene.gravity = turned({0., -g, 0.}, is_turned);
-    scene.masses = {{2., turned({1., -.4, .1}, is_turned), turned({.5, 1., -.3}, is_turned)},
-                    {1., turned({1.8, -.9, 0.}, is_turned), turned({0., 2., .4}, is_turned)}};
-    scene.links = {rope("ground @ " + text(turned({.1, 0., 0.}, is_turned)), "m0", 1.2),
-                   rope("m0", "m1", 1.1) + "; Stiffness = 3000; Damping = 5"};
-    scene.start = "given";
-    scene.end = .8;
+    Scene scene = thrown({{2., turned({1., -.4, .1}, is_turned), turned({.5, 1., -.3}, is_turned)},
+                          {1., turned({1.8, -.9, 0.}, is_turned), turned({0., 2., .4}, is_turned)}},
+                         {rope("ground @ " + text(turned({.1, 0., 0.}, is_turned)), "m0", 1.2),
+                          rope("m0", "m1", 1.1) + "; Stiffness = 3000; Damping = 5"},
+                         .8, 1e-3, turned({0., -g, 0.}, is_turned));
     scene.run([&](const Motion &m) { found[is_turned].push_back(m); });
   }
   double largest = 0.;
@@ -151,7 +126,7 @@ TEST(TurningStatics, a_scene_that_is_turned_in_space_has_the_same_answers)
 TEST(TurningStatics, what_cannot_turn_is_refused)
 {
   const auto expect = [](const std::string &error, const std::string &part)
-  { EXPECT_NE(error.find(part), std::string::npos) << error; };
+  { EXPECT_TRUE(verification::has(error, part)) << error; };
   const std::string ends = "From = ground @ 0, 0; To = m0";
   expect(error_of(ends + "; Type = dropper; Direction = 1, 0"), "leave it empty");
   expect(error_of(ends + "; Type = ball joint"), "no direction from end to end");

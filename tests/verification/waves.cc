@@ -2,12 +2,7 @@
 // Claim: a force that moves along a taut string raises the exact kink. Source: d'Alembert's
 // solution of T w" - m w" = -F delta(x - v t) before the front reaches the far end, with
 // beta = v/c: F x/(T (1 + beta)) behind the load, F beta (c t - x)/(T (1 - beta^2)) ahead of it.
-#include "run.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
+#include "scene_tests.h"
 
 using namespace verification;
 
@@ -144,13 +139,7 @@ Time: Scheme = Newmark; Step = 5e-4; End = 0.9
             {},
             [&](const taut::StepView &view)
             {
-              const taut::Substructure &body = view.structure[0];
-              std::vector<double> MV(body.n_dofs(), 0.), KU(body.n_dofs(), 0.);
-              body.mass().vmult_add(1., view.state.V[0].data(), MV.data());
-              body.stiffness().vmult_add(1., view.state.U[0].data(), KU.data());
-              energy_after = 0.;
-              for (std::size_t i = 0; i < MV.size(); ++i)
-                energy_after += .5 * (MV[i] * view.state.V[0][i] + KU[i] * view.state.U[0][i]);
+              energy_after = energy_of_bodies(view.structure, view.state);
               if (energy_before == 0.)
                 energy_before = energy_after;
             });

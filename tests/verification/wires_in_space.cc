@@ -2,20 +2,12 @@
 // Claim: wires and masses in space move along all three axes by the same equations. Sources: a
 // scene of the plane, turned about x; the parabola of a taut string; forces at the kinks of a
 // polygon; statics of a mass on two ropes; the uncut wire.
-#include "run.h"
+#include "scene_tests.h"
 
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <numeric>
-#include <regex>
-#include <string>
-#include <vector>
 
 using namespace verification;
 

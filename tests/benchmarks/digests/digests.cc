@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Prints a hash of all states and multipliers of scenes, one line a run, and of the verdicts on the
 // matrix of extreme scenes. digests.py runs it in all forms and compares with the stored lines.
-#include "../../extremes/program_run.h"
+#include "../../extremes/observation.h"
 #include "../../extremes/scene_matrix.h"
 
 #include <taut/base/communicator.h>

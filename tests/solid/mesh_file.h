@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// A mesh that a test writes for one scene.
+#ifndef taut_tests_mesh_file_h
+#define taut_tests_mesh_file_h
+
+#include <unistd.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace verification
+{
+  /// A file in gmsh's format 2.2, which is removed again. Nodes count from 1 in the order in which
+  /// they are added.
+  class MeshFile
+  {
+  public:
+    static constexpr int line = 1, quadrilateral = 3, hexahedron = 5;
+
+    MeshFile()
+    {
+      static int count = 0;
+      file = std::filesystem::temp_directory_path() /
+             ("taut_mesh_" + std::to_string(getpid()) + "_" + std::to_string(++count) + ".msh");
+      nodes.precision(16);
+    }
+    MeshFile(const MeshFile &) = delete;
+    ~MeshFile() { std::filesystem::remove(file); }
+
+    void add_node(const double x, const double y, const double z = 0.)
+    {
+      nodes << ++n_nodes << ' ' << x << ' ' << y << ' ' << z << '\n';
+    }
+
+    /// @p id is the boundary of a side, or the material of a cell.
+    void add(const int type, const int id, const std::vector<std::size_t> &corners)
+    {
+      elements << ++n_elements << ' ' << type << " 2 " << id << ' ' << id;
+      for (const std::size_t corner : corners)
+        elements << ' ' << corner;
+      elements << '\n';
+    }
+
+    /// Writes it.
+    std::string path() const
+    {
+      std::ofstream(file) << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n"
+                          << n_nodes << '\n'
+                          << nodes.str() << "$EndNodes\n$Elements\n"
+                          << n_elements << '\n'
+                          << elements.str() << "$EndElements\n";
+      return file.string();
+    }
+
+  private:
+    std::filesystem::path file;
+    std::size_t n_nodes = 0, n_elements = 0;
+    std::ostringstream nodes, elements;
+  };
+} // namespace verification
+
+#endif
