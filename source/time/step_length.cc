@@ -43,12 +43,11 @@ namespace taut
       if (constraints[i].cone.may_open() && S[i] > 0. && F.diagonal(i) > 2. * S[i] &&
           flexibilities_of_whole_bodies(constraints, {i}, F)[i] > 2. * S[i])
       {
-        throw EntryError(constraints.origin(i),
-                         to_text("link '", constraints[i].name,
-                                 "' acts as rigid at t = ", current.time,
-                                 " s: there it is stiffer than the bodies in one step, which ",
-                                 clock.scheme(),
-                                 " does not suit. Take 'Moreau-Jean', or a smaller step"));
+        throw EntryError(
+            constraints.origin(i),
+            to_text("link '", constraints[i].name, "' acts as rigid at t = ", current.time,
+                    " s: there it is stiffer than the bodies in one step, which ", clock.scheme(),
+                    " does not suit. Take 'Moreau-Jean', or a smaller step"));
       }
   }
 } // namespace taut
