@@ -16,7 +16,7 @@ namespace taut
   struct InterfaceParameters
   {
     /// "assembled dense", "condensed" (dense without the columns A_k^-1 B_k), "assembled sparse",
-    /// "matrix-free", or "automatic" for the one that suits number of constraints and step.
+    /// "matrix-free", or "automatic" for the form that suits number of constraints and step.
     std::string form = "automatic";
 
     /// Of the matrix-free form: "diagonal", "lumped", "Dirichlet".

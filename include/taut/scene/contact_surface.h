@@ -35,8 +35,8 @@ namespace taut
     /// Nodes of each face. A node without a face is allowed, and takes no part in contact.
     std::vector<std::vector<unsigned int>> faces;
 
-    /// Hanging nodes: their displacement is a weighted sum of those of other nodes. As slaves they
-    /// have no constraint of their own.
+    /// Hanging nodes: their displacement is a weighted sum of displacements of other nodes. As
+    /// slaves they have no constraint of their own.
     struct HangingNode
     {
       unsigned int node;

@@ -47,7 +47,7 @@ namespace taut
   /// beyond its DoFs is not looked at.
   PerKind largest(const Substructure &body, const std::vector<double> &x);
 
-  /// Motions and forces beyond this are no result of a sensible scene; sums and squares of those
+  /// Motions and forces beyond this are no result of a sensible scene; sums and squares of them
   /// below it are finite.
   constexpr double largest_number = 1e100;
 
