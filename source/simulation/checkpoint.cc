@@ -21,7 +21,7 @@ namespace taut
   namespace
   {
     /// First line of the file. The number changes with what is stored.
-    const std::string first_line = "Taut checkpoint, version 4\n";
+    const std::string first_line = "Taut checkpoint, version 5\n";
     const std::string any_first_line = "Taut checkpoint, version ";
 
     std::string checksum(const std::string &bytes)

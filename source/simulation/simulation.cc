@@ -161,8 +161,9 @@ namespace taut
     if (parameters.check_steps == "no" || n_steps() == 0)
       return nullptr;
     RunInSteps run = motion->run_in_steps(n_steps());
-    const bool is_wanted = parameters.check_steps == "yes" ||
-                           (parameters.scheme == "automatic" && StepAccuracy::is_affordable(run));
+    run.at_any_cost = parameters.check_steps == "yes";
+    const bool is_wanted =
+        run.at_any_cost || (parameters.scheme == "automatic" && StepAccuracy::is_affordable(run));
     return is_wanted ? std::make_unique<StepAccuracy>(std::move(run)) : nullptr;
   }
 

@@ -180,9 +180,9 @@ namespace taut
     force.event_impulse = value > 0. ? force.event_impulse + value * dt : 0.;
     force.largest_impulse = std::max(force.largest_impulse, force.event_impulse);
     force.mean = value;
+    force.impulse += value * dt;
     if (force.window > 0.)
     {
-      force.impulse += value * dt;
       force.impulses.push_back({t, force.impulse});
       while (force.impulses.size() > 2 && force.impulses[1].first <= t - force.window)
         force.impulses.pop_front();
@@ -258,10 +258,34 @@ namespace taut
     }
   }
 
+  void ContactMeasures::find_momentum(Summary &result) const
+  {
+    const ConnectedBodies &groups = energies.groups();
+    std::vector<double> largest(contact_gains.size(), 0.);
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      if (constraints[i].cone.may_open())
+      {
+        double &impulse = largest[groups.of_constraint(i)];
+        impulse = std::max(impulse, forces[i].impulse);
+      }
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+    {
+      if (!constraints[i].cone.may_open())
+        continue;
+      const double momentum = energies.account(i).momentum,
+                   scale = largest[groups.of_constraint(i)];
+      if (!(momentum > result.relative_momentum * scale))
+        continue;
+      result.relative_momentum = momentum / scale;
+      result.momentum_constraint = i;
+    }
+  }
+
   ContactMeasures::Summary ContactMeasures::summary() const
   {
     Summary result = found;
     find_contact_energy(result);
+    find_momentum(result);
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       const Force &force = forces[i];
@@ -335,6 +359,12 @@ namespace taut
     if (s.relative_energy > suspicious_energy)
       add("contact_energy", s.relative_energy, suspicious_energy,
           std::isfinite(s.energy_end) ? s.energy_end : s.energy_begin, energy_message(s), ". ",
+          remedy());
+    else if (s.relative_momentum > suspicious_momentum)
+      add("contact_momentum", s.relative_momentum, suspicious_momentum, 0., "the impulse of '",
+          constraints[s.momentum_constraint].name, "' may be off by ", 100. * s.relative_momentum,
+          " % of the largest, by the energy that its contacts gave or took beside its spring and "
+          "damper: the step does not resolve them. ",
           remedy());
     if (s.relative_motion_energy > suspicious_energy)
       add("motion_energy", s.relative_motion_energy, suspicious_energy, 0.,

@@ -100,14 +100,16 @@ namespace taut
                    : .5 * (row.multiplier + state.multiplier[i]) * change;
   }
 
-  void LinkEnergies::add_contact(Account &account, const double energy, const double begin,
-                                 const double end)
+  void LinkEnergies::add_contact(Account &account, const Row &row, const double end)
   {
-    (energy > 0. ? account.given : account.taken) += std::fabs(energy);
-    if (!(std::fabs(energy) > account.largest))
+    const double energy = std::fabs(row.closing);
+    (row.closing > 0. ? account.given : account.taken) += energy;
+    if (row.fastest > 0.)
+      account.momentum = std::max(account.momentum, 2. * energy / row.fastest);
+    if (!(energy > account.largest))
       return;
-    account.largest = std::fabs(energy);
-    account.begin = begin;
+    account.largest = energy;
+    account.begin = row.begin;
     account.end = end;
   }
 
@@ -119,24 +121,30 @@ namespace taut
       if (!constraints[i].cone.may_open())
         continue;
       Row &row = rows[i];
-      const double N = state.multiplier[i];
+      const double N = state.multiplier[i],
+                   rate = std::fabs(state.gap[i] - row.gap) / state.last_step;
       if (row.multiplier > 0. || N > 0.)
       {
         if (!(row.multiplier > 0.))
+        {
           row.begin = state.time - state.last_step;
+          row.fastest = row.rate;
+        }
+        row.fastest = std::max(row.fastest, rate);
         if (!constraints[i].spring.is_rigid())
           row.closing += gain(i, state, c);
         else if (!whole)
           row.closing += std::max(0., gain(i, state, c));
         if (!(N > 0.))
         {
-          add_contact(row.account, row.closing, row.begin, state.time);
+          add_contact(row.account, row, state.time);
           row.account.step = state.last_step;
           row.account.shortest = std::min(row.account.shortest, state.time - row.begin);
           row.closing = 0.;
         }
       }
       row.multiplier = N;
+      row.rate = rate;
       row.end = state.time;
       row.gap = state.gap[i];
       row.u = state.link_springs[i].u;
@@ -148,7 +156,7 @@ namespace taut
     const Row &row = rows[i];
     Account result = row.account;
     if (row.closing != 0.)
-      add_contact(result, row.closing, row.begin, row.end);
+      add_contact(result, row, row.end);
     return result;
   }
 

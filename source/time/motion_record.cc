@@ -20,6 +20,9 @@ namespace taut
     /// Impulses below this part of the largest momentum are nothing.
     constexpr double least_impulse = 1e-3;
 
+    /// Ends of steps with impulses of a run.
+    constexpr double most_ends = 16e3;
+
     /// Part of a step by which its end may miss a sample.
     constexpr double rounding_of_times = 1e-6;
 
@@ -75,6 +78,15 @@ namespace taut
         start_load[k][i] -= work[i];
     }
     energies.push_back(energies_of(start));
+    times.push_back(begin);
+    impulses.push_back(impulse);
+    speed.assign(groups.n_groups(), 0.);
+  }
+
+  void MotionRecord::add_speeds(const State &state)
+  {
+    for (const auto &[k, i, g] : dofs)
+      speed[g] = std::max(speed[g], std::fabs(state.dU[k][i]) / state.last_step);
   }
 
   void MotionRecord::add_impulses(const State &state)
@@ -86,6 +98,11 @@ namespace taut
       impulse[i] += (is_mean ? N : .5 * (N + multiplier[i])) * state.last_step;
       multiplier[i] = N;
     }
+    const double least = (1. - rounding_of_times) * interval * static_cast<double>(n) / most_ends;
+    if (state.time - times.back() < least)
+      return;
+    times.push_back(state.time);
+    impulses.push_back(impulse);
   }
 
   /// Places at a part of the last step.
@@ -132,8 +149,8 @@ namespace taut
 
   void MotionRecord::record(const State &state)
   {
-    const std::vector<double> before = impulse;
     add_impulses(state);
+    add_speeds(state);
     const double early = rounding_of_times * state.last_step;
     if (places.size() == n || time_of(places.size()) > state.time + early)
       return;
@@ -143,9 +160,6 @@ namespace taut
       const double until_end = state.time - time_of(places.size()),
                    part = until_end > early ? 1. - until_end / state.last_step : 1.;
       add_places(state, part);
-      impulses.push_back(impulse);
-      for (std::size_t i = 0; i < impulse.size(); ++i)
-        impulses.back()[i] -= (1. - part) * (impulse[i] - before[i]);
       energies.push_back(at_end);
     }
   }
@@ -153,7 +167,8 @@ namespace taut
   /// Largest values of the groups, on all ranks.
   struct MotionRecord::Sizes
   {
-    std::vector<double> place, impulse, energy;
+    std::vector<double> place, energy;
+    std::vector<double> impulse;    ///< below which there is none to compare [N s]
     std::vector<double> late;       ///< by which an impact may be early or late [s]
     std::vector<Energies> energies; ///< of the samples, of all ranks
   };
@@ -161,17 +176,15 @@ namespace taut
   MotionRecord::Sizes MotionRecord::sizes() const
   {
     const std::size_t n_groups = groups.n_groups();
-    std::vector<double> place(n_groups, 0.), whole(n_groups, 0.), speed(n_groups, 0.),
-        kinetic(n_groups, 0.);
+    std::vector<double> place(n_groups, 0.), whole(n_groups, 0.), kinetic(n_groups, 0.);
     for (std::size_t s = 0; s < n_samples(); ++s)
       for (std::size_t j = 0; j < dofs.size(); ++j)
       {
         const auto &[k, i, g] = dofs[j];
-        const double u = places[s][j], last = s > 0 ? places[s - 1][j] : 0.;
+        const double u = places[s][j];
         place[g] = std::max(place[g], std::fabs(u));
         whole[g] =
             std::max(whole[g], std::fabs(u + start_of_dofs[j] + reference.displacement[k][i]));
-        speed[g] = std::max(speed[g], std::fabs(u - last) / interval);
       }
     Sizes result;
     result.impulse.assign(n_groups, 0.);
@@ -196,12 +209,6 @@ namespace taut
       // 2 T / v of bodies with speeds up to v is at most their momentum.
       result.impulse[g] = least_impulse * ratio(2. * kinetic[g], fastest);
     }
-    for (const std::vector<double> &sample : impulses)
-      for (std::size_t i = 0; i < sample.size(); ++i)
-      {
-        double &size = result.impulse[groups.of_constraint(i)];
-        size = std::max(size, std::fabs(sample[i]));
-      }
     return result;
   }
 
@@ -230,15 +237,11 @@ namespace taut
 
   namespace
   {
-    /// How far @p x is from the range of @p value of the samples next to @p s and within @p late
-    /// [s] of it.
+    /// How far @p x is from the range of @p value from @p first to @p last.
     template <typename Value>
-    double distance(const double x, const std::size_t s, const std::size_t n, const double window,
+    double distance(const double x, const std::size_t first, const std::size_t last,
                     const Value &value)
     {
-      const double reach = std::max(1., std::floor(window));
-      const std::size_t w = static_cast<std::size_t>(std::min<double>(reach, n)),
-                        first = s > w ? s - w : 0, last = std::min(s + w, n - 1);
       double least = value(first), most = least;
       for (std::size_t j = first + 1; j <= last && (x < least || x > most); ++j)
       {
@@ -249,17 +252,49 @@ namespace taut
     }
   } // namespace
 
+  /// The impulses of this motion at given times, linear between its own.
+  std::vector<std::vector<double>> MotionRecord::impulses_at(const std::vector<double> &at) const
+  {
+    std::vector<std::vector<double>> result;
+    std::size_t next = 1;
+    for (const double t : at)
+    {
+      while (next + 1 < times.size() && times[next] < t)
+        ++next;
+      std::vector<double> &values = result.emplace_back(impulses[next - 1]);
+      const double part = std::min(1., (t - times[next - 1]) / (times[next] - times[next - 1]));
+      for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] += part * (impulses[next][i] - values[i]);
+    }
+    return result;
+  }
+
   void MotionRecord::compare_impulses(const MotionRecord &other, const Sizes &size,
                                       MotionDifference &result) const
   {
-    const std::size_t n_both = std::min(n_samples(), other.n_samples());
-    for (std::size_t s = 0; s < n_both; ++s)
+    if (other.times.size() < 2)
+      return;
+    const std::vector<std::vector<double>> others = other.impulses_at(times);
+    std::vector<double> largest = size.impulse;
+    for (const std::vector<double> &sample : others)
+      for (std::size_t i = 0; i < sample.size(); ++i)
+      {
+        double &of_group = largest[groups.of_constraint(i)];
+        of_group = std::max(of_group, std::fabs(sample[i]));
+      }
+    const double rounding = rounding_of_times * interval;
+    for (std::size_t k = 0; k < times.size() && times[k] <= other.times.back() + rounding; ++k)
       for (std::size_t i = 0; i < impulse.size(); ++i)
       {
         const std::size_t g = groups.of_constraint(i);
-        const double d = ratio(distance(impulses[s][i], s, n_both, size.late[g] / interval,
-                                        [&](const std::size_t j) { return other.impulses[j][i]; }),
-                               size.impulse[g]);
+        std::size_t first = k > 0 ? k - 1 : 0, last = std::min(k + 1, times.size() - 1);
+        while (first > 0 && times[k] - times[first] < size.late[g])
+          --first;
+        while (last + 1 < times.size() && times[last] - times[k] < size.late[g])
+          ++last;
+        const double d = ratio(distance(impulses[k][i], first, last,
+                                        [&](const std::size_t j) { return others[j][i]; }),
+                               largest[g]);
         if (!(d > result.impulse) && d == d)
           continue;
         result.impulse = d;
@@ -277,12 +312,16 @@ namespace taut
       return now[0] + now[1] - start[0] - start[1];
     };
     for (std::size_t g = 0; g < groups.n_groups(); ++g)
+    {
+      const double window = std::max(1., std::floor(other.late[g] / interval));
+      const std::size_t w = static_cast<std::size_t>(std::min<double>(window, n_both));
       for (std::size_t s = 0; s < n_both && other.place[g] > 0.; ++s)
         result.energy =
-            worse(ratio(distance(change(own, s, g), s, n_both, other.late[g] / interval,
+            worse(ratio(distance(change(own, s, g), s > w ? s - w : 0, std::min(s + w, n_both - 1),
                                  [&](const std::size_t j) { return change(other, j, g); }),
                         other.energy[g]),
                   result.energy);
+    }
   }
 
   MotionDifference MotionRecord::difference(const MotionRecord &other) const
@@ -298,7 +337,7 @@ namespace taut
   template <typename Archive>
   void MotionRecord::store(Archive &archive)
   {
-    archive &impulse &multiplier &places &impulses &energies;
+    archive &speed &impulse &multiplier &places &energies &times &impulses;
   }
 
   void MotionRecord::save(OutputArchive &archive)

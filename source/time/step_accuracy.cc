@@ -40,9 +40,11 @@ namespace taut
     /// steps, with what it has more than that to the next ones, may have.
     constexpr double aim = .8, good = .95;
 
-    /// Products of DoFs and steps, of which a second has about a hundred millions. A step costs as
-    /// much as some DoFs, and bodies that are not linear are solved several times.
-    constexpr double most_work = 2e6, work_of_step = 100., work_of_newton = 8.;
+    /// Products of DoFs and steps of another run, of which a second has about a hundred millions. A
+    /// step costs as much as some DoFs; it is solved several times for bodies that are not linear,
+    /// and about twice for links that turn.
+    constexpr double most_work = 4e7, work_of_step = 100., work_of_newton = 8.,
+                     work_of_turning = 2.;
 
     bool keeps_state(const Substructure &body)
     {
@@ -61,6 +63,26 @@ namespace taut
       return run.step * std::max(1L, (run.n_steps + most_samples - 1) / most_samples);
     }
 
+    double work_of(const RunInSteps &run)
+    {
+      double n_dofs = 0., n_nonlinear = 0.;
+      for (const Structure::Body &body : run.structure.all_bodies())
+        n_dofs += static_cast<double>(body.n_dofs);
+      for (std::size_t k = 0; k < run.structure.size(); ++k)
+        n_nonlinear += !run.structure[k].is_linear();
+      run.structure.communicator().sum(&n_nonlinear, 1);
+      const double solutions = n_nonlinear > 0.                          ? work_of_newton
+                               : !run.constraints.turning_rows().empty() ? work_of_turning
+                                                                         : 1.;
+      return static_cast<double>(run.n_steps) *
+             (work_of_step + n_dofs + static_cast<double>(run.constraints.size())) * solutions;
+    }
+
+    bool has_longer_steps(const RunInSteps &run)
+    {
+      return !run.control.adaptive() && run.n_steps >= least_steps;
+    }
+
     std::string percent(const double part)
     {
       return to_text(std::setprecision(2), 100. * part, " %");
@@ -69,24 +91,22 @@ namespace taut
 
   StepAccuracy::StepAccuracy(RunInSteps from)
       : run(std::move(from)), groups(run.structure, run.constraints),
-        courses(run.constraints.courses()), n_samples(samples_of(run)), interval(interval_of(run)),
+        courses(run.constraints.courses()), work(work_of(run)), n_samples(samples_of(run)),
+        interval(interval_of(run)),
         own(run.structure, run.constraints, groups, run.reference, run.start, interval, n_samples)
   {
   }
 
   bool StepAccuracy::is_affordable(const RunInSteps &run)
   {
-    double n_dofs = 0., n_nonlinear = 0.;
-    for (const Structure::Body &body : run.structure.all_bodies())
-      n_dofs += static_cast<double>(body.n_dofs);
-    for (std::size_t k = 0; k < run.structure.size(); ++k)
-      n_nonlinear += !run.structure[k].is_linear();
-    run.structure.communicator().sum(&n_nonlinear, 1);
-    const bool iterates = n_nonlinear > 0. || !run.constraints.turning_rows().empty();
-    return static_cast<double>(run.n_steps) *
-               (work_of_step + n_dofs + static_cast<double>(run.constraints.size())) *
-               (iterates ? work_of_newton : 1.) <=
-           most_work;
+    return work_of(run) <=
+           most_work * (has_longer_steps(run) ? ratio_of_steps : 1. / ratio_of_steps);
+  }
+
+  /// Whether a run may be made with steps that are so many times as long.
+  bool StepAccuracy::affords(const double about) const
+  {
+    return run.at_any_cost || work <= most_work * about;
   }
 
   /// The difference to a run to the same end with steps that are about so many times as long;
@@ -144,15 +164,16 @@ namespace taut
       return;
     }
     std::optional<MotionDifference> coarse;
-    if (!run.control.adaptive() && run.n_steps >= least_steps)
+    if (has_longer_steps(run))
       coarse = compare(ratio_of_steps, stop);
-    if (coarse && coarse->over_bounds() <= agrees)
+    const bool affords_shorter = affords(1. / ratio_of_steps);
+    if (coarse && (coarse->over_bounds() <= agrees || !affords_shorter))
     {
-      found = coarse;
-      for (double *const e : {&found->place, &found->impulse, &found->energy})
-        *e /= ratio_of_steps - 1.;
+      extrapolate(*coarse);
       return;
     }
+    if (!affords_shorter)
+      return;
     found = compare(1. / ratio_of_steps, stop);
     if (!found)
       return;
@@ -160,13 +181,25 @@ namespace taut
     if (coarse)
       order = std::clamp(std::log(coarse->over_bounds() / over) / std::log(ratio_of_steps), 1., 2.);
     too_long = !(over <= surely_bad);
-    if (too_long || over <= surely_good)
+    if (too_long || (coarse && over <= surely_good))
       return;
-    const auto finest = compare(1. / (ratio_of_steps * ratio_of_steps), stop);
+    constexpr double shortest = 1. / (ratio_of_steps * ratio_of_steps);
+    const auto finest = affords(shortest) ? compare(shortest, stop) : std::nullopt;
     if (finest)
       found = finest;
-    const double now = found->over_bounds();
-    too_long = !(now + std::max(0., now - over) <= good);
+    // What the shorter steps are off by, too.
+    const double now = found->over_bounds(),
+                 more = finest ? std::max(0., now - over) : now / (ratio_of_steps - 1.);
+    too_long = !(now + more <= good);
+  }
+
+  /// The error from the difference to longer steps, whose error is larger by the ratio at least.
+  void StepAccuracy::extrapolate(MotionDifference coarse)
+  {
+    for (double *const e : {&coarse.place, &coarse.impulse, &coarse.energy})
+      *e /= ratio_of_steps - 1.;
+    found = coarse;
+    too_long = !(coarse.over_bounds() <= good);
   }
 
   /// Part of the step with which an error falls to its bound.

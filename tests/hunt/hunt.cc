@@ -100,6 +100,29 @@ TEST(References, fine_steps_come_to_them)
   EXPECT_GE(compared, least_compared);
 }
 
+// Damped stops whose contacts are shorter than a step, ropes that do not rebound, stiff joints that
+// a step does not resolve: impulses are off there while places and energies are not.
+TEST(Bounds, impulses_that_are_off_are_named)
+{
+  for (const auto &[seed, number] : {std::pair(2ul, 360ul),
+                                     {11, 243},
+                                     {11, 423},
+                                     {11, 1079},
+                                     {12, 1763},
+                                     {13, 683},
+                                     {14, 875},
+                                     {14, 1635},
+                                     {15, 1584}})
+  {
+    const hunt::Finding finding = hunt::judge(hunt::make_scene(seed, number));
+    EXPECT_EQ(hunt::name(finding.verdict), hunt::name(Verdict::warned_and_wrong))
+        << "seed " << seed << ", scene " << number;
+    EXPECT_GT(finding.difference.impulse, hunt::impulse_bound);
+    EXPECT_LT(finding.difference.place, hunt::place_bound);
+    EXPECT_LT(finding.difference.energy, hunt::energy_bound);
+  }
+}
+
 TEST(Hunt, no_answer_is_silent_and_wrong)
 {
   const unsigned long n = from_environment("TAUT_HUNT_SCENES", default_scenes),

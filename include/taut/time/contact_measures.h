@@ -8,6 +8,7 @@
 #include <taut/time/certificate.h>
 #include <taut/time/integrator.h>
 #include <taut/time/link_energies.h>
+#include <taut/time/motion_record.h>
 #include <taut/time/state.h>
 
 #include <deque>
@@ -24,6 +25,9 @@ namespace taut
    * takes, see LinkEnergies, over the energy of the bodies that it is connected with. Where rigid
    * constraints have mean forces and conditions on gaps, what a group of connected bodies gained
    * that nothing explains (State::energy_gains) counts, too.
+   *
+   * Momentum: what a body lacks after a contact whose energy is not right, over the largest impulse
+   * of a constraint of its group.
    *
    * Energy of large motions: the gains of energy that nothing explains of all steps, of a group
    * with a body that is not linear, over the same.
@@ -75,7 +79,9 @@ namespace taut
       double relative_motion_energy = 0.;        ///< over the scale [1]
       std::size_t energy_constraint = 0;         ///< the worst one
       double energy_begin = 0., energy_end = 0.; ///< of its largest contact [s]
-      double gap = 0.;                           ///< [m, rad]
+      double relative_momentum = 0.; ///< of such an energy, over the largest impulse of a group [1]
+      std::size_t momentum_constraint = 0;
+      double gap = 0.; ///< [m, rad]
       std::size_t gap_constraint = 0;
       bool gap_drifts = false; ///< more than a step of motion
       double resolution = 1.;  ///< [1]
@@ -86,6 +92,9 @@ namespace taut
 
     /// Part of the scale from which energy given or taken is a warning, and an error.
     static constexpr double suspicious_energy = 1e-2, wrong_energy = .1;
+
+    /// Part of the largest impulse from which the momentum of such an energy is a warning.
+    static constexpr double suspicious_momentum = MotionDifference::impulse_bound;
 
     /// Resolution above which it is said.
     static constexpr double unresolved = 3.;
@@ -119,6 +128,7 @@ namespace taut
     void add_force(Force &force, double t, double dt, double value);
     void add_gains(const State &state, const StepCoefficients &c);
     void find_contact_energy(Summary &result) const;
+    void find_momentum(Summary &result) const;
     std::string energy_message(const Summary &s) const;
     std::string remedy() const;
     void add_gap(std::size_t i, const State &state, const StepCoefficients &c);

@@ -21,6 +21,9 @@ namespace taut
    * energy) + (work of its damper). L is summed from closing to opening, as what closing takes and
    * opening gives may cancel; each contact then counts with its size. A rigid constraint may take
    * energy, in an impact, and only what it gives counts.
+   *
+   * A body that lost the energy |L| of an impact at the speed v lacks a momentum of up to 2 |L| /
+   * v: all of it, m v, where it lost all of m v^2 / 2.
    */
   class LinkEnergies
   {
@@ -41,13 +44,14 @@ namespace taut
       double given = 0., taken = 0.; ///< sums over its contacts [J]
       double begin = 0., end = 0.;   ///< of the contact that counts most [s]
       double largest = 0.;           ///< what this one gave or took [J]
+      double momentum = 0.;          ///< largest that energies of a contact had [N s, N m s]
       double shortest = std::numeric_limits<double>::infinity(); ///< contact so far [s]
       double step = 0.;                                          ///< that it ended with [s]
 
       template <typename Archive>
       void serialize(Archive &archive, unsigned int)
       {
-        archive &given &taken &begin &end &largest &shortest &step;
+        archive &given &taken &begin &end &largest &momentum &shortest &step;
       }
     };
 
@@ -75,13 +79,15 @@ namespace taut
     struct Row
     {
       Account account;
-      double closing = 0., begin = 0., end = 0.;            ///< of the contact that goes on
+      double closing = 0., begin = 0., end = 0.; ///< of the contact that goes on
+      double rate = 0.,
+             fastest = 0.; ///< of the gap: in the last step, in this contact [m/s, rad/s]
       double multiplier = 0., gap = 0., u = 0., noise = 0.; ///< at the end of the last step
 
       template <typename Archive>
       void serialize(Archive &archive, unsigned int)
       {
-        archive &account &closing &begin &end &multiplier &gap &u &noise;
+        archive &account &closing &begin &end &rate &fastest &multiplier &gap &u &noise;
       }
     };
     struct Energies
@@ -97,7 +103,7 @@ namespace taut
     template <typename Archive>
     void store(Archive &archive);
     double gain(std::size_t i, const State &state, const StepCoefficients &c) const;
-    static void add_contact(Account &account, double energy, double begin, double end);
+    static void add_contact(Account &account, const Row &row, double end);
     void measure_rest(const State &start);
     double energy_of_loads(std::size_t k, const State &state);
 

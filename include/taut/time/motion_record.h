@@ -32,9 +32,10 @@ namespace taut
   };
 
   /**
-   * What a motion is compared by with the same motion in other steps, at equal intervals of time:
-   * places, impulses of constraints since the start, and energies of groups of connected bodies.
-   * Use it where the steps of two runs differ, see StepAccuracy.
+   * What a motion is compared by with the same motion in other steps: places and energies of groups
+   * of connected bodies at equal intervals of time, and impulses of constraints since the start at
+   * the ends of steps, as contacts are shorter than such an interval. Use it where the steps of two
+   * runs differ, see StepAccuracy.
    */
   class MotionRecord
   {
@@ -53,8 +54,8 @@ namespace taut
     /**
      * How far this motion is from another one, sample by sample. Impulses and energies jump at an
      * impact, and the bound of the places lets it be early or late by what the fastest place takes
-     * for so much motion: they may be anything that the other motion has within this time. Called
-     * by all ranks together.
+     * for so much motion: they may be anything that the other motion has within this time, or
+     * within an interval. Called by all ranks together.
      */
     MotionDifference difference(const MotionRecord &other) const;
 
@@ -68,6 +69,8 @@ namespace taut
     template <typename Archive>
     void store(Archive &archive);
     void add_impulses(const State &state);
+    void add_speeds(const State &state);
+    std::vector<std::vector<double>> impulses_at(const std::vector<double> &at) const;
     void add_places(const State &state, double part);
     Energies energies_of(const State &state);
     double time_of(const std::size_t sample) const { return begin + (sample + 1.) * interval; }
@@ -96,9 +99,12 @@ namespace taut
     std::vector<double> start_of_dofs; ///< [m]
     BodyVectors start_load;            ///< K U_ref - P at the start [N, N m]
 
-    std::vector<double> impulse, multiplier;           ///< so far, and at the end of the last step
-    std::vector<std::vector<double>> places, impulses; ///< of each sample [m], [N s]
-    std::vector<Energies> energies;                    ///< the start first; shares of this rank
+    std::vector<double> speed;                 ///< of the groups, largest so far [m/s]
+    std::vector<double> impulse, multiplier;   ///< so far, and at the end of the last step
+    std::vector<std::vector<double>> places;   ///< of each sample [m]
+    std::vector<Energies> energies;            ///< the start first; shares of this rank
+    std::vector<double> times;                 ///< ends of steps that have impulses [s]
+    std::vector<std::vector<double>> impulses; ///< at these [N s]
     std::vector<double> work;
   };
 } // namespace taut

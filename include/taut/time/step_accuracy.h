@@ -26,7 +26,8 @@ namespace taut
     std::vector<double> longest_steps; ///< of closed constraints, see StepControl [s]
     const Reference &reference;
     const State &start;
-    bool at_rest; ///< the start is an equilibrium
+    bool at_rest;             ///< the start is an equilibrium
+    bool at_any_cost = false; ///< other runs are made whatever they cost
   };
 
   /**
@@ -38,14 +39,15 @@ namespace taut
    * error, or less. Otherwise it is compared with a step that is shorter by this factor, and close
    * to the bounds with one that is shorter by its square (L. F. Richardson's extrapolation, 1911,
    * with an order from one to two). Adaptive steps are compared with a ninth of the tolerance and
-   * 1/4.24 of Step.
+   * 1/4.24 of Step. Where shorter steps cost too much, the longer ones say about how large the
+   * error is.
    */
   class StepAccuracy
   {
   public:
     explicit StepAccuracy(RunInSteps run);
 
-    /// True if other runs cost less than about half a second.
+    /// Whether there is another run that takes less than about half a second.
     static bool is_affordable(const RunInSteps &run);
 
     /// An accepted step of the run itself.
@@ -69,12 +71,15 @@ namespace taut
     void load(InputArchive &archive) { own.load(archive); }
 
   private:
+    bool affords(double about) const;
     std::optional<MotionDifference> compare(double about, const std::function<bool()> &stop);
+    void extrapolate(MotionDifference coarse);
     double shortened(double over_bounds) const;
 
     const RunInSteps run;
     const ConnectedBodies groups;
     const std::vector<std::vector<double>> courses; ///< of moving constraints at the start
+    const double work;                              ///< of the run: products of DoFs and steps
     const std::size_t n_samples;
     const double interval; ///< of samples [s]
     MotionRecord own;
