@@ -5,6 +5,7 @@
 #include <taut/time/motion_record.h>
 
 #include <boost/serialization/array.hpp>
+#include <boost/serialization/map.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -334,19 +335,55 @@ namespace taut
     return result;
   }
 
-  template <typename Archive>
-  void MotionRecord::store(Archive &archive)
+  /// Places by the number of their body, as bodies may be on other ranks when a run goes on.
+  MotionRecord::PlacesOfBodies MotionRecord::places_of_bodies() const
   {
-    archive &speed &impulse &multiplier &places &energies &times &impulses;
+    PlacesOfBodies result;
+    for (const std::vector<double> &sample : places)
+      for (std::size_t j = 0; j < dofs.size(); ++j)
+        result[structure.number(dofs[j].body)].push_back(sample[j]);
+    return result;
   }
 
   void MotionRecord::save(OutputArchive &archive)
   {
-    store(archive);
+    const Communicator &all = structure.communicator();
+    PlacesOfBodies of_all;
+    const PlacesOfBodies own = places_of_bodies();
+    for (const std::string &text :
+         all.gather(archived([&](OutputArchive &of_rank) { of_rank << own; })))
+    {
+      PlacesOfBodies of_rank;
+      unarchive(text, [&](InputArchive &stored) { stored >> of_rank; });
+      of_all.insert(of_rank.begin(), of_rank.end());
+    }
+    std::vector<Energies> sums = energies;
+    for (Energies &of_groups : sums)
+      for (std::array<double, 2> &energy : of_groups)
+        all.sum(energy.data(), 2);
+    std::vector<double> fastest;
+    for (const double v : speed)
+      fastest.push_back(all.max(v));
+    const std::size_t n_stored = places.size();
+    archive << n_stored << of_all << sums << fastest << impulse << multiplier << times << impulses;
   }
 
   void MotionRecord::load(InputArchive &archive)
   {
-    store(archive);
+    std::size_t n_stored = 0;
+    PlacesOfBodies of_all;
+    archive >> n_stored >> of_all >> energies >> speed >> impulse >> multiplier >> times >>
+        impulses;
+    places.assign(n_stored, std::vector<double>(dofs.size()));
+    std::map<std::size_t, std::size_t> next; // of each body
+    for (std::vector<double> &sample : places)
+      for (std::size_t j = 0; j < dofs.size(); ++j)
+      {
+        const std::size_t number = structure.number(dofs[j].body);
+        sample[j] = of_all[number].at(next[number]++);
+      }
+    if (!structure.communicator().is_root())
+      for (Energies &of_groups : energies)
+        of_groups.assign(of_groups.size(), {0., 0.});
   }
 } // namespace taut

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstddef>
+#include <map>
 #include <vector>
 
 namespace taut
@@ -59,6 +60,7 @@ namespace taut
      */
     MotionDifference difference(const MotionRecord &other) const;
 
+    /// What all ranks have. Called by all ranks together.
     void save(OutputArchive &archive);
     void load(InputArchive &archive);
 
@@ -66,8 +68,9 @@ namespace taut
     using Energies = std::vector<std::array<double, 2>>; ///< of groups: kinetic, potential [J]
     struct Sizes;
 
-    template <typename Archive>
-    void store(Archive &archive);
+    /// Of each body its places, sample by sample [m].
+    using PlacesOfBodies = std::map<std::size_t, std::vector<double>>;
+    PlacesOfBodies places_of_bodies() const;
     void add_impulses(const State &state);
     void add_speeds(const State &state);
     std::vector<std::vector<double>> impulses_at(const std::vector<double> &at) const;
