@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace taut
 {
@@ -21,8 +22,13 @@ namespace taut
     /// Impulses below this part of the largest momentum are nothing.
     constexpr double least_impulse = 1e-3;
 
-    /// Ends of steps with impulses of a run.
-    constexpr double most_ends = 16e3;
+    /// Part of the time by which an impact may be early or late that two runs may be apart: what is
+    /// left is for what the better one is off by.
+    constexpr double part_of_lateness = .5;
+
+    /// Ends of steps with impulses; of more steps every second one, or fourth, and so on. Even, so
+    /// that the last one is kept.
+    constexpr std::size_t most_ends = 16000;
 
     /// Part of a step by which its end may miss a sample.
     constexpr double rounding_of_times = 1e-6;
@@ -99,11 +105,25 @@ namespace taut
       impulse[i] += (is_mean ? N : .5 * (N + multiplier[i])) * state.last_step;
       multiplier[i] = N;
     }
-    const double least = (1. - rounding_of_times) * interval * static_cast<double>(n) / most_ends;
-    if (state.time - times.back() < least)
+    if (++n_steps % stride != 0)
       return;
     times.push_back(state.time);
     impulses.push_back(impulse);
+    if (times.size() > most_ends)
+      keep_every_second_end();
+  }
+
+  void MotionRecord::keep_every_second_end()
+  {
+    const std::size_t n_kept = (times.size() + 1) / 2;
+    for (std::size_t k = 1; k < n_kept; ++k)
+    {
+      times[k] = times[2 * k];
+      impulses[k] = std::move(impulses[2 * k]);
+    }
+    times.resize(n_kept);
+    impulses.resize(n_kept);
+    stride *= 2;
   }
 
   /// Places at a part of the last step.
@@ -206,7 +226,8 @@ namespace taut
         most = std::max(most, sample[g][1]);
       }
       result.energy.push_back(std::max(kinetic[g], most - least));
-      result.late.push_back(ratio(MotionDifference::place_bound * largest, fastest));
+      result.late.push_back(
+          ratio(part_of_lateness * MotionDifference::place_bound * largest, fastest));
       // 2 T / v of bodies with speeds up to v is at most their momentum.
       result.impulse[g] = least_impulse * ratio(2. * kinetic[g], fastest);
     }
@@ -365,7 +386,8 @@ namespace taut
     for (const double v : speed)
       fastest.push_back(all.max(v));
     const std::size_t n_stored = places.size();
-    archive << n_stored << of_all << sums << fastest << impulse << multiplier << times << impulses;
+    archive << n_stored << of_all << sums << fastest << impulse << multiplier << times << impulses
+            << stride << n_steps;
   }
 
   void MotionRecord::load(InputArchive &archive)
@@ -373,7 +395,7 @@ namespace taut
     std::size_t n_stored = 0;
     PlacesOfBodies of_all;
     archive >> n_stored >> of_all >> energies >> speed >> impulse >> multiplier >> times >>
-        impulses;
+        impulses >> stride >> n_steps;
     places.assign(n_stored, std::vector<double>(dofs.size()));
     std::map<std::size_t, std::size_t> next; // of each body
     for (std::vector<double> &sample : places)

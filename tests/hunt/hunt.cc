@@ -112,7 +112,8 @@ TEST(Bounds, impulses_that_are_off_are_named)
                                      {13, 683},
                                      {14, 875},
                                      {14, 1635},
-                                     {15, 1584}})
+                                     {15, 1584},
+                                     {18, 495}})
   {
     const hunt::Finding finding = hunt::judge(hunt::make_scene(seed, number));
     EXPECT_EQ(hunt::name(finding.verdict), hunt::name(Verdict::warned_and_wrong))

@@ -72,6 +72,7 @@ namespace taut
     using PlacesOfBodies = std::map<std::size_t, std::vector<double>>;
     PlacesOfBodies places_of_bodies() const;
     void add_impulses(const State &state);
+    void keep_every_second_end();
     void add_speeds(const State &state);
     std::vector<std::vector<double>> impulses_at(const std::vector<double> &at) const;
     void add_places(const State &state, double part);
@@ -108,6 +109,7 @@ namespace taut
     std::vector<Energies> energies;            ///< the start first; shares of this rank
     std::vector<double> times;                 ///< ends of steps that have impulses [s]
     std::vector<std::vector<double>> impulses; ///< at these [N s]
+    long stride = 1, n_steps = 0;              ///< each so many ends are kept; steps so far
     std::vector<double> work;
   };
 } // namespace taut
