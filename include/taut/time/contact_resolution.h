@@ -20,9 +20,9 @@ namespace taut
    * entries by which one constraint opens another are left out. A mass m on a stop of stiffness k
    * has the ratio k step^2 / (3.9 m): its contact lasts 1.6 steps at 1, and 12 steps at 0.018.
    *
-   * Share: the part of the rigid body kinetic energy of a body that impacts without rebound at
-   * these constraints would take, sum (1 / f_ii) / mass with f = B^T M^-1 B. The share is 1 for a
-   * mass on a stop, and the mass of a node over the mass of its wire for a wire.
+   * Share: the part of its translational energy that a body would lose in impacts without rebound
+   * at these constraints, sum (1 / f_ii) / mass with f = B^T M^-1 B. It is 1 for a mass on a stop,
+   * and the mass of a node over the mass of the wire for a wire.
    *
    * A constraint is resolved if its ratio is at most 1 and ratio times share at most 0.018: an
    * impact then changes the energy of its body by at most a percent in generalised-alpha. A

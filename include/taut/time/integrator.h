@@ -41,8 +41,7 @@ namespace taut
     double a_V = 0., a_A = 0., a_dU = 0., a_V_old = 0.; ///< [1/s, 1, 1/s^2, 1/s]
     double alpha_m = 0., alpha_f = 0.;                  ///< weights of the old step [1]
     bool mean_force = false;     ///< of rigid constraints; bilateral ones are at velocity level
-    bool velocity_level = false; ///< conditions of rigid unilateral constraints; needs
-                                 ///< mean_force
+    bool velocity_level = false; ///< of rigid unilateral conditions; needs mean_force
     bool velocity_projection = false; ///< after conditions on gaps; needs mean_force
     double restitution = 0.;          ///< Newton's coefficient, for unilateral constraints [1]
 

@@ -29,9 +29,8 @@ namespace taut
     LocalError(const Structure &structure, const Constraints &constraints,
                const Reference &reference);
 
-    /// Local error of the step with coefficients @p c to @p state. The step before it has the
-    /// length @p step_before [s] and ends with accelerations @p old_A. Called by all ranks
-    /// together.
+    /// Local error of the step with coefficients @p c to @p state, after a step of @p step_before
+    /// [s] with final accelerations @p old_A. Called by all ranks together.
     double measure(const State &state, const StepCoefficients &c, double step_before,
                    const BodyVectors &old_A);
 

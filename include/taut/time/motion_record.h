@@ -47,16 +47,15 @@ namespace taut
                  const ConnectedBodies &groups, const Reference &reference, const State &start,
                  double interval, std::size_t n);
 
-    /// Records an accepted step. Places inside it come from the cubic with the velocities at its
-    /// ends.
+    /// Records an accepted step. Places inside it are those of the cubic with its end velocities.
     void record(const State &state);
 
     std::size_t n_samples() const { return places.size(); }
 
     /**
-     * Difference of this motion to another one, sample by sample. Impulses and energies jump at an
-     * impact. The bound of the places allows an impact to be early or late by the time in which the
-     * fastest place moves that far. Impulses and energies may hence have any value of the other
+     * Difference of this motion from another one, sample by sample. Impulses and energies jump at
+     * an impact. The bound of the places allows an impact to be early or late by the time in which
+     * the fastest place moves that far. Impulses and energies may hence have any value of the other
      * motion within this time, or within an interval. Called by all ranks together.
      */
     MotionDifference difference(const MotionRecord &other) const;
@@ -66,8 +65,7 @@ namespace taut
     void load(InputArchive &archive);
 
   private:
-    using Energies = std::vector<std::array<double, 2>>; ///< kinetic and potential energy of groups
-                                                         ///< [J]
+    using Energies = std::vector<std::array<double, 2>>; ///< kinetic, potential [J]
     struct Sizes;
 
     /// Places of each body, sample by sample [m].

@@ -91,8 +91,7 @@ namespace taut
     const Structure &bodies() const { return structure; }
     const Constraints &links() const { return constraints; }
 
-    /// Name and entries of the scheme, why it was chosen (empty: the user named it), and all in
-    /// words.
+    /// Name and entries of the scheme, the reason (empty: the user named it), and all in words.
     const SchemeChoice &choice() const { return chosen; }
     std::string scheme() const;
     std::string scheme_and_reason() const;
