@@ -16,7 +16,7 @@ namespace taut
   void Parameters::load_registered()
   {
     for (const std::string &name : shared_libraries)
-      // What is registered lives as long as the process, so it is never closed.
+      // Registered objects live as long as the process, so that it is never closed.
       if (dlopen(name.c_str(), RTLD_NOW | RTLD_GLOBAL) == nullptr)
       {
         const char *reason = dlerror();

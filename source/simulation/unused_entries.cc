@@ -15,10 +15,10 @@ namespace taut
 {
   namespace
   {
-    /// The value of another entry of the same section; empty if it has none of this name.
+    /// Value of another entry of the same section; empty: no such entry.
     using ValueOf = std::function<std::string(const std::string &entry)>;
 
-    /// Entries of sections whose path begins in the same way, and why they have no effect; empty:
+    /// Entries of sections with a common begin of their path, and why they have no effect; empty:
     /// they have one.
     struct Rule
     {
@@ -32,7 +32,7 @@ namespace taut
       return start == "given" ? "" : "without Start = given";
     }
 
-    /// Of a contact, unless its Obstacle is one of these.
+    /// For a contact, unless its Obstacle is one of these.
     std::function<std::string(const ValueOf &, const std::string &)>
     unless_obstacle_is(const std::vector<std::string> &obstacles)
     {
@@ -65,7 +65,7 @@ namespace taut
       return all;
     }
 
-    /// Equal as texts, or number by number.
+    /// Equal as texts or number by number.
     bool is_same(const std::string &a, const std::string &b)
     {
       const std::vector<std::string> p = split(a, ','), q = split(b, ',');

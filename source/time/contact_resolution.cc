@@ -23,8 +23,7 @@ namespace taut
     /// Energy loss of a body in an impact, as a share, below which a smooth force is preferred.
     constexpr double small_share = .02;
 
-    /// Share above which an impact is more than waves, so that adaptive steps, too, keep its
-    /// energy.
+    /// Share above which an impact is more than waves: adaptive steps, too, keep its energy.
     constexpr double large_share = .1;
 
     /// Part of the critical damping above which nothing rebounds, and steps that resolve a contact
