@@ -19,7 +19,7 @@ namespace taut
    *
    *     M^-1 -> P^T M^-1 P + Z E^-1 Z^T,    P = 1 - F Z E^-1 Z^T.
    *
-   * F Z needs solutions only for bodies at a column; those with unchanged rows are kept.
+   * F Z needs solutions only for bodies at a column, and none for bodies with unchanged rows.
    */
   class CoarseSpace
   {

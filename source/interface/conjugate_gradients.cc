@@ -42,8 +42,7 @@ namespace taut
     }
     catch (const Belos::StatusTestError &)
     {
-      // The residual is not a number: the preconditioned residual was zero, or numbers are out of
-      // range.
+      // The residual is not a number: the preconditioned one was zero, or numbers are out of range.
     }
     x.assign(solution[0], solution[0] + b.size());
     if (!std::all_of(x.begin(), x.end(), [](const double v) { return std::isfinite(v); }))

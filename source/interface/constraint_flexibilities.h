@@ -36,8 +36,8 @@ namespace taut
     /// Adds the part of this rank in the diagonal of B^T diag(A)^-1 B.
     void add_to_local_diagonal(std::vector<double> &diagonal) const;
 
-    /// Adds the part of this rank in a bound of sum_j |(B^T A^-1 B)_ij| |x_j|, from |F_ij| <=
-    /// sqrt(f_i f_j) for each group of DoFs.
+    /// Adds the part of this rank in a bound of sum_j |(B^T A^-1 B)_ij| |x_j|, from
+    /// |F_ij| <= sqrt(f_i f_j) for each group of DoFs.
     void add_bound(const std::vector<double> &x, std::vector<double> &y) const;
 
   private:

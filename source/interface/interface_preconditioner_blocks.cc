@@ -10,7 +10,7 @@ namespace taut
 {
   namespace
   {
-    /// Part of the diagonal of A_k below which a Schur complement is rounding: the body can follow
+    /// Part of the diagonal of A_k below which a Schur complement is rounding: the body follows
     /// freely.
     constexpr double smallest_stiffness = 1e-9;
 

@@ -325,8 +325,7 @@ namespace taut
     return is_solved;
   }
 
-  /// Solves for scaled constraints, starting from x. The true residual decides, not the recursive
-  /// one.
+  /// Solves for scaled constraints from x, by the true residual and not the recursive one.
   bool MatrixFreeSchurComplement::refine(const NaturalCoarseProblem *null_space,
                                          const std::vector<double> &b, std::vector<double> &x)
   {

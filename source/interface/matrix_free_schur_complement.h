@@ -78,7 +78,7 @@ namespace taut
     std::vector<double> scale;    ///< F_ii^-1/2; in statics from the local diagonal
     std::vector<char> active;     ///< constraints of the present preparation
     std::vector<char> is_changed; ///< bodies without a present preparation
-    bool is_stale = true;         ///< after a change of matrix, compliance or sliding constraint
+    bool is_stale = true;         ///< after a change of matrix, compliance or B
     double tolerance;             ///< relative residual that ends a solve
     InterfaceStatistics counts;
     std::vector<double> constraint_work, coarse_part, coarse_motion;

@@ -10,8 +10,7 @@
 
 namespace taut
 {
-  /// The columns A_k^-1 B_k of the constraints without decayed tails; the assembled forms of F use
-  /// them.
+  /// The columns A_k^-1 B_k of the constraints without decayed tails, for the assembled forms of F.
   class ResponseColumns
   {
   public:

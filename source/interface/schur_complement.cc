@@ -11,8 +11,7 @@ namespace taut
     /// Rows up to which a dense F is as fast as a sparse one.
     constexpr std::size_t most_dense_rows = 150;
 
-    /// Numbers for each DoF beside F up to which F is assembled, some three times those of the
-    /// factors.
+    /// Numbers beside F for each DoF up to which F is assembled, some three times those of factors.
     constexpr double most_stored_numbers = 64.;
 
     /// Number of columns that estimate the length of all.
@@ -30,8 +29,7 @@ namespace taut
           solvers[k].column(form, column);
           sum += column.value.size();
         }
-      // Without a coarse problem, statics stores the response of all constraints to each rigid body
-      // mode.
+      // Without a coarse problem, statics stores responses of all constraints to rigid body modes.
       std::size_t n_null_space = 0;
       for (const FactoredStructure::RigidBodyModes &modes : solvers.rigid_body_modes())
         n_null_space += modes.vectors.size();
@@ -56,7 +54,7 @@ namespace taut
       return totals[0] == 0. && 2. * n * n <= most_stored_numbers * totals[1];
     }
 
-    /// The form that suits the constraints and the decay of their columns, which is known after the
+    /// The form that suits the constraints and the decay of their columns, known after
     /// factorisation.
     class AutomaticSchurComplement : public SchurComplement
     {

@@ -8,8 +8,7 @@ namespace taut
 {
   namespace
   {
-    /// y_n = sum_k b_k x_{n-k} - sum_{k>0} a_k y_{n-k}, of second order, with x = x_0 before the
-    /// start.
+    /// y_n = sum_k b_k x_{n-k} - sum_{k>0} a_k y_{n-k}, of second order, with x = x_0 before.
     struct Section
     {
       double b[3], a[3];

@@ -20,8 +20,7 @@ namespace taut
     /// Sliding above which there is a warning, in elements: another element is nearer then.
     constexpr double small_sliding = .5;
 
-    /// Kink between sides of degree 2 above which they are facets: that of sides on an arc of 0.8
-    /// rad [rad].
+    /// Kink between sides of degree 2 above which they are facets: as on an arc of 0.8 rad [rad].
     constexpr double small_kink = .03;
 
     /// Part of the weights of a master by which a node differs from its node.
@@ -30,7 +29,7 @@ namespace taut
     constexpr std::size_t most_lines = 2000; ///< of a body
     const Coordinates axes[] = {{1.}, {0., 1.}, {0., 0., 1.}};
 
-    /// Longest line at each node of a surface between neighbours in the list of nodes of a face
+    /// Longest line between neighbours in the list of nodes of a face, for each node of a surface
     /// [m].
     std::vector<double> element_lengths(const ContactSurface &surface)
     {

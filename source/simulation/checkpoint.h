@@ -35,8 +35,8 @@ namespace taut
   /// Throws UserError if it cannot be written; the one before remains.
   void write_checkpoint(const Checkpoint &checkpoint, const std::string &folder);
 
-  /// The last checkpoint of the folder, or the one before if that is damaged, with a message in @p
-  /// log; none without files. Throws UserError if no file is usable.
+  /// The last checkpoint of the folder, or the one before if that is damaged, with a message in
+  /// @p log; none without files. Throws UserError if no file is usable.
   std::optional<Checkpoint> read_checkpoint(const std::string &folder, std::ostream &log);
 } // namespace taut
 

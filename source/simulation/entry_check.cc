@@ -57,8 +57,7 @@ namespace taut
       return all.empty() ? "" : all + ".";
     }
 
-    /// Section "Wire <name>" for each name in a list, from the help of the list; empty for another
-    /// entry.
+    /// Section "Wire <name>" for the names in a list, from its help; empty for another entry.
     std::string section_of_names(const nlohmann::json &entry)
     {
       const std::string help = entry["documentation"].get<std::string>(), mark = " <name>'";
@@ -110,8 +109,7 @@ namespace taut
       return "";
     }
 
-    /// deal.II's description of a pattern, as the middle of a sentence and without its largest
-    /// numbers.
+    /// deal.II's description of a pattern as the middle of a sentence, without its largest numbers.
     std::string expectation(const PatternBase &pattern)
     {
       std::string text = pattern.description(PatternBase::Text);

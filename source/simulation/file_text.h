@@ -18,8 +18,8 @@ namespace taut
   /// for messages, tables and JSON.
   void check_text(const std::string &text, const std::string &place);
 
-  /// Why a file cannot be read (@p reason is errno), with the nearest name if the file does not
-  /// exist.
+  /// Why a file cannot be read (@p reason is errno), with the nearest name if there is no such
+  /// file.
   std::string cannot_read(const std::string &file, int reason);
 
   /// Lines of a file without comments, continued lines joined, each with the number of its first

@@ -18,8 +18,7 @@ namespace taut
     /// Value of another entry of the same section; empty: no such entry.
     using ValueOf = std::function<std::string(const std::string &entry)>;
 
-    /// Entries of sections with a common begin of their path, and why they have no effect; empty:
-    /// they have one.
+    /// Entries of sections whose paths begin alike, and why they have no effect; empty: they have.
     struct Rule
     {
       std::string section;

@@ -16,7 +16,7 @@ namespace taut
     /// Safety factor of the longest stable step: largest_frequency() is a lower bound.
     constexpr double surely_stable = .98;
 
-    /// Not 0 for each constraint that acts on an elastic body.
+    /// Not 0 for each constraint that acts on elements, and not on lumped masses alone.
     std::vector<double> rows_on_elements(const Structure &structure, const Constraints &constraints)
     {
       std::vector<double> result(constraints.size(), 0.);

@@ -14,8 +14,8 @@ namespace taut
     /// Steps between two measurements of the scale of contact energy: one costs a tenth of a step.
     constexpr long steps_between_scales = 16;
 
-    /// Motions of a step that a condition on velocities may leave as a gap: of this and the next
-    /// step.
+    /// Motions of a step that a condition on velocities may leave as a gap: of this step and the
+    /// next.
     constexpr double most_steps_of_motion = 2.;
 
     /// Part of the energy of a nonlinear body that is rounding in a step, and the rotation through

@@ -12,8 +12,8 @@ namespace taut
 {
   namespace
   {
-    /// Makes all turning constraints keep their direction, if possible. Springs across them add
-    /// rows.
+    /// Makes all turning constraints keep their direction if possible, with rows for springs
+    /// across.
     void linearise_links(const Structure &structure, Constraints &constraints, InitialState &result)
     {
       std::vector<double> &N = result.state.multiplier;
@@ -142,8 +142,8 @@ namespace taut
               constraint.cone.project(constraint.spring.force(u) + v * constraint.spring.damping);
         }
         state.link_springs[i].u = u;
-        // Rounding of the gap over a small compliance, or over the motion of a short step, would be
-        // a force.
+        // Rounding of the gap over a small compliance, or over a motion in a short step, would be a
+        // force.
         if (start == Start::equilibrium && constraint.cone.is_closed(state.multiplier[i]))
           state.geometric_gap[i] = -u;
         else if (start == Start::equilibrium)

@@ -90,7 +90,7 @@ namespace taut
 
   void ProjectionCompliance::set(SchurComplement &f)
   {
-    // Infinite relative compliance: the constraint takes no part.
+    // Infinite for a constraint without flexibility, which takes no part.
     for (std::size_t i = 0; i < constraints.size(); ++i)
       softening[i] = of_mass[i] > 0. && takes_part(i) ? of_mass[i] * relative[i] : 0.;
     f.set_compliance(softening);

@@ -40,8 +40,8 @@ namespace taut
     constexpr double aim = .8, good = .95;
 
     /// Products of DoFs and steps in another run; a second has about a hundred millions. A step
-    /// costs as much as some DoFs. It has several solutions for nonlinear bodies, and about two for
-    /// turning links.
+    /// costs as much as some DoFs. Nonlinear bodies need several solutions, turning links about
+    /// two.
     constexpr double most_work = 4e7, work_of_step = 100., work_of_newton = 8.,
                      work_of_turning = 2.;
 

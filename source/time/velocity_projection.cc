@@ -12,8 +12,8 @@ namespace taut
     /// Relative rates that are rounding: steps of thousands of operations, each with 1e-16.
     constexpr double rounding_of_rates = 1e-12;
 
-    /// Part of the largest terms of a rate so far, and of the rate of all kinetic energy, below
-    /// which rates count as rest.
+    /// Part of the largest terms of a rate so far, and of the largest rate with the kinetic energy,
+    /// below which rates count as rest.
     constexpr double rest = 1e-3;
   } // namespace
 
@@ -56,8 +56,7 @@ namespace taut
       masses.setup(softening);
   }
 
-  /// Sets the active constraints and their impulses. False if all their rates satisfy their
-  /// conditions.
+  /// Sets which constraints take part and their impulses. False if all rates satisfy conditions.
   bool VelocityProjection::has_to_act(const ContactConditions &conditions, const State &state)
   {
     bool acts = false;

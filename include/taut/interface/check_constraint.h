@@ -14,16 +14,14 @@ namespace taut
   /// are on other bodies. Each rank checks its own terms, for a moving place the last ones.
   void check_constraint(const ConstraintData &constraint, const Structure &structure);
 
-  /// Checks the bodies and DoFs in @p terms of a moving place; bodies may have been linearised
-  /// since.
+  /// Checks bodies and DoFs in @p terms of a moving place, as bodies may have been linearised.
   void check_terms(const ConstraintData &constraint, const std::vector<Term> &terms,
                    const Structure &structure);
 
   /// True if the constraint slides, or if a form on this rank is not zero.
   bool acts_here(const ConstraintData &constraint);
 
-  /// Why @p terms are no displacement of bodies of @p structure, as a part of a message; empty:
-  /// they are.
+  /// Why @p terms are no displacement of bodies of @p structure, for a message; empty: they are.
   std::string fault_of(const std::vector<Term> &terms, const Structure &structure);
 } // namespace taut
 

@@ -12,8 +12,7 @@
 
 namespace taut
 {
-  /// A symmetric operator on vectors over constraints in the interface of Belos. Vectors are equal
-  /// on all ranks.
+  /// A symmetric operator on vectors over constraints for Belos. Vectors are equal on all ranks.
   class ConstraintOperator : public Epetra_Operator
   {
   public:

@@ -22,8 +22,8 @@ namespace taut
   constexpr std::size_t no_contact = no_link;
 
   /// One scalar condition with its multiplier N. Its geometry gives the place, its spring the
-  /// compliance between the bodies and N, its cone the admissible N. With the linear form B_i, D =
-  /// B_i U + gap + compression of the spring; N and D are complementary.
+  /// compliance between the bodies and N, its cone the admissible N. With the linear form B_i,
+  /// D = B_i U + gap + compression of the spring; N and D are complementary.
   struct ConstraintData
   {
     std::string name;
@@ -49,8 +49,7 @@ namespace taut
 
     Geometry::Kind kind() const { return geometry ? geometry->kind() : Geometry::Kind::fixed; }
 
-    /// The linear forms that combine to B_i at all positions of the bodies; for most constraints
-    /// B_i itself.
+    /// The linear forms that combine to B_i at all positions of the bodies; for most only B_i.
     std::vector<const std::vector<Term> *> forms() const
     {
       if (kind() == Geometry::Kind::turning)
@@ -116,8 +115,7 @@ namespace taut
     std::vector<Coordinates> differences(const BodyVectors &reference, const BodyVectors &U) const;
     std::vector<Coordinates> differences(const BodyVectors &U) const;
 
-    /// Both ends of a turning constraint at U = @p reference + @p U. Called by all ranks together
-    /// [m].
+    /// Ends of a turning constraint at U = @p reference + @p U [m]. Called by all ranks together.
     std::array<Coordinates, 2> ends(std::size_t i, const BodyVectors &reference,
                                     const BodyVectors &U) const;
 
@@ -128,11 +126,11 @@ namespace taut
     void turn_to(const BodyVectors &reference, const BodyVectors &U);
 
     /**
-     * Replaces turning constraints by fixed ones with their directions and gaps at U = @p
-     * reference. A link that pulls with force N there, one entry a constraint, resists lateral
-     * motions of its ends. It gets two springs |N| / |Delta|, without force at the reference, in
-     * rows before the sliding constraints. Constraints that push have no such springs. Called by
-     * all ranks together, at t = 0 [m, rad; N, N m].
+     * Replaces turning constraints by fixed ones with their directions and gaps at
+     * U = @p reference. A link that pulls with force N there, one entry a constraint, resists
+     * lateral motions of its ends. It gets two springs |N| / |Delta|, without force at the
+     * reference, in rows before the sliding constraints. Constraints that push have no such
+     * springs. Called by all ranks together, at t = 0 [m, rad; N, N m].
      */
     void keep_directions(const BodyVectors &reference, const std::vector<double> &N);
 

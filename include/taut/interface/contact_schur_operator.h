@@ -30,7 +30,7 @@ namespace taut
     /// Sets the diagonal S [m/N, rad/(N m)].
     void set_compliance(const std::vector<double> &S) { compliance = S; }
 
-    /// Restricts F to the rows with entries other than 0; it is the identity on other rows.
+    /// Restricts F to rows i with set[i] other than 0; it is the identity on other rows.
     void restrict_to(const std::vector<char> &set) { active = set; }
     void unrestrict();
 

@@ -46,8 +46,8 @@ namespace taut
     /// B_i at time @p t [s]. Throws an EntryError if the constraint has no place then.
     virtual std::vector<Term> terms(double t) const = 0;
 
-    /// Time derivative of B_i: the contribution of the motion of the place to D', without that of
-    /// the gap [1/s].
+    /// Time derivative of B_i: the part of D' by motion of the place, without that of the gap
+    /// [1/s].
     virtual std::vector<Term> rates(double t) const = 0;
 
     /// D at U = 0, N = 0 [m].

@@ -11,8 +11,7 @@
 
 namespace taut
 {
-  /// The displacement of a place of a body along a direction, as linear forms on bodies of this
-  /// rank [m].
+  /// Displacement of a place of a body along a direction: linear forms on bodies of this rank [m].
   using Displacement = std::vector<Term>;
 
   /**
@@ -28,8 +27,7 @@ namespace taut
     static Constraint bilateral(const std::string &name, const Displacement &a,
                                 const Displacement &b = {});
 
-    /// A constraint whose displacement and gap come from @p place at each time. Throws UserError
-    /// for nullptr.
+    /// Takes displacement and gap from @p place at each time. Throws UserError for nullptr.
     static Constraint unilateral(const std::string &name, std::shared_ptr<MovingPlace> place);
 
     /**
@@ -51,8 +49,7 @@ namespace taut
     static Constraint rod(const std::string &name, const LinkEnd &a, const LinkEnd &b,
                           double length);
 
-    // Unsuitable values are a UserError at once where a function says so, and otherwise in
-    // System::add().
+    // Unsuitable values are a UserError at once where a function says so, else in System::add().
 
     /// D at U = 0, N = 0 [m]. Throws UserError for ropes, props and rods, which have a length.
     Constraint &gap(double value);

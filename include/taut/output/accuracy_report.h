@@ -11,8 +11,7 @@
 
 namespace taut
 {
-  /// Reports the measures of contacts at the end of a run, and on request whether its steps are
-  /// short enough.
+  /// Reports the measures of contacts at the end of a run, and on request the errors of its steps.
   class AccuracyReport : public Observer
   {
   public:

@@ -19,12 +19,14 @@ namespace taut
    * kind in a run is kept.
    *
    * - A slope of 0.1 rad stretches a wire by slope^2 / 2 = 0.5 %, which the equations neglect: a
-   * copper wire of 100 mm^2 would gain 60 kN of tension. All motions across the wire count, also
-   * lateral ones. For a linearised cable it is the change of direction since the state of
-   * linearisation, for a linear one since its shape at rest. - Two wires above each other at the
-   * start, without a pushing link between them, must not move together by more than their distance.
-   * - Waves of a wire run at sqrt(T / m); nothing runs ahead of a faster contact. - A peak that is
-   * sampled n times a period is found up to 1 - cos(pi / n) of its height: 5 % for n = 10.
+   *   copper wire of 100 mm^2 would gain 60 kN of tension. All motions across the wire count, also
+   *   lateral ones. For a linearised cable it is the change of direction since the state of
+   *   linearisation, for a linear one since its shape at rest.
+   * - Two wires above each other at the start, without a link that pushes them apart, must not come
+   *   closer by more than their distance.
+   * - Waves of a wire run at sqrt(T / m); nothing runs ahead of a faster contact.
+   * - A peak that is sampled n times a period is found up to 1 - cos(pi / n) of its height: 5 % for
+   *   n = 10.
    */
   class ModelLimits : public Observer
   {
@@ -55,8 +57,7 @@ namespace taut
       std::vector<double> positions; ///< on the wire [m]
       std::vector<double> distances; ///< to the wire above; empty: checks slopes [m]
 
-      /// Forms of all samples in one direction, then in the next: directions across a wire, or x,
-      /// y, z.
+      /// Forms of all samples, direction by direction: directions across a wire, or x, y, z.
       unsigned int n_directions = 1;
       std::vector<Coordinates> chords;   ///< of a cable, from sample to sample [m]
       bool turns_from_reference = false; ///< chords are those of the reference, not those at U = 0

@@ -70,7 +70,7 @@ namespace taut
     /// Declares its entries, in a section of Output with its name.
     virtual void declare_parameters(dealii::ParameterHandler &) {}
 
-    /// Names of its files in the folder of the results; files of an earlier run count as results,
+    /// Names of its files in the folder of the results, which count as results of earlier runs,
     /// too.
     virtual std::vector<std::string> files() const { return {}; }
 

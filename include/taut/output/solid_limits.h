@@ -19,12 +19,13 @@ namespace taut
    * in a run is kept.
    *
    * - "turn": a line between two nodes of the surface of a body turns by less than 0.1 rad. Such a
-   * turn stretches stiff parts by 0.5 %. - "sliding": at a closed contact the sides slide by less
-   * than half of the shorter element of both sides. A plane as the obstacle has no such limit. -
-   * "overhang": where a contact is closed, the master covers the faces of the slave as a whole. -
-   * "nodes on faces": loaded nodes of the slave are at nodes of the master. - "facets": loaded
-   * sides of degree 2 have no kinks of a few degrees. - "search": nodes outside an automatic search
-   * distance stay open.
+   *   turn stretches stiff parts by 0.5 %.
+   * - "sliding": at a closed contact the sides slide by less than half of the shorter element of
+   *   both sides. A plane as the obstacle has no such limit.
+   * - "overhang": where a contact is closed, the master covers the faces of the slave as a whole.
+   * - "nodes on faces": loaded nodes of the slave are at nodes of the master.
+   * - "facets": loaded sides of degree 2 have no kinks of a few degrees.
+   * - "search": nodes outside an automatic search distance stay open.
    */
   class SolidLimits
   {

@@ -25,13 +25,11 @@ namespace taut
     binary ///< the header line of a CSV file, then all numbers as doubles of this machine
   };
 
-  /// A table with a header line that grows line by line. The file ends with a complete line after
-  /// any failure.
+  /// A table with a header line that grows by lines. It ends with a complete line after failures.
   class TableFile
   {
   public:
-    /// Creates the file; if it @p goes_on, leaves it unchanged until resume(). Throws UserError on
-    /// failure.
+    /// Creates the file; if it @p goes_on, leaves it for resume(). Throws UserError on failure.
     TableFile(const std::string &path, const std::vector<std::string> &columns,
               bool goes_on = false, TableFormat format = TableFormat::csv);
 
@@ -55,8 +53,7 @@ namespace taut
     /// Writes the buffer and closes. Throws UserError if the disk is full.
     void close();
 
-    /// Writes the buffer to the disk and returns the length of the file. Throws UserError if the
-    /// disk is full.
+    /// Writes the buffer and returns the length of the file. Throws UserError if the disk is full.
     std::size_t save();
 
     /// Continues at this length and drops the rest. Throws UserError if the file is shorter.

@@ -21,8 +21,8 @@ namespace taut
   class Checkpoints : public Observer
   {
   public:
-    /// Stores every @p interval [s] of a run in @p folder; 0: never. Messages go to @p log. The @p
-    /// entries, by name, have to be the same in a continued run.
+    /// Stores every @p interval [s] of a run in @p folder; 0: never. Messages go to @p log. The
+    /// @p entries, by name, have to be the same in a continued run.
     Checkpoints(const std::string &folder, double interval, std::ostream &log,
                 const std::map<std::string, std::string> &entries = {});
     ~Checkpoints() override;

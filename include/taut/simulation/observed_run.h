@@ -35,8 +35,8 @@ namespace taut
   class ObservedRun
   {
   public:
-    /// @p stepper is kept by reference and steps only through this object from now on. The @p
-    /// folder of the results is made; @p interval is Output/Interval, for all observers [s].
+    /// @p stepper is kept by reference and steps only through this object from now on. The
+    /// @p folder of the results is made; @p interval is Output/Interval, for all observers [s].
     ObservedRun(Stepper &stepper, const std::string &folder, double interval = 0.);
 
     /// For a scene, at its start; the references are kept. The folder is not made.
@@ -54,8 +54,8 @@ namespace taut
     void observe(Observer &observer) { observers.push_back(&observer); }
     void observe(std::unique_ptr<Observer> observer);
 
-    /// Checkpoints have all observers and are called last. begin() continues from a checkpoint if
-    /// there is one.
+    /// Checkpoints are called last and have all observers. begin() continues from a found
+    /// checkpoint.
     void observe(Checkpoints &last);
 
     /// Each rank calls @p asked after each step; a result other than 0 on any rank is the signal()

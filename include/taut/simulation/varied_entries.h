@@ -14,8 +14,7 @@ namespace dealii
 
 namespace taut
 {
-  /// Entries of a scene that take successive values together: common to the parameters of a study
-  /// and a sweep.
+  /// Entries of a scene that take successive values together, in the sections of a study or sweep.
   struct VariedEntries
   {
     std::string entries, values; ///< as written

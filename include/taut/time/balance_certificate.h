@@ -42,8 +42,8 @@ namespace taut
     /**
      * Forms K U and r = P + B N - C V - K U of the state after a step, and the residual() of its
      * equation of motion. @p in_balance are the multipliers in r. @p impulsive are the forces that
-     * act in this step only; empty: none. Zero coefficients stand for an equilibrium at rest. @p
-     * set_rows, if given, sets rows just before their first use, so that both share the cache.
+     * act in this step only; empty: none. Zero coefficients stand for an equilibrium at rest.
+     * @p set_rows, if given, sets rows just before their first use, so that both share the cache.
      * Throws an EntryError on the section of a body with numbers beyond largest_number.
      */
     void measure(const StepCoefficients &c, const StepForces &forces,

@@ -16,17 +16,15 @@ namespace taut
    *     L = phi(u) = a f(u) + b f_mean(u_0, u) + d (u - u_d).
    *
    * f_mean is the mean of f between the compressions before and after the step: with it the spring
-   * stores the work of its force. The last term is the damper. The condition is 0 <= L _|_ g +
-   * phi^-1(L) >= 0 with g the gap without the spring.
+   * stores the work of its force. The last term is the damper. The condition is
+   * 0 <= L _|_ g + phi^-1(L) >= 0 with g the gap without the spring.
    *
    * Newton's method linearises phi at u_j. The law then is a compliance S = 1 / phi'(u_j) on the
    * diagonal of F, and a shift u_j - S phi(u_j) of the gap. The complementarity problem is solved
-   * exactly (N. H. Josephy, 1979). The next u_j is -g, or the zero of phi if the constraint is
-   * open.
+   * exactly (N. H. Josephy, 1979). The next u_j is -g, or the zero of phi if it is open.
    *
-   * This is the optimality condition of a convex energy. If the energy may have grown, a line
-   * search minimises it without products with F: its derivative is the change of the gaps times L -
-   * phi.
+   * This is the optimality condition of a convex energy. If it may have grown, a line search
+   * minimises it without products with F: its derivative is the change of the gaps times L - phi.
    */
   class ConstraintLaws
   {
@@ -40,9 +38,8 @@ namespace taut
     /// the end of the step, with a damper @p damping (u - @p undamped) [N/m; m].
     void begin_at_end(std::size_t i, double u, double damping = 0., double undamped = 0.);
 
-    /// Begins a step where theta L is the mean 2 (1 - theta) f_mean + (2 theta - 1) f(u). The mean
-    /// conserves energy at theta = 1/2 and dissipates beyond it. The damper acts on the change of
-    /// u.
+    /// Begins a step where theta L is the mean 2 (1 - theta) f_mean + (2 theta - 1) f(u). It
+    /// conserves energy at theta = 1/2 and dissipates beyond. The damper acts on changes of u.
     void begin_mean(std::size_t i, double u, double theta, double damping);
 
     /// Begins a step at theta = 1/2 for a conserving constraint. f_mean is (W(u) - W(u_0)) / (u -
@@ -61,8 +58,8 @@ namespace taut
     /// Whether the spring of a constraint follows a law in this step.
     bool has(const std::size_t i) const { return row_of[i] < rows.size(); }
 
-    /// Residual of the law at compression @p u and multiplier @p L, as a gap: (L - phi(u)) /
-    /// phi'(u). 0 for a constraint without a law.
+    /// Residual of the law at compression @p u and multiplier @p L, as a gap:
+    /// (L - phi(u)) / phi'(u). 0 for a constraint without a law.
     double lack(std::size_t i, double u, double L) const;
 
     /// phi^-1(L) near @p u, as exact as L: @p u may be the small difference of large motions.

@@ -16,9 +16,9 @@ namespace taut
    * meaning of its multipliers.
    *
    * A condition on a gap is 0 <= D at the end of the step. A condition on a velocity (Moreau 1988,
-   * Jean 1999) is 0 <= D' + e D'_0 for a rigid constraint that was closed or has D_0 + step D'_0 /
-   * 2 <= 0; other rigid constraints take no part. Times (1 - alpha_f) step it is B^T dU plus known
-   * terms, so that F is the same.
+   * Jean 1999) is 0 <= D' + e D'_0 for a rigid constraint that was closed or has D_0 + step
+   * D'_0 / 2 <= 0; other rigid constraints take no part. Times (1 - alpha_f) step it is B^T dU plus
+   * known terms, so that F is the same.
    *
    * With either condition the force of a rigid constraint may be a mean over the step, which acts
    * in this step only and with full weight. Bilateral constraints with mean forces have the
@@ -30,8 +30,8 @@ namespace taut
   class ContactConditions
   {
   public:
-    /// The arguments but @p start are kept by reference; @p constraints are in their places at the
-    /// start.
+    /// All arguments but @p start are kept by reference; @p constraints are in their initial
+    /// places.
     ContactConditions(const Structure &structure, const Constraints &constraints,
                       const TurningConstraints &turning, const Reference &reference,
                       const State &start);

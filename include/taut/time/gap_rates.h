@@ -37,8 +37,7 @@ namespace taut
     /// After the step with the end @p state: sets its rates and those before the step.
     void accept(State &state);
 
-    /// After a change of the velocities of @p state, with a velocity projection: sets its rates
-    /// again.
+    /// After a velocity projection, which changes velocities of @p state: sets its rates again.
     void update(State &state);
 
     /// B^T V after the last begin(), accept() or update(), the sum of the sizes of its terms, and

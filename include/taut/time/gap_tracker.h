@@ -22,8 +22,8 @@ namespace taut
   class GapTracker
   {
   public:
-    /// The arguments but @p start are kept by reference; @p constraints are in their places at the
-    /// start.
+    /// All arguments but @p start are kept by reference; @p constraints are in their initial
+    /// places.
     GapTracker(const Structure &structure, const Constraints &constraints,
                const TurningConstraints &turning, const Reference &reference, const State &start);
 
@@ -90,8 +90,8 @@ namespace taut
     const Reference &reference;
     bool supports_move = false;         ///< of a body of this rank
     std::vector<double> reference_gap;  ///< of fixed constraints
-    std::vector<double> gap_correction; ///< of moving constraints at the start: gap minus gap from
-                                        ///< displacements
+    std::vector<double> gap_correction; ///< of moving constraints: first gap minus that from
+                                        ///< displacements, as rounding would be a force
     std::vector<double> motion;         ///< B^T dU
     std::vector<double> motion_size;    ///< rounding scale of motion
     std::vector<double> position;       ///< B^T U; with U_ref for a moving constraint

@@ -156,8 +156,8 @@ namespace taut
   StepCoefficients hht(double step, double alpha);
 
   /**
-   * The theta method of Moreau and Jean: M (V - V0) = step [theta r + (1 - theta) r0] + B p and U =
-   * U0 + step [theta V + (1 - theta) V0]. The impulses p of rigid constraints satisfy
+   * The theta method of Moreau and Jean: M (V - V0) = step [theta r + (1 - theta) r0] + B p and
+   * U = U0 + step [theta V + (1 - theta) V0]. The impulses p of rigid constraints satisfy
    * complementarity at velocity level with Newton's restitution e in [0, 1]. @p theta in [1/2, 1].
    * M. Jean, Comput. Methods Appl. Mech. Engrg. 177 (1999).
    */

@@ -22,8 +22,8 @@ namespace taut
    * cancel, and each contact counts with its absolute sum. A rigid constraint may take energy in an
    * impact, so that only the given energy counts.
    *
-   * A body that loses the energy |L| in an impact at the speed v loses a momentum of up to 2 |L| /
-   * v: for all of m v^2 / 2 this is m v.
+   * A body that loses the energy |L| in an impact at the speed v loses a momentum of up to
+   * 2|L| / v: for all of m v^2 / 2 this is m v.
    */
   class LinkEnergies
   {

@@ -22,7 +22,7 @@ namespace taut
    *     S = 1 / (k + c / (theta step)),    h = -((1 - theta) k - c / step) / (theta k + c / step)
    *                                            u_0,
    *
-   * and u = max(0, S N + h). Conserving springs, and springs with a law, have S and h of its
+   * and u = max(0, S N + h). Conserving springs, and springs with a law, have S and h of their
    * linearisation, see ConstraintLaws.
    */
   class LinkSprings
@@ -58,8 +58,8 @@ namespace taut
     /// True for an elastic constraint with a mean force.
     bool is_mean(const std::size_t i) const { return mean[i] && S[i] > 0.; }
 
-    /// After a step that ends with @p gap and multiplier @p N: updates the spring in the state. @p
-    /// scale is the size of the terms of the gap. Returns D, the gap including the spring.
+    /// After a step that ends with @p gap and multiplier @p N: updates the spring in the state.
+    /// @p scale is the size of the terms of the gap. Returns D, the gap including the spring.
     double accept(std::size_t i, double gap, double N, double scale, State &state) const;
 
     /// Adds a change @p dN of the multiplier, with forces at the ends of steps.

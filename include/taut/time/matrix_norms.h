@@ -27,8 +27,7 @@ namespace taut
     std::array<PerKind, n_vectors> result() const;
 
   private:
-    // Independent lanes let comparisons run in parallel. A comparison loses a not-a-number, a sum
-    // keeps it.
+    // Independent lanes compare in parallel. A comparison loses not-a-number, a sum keeps it.
     static constexpr std::size_t most_lanes = 24;
     using Lanes = std::array<std::array<double, most_lanes>, n_vectors>;
 

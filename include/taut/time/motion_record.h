@@ -65,7 +65,7 @@ namespace taut
     void load(InputArchive &archive);
 
   private:
-    using Energies = std::vector<std::array<double, 2>>; ///< kinetic, potential [J]
+    using Energies = std::vector<std::array<double, 2>>; ///< of groups: kinetic, potential [J]
     struct Sizes;
 
     /// Places of each body, sample by sample [m].

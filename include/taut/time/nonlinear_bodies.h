@@ -45,7 +45,7 @@ namespace taut
     /// increasing part of the mass matrix is added.
     std::unique_ptr<SymmetricMatrix> tangent(std::size_t k, int attempt) const;
 
-    /// Newton's addition to P^ with the tangent K: K dU - (f - f0) at the last guess.
+    /// Addition of Newton's method to P^ with the tangent K: K dU - (f - f0) at the last guess.
     const std::vector<double> &remainder(std::size_t k) const { return steps[k].remainder; }
 
     /// Sets @p K as the tangent at the last guess.

@@ -26,7 +26,7 @@ namespace taut
   struct State
   {
     double time = 0.;      ///< [s]
-    double last_step = 0.; ///< length of the step before; 0: none [s]
+    double last_step = 0.; ///< length of the step that ended here; 0: none [s]
 
     BodyVectors U;     ///< displacement from the reference [m, rad]
     BodyVectors V;     ///< velocity [m/s, rad/s]
@@ -57,8 +57,7 @@ namespace taut
     /// Work of the impulses of a velocity projection, a part of that work [J].
     double impulse_work = 0.;
 
-    /// Compression of each link's spring and its rates, integrated in time as one more body [m,
-    /// rad].
+    /// Compression of each link's spring and its rates, integrated in time as a body [m, rad].
     struct LinkSpring
     {
       double u = 0., v = 0., a = 0., du = 0.;

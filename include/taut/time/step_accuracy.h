@@ -52,8 +52,7 @@ namespace taut
     /// Records an accepted step of the run itself.
     void record(const State &state) { own.record(state); }
 
-    /// Makes the other runs. Each of their steps asks @p stop; true gives up. Called by all ranks
-    /// together.
+    /// Makes the other runs. After each step @p stop may end them. Called by all ranks together.
     void measure(const std::function<bool()> &stop);
 
     /// Errors of the run, relative to its largest values; empty: unknown.

@@ -52,8 +52,8 @@ namespace taut
   class StepControl
   {
   public:
-    /// From t = 0 to @p n_steps times @p step [s]. @p may_halve: some bodies are not linear. @p
-    /// longest_steps: for each constraint the longest step while it is closed [s]; empty: any.
+    /// From t = 0 to @p n_steps times @p step [s]. @p may_halve: some bodies are not linear.
+    /// @p longest_steps: for each constraint the longest step while it is closed [s]; empty: any.
     StepControl(const StepParameters &parameters, double step, long n_steps, bool may_halve = false,
                 std::vector<double> longest_steps = {});
 

@@ -67,8 +67,8 @@ namespace taut
     /// Sets the rows of the amplitudes: G_ki = R_k . B_i, e_k = R_k . P, and their inertia.
     void set_modes(const BodyVectors &P, MixedComplementarityProblem &problem) const;
 
-    /// Solves for multipliers and amplitudes. Errors come from @p check, iterations go into @p
-    /// certificate. The result is valid until the next call.
+    /// Solves for multipliers and amplitudes. Errors come from @p check, iterations go into
+    /// @p certificate. The result is valid until the next call.
     const MixedComplementaritySolution &find_multipliers(const MixedComplementarityProblem &problem,
                                                          const StepCheck &check,
                                                          Certificate &certificate);
@@ -78,11 +78,11 @@ namespace taut
                          BodyVectors &P) const;
 
     /**
-     * One pass of iterative refinement: finds corrections of multipliers and amplitudes for @p
-     * remainder. Its free_gap are the gaps of the @p applied solution plus the response to the
+     * One pass of iterative refinement: finds corrections of multipliers and amplitudes for
+     * @p remainder. Its free_gap are the gaps of the @p applied solution plus the response to the
      * residual forces of the bodies; its null_space_load is the residual of the modes. The first
      * solve keeps the closed set, so that all numbers are as small as the remainder. If a
-     * multiplier or gap becomes negative, a second solve searches the set. False if there is no
+     * multiplier or gap becomes negative, a second solve searches the set. False without a
      * solution.
      */
     bool correct(const MixedComplementarityProblem &remainder,

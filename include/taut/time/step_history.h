@@ -43,13 +43,12 @@ namespace taut
     /// Exchanges the increments with the vectors of the state at the start of the step.
     void exchange(State &state);
 
-    /// After exchange(): sets displacement, velocity and acceleration of body k in rows begin to
+    /// After exchange(): sets displacement, velocity, acceleration of body k in rows begin to
     /// end - 1.
     void accept(const StepCoefficients &c, std::size_t k, std::size_t begin, std::size_t end,
                 State &state) const;
 
-    /// Sets loads() to the residual of the balance at the end of the step: the right-hand side of a
-    /// refinement.
+    /// Sets loads() for a refinement: the residual of the balance at the end of the step.
     void set_lacking(const StepCoefficients &c, const StepEquations &equations, State &state);
 
     /// Adds the correction in increments() to the state.

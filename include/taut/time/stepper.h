@@ -44,8 +44,7 @@ namespace taut
     // Functions below throw UserError for bodies and constraints that the system did not have at
     // the construction of the Stepper, and for forms on other bodies.
 
-    /// Multiplier of a constraint [N], and gap between its bodies [m], negative if its spring is
-    /// compressed.
+    /// Multiplier of a constraint [N]; gap of its bodies, negative if its spring is compressed [m].
     double multiplier(std::size_t constraint) const;
     double gap(std::size_t constraint) const;
 
@@ -53,8 +52,7 @@ namespace taut
     double displacement(const Displacement &form) const;
     double velocity(const Displacement &form) const;
 
-    /// Displacement of a body from the undeformed system, one entry a DoF [m, rad]; empty on other
-    /// ranks.
+    /// Displacement of a body from the undeformed system by DoFs [m, rad]; empty on other ranks.
     std::vector<double> displacement(std::size_t body) const;
 
     /// Newton iterations so far, for nonlinear bodies; otherwise 0.

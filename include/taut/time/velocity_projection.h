@@ -23,8 +23,8 @@ namespace taut
    *                                 D' = 0 on all rigid bilateral constraints.
    *
    * U stays. An elastic constraint with p > 0 is softened, so that it fades from rigid to absent
-   * with its compliance S: 0 <= P _|_ D' + f_ii (theta S / (alpha F_ii))^2 (P - p) >= 0 with F =
-   * B^T A^-1 B and f = B^T M^-1 B. S of a law is its value at the end of the step.
+   * with its compliance S: 0 <= P _|_ D' + f_ii (theta S / (alpha F_ii))^2 (P - p) >= 0 with
+   * F = B^T A^-1 B and f = B^T M^-1 B. S of a law is its value at the end of the step.
    *
    * With Newton's restitution e the condition is D' + e min(0, D'_0). P then departs from the
    * solution without restitution only so far that contacts give no energy. DoFs without mass and
@@ -37,8 +37,7 @@ namespace taut
     VelocityProjection(const Structure &structure, const Constraints &constraints,
                        const SolverParameters &parameters, const Reference &reference);
 
-    /// For steps with these coefficients. @p F is the matrix of the first part of a step, with S on
-    /// its diagonal.
+    /// For steps with these coefficients. @p F is the matrix of their first part, including S.
     void prepare(const StepCoefficients &c, double step, const std::vector<double> &S,
                  ComplementarityOperator &F);
 
