@@ -10,9 +10,9 @@ namespace taut
 {
   /**
    * Solves A x = b from x = 0 with preconditioned conjugate gradients of Belos. They end if the
-   * recursive residual is below @p tolerance times the norm of b, after @p bound iterations, or
-   * with the present x at a direction along which A is not positive. Returns the number of
-   * iterations. Each rank solves for itself, as vectors over constraints are equal on all ranks.
+   * recursive residual is below @p tolerance times the norm of b, or after @p bound iterations.
+   * They end early with the present x at a direction along which A is not positive. Returns the
+   * number of iterations. Each rank solves for itself: vectors over constraints are equal on all.
    */
   int conjugate_gradients(const ConstraintOperator &A, ConstraintOperator &preconditioner,
                           const std::vector<double> &b, double tolerance, int bound,

@@ -25,9 +25,9 @@ namespace taut
    *     [F_cc F_cr]         F = B^T (sum_k T_k)^-1 B + S
    *     [F_rc F_rr],
    *
-   * a factor of T inverts the elastic part exactly. The remainder for the rigid constraints r,
-   * B_r^T T^-1 B_r, is approximated by the preconditioner of FETI, which splits a jump between both
-   * sides by their stiffness D = diag(T) (Rixen and Farhat 1999):
+   * a factor of T inverts the elastic part exactly. The preconditioner of FETI approximates the
+   * remainder for the rigid constraints r, B_r^T T^-1 B_r. It splits a jump between both sides by
+   * their stiffness D = diag(T) (Rixen and Farhat 1999):
    *
    *     Q^-1 B_r^T D^-1 T D^-1 B_r Q^-1,    Q = B_r^T D^-1 B_r.
    *

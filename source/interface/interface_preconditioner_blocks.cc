@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: LGPL-2.1-or-later
-// What a body brings to the preconditioner: A_k or its Schur complement on the DoFs of constraints.
+// Blocks of the preconditioner: A_k or its Schur complement on the DoFs of constraints.
 #include "interface_preconditioner.h"
 
 #include <algorithm>

@@ -40,8 +40,8 @@ namespace taut
       return totals[0] / std::max(1., totals[1]);
     }
 
-    /// True if all bodies of all ranks have sparse factors, whose columns do not decay, and F with
-    /// its factor fits in the memory of an assembled F.
+    /// True if all bodies of all ranks have sparse factors, whose columns do not decay, and F and
+    /// its factor fit in the memory of an assembled F.
     bool suits_condensed(const FactoredStructure &solvers, const Constraints &constraints)
     {
       const Structure &structure = solvers.structure();

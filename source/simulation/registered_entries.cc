@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: LGPL-2.1-or-later
-// The schemes and observers of a parameter file, those of plugins too, each with its own entries.
+// Schemes and observers of a parameter file, also of plugins, each with its own entries.
 #include "file_text.h"
 
 #include <taut/base/exceptions.h>

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: LGPL-2.1-or-later
-// Entries that another entry leaves without effect: a run says so.
+// Entries without effect because of another entry: a run reports them.
 #include "file_text.h"
 
 #include <taut/simulation/parameters.h>

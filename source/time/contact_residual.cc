@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: LGPL-2.1-or-later
-// The part of the certificate that is about the conditions of the constraints.
+// Residuals of the conditions on the constraints, for the certificate.
 #include <taut/time/contact_conditions.h>
 #include <taut/time/matrix_norms.h>
 

@@ -9,9 +9,9 @@
 
 namespace taut
 {
-  /// Throws EntryError with the name of the constraint for a stiffness that is not positive, a
-  /// negative damping, a gap or length that is not finite, or forms that do not fit @p structure or
-  /// are on other bodies. Each rank checks its own terms, for a moving place the last ones.
+  /// Checks stiffness > 0, damping >= 0, finite gap and length, and forms on bodies of
+  /// @p structure. Throws EntryError with the name of the constraint. Each rank checks its own
+  /// terms, for a moving place the last ones.
   void check_constraint(const ConstraintData &constraint, const Structure &structure);
 
   /// Checks bodies and DoFs in @p terms of a moving place, as bodies may have been linearised.

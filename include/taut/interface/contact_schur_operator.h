@@ -14,7 +14,7 @@ namespace taut
 
   /**
    * The interface operator of FETI, F = sum_k B_k^T A_k^-1 B_k + S, applied through the factors of
-   * A_k without being assembled. On an active set it is the identity for the other constraints: it
+   * A_k without being assembled. On an active set F is the identity for the other constraints: it
    * stays definite, and an iterative solver sees vectors of one length.
    *
    * Belos applies P^T D F D P with a scale D of the constraints and, in statics, the projector P of
@@ -30,7 +30,7 @@ namespace taut
     /// Sets the diagonal S [m/N, rad/(N m)].
     void set_compliance(const std::vector<double> &S) { compliance = S; }
 
-    /// Restricts F to rows i with set[i] other than 0; it is the identity on other rows.
+    /// Restricts F to rows i with set[i] other than 0; F is the identity on other rows.
     void restrict_to(const std::vector<char> &set) { active = set; }
     void unrestrict();
 

@@ -57,8 +57,8 @@ namespace taut
     /// After Constraints::update() or turn(): updates the sliding and turning constraints.
     virtual void update_moving() = 0;
 
-    /// The part of this rank in d = B^T A^-1 P, the motion of the constraints under forces P, and
-    /// in the sums of its absolute terms, the rounding scale of d [m, rad].
+    /// The part of this rank in the motion d = B^T A^-1 P of the constraints under forces P, and in
+    /// the rounding scale of d, the sum of its absolute terms [m, rad].
     virtual void contact_free_predictor(const BodyVectors &P, std::vector<double> &d,
                                         std::vector<double> &terms_size) const = 0;
 

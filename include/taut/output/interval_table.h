@@ -12,8 +12,8 @@
 namespace taut
 {
   /// A table of quantities in time, with a line each step or lines at least an interval apart. With
-  /// an interval, a quantity has its value at the time of the line and the extremes of the steps
-  /// since the line before, "a force least [N]", so that no peak is lost.
+  /// an interval, a quantity has its value at the time of the line, and the extremes since the line
+  /// before, "a force least [N]". Hence no peak is lost.
   class IntervalTable
   {
   public:

@@ -25,11 +25,11 @@ namespace taut
   std::vector<SupportPoint> support_points(const Scene &scene);
 
   /**
-   * The forces [N] or moments [N m] of supports on their wires. Axial ones are positive from the
-   * wire's first end to its second, transverse ones along its normal, to the left of that way,
-   * lateral ones along its binormal, moments as the slope. At a prescribed motion u the force is
-   * the residual M u" + C u' + K u - P - B N of the equation of motion at the time of the state. At
-   * an elastic support it is -(k u + c u').
+   * The forces [N] or moments [N m] of supports on their wires. Axial forces are positive from the
+   * wire's first end to its second. Transverse forces are positive along its normal, to the left of
+   * that way, lateral forces along its binormal, moments as the slope. At a prescribed motion u the
+   * force is the residual M u" + C u' + K u - P - B N of the equation of motion at the time of the
+   * state. At an elastic support it is -(k u + c u').
    */
   class Reactions
   {

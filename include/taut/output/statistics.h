@@ -96,7 +96,7 @@ namespace taut
       std::string unit;
     };
 
-    /// All quantities that are one number; for a sliding contact those of its filtered force.
+    /// All quantities that are one number; sliding contacts count with their filtered force.
     std::vector<NamedQuantity> named_quantities() const;
 
     /// Largest residuals of all steps.

@@ -54,8 +54,8 @@ namespace taut
     void observe(Observer &observer) { observers.push_back(&observer); }
     void observe(std::unique_ptr<Observer> observer);
 
-    /// Checkpoints are called last and have all observers. begin() continues from a found
-    /// checkpoint.
+    /// Checkpoints are called last and have all observers. begin() continues from the last
+    /// checkpoint, if any.
     void observe(Checkpoints &last);
 
     /// Each rank calls @p asked after each step; a result other than 0 on any rank is the signal()

@@ -8,7 +8,7 @@
 
 namespace taut
 {
-  /// Whether a study of a scene holds for any value of this entry: it is about the place of
+  /// Whether a study of a scene holds for any value of this entry, which is about the place of
   /// results, their expected ranges or the method of the study.
   bool is_irrelevant_for_study(const std::string &path);
 

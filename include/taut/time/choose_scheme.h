@@ -33,8 +33,8 @@ namespace taut
 
   /**
    * Throws an EntryError if a scheme is known to fail. The entry is Time/Scheme if its forces ring
-   * (StepCoefficients::ringing) at a unilateral constraint that acts as rigid, or if they ring with
-   * nonlinear bodies or turning constraints. It is Time/Moreau-Jean/Conditions if gaps of a moving
+   * (StepCoefficients::ringing) at a unilateral constraint that acts as rigid, with nonlinear
+   * bodies, or with turning constraints. It is Time/Moreau-Jean/Conditions if gaps of a moving
    * rigid constraint would drift, and Time/Mass redistribution if conditions on velocities without
    * damping meet a massless node. It is Time/Step if the scheme is unstable at the largest
    * frequency of the system. @p resolution is called only if the forces ring.

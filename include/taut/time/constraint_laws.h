@@ -21,7 +21,7 @@ namespace taut
    *
    * Newton's method linearises phi at u_j. The law then is a compliance S = 1 / phi'(u_j) on the
    * diagonal of F, and a shift u_j - S phi(u_j) of the gap. The complementarity problem is solved
-   * exactly (N. H. Josephy, 1979). The next u_j is -g, or the zero of phi if it is open.
+   * exactly (N. H. Josephy, 1979). The next u_j is -g, or for an open constraint the zero of phi.
    *
    * This is the optimality condition of a convex energy. If it may have grown, a line search
    * minimises it without products with F: its derivative is the change of the gaps times L - phi.

@@ -22,8 +22,7 @@ namespace taut
   class GapTracker
   {
   public:
-    /// All arguments but @p start are kept by reference; @p constraints are in their initial
-    /// places.
+    /// All but @p start are kept by reference; @p constraints are at their initial places.
     GapTracker(const Structure &structure, const Constraints &constraints,
                const TurningConstraints &turning, const Reference &reference, const State &start);
 

@@ -14,8 +14,8 @@ namespace taut
 {
   /**
    * An account of the energy that each unilateral constraint gave and took beyond its spring and
-   * damper, over the energy of its group of connected bodies. Use it to check whether steps resolve
-   * contacts.
+   * damper. Its scale is the energy of the group of connected bodies. Use it to check whether steps
+   * resolve contacts.
    *
    * In a step an elastic constraint gives L = (work on the bodies) + (change of the spring's
    * energy) + (work of the damper). L is summed from closing to opening, where gains and losses may

@@ -62,9 +62,9 @@ namespace taut
     /// Sets KU = f - f_ref at the end of a step with the end @p state.
     void set_end_force(std::size_t k, const StepCoefficients &c, State &state) const;
 
-    /// Change of the energy of body k of indices() in the step to @p state, minus the work of the
-    /// force with weight @p part_of_end at the end and the rest at the start. At 1/2 it is zero if
-    /// the mean force conserves energy, and negative with material damping [J].
+    /// Change of the energy of body k of indices() in the step to @p state, minus the work of its
+    /// force: @p part_of_end of that at the end, the rest at the start. At 1/2 it is zero if the
+    /// mean force conserves energy, and negative with material damping [J].
     double energy_surplus(std::size_t k, double part_of_end, const State &state);
 
     /// After a step with mean forces: sets the internal force of the state, and its balance.

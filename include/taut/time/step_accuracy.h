@@ -58,8 +58,8 @@ namespace taut
     /// Errors of the run, relative to its largest values; empty: unknown.
     const std::optional<MotionDifference> &error() const { return found; }
 
-    /// For an error beyond its bound: what is wrong by how much, and the step or tolerance that the
-    /// run needs.
+    /// For an error beyond its bound: its place and size, and the step or tolerance that the run
+    /// needs.
     std::vector<Warning> warnings() const;
 
     /// One line for the log, and the warning if there is one.

@@ -41,8 +41,8 @@ namespace taut
     /// Measures of the contacts so far.
     const ContactMeasures &measures() const { return motion.measures(); }
 
-    // Functions below throw UserError for bodies and constraints that the system did not have at
-    // the construction of the Stepper, and for forms on other bodies.
+    // Functions below throw UserError for a body or constraint that the system did not have when
+    // the Stepper was made, and for forms on other bodies.
 
     /// Multiplier of a constraint [N]; gap of its bodies, negative if its spring is compressed [m].
     double multiplier(std::size_t constraint) const;

@@ -50,8 +50,8 @@ namespace taut
 
     /**
      * Changes V, D' and multipliers of a state after the first part of a step, and subtracts C
-     * times the change of V from its balance. @p rates are those of the conditions. @p F is that of
-     * prepare() with the sliding constraints in their places. Throws the errors of
+     * times the change of V from its balance. @p rates belong to the conditions. @p F is the matrix
+     * of prepare() with the sliding constraints in their places. Throws the errors of
      * ComplementaritySolver. Called by all ranks together.
      */
     Residual project(const ContactConditions &conditions, GapRates &rates, State &state,
