@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Blocks of the preconditioner: A_k or its Schur complement on the DoFs of constraints.
 #include "interface_preconditioner.h"
 

@@ -23,14 +23,13 @@ namespace taut
     /// Kink between sides of degree 2 above which they are facets: as on an arc of 0.8 rad [rad].
     constexpr double small_kink = .03;
 
-    /// Part of the weights of a master by which a node differs from its node.
+    /// Part of the weights of a master by which a point is beside its nodes.
     constexpr double at_node = 1e-6;
 
     constexpr std::size_t most_lines = 2000; ///< of a body
     const Coordinates axes[] = {{1.}, {0., 1.}, {0., 0., 1.}};
 
-    /// Longest line between neighbours in the list of nodes of a face, for each node of a surface
-    /// [m].
+    /// Longest line between neighbours in the list of nodes of a face, for each surface node [m].
     std::vector<double> element_lengths(const ContactSurface &surface)
     {
       std::vector<double> result(surface.points.size(), 0.);

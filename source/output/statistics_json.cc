@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // statistics.json: each quantity is an object with value and unit. If a range is expected, it has
 // also the range in this unit and whether the value is inside. Keys are identifiers, except for
 // names of items, which are in the order of the scene.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Schemes and observers of a parameter file, also of plugins, each with its own entries.
 #include "file_text.h"
 

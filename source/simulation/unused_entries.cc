@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Entries without effect because of another entry: a run reports them.
 #include "file_text.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Residuals of the conditions on the constraints, for the certificate.
 #include <taut/time/contact_conditions.h>
 #include <taut/time/matrix_norms.h>

@@ -33,7 +33,7 @@ namespace taut
     /// Each rank provides its bodies; the root writes, at least run.interval apart [s].
     void begin(const RunView &run) override;
 
-    /// Records the start, and each next step.
+    /// Records the start, then each step.
     void record(const StepView &step) override;
 
     /// Throws UserError when the disk is full.

@@ -70,8 +70,8 @@ namespace taut
     /// Declares its entries, in a section of Output with its name.
     virtual void declare_parameters(dealii::ParameterHandler &) {}
 
-    /// Names of its files in the folder of the results, which count as results of earlier runs,
-    /// too.
+    /// Names of its files in the folder of the results. Such files of earlier runs count as
+    /// results, too.
     virtual std::vector<std::string> files() const { return {}; }
 
     /// Called once, before the first record() or resume().

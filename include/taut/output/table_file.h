@@ -11,7 +11,7 @@
 
 namespace taut
 {
-  /// A time [s] in 14 digits without trailing ones: 0.009 for 9 steps of 0.001.
+  /// A time [s] in at most 14 digits: 0.009 for 9 steps of 0.001.
   std::string time_text(double time);
 
   /// Shortest text of a number without loss; a text, quoted if necessary.

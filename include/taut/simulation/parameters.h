@@ -34,7 +34,7 @@ namespace taut
     std::vector<std::string> observers; ///< registered names
     bool overwrite = false;             ///< from the command line, not from the file
     bool resume = false;                ///< from the command line
-    bool writes = true;                 ///< false: no files
+    bool writes = true;                 ///< false: a run writes no files
 
     /// A named probe.
     struct ProbeItem

@@ -33,9 +33,9 @@ namespace taut
      */
     void measure(const BalanceCertificate &balance, State &state, Certificate &certificate);
 
-    /// With backward Euler and forces at the ends of steps. A body with a non-convex energy gains
-    /// more than the work of its forces at the end of the step. The scheme dissipates the kinetic
-    /// energy of the change of velocity. The gain of a group is the difference.
+    /// Gains with backward Euler and forces at the ends of steps. A body with a non-convex energy
+    /// gains more than the work of its forces at the end of the step. The scheme dissipates the
+    /// kinetic energy of the change of velocity. The gain of a group is the difference.
     void measure_at_ends(State &state, Certificate &certificate);
 
   private:
