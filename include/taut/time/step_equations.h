@@ -21,9 +21,10 @@ namespace taut
    *     A_k dU_k = P^_k + B_k N,    A = m M + c C + K,    dU = A_f^-1 (P^ + B N) + R alpha,
    *
    * with N from the conditions of the constraints. m = c = 0 is a static equilibrium. A_f is A,
-   * plus springs for the rigid body modes R of a body that only constraints hold, or whose inertia
-   * is lost in the rounding of its stiffness. The amplitudes alpha of R then are unknowns of the
-   * complementarity problem. All functions but lift() are called by all ranks together.
+   * plus springs on the DoFs that fix the rigid body modes R of a body that only constraints hold,
+   * or whose inertia is lost in the rounding of its stiffness. The amplitudes alpha of R then are
+   * unknowns of the complementarity problem. All functions but lift() are called by all ranks
+   * together.
    */
   class StepEquations
   {
@@ -82,8 +83,7 @@ namespace taut
      * @p remainder. Its free_gap are the gaps of the @p applied solution plus the response to the
      * residual forces of the bodies; its null_space_load is the residual of the modes. The first
      * solve keeps the closed set, so that all numbers are as small as the remainder. If a
-     * multiplier or gap becomes negative, a second solve searches the set. False without a
-     * solution.
+     * multiplier or gap becomes negative, a second solve searches the set. False: no solution.
      */
     bool correct(const MixedComplementarityProblem &remainder,
                  const MixedComplementaritySolution &applied,

@@ -81,7 +81,7 @@ namespace taut
       return has_moved() ? stepper->certificate() : initial.certificate;
     }
 
-    /// Coefficients of the last step; of none before the first.
+    /// Coefficients of the last step; default values before the first step.
     const StepCoefficients &coefficients() const { return last; }
     bool has_moved() const { return stepper && stepper->n_steps_done() > 0; }
 
