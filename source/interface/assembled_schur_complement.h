@@ -12,7 +12,7 @@
 
 namespace taut
 {
-  /// What both assembled forms share: the columns A_k^-1 B_k and what follows from them.
+  /// The columns A_k^-1 B_k and their products, shared by the assembled forms of F.
   class AssembledSchurComplement : public SchurComplement
   {
   public:
@@ -22,8 +22,8 @@ namespace taut
                                 std::vector<double> &terms_size) const override;
 
   protected:
-    /// The columns of the moving constraints anew. Returns these constraints of B^T A^-1 B, each of
-    /// constraints.size() numbers, one after the other.
+    /// Computes the columns of the sliding and turning constraints. Returns their rows of B^T A^-1
+    /// B, each of constraints.size() numbers, one after the other.
     const std::vector<double> &compute_moving();
 
     const FactoredStructure &solvers;
@@ -31,7 +31,7 @@ namespace taut
     const Communicator &processes;
     ResponseColumns columns;
     std::vector<double> compliance, shares;
-    std::vector<double> of_bodies; ///< the diagonal without compliances
+    std::vector<double> of_bodies; ///< diagonal without compliances
   };
 
   /// F as a dense matrix; see SchurComplement.
@@ -53,11 +53,8 @@ namespace taut
     DenseOperator F;
   };
 
-  /**
-   * F as a dense matrix from products of half columns (LocalSolver::flexibilities()), without the
-   * columns themselves, which as a rule are longer than F for a body that is no wire; see
-   * SchurComplement.
-   */
+  /// F as a dense matrix from products of half columns (LocalSolver::flexibilities()). It stores no
+  /// columns, which for most bodies except wires are longer than F; see SchurComplement.
   class CondensedSchurComplement : public DenseSchurComplement
   {
   public:
@@ -67,7 +64,7 @@ namespace taut
     std::string description() const override;
   };
 
-  /// F as a sparse matrix, the moving constraints as its border; see SchurComplement.
+  /// F as a sparse matrix with sliding and turning constraints as its border; see SchurComplement.
   class SparseSchurComplement : public AssembledSchurComplement
   {
   public:

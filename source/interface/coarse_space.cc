@@ -10,8 +10,8 @@ namespace taut
 {
   namespace
   {
-    /// Relative shift of E: motions of a group of bodies that no active row feels leave it
-    /// singular, and the columns of Z dependent, so that their part in Z E^-1 Z^T is zero.
+    /// Relative shift of E. Without it, rigid body modes of a group without active rows make E
+    /// singular and the columns of Z dependent; their part in Z E^-1 Z^T is zero.
     constexpr double dependence_shift = 1e-12;
   } // namespace
 
@@ -77,7 +77,7 @@ namespace taut
       Z[entries.row[e]].emplace_back(entries.column[e], entries.value[e]);
   }
 
-  /// The columns that this body answers to: its own, and those of its neighbours.
+  /// Adds responses of a body to its own columns and those of its neighbours.
   void CoarseSpace::add_responses(const std::size_t k, const std::vector<char> &active)
   {
     responses[k] = {};

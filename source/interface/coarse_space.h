@@ -14,32 +14,30 @@ namespace taut
   /**
    * Deflation of an iteration on F_aa by the rigid body modes of the bodies (Farhat, Chen, Mandel
    * 1995): Z = G^T = B^T R on the active rows, with R the null space vectors of all floating
-   * bodies. At large steps A_k has hardly any resistance against R_k, and F the large eigenvalues
-   * on Z that an iteration would have to find. With E = Z^T F Z the balancing preconditioner
-   * (Mandel 1993) is
+   * bodies. At large steps A_k has little resistance against R_k, so that F has large eigenvalues
+   * on Z. With E = Z^T F Z the balancing preconditioner (Mandel 1993) is
    *
    *     M^-1 -> P^T M^-1 P + Z E^-1 Z^T,    P = 1 - F Z E^-1 Z^T.
    *
-   * F Z comes from solves on the bodies that a column touches only, and is kept for those whose
-   * rows stay the same.
+   * F Z needs solutions only for bodies at a column, and none for bodies with unchanged rows.
    */
   class CoarseSpace
   {
   public:
-    /// The references are kept. Called by all ranks together, as are the others.
+    /// The references are kept. Called, as all functions, by all ranks together.
     CoarseSpace(const FactoredStructure &solvers, const BodyConstraints &body_constraints);
 
-    /// For the active rows; arguments as for InterfacePreconditioner::setup().
+    /// Sets up for the active rows, with the arguments of InterfacePreconditioner::setup().
     void setup(const std::vector<char> &active, const std::vector<char> &is_changed,
                const std::vector<double> &compliance);
 
     /// Number of columns of Z.
     std::size_t size() const { return n_columns; }
 
-    /// Z E^-1 Z^T r, and F times it.
+    /// Computes x = Z E^-1 Z^T r and F x.
     void solve(const std::vector<double> &r, std::vector<double> &x, std::vector<double> &Fx) const;
 
-    /// z -= Z E^-1 (F Z)^T z: P^T z.
+    /// z = P^T z = z - Z E^-1 (F Z)^T z.
     void project(std::vector<double> &z) const;
 
   private:
@@ -50,7 +48,7 @@ namespace taut
     const FactoredStructure &solvers;
     const BodyConstraints &body_constraints;
     std::vector<std::vector<std::vector<double>>> null_spaces; ///< R of each body of this rank
-    std::vector<std::size_t> first_column;                     ///< of each of them
+    std::vector<std::size_t> first_column;                     ///< first column of each body
     std::size_t n_columns = 0;
 
     using Row = std::vector<std::pair<std::size_t, double>>; ///< column and entry

@@ -37,13 +37,12 @@ namespace taut
     }
     catch (const Belos::CGIterateFailure &)
     {
-      // Not positive: the constraints depend on each other, or only rounding is left. What was
-      // found so far is kept.
+      // A is not positive: constraints are dependent, or only rounding remains. The present
+      // solution is kept.
     }
     catch (const Belos::StatusTestError &)
     {
-      // A residual that is not a number: the preconditioned residual was zero, or the numbers are
-      // beyond their range.
+      // The residual is not a number: the preconditioned one was zero, or numbers are out of range.
     }
     x.assign(solution[0], solution[0] + b.size());
     if (!std::all_of(x.begin(), x.end(), [](const double v) { return std::isfinite(v); }))

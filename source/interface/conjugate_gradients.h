@@ -9,11 +9,10 @@
 namespace taut
 {
   /**
-   * Preconditioned conjugate gradients of Belos for A x = b from x = 0, until the norm of the
-   * residual that the recursion carries is below @p tolerance times that of b, or @p bound
-   * iterations. Ends early, with what it has, at a direction along which A is not positive. Returns
-   * the number of iterations. Each rank solves for itself: vectors over constraints are the same on
-   * all.
+   * Solves A x = b from x = 0 with preconditioned conjugate gradients of Belos. They end if the
+   * recursive residual is below @p tolerance times the norm of b, or after @p bound iterations.
+   * They end early with the present x at a direction along which A is not positive. Returns the
+   * number of iterations. Each rank solves for itself: vectors over constraints are equal on all.
    */
   int conjugate_gradients(const ConstraintOperator &A, ConstraintOperator &preconditioner,
                           const std::vector<double> &b, double tolerance, int bound,

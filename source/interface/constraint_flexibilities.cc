@@ -10,7 +10,7 @@ namespace taut
 {
   namespace
   {
-    /// Cuts of a body from which on flexibilities are estimated, and from how many of them.
+    /// Number of cuts of a body above which flexibilities are estimated, and size of the sample.
     constexpr std::size_t most_exact = 100, n_samples = 16;
 
     /// b^T diag(A)^-1 b.
@@ -43,7 +43,7 @@ namespace taut
     return diagonal;
   }
 
-  /// True if the body has so many cuts that they are; some of them, spread over all.
+  /// True if the body has so many cuts; @p samples are some of them, spread evenly.
   bool RowFlexibilities::estimates(const std::size_t k,
                                    std::vector<const BodyConstraints::Entry *> &samples) const
   {

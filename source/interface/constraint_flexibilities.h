@@ -10,34 +10,34 @@
 namespace taut
 {
   /**
-   * What each constraint moves under its own unit force, B_ik^T A_k^-1 B_ik, by body and by DoFs of
-   * a body that nothing couples: a deflection and a rotation of a mass may share no entry of A_k.
-   * They bound F where no entry of it is known. Of a body with many cuts those of the cuts are
-   * estimated from some of them, by the largest ratio to what the diagonal of A_k alone would give:
-   * each exact one is a system with A_k.
+   * The motion of each constraint under its own unit force, B_ik^T A_k^-1 B_ik, for each body and
+   * each group of coupled DoFs. Deflection and rotation of a mass, for example, may share no entry
+   * of A_k. These flexibilities bound unknown entries of F. A body with many cuts has exact values
+   * for a sample only, each by one system with A_k. The other cuts are estimated by the largest
+   * ratio to the flexibility of diag(A_k).
    */
   class RowFlexibilities
   {
   public:
-    /// @p is_cut says of each constraint that it ties parts, bilateral and rigid. The other
-    /// arguments are kept by reference.
+    /// @p is_cut marks bilateral rigid constraints between parts of a body. The other arguments are
+    /// kept by reference.
     RowFlexibilities(const FactoredStructure &solvers, const BodyConstraints &constraints,
                      std::vector<char> is_cut);
 
-    /// After factoring: of body k.
+    /// Finds the coupled DoFs of body k, after factoring.
     void find_coupling(std::size_t k);
 
-    /// Of the constraints of body k, after they or its factor have changed.
+    /// Computes the constraints of body k, after a change of these or of its factor.
     void compute(std::size_t k);
 
-    /// Adds the share of this rank to the diagonal of B^T A^-1 B.
+    /// Adds the part of this rank in the diagonal of B^T A^-1 B.
     void add_to_diagonal(std::vector<double> &diagonal) const;
 
-    /// Adds the share of this rank to that of B^T diag(A)^-1 B.
+    /// Adds the part of this rank in the diagonal of B^T diag(A)^-1 B.
     void add_to_local_diagonal(std::vector<double> &diagonal) const;
 
-    /// Adds the share of this rank to a bound of sum_j |(B^T A^-1 B)_ij| |x_j|, |F_ij| <= sqrt(f_i
-    /// f_j) over what both constraints act on.
+    /// Adds the part of this rank in a bound of sum_j |(B^T A^-1 B)_ij| |x_j|, from
+    /// |F_ij| <= sqrt(f_i f_j) for each group of DoFs.
     void add_bound(const std::vector<double> &x, std::vector<double> &y) const;
 
   private:
@@ -54,8 +54,8 @@ namespace taut
     const FactoredStructure &solvers;
     const BodyConstraints &constraints;
     const std::vector<char> is_cut;
-    std::vector<std::vector<Part>> parts;            ///< by body
-    std::vector<std::vector<unsigned int>> group_of; ///< of the DoFs; empty if there is one
+    std::vector<std::vector<Part>> parts;            ///< of each body
+    std::vector<std::vector<unsigned int>> group_of; ///< group of each DoF; empty: one group
     std::vector<unsigned int> n_groups;
     mutable std::vector<double> sums;
   };

@@ -50,7 +50,7 @@ namespace taut
     return static_cast<MovingPlace &>(*constraints[i].geometry);
   }
 
-  /// Puts a constraint that slides where it is at time @p t.
+  /// Moves a sliding constraint to its place at time @p t.
   void Constraints::move(const std::size_t i, const double t)
   {
     ConstraintData &constraint = constraints[i];
@@ -106,8 +106,8 @@ namespace taut
     append_varying();
   }
 
-  /// Entries and sizes of a constraint, behind those that are known. At a node most entries are
-  /// zero; their sizes count, where a multiplier may be not-a-number.
+  /// Appends entries and sizes of a constraint. At a node most entries are zero; their sizes count,
+  /// as a multiplier may be not-a-number.
   void Constraints::append(const std::size_t i)
   {
     const std::size_t first_size = sizes.size();
@@ -271,7 +271,7 @@ namespace taut
   double Constraints::profile_rate(const std::size_t i, const double t, const double step) const
   {
     const MovingPlace &moving = place(i);
-    // Central differences of fourth order: their error is below rounding of what a step resolves.
+    // Central differences of fourth order: the error is below the rounding of resolved motions.
     const double delta = 1e-2 * step;
     return (8. * (moving.gap(t + delta) - moving.gap(t - delta)) -
             (moving.gap(t + 2. * delta) - moving.gap(t - 2. * delta))) /
@@ -292,7 +292,7 @@ namespace taut
         if (entries[e].body == k)
           count[i] += std::binary_search(dofs.begin(), dofs.end(), entries[e].dof);
       }
-      // Of what moves along a body, DoFs change; lumped masses at the other end stay.
+      // A sliding constraint changes its DoFs along a body, but not those of lumped masses.
       if (structure[k].is_lumped())
         for (const std::size_t i : sliding_rows())
           for (std::size_t e = begin[i]; e < begin[i + 1]; ++e)

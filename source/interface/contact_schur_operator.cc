@@ -28,7 +28,7 @@ namespace taut
 
   void ContactSchurOperator::apply(const double *x, double *y) const
   {
-    // An iteration that starts from zero asks for this first.
+    // An iteration from zero begins with this product.
     if (std::all_of(x, x + active.size(), [](const double value) { return value == 0.; }))
     {
       std::fill(y, y + active.size(), 0.);
@@ -38,7 +38,7 @@ namespace taut
     share.assign(active.size(), 0.);
     for (std::size_t k = 0; k < body_constraints.size(); ++k)
     {
-      // One body after the other: its vector stays in the cache between loads, solve and motions.
+      // Body after body: its vector stays in the cache between loads, solution and motions.
       bool is_loaded = false;
       for (const BodyConstraints::Entry &entry : body_constraints[k])
         if (active[entry.constraint] && x[entry.constraint] != 0.)

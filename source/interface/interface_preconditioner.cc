@@ -11,14 +11,14 @@ namespace taut
 {
   namespace
   {
-    /// An elastic row below this part of F_ii is as good as rigid.
+    /// Part of F_ii below which the compliance of an elastic row counts as rigid.
     constexpr double smallest_compliance = 1e-9;
 
-    /// Relative shift of T, which is singular if a group of bodies floats in statics. Springs
-    /// within the group do not feel that motion, so that it is not excited.
+    /// Relative shift of T, which is singular for a floating group of bodies in statics. Springs
+    /// within the group do not excite its rigid body modes.
     constexpr double null_space_shift = 1e-9;
 
-    /// Relative shift of Q, which is singular if rigid constraints depend on each other.
+    /// Relative shift of Q, which is singular for dependent rigid constraints.
     constexpr double dependence_shift = 1e-12;
   } // namespace
 
@@ -56,7 +56,7 @@ namespace taut
     set_scaling();
   }
 
-  /// T without springs, and B, of all ranks.
+  /// Gathers T without springs, and B, over all ranks.
   void InterfacePreconditioner::gather_blocks(const std::vector<char> &active)
   {
     const Communicator &processes = solvers.structure().communicator();
@@ -96,7 +96,7 @@ namespace taut
     has_substitute = substitute.size() > 0;
   }
 
-  /// The elastic rows as springs between the DoFs, and the factor of T with them.
+  /// Adds the elastic rows as springs between DoFs, and factors T with them.
   void InterfacePreconditioner::add_springs(const std::vector<char> &active,
                                             const std::vector<double> &diagonal,
                                             const std::vector<double> &compliance)
@@ -138,7 +138,7 @@ namespace taut
     inverse_T.factor(n_dofs, shifted, 0.);
   }
 
-  /// D^-1 B_r, and Q from the rows that share a DoF.
+  /// Computes D^-1 B_r, and Q from rows with a common DoF.
   void InterfacePreconditioner::set_scaling()
   {
     std::vector<double> D(n_dofs, 0.);
@@ -191,7 +191,7 @@ namespace taut
       r[i] = is_rigid[i] ? scaled[i] : other[i] * r[i];
   }
 
-  /// f = (T + sum of the Schur complements that are not formed) u.
+  /// f = (T + sum of the applied Schur complements) u.
   void InterfacePreconditioner::multiply(const std::vector<double> &u, std::vector<double> &f) const
   {
     f.assign(n_dofs, 0.);
@@ -227,14 +227,14 @@ namespace taut
     if (is_diagonal)
       return;
 
-    // T u = B_c S_c^-1 r_c, the motion that the elastic rows leave.
+    // Solves T u = B_c S_c^-1 r_c for the motion with the elastic rows.
     force.assign(n_dofs, 0.);
     for (std::size_t e = 0; e < B.size(); ++e)
       force[B.column[e]] += B.value[e] * stiffness[B.row[e]] * r[B.row[e]];
     if (has_springs)
       inverse_T.solve(force);
 
-    // The rigid rows.
+    // Applies the rigid rows.
     jump = r;
     for (std::size_t e = 0; e < B.size(); ++e)
       jump[B.row[e]] -= B.value[e] * force[B.column[e]];
@@ -253,7 +253,7 @@ namespace taut
     if (!has_springs)
       return;
 
-    // And the elastic ones, with what the rigid ones move.
+    // Applies the elastic rows with the motion of the rigid rows.
     force.assign(n_dofs, 0.);
     for (std::size_t e = 0; e < B.size(); ++e)
     {

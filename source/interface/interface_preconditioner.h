@@ -13,34 +13,30 @@
 namespace taut
 {
   /**
-   * A cheap approximation of F^-1 on an active set, by name. With b the DoFs of body k that active
-   * constraints act on,
+   * A cheap approximation of F^-1 on an active set, by name. With the DoFs b in active constraints,
    *
    *     "diagonal"   1 / F_ii
    *     "lumped"     A_k on b in place of the body
-   *     "Dirichlet"  the Schur complement of A_k on b: what b feels of the body when the rest of it
-   *                  follows
+   *     "Dirichlet"  the Schur complement of A_k on b: the stiffness for b if other DoFs follow
    *
-   * The last two make one sparse matrix T over all DoFs b, with the elastic constraints c as
-   * springs in it: T = sum_k T_k + B_c S_c^-1 B_c^T. Of
+   * The last two assemble a sparse matrix T over all DoFs b, with the elastic constraints c as
+   * springs in it: T = sum_k T_k + B_c S_c^-1 B_c^T. In
    *
    *     [F_cc F_cr]         F = B^T (sum_k T_k)^-1 B + S
    *     [F_rc F_rr],
    *
-   * the elastic part is so inverted exactly, with a factor of T. What is left for the rigid
-   * constraints r, B_r^T T^-1 B_r, is approximated by the preconditioner of FETI, which splits a
-   * jump between the two sides by their stiffness D = diag(T) (Rixen and Farhat 1999):
+   * a factor of T inverts the elastic part exactly. The preconditioner of FETI approximates the
+   * remainder for the rigid constraints r, B_r^T T^-1 B_r. It splits a jump between both sides by
+   * their stiffness D = diag(T) (Rixen and Farhat 1999):
    *
-   *     Q^-1 B_r^T D^-1 T D^-1 B_r Q^-1,    Q = B_r^T D^-1 B_r,
+   *     Q^-1 B_r^T D^-1 T D^-1 B_r Q^-1,    Q = B_r^T D^-1 B_r.
    *
-   * the (B^T B)^-1 scaling where D is the same on all sides. Q is small blocks, one for the
-   * constraints at a node that several parts share. Moving constraints are constraints like the
-   * others.
+   * This is the (B^T B)^-1 scaling for equal D on all sides. Q has small blocks, one for the
+   * constraints at a node that several parts share. Moving constraints have no special treatment.
    *
-   * The Schur complement of a body with many such DoFs is not formed, but applied with a factor of
-   * the rest of the body. It is that of the DoFs of all constraints, active or not, so that the
-   * factor stays as long as A_k does; in the factor of T, for the elastic constraints, A_k on b
-   * stands for it.
+   * For a body with many DoFs b the Schur complement is not formed, but applied with a factor of
+   * the other DoFs. Its b are the DoFs of all constraints, active or not, so that the factor
+   * remains while A_k does. In the factor of T, for the elastic constraints, A_k on b replaces it.
    */
   class InterfacePreconditioner
   {
@@ -49,19 +45,19 @@ namespace taut
     InterfacePreconditioner(const std::string &name, const FactoredStructure &solvers,
                             const BodyConstraints &body_constraints);
 
-    /// All A_k are new.
+    /// Resets after a change of all A_k.
     void reset() { blocks = std::vector<Block>(blocks.size()); }
 
-    /// For the active constraints. The bodies marked in @p is_changed have another A_k or other
-    /// constraints than at the last call. @p diagonal is that of F.
+    /// Sets up for the active constraints. Bodies in @p is_changed have another A_k or other
+    /// constraints than in the last call. @p diagonal is that of F.
     void setup(const std::vector<char> &active, const std::vector<char> &is_changed,
                const std::vector<double> &compliance, const std::vector<double> &diagonal);
 
-    /// z = M^-1 r; zero on constraints that are not active. Called by all ranks together.
+    /// z = M^-1 r; zero on inactive constraints. Called by all ranks together.
     void apply(const std::vector<double> &r, std::vector<double> &z) const;
 
-    /// r = Q^-1 r: the stiffness that a constraint feels beside it, without the bodies behind; on
-    /// elastic constraints and without T, 1 / F_ii. Zero on constraints that are not active.
+    /// r = Q^-1 r: local stiffness at a constraint, without the bodies behind; 1 / F_ii for elastic
+    /// constraints and without T. Zero on inactive constraints.
     void scale(std::vector<double> &r) const;
 
   private:
@@ -72,7 +68,7 @@ namespace taut
       SymmetricEntries entries;
       std::size_t first = 0; ///< position of its first DoF among those of all bodies
 
-      /// Of the other DoFs, if the Schur complement is applied and not formed.
+      /// Solver for the other DoFs, if the Schur complement is applied and not formed.
       std::unique_ptr<LocalSolver> interior;
     };
 
@@ -94,17 +90,17 @@ namespace taut
 
     // The same on all ranks.
     std::size_t n_dofs = 0;      ///< of all lists b
-    SymmetricEntries T;          ///< of blocks that are formed, and of springs
-    SymmetricEntries substitute; ///< A_k on b for those that are not
+    SymmetricEntries T;          ///< of formed blocks and springs
+    SymmetricEntries substitute; ///< A_k on b for other blocks
     bool has_substitute = false;
     SparseCholesky inverse_T;
     MatrixEntries B;               ///< row of F, DoF
     MatrixEntries scaled_B;        ///< D^-1 B_r, in the same order
-    SparseCholesky Q;              ///< of the rigid rows, 1 on the others
+    SparseCholesky Q;              ///< of rigid rows, 1 on others
     std::vector<char> is_rigid;    ///< a row of Q
-    std::vector<double> other;     ///< 1 / F_ii of active constraints that are not in Q, else 0
-    std::vector<double> own;       ///< of those of them that nothing else is done for
-    std::vector<double> stiffness; ///< 1 / S_i of elastic constraints, 0 of others
+    std::vector<double> other;     ///< 1 / F_ii of active constraints outside Q, else 0
+    std::vector<double> own;       ///< the part of other without further treatment
+    std::vector<double> stiffness; ///< 1 / S_i of elastic constraints, else 0
     bool has_springs = false;
     mutable std::vector<double> motion, force, jump, scaled, whole, image;
   };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// What a body brings to the preconditioner: A_k or its Schur complement on the DoFs of constraints.
+// Blocks of the preconditioner: A_k or its Schur complement on the DoFs of constraints.
 #include "interface_preconditioner.h"
 
 #include <algorithm>
@@ -10,12 +10,12 @@ namespace taut
 {
   namespace
   {
-    /// A Schur complement's diagonal below this part of the matrix's own is rounding: the body is
-    /// free to follow.
+    /// Part of the diagonal of A_k below which a Schur complement is rounding: the body follows
+    /// freely.
     constexpr double smallest_stiffness = 1e-9;
 
-    /// DoFs of a body of any pattern up to which its Schur complement is formed: a solve for each,
-    /// where applying it costs one an iteration.
+    /// Number of DoFs up to which the Schur complement of a body of any pattern is formed, with a
+    /// solution for each. Applying it costs one solution an iteration.
     constexpr std::size_t most_formed = 100;
 
     constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
@@ -30,7 +30,7 @@ namespace taut
     }
   } // namespace
 
-  /// The DoFs of active constraints that may move.
+  /// DoFs of active constraints that are not prescribed.
   std::vector<unsigned int>
   InterfacePreconditioner::constrained_together(const std::size_t k,
                                                 const std::vector<char> &active) const
@@ -47,7 +47,6 @@ namespace taut
     return dofs;
   }
 
-  /// A_k on b.
   void InterfacePreconditioner::set_entries(const std::size_t k, Block &block) const
   {
     const auto position = positions(block.dofs, solvers.structure()[k].n_dofs());
@@ -95,7 +94,7 @@ namespace taut
     blocks[k] = std::move(block);
   }
 
-  /// Subtracts A_bi A_ii^-1 A_ib, column by column: each lives near its DoF.
+  /// Subtracts A_bi A_ii^-1 A_ib by columns, which are local to their DoFs.
   void InterfacePreconditioner::condense(const std::size_t k, Block &block) const
   {
     const std::size_t n = block.dofs.size();
@@ -112,7 +111,7 @@ namespace taut
                           !is_constrained[from] && value != 0.)
                         couplings[position[to]].add(from, value);
                   });
-    // A band: which columns a window meets follows from the distance of their DoFs.
+    // The band tells which columns a window meets, by the distance of their DoFs.
     unsigned int band = 0;
     for (std::size_t p = 0; p < n; ++p)
       for (const unsigned int i : couplings[p].index)
@@ -123,7 +122,7 @@ namespace taut
     WindowedVector response;
     for (std::size_t p = 0; p < n; ++p)
     {
-      // A column's right-hand side lives on one element: one for each side of the node.
+      // A right-hand side is on one element: each side of the node has its own.
       LinearForm sides[2];
       for (std::size_t e = 0; e < couplings[p].index.size(); ++e)
       {

@@ -13,17 +13,16 @@ namespace taut
 {
   namespace
   {
-    /// The smallest relative residual at which a solve ends, and how much more still counts as
-    /// solved.
+    /// Least relative residual that ends a solve, and the excess that still counts as solved.
     constexpr double smallest_residual = 1e-14, accepted_excess = 1e3;
 
-    /// How often conjugate gradients start anew from the true residual.
+    /// Number of restarts of conjugate gradients from the true residual.
     constexpr int most_restarts = 4;
 
-    /// Reduction of a residual up to which that of the recursion keeps to the true one. Beyond,
-    /// conjugate gradients go on for thousands of iterations on rounding; a restart takes a few.
+    /// Reduction down to which the recursive residual follows the true one. Beyond it, conjugate
+    /// gradients iterate thousands of times on rounding; a restart takes a few iterations.
     constexpr double least_reduction = 1e-11;
-    constexpr int least_bound = 10; ///< of the iterations of a restart
+    constexpr int least_bound = 10; ///< of the iterations in a restart
 
     std::vector<char> cuts(const Constraints &constraints)
     {
@@ -34,7 +33,7 @@ namespace taut
       return result;
     }
 
-    /// The larger one; not-a-number if one is.
+    /// The larger number; not-a-number if one is.
     double larger(const double a, const double b)
     {
       return a > b || std::isnan(a) ? a : b;
@@ -91,7 +90,7 @@ namespace taut
 
   void MatrixFreeSchurComplement::set_tolerance(const double wanted)
   {
-    tolerance = wanted > smallest_residual ? wanted : smallest_residual; // not-a-number, too
+    tolerance = wanted > smallest_residual ? wanted : smallest_residual; // also for not-a-number
   }
 
   void MatrixFreeSchurComplement::setup(const std::vector<double> &S)
@@ -117,7 +116,7 @@ namespace taut
     if (constraints.varying_rows().empty())
       return;
     is_stale = true;
-    std::set<std::size_t> touched; // before or after
+    std::set<std::size_t> touched; // before or after the move
     const auto mark = [&]
     {
       for (std::size_t k = 0; k < body_constraints.size(); ++k)
@@ -143,7 +142,7 @@ namespace taut
     local_of_bodies = of_bodies;
     if (solvers.is_generalised_inverse())
     {
-      // The diagonal of F depends on how a generalised inverse holds the bodies, this does not.
+      // The diagonal of F depends on the supports of a generalised inverse, the local one does not.
       local_of_bodies.assign(constraints.size(), 0.);
       flexibilities.add_to_local_diagonal(local_of_bodies);
       solvers.structure().communicator().sum(local_of_bodies);
@@ -216,7 +215,7 @@ namespace taut
       y[i] = share[i] + compliance[i] * std::fabs(x[i]);
   }
 
-  /// Preconditioner and coarse space for a set, as far as it is new.
+  /// Prepares preconditioner and coarse space for a set, where it has changed.
   void MatrixFreeSchurComplement::prepare(const std::vector<std::size_t> &set, const double shift)
   {
     std::vector<char> wanted(constraints.size(), 0);
@@ -228,7 +227,7 @@ namespace taut
         for (const BodyConstraints::Entry &entry : body_constraints[k])
           if (!active.empty() && active[entry.constraint] != wanted[entry.constraint])
             is_changed[k] = 1;
-      is_stale = true; // until both are ready
+      is_stale = true; // until both are prepared
       preconditioner.setup(wanted, is_changed, compliance, diagonal_entries);
       if (coarse_space)
         coarse_space->setup(wanted, is_changed, compliance);
@@ -246,7 +245,7 @@ namespace taut
       x[i] = active[i] ? x[i] / scale[i] : 0.;
   }
 
-  /// The preconditioner, balanced by the coarse space.
+  /// Applies the preconditioner, balanced by the coarse space.
   void MatrixFreeSchurComplement::scaled_precondition(const std::vector<double> &r,
                                                       std::vector<double> &z)
   {
@@ -326,8 +325,7 @@ namespace taut
     return is_solved;
   }
 
-  /// In scaled constraints, from x on. What counts is the true residual, not the one of the
-  /// recursion.
+  /// Solves for scaled constraints from x, by the true residual and not the recursive one.
   bool MatrixFreeSchurComplement::refine(const NaturalCoarseProblem *null_space,
                                          const std::vector<double> &b, std::vector<double> &x)
   {
@@ -362,8 +360,7 @@ namespace taut
           std::min(.1, std::max(least_reduction, .3 * tolerance * size / largest(r)));
       const int n = conjugate_gradients(F, inverse, r, reduction, bound, step);
       counts.n_iterations += n;
-      bound =
-          std::max(n, least_bound); // a restart has less to reduce; what takes longer is rounding
+      bound = std::max(n, least_bound); // a restart reduces less; more iterations mean rounding
       project(step);
       for (std::size_t i = 0; i < x.size(); ++i)
         candidate[i] = x[i] + step[i];

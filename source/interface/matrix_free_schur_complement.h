@@ -15,11 +15,9 @@
 
 namespace taut
 {
-  /**
-   * F applied through the factors of the bodies, its systems solved by preconditioned conjugate
-   * gradients; see SchurComplement. Rows are scaled by F_ii^-1/2, or the like in statics: forces
-   * and moments, stiff and soft constraints then have one norm.
-   */
+  /// F applied through the factors of the bodies, with preconditioned conjugate gradients for its
+  /// systems; see SchurComplement. F_ii^-1/2, or a local value in statics, scales the rows: forces
+  /// and moments, stiff and soft constraints then have one norm.
   class MatrixFreeSchurComplement : public SchurComplement, private ComplementarityOperator
   {
   public:
@@ -36,7 +34,7 @@ namespace taut
     InterfaceStatistics statistics() const override;
 
   private:
-    /// The preconditioner of scaled constraints, as Belos applies it.
+    /// Preconditioner of the scaled constraints for Belos.
     class Inverse;
 
     std::size_t size() const override { return constraints.size(); }
@@ -73,15 +71,15 @@ namespace taut
     ContactSchurOperator F;
     InterfacePreconditioner preconditioner;
     RowFlexibilities flexibilities;
-    std::unique_ptr<CoarseSpace> coarse_space; ///< null: none, or in statics
+    std::unique_ptr<CoarseSpace> coarse_space; ///< null: none, or statics
     std::vector<double> compliance, diagonal_entries;
-    /// The diagonal without compliances, and of the unknowns at the constraint only.
+    /// Diagonal without compliances; local: with diag(A) in statics.
     std::vector<double> of_bodies, local_of_bodies;
-    std::vector<double> scale;    ///< F_ii^-1/2; in statics of the unknowns at the constraint only
-    std::vector<char> active;     ///< constraints that everything is prepared for
-    std::vector<char> is_changed; ///< bodies that it is not prepared for
-    bool is_stale = true;         ///< a matrix, compliance or moving constraint has changed
-    double tolerance;             ///< relative residual at which a solve ends
+    std::vector<double> scale;    ///< F_ii^-1/2; in statics from the local diagonal
+    std::vector<char> active;     ///< constraints of the present preparation
+    std::vector<char> is_changed; ///< bodies without a present preparation
+    bool is_stale = true;         ///< after a change of matrix, compliance or B
+    double tolerance;             ///< relative residual that ends a solve
     InterfaceStatistics counts;
     std::vector<double> constraint_work, coarse_part, coarse_motion;
     mutable std::vector<double> share;

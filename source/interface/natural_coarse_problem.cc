@@ -7,7 +7,7 @@ namespace taut
 {
   namespace
   {
-    /// Smallest pivot of G Q^-1 G^T of independent motions, relative to its diagonal entry.
+    /// Least pivot of G Q^-1 G^T for independent motions, relative to its diagonal entry.
     constexpr double smallest_pivot = 1e-12;
 
     std::vector<double> products(const std::vector<LinearForm> &forms, const std::vector<double> &x)
@@ -24,7 +24,7 @@ namespace taut
       const std::vector<char> &active, const std::function<void(std::vector<double> &)> &solve)
       : G(null_space.size()), scaled_G(null_space.size())
   {
-    // The motions at each row, so that products are formed only between those that meet.
+    // Motions at each row, so that only motions with common rows are multiplied.
     std::vector<std::vector<std::pair<std::size_t, double>>> at_row(active.size());
     std::vector<double> row(active.size(), 0.);
     for (std::size_t k = 0; k < null_space.size(); ++k)

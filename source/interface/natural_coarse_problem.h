@@ -11,26 +11,25 @@
 namespace taut
 {
   /**
-   * The coarse problem of FETI in statics: the multipliers have to balance the loads on the free
-   * motions of the bodies, G x = e. With the projector on their null space,
+   * The natural coarse problem of FETI in statics: multipliers must balance the loads on the rigid
+   * body modes of the bodies, G x = e. With the projector on the null space of G,
    *
    *     P = 1 - Q^-1 G^T (G Q^-1 G^T)^-1 G,
    *
-   * an iteration on P^T F P keeps the balance that it starts from, and what it leaves of the gaps
-   * is G^T alpha (Farhat and Roux 1991). Q, a flexibility like F, makes the projector one for
-   * bodies of any stiffness and for chains of constraints (Bhardwaj, Day, Farhat, Lesoinne, Pierson
-   * and Rixen 2000).
+   * an iteration on P^T F P keeps the balance of its start, and its remaining gaps are G^T alpha
+   * (Farhat and Roux 1991). Q, a flexibility like F, suits bodies of any stiffness and chains of
+   * constraints (Bhardwaj, Day, Farhat, Lesoinne, Pierson and Rixen 2000).
    */
   class NaturalCoarseProblem
   {
   public:
-    /// @p null space has a row of G in each vector, and @p scale a factor for each of its columns;
-    /// only the columns of active rows count. @p solve applies Q^-1, zero on other rows.
+    /// @p null_space has a row of G in each vector, and @p scale a factor for each of its columns.
+    /// Only columns of active rows count. @p solve applies Q^-1, zero on other rows.
     NaturalCoarseProblem(const std::vector<LinearForm> &null_space,
                          const std::vector<double> &scale, const std::vector<char> &active,
                          const std::function<void(std::vector<double> &)> &solve);
 
-    /// False if the rows of G are dependent: the active rows do not hold a body.
+    /// False if rows of G are dependent: the active rows do not hold a body.
     bool holds_the_bodies() const { return is_definite; }
 
     /// x += Q^-1 G^T (G Q^-1 G^T)^-1 e.
@@ -42,7 +41,7 @@ namespace taut
     /// r = P^T r.
     void project_residual(std::vector<double> &r) const;
 
-    /// (G Q^-1 G^T)^-1 G Q^-1 r: the amplitudes that fit r best.
+    /// Amplitudes (G Q^-1 G^T)^-1 G Q^-1 r that fit r best.
     std::vector<double> amplitudes(const std::vector<double> &r) const;
 
   private:

@@ -34,8 +34,8 @@ namespace taut
       for (std::size_t p = 0; p < columns[i].substructure.size(); ++p)
         in_columns += columns[i].part[p].value.size();
     }
-    // Work of a solve: 4 products of b x b blocks a node, b of order 2; of a column: two sums of
-    // products an entry, see ScalarProduct.
+    // Work of a solution: 4 products of b x b blocks a node, b of order 2. Work of a column: two
+    // sums of products an entry, see ScalarProduct.
     by_columns = constraints.size() > 0 && 2 * in_columns < 8 * solvers.structure().n_dofs();
   }
 
@@ -49,7 +49,7 @@ namespace taut
     {
       if (column.part.size() <= used)
         column.part.emplace_back();
-      // Both ends of a constraint on one substructure: their columns add, as full vectors.
+      // Columns of both ends on one substructure add, as full vectors.
       const auto known =
           std::find(column.substructure.begin(), column.substructure.end(), terms[a].substructure);
       if (known == column.substructure.end())

@@ -10,41 +10,40 @@
 
 namespace taut
 {
-  /// The columns A_k^-1 B_k of the constraints, without the tails where they have decayed: what
-  /// both assembled forms of F are made of.
+  /// The columns A_k^-1 B_k of the constraints without decayed tails, for the assembled forms of F.
   class ResponseColumns
   {
   public:
     /// The arguments are kept by reference.
     ResponseColumns(const FactoredStructure &solvers, const Constraints &constraints);
 
-    /// After a change of A_k: the columns of the fixed constraints anew. Without it compute() is
-    /// for moving constraints only.
+    /// After a change of A_k: computes the columns of the fixed constraints. Without setup(),
+    /// compute() is for sliding and turning constraints only.
     void setup();
 
-    /// Column of constraint i anew.
+    /// Computes the column of constraint i.
     void compute(std::size_t i);
 
-    /// The share of the substructures here in F_ij, without compliance.
+    /// Part of this rank in F_ij, without compliance.
     double entry(std::size_t i, std::size_t j) const;
 
-    /// Calls @p visit(j) for every fixed constraint j <= i that the column of constraint i reaches,
-    /// and maybe more than once.
+    /// Calls @p visit(j), perhaps repeatedly, for each fixed constraint j <= i that the column of
+    /// constraint i reaches.
     void visit_reached(std::size_t i, const std::function<void(std::size_t)> &visit) const;
 
-    /// The share of the substructures here in d = B^T A^-1 P.
+    /// Part of this rank in d = B^T A^-1 P.
     void contact_free_predictor(const BodyVectors &P, std::vector<double> &d,
                                 std::vector<double> &terms_size) const;
 
   private:
-    /// A_k^-1 B_k of one constraint, for the substructures that it touches.
+    /// A_k^-1 B_k of one constraint for each of its substructures.
     struct Column
     {
       std::vector<std::size_t> substructure;
       std::vector<WindowedVector> part;
     };
 
-    /// The DoFs first..last of a substructure that a fixed constraint acts on.
+    /// First and last DoF of a fixed constraint on a substructure.
     struct Reach
     {
       unsigned int first, last;
@@ -54,8 +53,8 @@ namespace taut
     const FactoredStructure &solvers;
     const Constraints &constraints;
     std::vector<Column> columns;
-    std::vector<std::vector<Reach>> reach; ///< of each substructure, by first DoF
-    std::vector<unsigned int> widest;      ///< last - first of each substructure's reaches
+    std::vector<std::vector<Reach>> reach; ///< for each substructure, by first DoF
+    std::vector<unsigned int> widest;      ///< largest last - first of each substructure
     bool by_columns =
         false; ///< contact_free_predictor() from the stored columns is cheaper than a solve
     mutable BodyVectors work;

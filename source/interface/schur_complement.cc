@@ -11,14 +11,13 @@ namespace taut
     /// Rows up to which a dense F is as fast as a sparse one.
     constexpr std::size_t most_dense_rows = 150;
 
-    /// Numbers stored beside F for each DoF up to which F is assembled, some three times those of
-    /// the factors.
+    /// Numbers beside F for each DoF up to which F is assembled, some three times those of factors.
     constexpr double most_stored_numbers = 64.;
 
-    /// Columns that are computed to guess the length of all.
+    /// Number of columns that estimate the length of all.
     constexpr std::size_t n_samples = 16;
 
-    /// Numbers that an assembled F would store beside F, over the number of DoFs, on all ranks.
+    /// Numbers beside an assembled F, over the number of DoFs, on all ranks.
     double stored_numbers_per_dof(const FactoredStructure &solvers, const Constraints &constraints)
     {
       WindowedVector column;
@@ -30,8 +29,7 @@ namespace taut
           solvers[k].column(form, column);
           sum += column.value.size();
         }
-      // Without a coarse problem statics stores the response of all constraints to each rigid body
-      // mode.
+      // Without a coarse problem, statics stores responses of all constraints to rigid body modes.
       std::size_t n_null_space = 0;
       for (const FactoredStructure::RigidBodyModes &modes : solvers.rigid_body_modes())
         n_null_space += modes.vectors.size();
@@ -43,7 +41,7 @@ namespace taut
     }
 
     /// True if all bodies of all ranks have sparse factors, whose columns do not decay, and F and
-    /// its factor need no more memory than an assembled F may.
+    /// its factor fit in the memory of an assembled F.
     bool suits_condensed(const FactoredStructure &solvers, const Constraints &constraints)
     {
       const Structure &structure = solvers.structure();
@@ -56,8 +54,8 @@ namespace taut
       return totals[0] == 0. && 2. * n * n <= most_stored_numbers * totals[1];
     }
 
-    /// The form that suits the constraints and the decay of their columns, known only once A_k is
-    /// factored.
+    /// The form that suits the constraints and the decay of their columns, known after
+    /// factorisation.
     class AutomaticSchurComplement : public SchurComplement
     {
     public:
@@ -107,7 +105,7 @@ namespace taut
       const FactoredStructure &solvers;
       const Constraints &constraints;
       std::unique_ptr<SchurComplement> chosen;
-      InterfaceStatistics earlier; ///< of those chosen before
+      InterfaceStatistics earlier; ///< of earlier forms
     };
   } // namespace
 

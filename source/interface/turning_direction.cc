@@ -57,7 +57,7 @@ namespace taut
     std::vector<Term> terms;
     for (const bool of_first : {false, true})
     {
-      // A form on one body stays that of one place: columns are those of single elements.
+      // A form on one body is that of one place, so that its columns have single elements.
       const auto begin = static_cast<std::ptrdiff_t>(terms.size());
       for (unsigned int c = 0; c < 3; ++c)
       {

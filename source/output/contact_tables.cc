@@ -11,7 +11,7 @@ namespace taut
 {
   namespace
   {
-    /// A time that rounding put before the end of an interval.
+    /// Whether a time is at the end of an interval, or before it by rounding.
     bool is_due(const double time, const double next, const double interval)
     {
       return time >= next - 1e-9 * interval;
@@ -24,8 +24,8 @@ namespace taut
       return stem + text;
     }
 
-    /// Of the nodes whose constraints a contact has, from the undeformed body [m]. All ranks call
-    /// it together.
+    /// Displacements of the nodes with constraints, from the undeformed body [m]. Called by all
+    /// ranks together.
     std::vector<Coordinates> displacements_of(const ContactGeometry &geometry,
                                               const std::size_t body, const StepView &step)
     {
@@ -50,8 +50,7 @@ namespace taut
       return result;
     }
 
-    /// Where a constraint acts: on a line, which moves by large amounts, displaced, otherwise
-    /// undeformed [m].
+    /// Place of a constraint: displaced on a line, which moves far, otherwise undeformed [m].
     Coordinates place_of(const ContactGeometry &geometry, const std::size_t constraint,
                          const Coordinates &displacement)
     {

@@ -9,7 +9,6 @@ namespace taut
 {
   namespace
   {
-    /// True for a constraint whose force is a mean over the step.
     bool is_mean(const StepView &step, const std::size_t i)
     {
       return !step.state.is_mean.empty() && step.state.is_mean[i];
@@ -34,7 +33,7 @@ namespace taut
     archive << next << start_energy << total << length;
   }
 
-  /// What is kept of the last step follows from its state.
+  /// The vectors of the last step follow from its state.
   void Energy::resume(InputArchive &archive, const StepView &step)
   {
     std::size_t length = 0;
@@ -65,7 +64,7 @@ namespace taut
     write(start.state.time);
   }
 
-  /// External forces, C V and P + B N - C V - K U of the present state, and impulses.
+  /// Sets external forces, C V, P + B N - C V - K U and impulses of the present state.
   void Energy::set_forces(const StepView &step)
   {
     const State &state = step.state;
@@ -115,7 +114,7 @@ namespace taut
     }
   }
 
-  /// What the last step gave to a body of this rank and took from it.
+  /// Adds energies given to a body of this rank and taken from it in the last step.
   void Energy::add_work(const StepView &step, const std::size_t k, const std::vector<double> &U,
                         Balance &share) const
   {
@@ -141,7 +140,7 @@ namespace taut
     }
     if (!body.is_linear())
     {
-      // What the damping of the material takes.
+      // Dissipation of the material.
       std::vector<double> before = U, f;
       for (std::size_t i = 0; i < n; ++i)
         before[i] -= dU[i];
@@ -163,7 +162,7 @@ namespace taut
     }
   }
 
-  /// Work of the forces of constraints that move or turn on the bodies of this rank.
+  /// Adds the work of sliding and turning constraints on the bodies of this rank.
   void Energy::add_moving_rows(const StepView &step, Balance &share) const
   {
     const State &state = step.state;
@@ -180,7 +179,7 @@ namespace taut
     }
   }
 
-  /// Springs and dampers of the links, and the work of the constraints from their own motions.
+  /// Adds springs and dampers of the links, and the work of constraints by their own motions.
   void Energy::add_rows(const StepView &step)
   {
     const State &state = step.state;
@@ -192,7 +191,7 @@ namespace taut
       total.links += constraint.spring.energy(spring.u);
       if (is_mean(step, i))
       {
-        // What the spring does not store of the work on it is the contact's.
+        // Work on the spring that it does not store is work of the contact.
         const double damper = constraint.spring.damping * spring.du * spring.du / state.last_step;
         if (std::isfinite(damper))
           total.link_dampers += damper;
@@ -203,7 +202,7 @@ namespace taut
         continue;
       }
       const double mean = .5 * (N0[i] + state.multiplier[i]);
-      // Forces at the ends of a step do not do the work that a law stores.
+      // For a law, forces at the ends of a step do not give the stored work.
       if (constraint.spring.law)
         total.algorithmic += (.5 * (constraint.spring.law->force(springs0[i].u) +
                                     constraint.spring.law->force(spring.u)) -

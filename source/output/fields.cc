@@ -18,7 +18,7 @@ namespace taut
       return name + text;
     }
 
-    /// Letters, digits, '-' and what is no ASCII; '_' for the rest.
+    /// Keeps letters, digits, '-' and non-ASCII characters; '_' replaces others.
     std::string name_in_files(std::string name)
     {
       for (char &c : name)
@@ -201,7 +201,7 @@ namespace taut
 
   void Fields::record(const StepView &step)
   {
-    // A step counts as due if it is within rounding of its time.
+    // A step within rounding of its time is due.
     if (interval == 0. || step.state.time < next - 1e-9 * interval)
       return;
     next = step.state.time + interval;
@@ -278,7 +278,7 @@ namespace taut
       const double s = step.constraints.position(step.constraints.index_of_link(link_of_end[e]),
                                                  step.state.time);
       const Attachment contact = SceneBodies::moved(link.to, s);
-      // The `to` end is the last of its link. What slides along is drawn where it touches.
+      // The `to` end is the last of its link. The sliding end is drawn at the contact.
       if (e + 1 == ends.size() || link_of_end[e + 1] != link_of_end[e])
         ends[e] = sample(step.scene, step.structure, contact);
       else

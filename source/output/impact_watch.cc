@@ -14,14 +14,14 @@ namespace taut
     /// Part of the largest rate so far below which a constraint rests: rounding of steps.
     constexpr double rest = 1e-9;
 
-    /// A force that grows by more in a step is an impact, not a load: those of weights and of
-    /// motions that steps resolve change by parts of themselves.
+    /// Growth of a force in a step that means an impact: weights and resolved motions change forces
+    /// by parts of themselves.
     constexpr double growth = 2.;
 
-    /// Part of the largest force of an impact below which others are rounding.
+    /// Part of the largest force of an impact below which other forces are rounding.
     constexpr double rounding = 1e-9;
 
-    /// Where the DoFs of each body begin in a list of those of all ranks, and their number.
+    /// First DoF of each body in a list over all ranks, and the number of DoFs.
     std::vector<std::size_t> first_dofs(const Structure &structure)
     {
       std::vector<std::size_t> first = {0};
@@ -31,7 +31,7 @@ namespace taut
     }
   } // namespace
 
-  /// The constraints that are struck in a step; none if none of them was closing.
+  /// Constraints with an impact in a step; none if none of them was closing.
   std::vector<std::size_t> ImpactWatch::struck(const StepView &step) const
   {
     std::vector<std::size_t> result;
@@ -52,7 +52,7 @@ namespace taut
     return result;
   }
 
-  /// Those of them that share a body with another one. Called by all ranks together.
+  /// Those of @p constraints that share a body with another one. Called by all ranks together.
   std::vector<std::size_t> ImpactWatch::sharing(const StepView &step,
                                                 const std::vector<std::size_t> &constraints) const
   {
@@ -138,7 +138,7 @@ namespace taut
   {
     if (n_steps == 0)
       return;
-    // With digits of its own.
+    // The text has its own number of digits.
     log << to_text("Impacts: in ", n_steps, n_steps == 1 ? " step" : " steps, first",
                    " at t = ", first, " s at ", names,
                    ", contacts that share a body were struck together: restitution then holds at "

@@ -67,7 +67,7 @@ namespace taut
     }
     last = values;
     has_started = is_pending = true;
-    // A step counts as due if it is within rounding of its time.
+    // A step within rounding of its time is due.
     if (time >= next - 1e-9 * interval)
       write_line();
   }

@@ -8,15 +8,14 @@ namespace taut
 {
   namespace
   {
-    /// y_n = sum_k b_k x_{n-k} - sum_{k>0} a_k y_{n-k}, of second order, started as if x had always
-    /// been x_0.
+    /// y_n = sum_k b_k x_{n-k} - sum_{k>0} a_k y_{n-k}, of second order, with x = x_0 before.
     struct Section
     {
       double b[3], a[3];
 
       void run(std::vector<double> &x) const
       {
-        // All sections have unit gain at frequency zero, so a constant is its own answer.
+        // Gain is one at frequency zero, so that a constant is its own response.
         double x1 = x[0], x2 = x[0], y1 = x[0], y2 = x[0];
         for (double &value : x)
         {

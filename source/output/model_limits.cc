@@ -16,7 +16,7 @@ namespace taut
     constexpr double least_samples = 10.; ///< in a period of the filter frequency
     constexpr std::size_t most_slopes = 2000, most_distances = 300; ///< along a wire
 
-    /// At most so many of the positions, with the last one.
+    /// At most so many of the positions, including the last one.
     std::vector<double> thinned(const std::vector<double> &positions, const std::size_t most)
     {
       const std::size_t stride = (positions.size() + most - 1) / most;
@@ -27,7 +27,7 @@ namespace taut
       return result;
     }
 
-    /// True if a link pushes two wires apart, so that their distance is its own concern.
+    /// True if a link pushes two wires apart and so limits their distance.
     bool are_in_contact(const Scene &scene, const std::size_t a, const std::size_t b)
     {
       const auto is_on = [](const Attachment &end, const std::size_t wire)
@@ -83,7 +83,7 @@ namespace taut
       if (scene.bodies[i].type_name != "cable")
         continue;
       const std::size_t k = structure.indices_of_body(i)[0];
-      // Length, number of elements and whether it is linearised at the start, on all ranks.
+      // Length, number of elements, and whether it is linearised at the start, on all ranks.
       double known[] = {0., 0., 0.};
       if (k != Structure::elsewhere && structure[k].is_linear())
       {
@@ -128,7 +128,7 @@ namespace taut
     }
   }
 
-  /// Between a sample and the next one [rad].
+  /// Slope between a sample and the next one [rad].
   double ModelLimits::slope_after(const Line &line, const double *const u,
                                   const std::size_t sample) const
   {
@@ -165,13 +165,13 @@ namespace taut
         for (const double s : thinned(grid(scene, a), most_distances))
         {
           const double s_above = (lower.at(s).x - upper.a.x) / slope_b;
-          // Wires beside each other pass.
+          // Wires beside each other may pass.
           if (s_above < 0. || s_above > upper.length() || upper.at(s_above).z != lower.at(s).z)
             continue;
           line.positions.push_back(s);
           line.distances.push_back(upper.at(s_above).y - lower.at(s).y);
         }
-        // Wires that meet or cross are joined there, or meant to.
+        // Wires that meet or cross are joined there, or should be.
         if (line.positions.empty() ||
             *std::min_element(line.distances.begin(), line.distances.end()) <= 0.)
           continue;
@@ -232,7 +232,7 @@ namespace taut
          n, least_samples, "1", 0.});
   }
 
-  /// Of cables that are linearised there: what they turn counts from then on.
+  /// Takes directions at the reference for cables that are linearised there.
   void ModelLimits::take_chords_at_reference(const Communicator &processes)
   {
     std::vector<double> all = at_reference;

@@ -7,7 +7,7 @@ namespace taut
 {
   namespace
   {
-    /// The forces of a matrix along a form, form . (M x), as a form on x.
+    /// Force of a matrix along a form, form . (M x), as a form on x.
     LinearForm times(const LinearForm &form, const SymmetricMatrix &matrix)
     {
       std::map<unsigned int, double> weights, result;
@@ -27,7 +27,7 @@ namespace taut
       return product;
     }
 
-    /// Without the shape functions that are zero at the place: at a node all but one.
+    /// Removes zero shape functions: at a node, all but one.
     LinearForm without_zeros(const LinearForm &form)
     {
       LinearForm result;
@@ -82,10 +82,8 @@ namespace taut
     values.assign(places.size(), 0.);
   }
 
-  /**
-   * The balance of a state has the forces of all constraints but of those that are means over the
-   * step; where places move and velocities are projected, it has theirs, too.
-   */
+  /// The balance of a state has all forces of constraints but mean forces. With a velocity
+  /// projection it has mean forces of sliding constraints, too.
   void Reactions::update(const Reference &reference, const State &state,
                          const Constraints &constraints, const StepCoefficients &scheme)
   {
@@ -96,7 +94,7 @@ namespace taut
     structure.communicator().sum(values);
   }
 
-  /// form . B N of the places where it acts.
+  /// Subtracts form . B N for the places of a constraint.
   void Reactions::subtract(const ConstraintData &constraint, const double N)
   {
     if (N == 0.)

@@ -155,7 +155,7 @@ namespace taut
   ScenePlaces places_in_space(const Scene &scene, const SceneBodies &bodies,
                               const BodyVectors *const U)
   {
-    constexpr unsigned int n_pieces = 32; ///< of the line of a cable
+    constexpr unsigned int n_pieces = 32; ///< in the line of a cable
     ScenePlaces places;
     const auto position = [&](const Attachment &point)
     {
@@ -253,7 +253,6 @@ namespace taut
 
   namespace
   {
-    /// A drawing of points in the plane of x and y.
     class Sketch
     {
     public:
@@ -265,7 +264,7 @@ namespace taut
         top = std::max(top, p.y);
       }
 
-      /// After all that is to be seen was included.
+      /// Begins the drawing, after all points were included.
       void begin()
       {
         if (left > right) // nothing to draw

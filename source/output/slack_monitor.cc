@@ -75,7 +75,7 @@ namespace taut
       const double *const found = all.data() + n_entries * i;
       if (found[is_found] == 0. || ++n > most_named)
         continue;
-      std::ostringstream line; // with digits of its own
+      std::ostringstream line; // with its own digits
       line << "Slack: body '" << bodies[i].name << "' first at t = " << found[time] << " s, at "
            << found[place] << " m of its length; ";
       const bool bends = found[bending_stiffness] > 0., is_damped = found[axial_damping] > 0.;

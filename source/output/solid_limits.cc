@@ -14,24 +14,22 @@ namespace taut
 {
   namespace
   {
-    /// Turn from which on one is warned [rad]: slope^2 / 2 = 0.5 % of stretch is neglected.
+    /// Rotation above which there is a warning [rad]: slope^2 / 2 = 0.5 % of stretch is neglected.
     constexpr double small_turn = .1;
 
-    /// Sliding from which on one is warned, in elements: then another element is the nearest.
+    /// Sliding above which there is a warning, in elements: another element is nearer then.
     constexpr double small_sliding = .5;
 
-    /// Kink of sides of degree 2 from which on they are facets: as much as those have that follow
-    /// an arc of 0.8 rad [rad].
+    /// Kink between sides of degree 2 above which they are facets: as on an arc of 0.8 rad [rad].
     constexpr double small_kink = .03;
 
-    /// Part of the weights of a master by which a node is beside a node of it.
+    /// Part of the weights of a master by which a point is beside its nodes.
     constexpr double at_node = 1e-6;
 
     constexpr std::size_t most_lines = 2000; ///< of a body
     const Coordinates axes[] = {{1.}, {0., 1.}, {0., 0., 1.}};
 
-    /// Of each node of a surface, the longest line between two neighbours in the list of nodes of a
-    /// face there [m].
+    /// Longest line between neighbours in the list of nodes of a face, for each surface node [m].
     std::vector<double> element_lengths(const ContactSurface &surface)
     {
       std::vector<double> result(surface.points.size(), 0.);
@@ -56,7 +54,7 @@ namespace taut
 
   namespace
   {
-    /// A motion of a node as far as its body is on this rank.
+    /// Appends the motion of a node if its body is on this rank.
     void append(const SceneBodies &structure, const std::size_t body, const unsigned int node,
                 const Coordinates &direction, std::vector<Term> &terms)
     {
@@ -90,7 +88,7 @@ namespace taut
     bodies.push_back(std::move(turning));
   }
 
-  /// Elements, kinks, and what is between nodes of the master.
+  /// Sets elements, kinks, and nodes between those of the master.
   void SolidLimits::describe(const Scene &scene, Sliding &contact) const
   {
     const ContactGeometry &geometry = contact.geometry;
@@ -133,12 +131,12 @@ namespace taut
     contact.contact = number;
     contact.geometry = contact_geometry(scene, number);
     contact.left_out = left_out_constraints(scene, number, contact.geometry);
-    // A cable moves far by itself, and its contacts with it.
+    // A cable, and its contacts with it, may move far.
     contact.can_slide =
         given.obstacle.shape != ObstacleSetting::Shape::plane && contact.geometry.slave.dim > 1;
     contact.first = forms.size();
     describe(scene, contact);
-    // Along the normal the weights are those of displacements, whatever the direction of these.
+    // Along the normal the weights are those of displacements in any direction.
     const auto add = [&](const SurfaceConstraint &c, const Coordinates *const axis)
     {
       std::vector<Term> terms;
@@ -192,7 +190,7 @@ namespace taut
         const Coordinates change{u[0], u[1], u[2]}, &chord = bodies[b].chords[i];
         const double square = dot(chord, chord), along = dot(change, chord) / square;
         const double across = norm(add_scaled(change, -along, chord)) / std::sqrt(square);
-        // One that points back has turned by more than a right angle.
+        // A line that points back has turned by more than a right angle.
         keep(turn, along > -1. ? across : std::atan2(across, 1. + along), small_turn, time, b, i);
       }
   }
@@ -219,7 +217,7 @@ namespace taut
           keep(sliding, norm(along) / contact.elements[i], small_sliding, time, k, i);
         }
         keep(facets, contact.kinks[i], small_kink, time, k, i);
-        // Any of these is one too much.
+        // Even one of these is too many.
         constexpr double none = std::numeric_limits<double>::min();
         if (all[i].uncovered > worst[overhang].value)
           worst[overhang] = {2., all[i].uncovered, 0., time, k, i};

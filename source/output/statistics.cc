@@ -18,10 +18,10 @@ namespace taut
 {
   namespace
   {
-    /// Samples that the filter needs in a period.
+    /// Samples in a period that the filter needs.
     constexpr double least_samples = 4.;
 
-    /// What a position may miss the end of the window by [m].
+    /// Distance by which a position may miss the end of the window [m].
     double slack(const std::vector<double> &window)
     {
       return 1e-9 * (1. + std::fabs(window[1]));
@@ -36,7 +36,7 @@ namespace taut
                                                "Contact loss",
                                                "Uplift"};
 
-    /// Shortest of the steps between increasing times if they differ, else 0 [s].
+    /// Shortest step between increasing times; 0 for equal steps [s].
     double shortest_of_unequal_steps(const std::vector<double> &times)
     {
       double shortest = std::numeric_limits<double>::infinity(), longest = 0.;
@@ -48,7 +48,7 @@ namespace taut
       return longest > 1.001 * shortest ? shortest : 0.;
     }
 
-    /// The record at equal intervals, linear between its samples.
+    /// The record at equal intervals, by linear interpolation.
     std::vector<double> resample(const std::vector<double> &times,
                                  const std::vector<double> &record, const double interval)
     {
@@ -62,7 +62,7 @@ namespace taut
         while (i + 2 < times.size() && times[i + 1] <= t)
           ++i;
         const double part = std::min(1., (t - times[i]) / (times[i + 1] - times[i]));
-        // A contact that is open at both ends is open between them.
+        // Between two open samples a contact is open.
         result[k] = record[i] + part * (record[i + 1] - record[i]);
       }
       return result;
@@ -105,7 +105,7 @@ namespace taut
       if (!link.moving())
         continue;
       if (link.straight)
-        return; // how far it comes along its cable is known at the end
+        return; // the end of a run shows how far it slides on its cable
       const double start = link.to.position, end = start + link.speed * end_time;
       if (std::max(start, end) >= window[0] - slack(window) &&
           std::min(start, end) <= window[1] + slack(window))
@@ -252,7 +252,7 @@ namespace taut
   Statistics::ContactQuantities Statistics::quantities(const Contact &recorded) const
   {
     ContactQuantities result;
-    // Of unequal steps each counts by its length: at equal intervals, as short as the shortest.
+    // Unequal steps count by length: the record is resampled at the shortest interval.
     Contact contact = recorded;
     constexpr double most_samples = 4e6;
     const double shortest = shortest_of_unequal_steps(times);
@@ -291,7 +291,7 @@ namespace taut
           *least <= parameters.window[0] + rounding && *most >= parameters.window[1] - rounding;
     }
     result.raw = result.filtered = Moments::of(raw);
-    // Peaks of impulses over a step say how short it is: peaks are those of the means.
+    // Peaks of impulses depend on the step, so that peaks are those of mean forces.
     result.raw.maximum = Moments::of(in_window(contact.mean_force)).maximum;
     result.filtered.maximum = result.raw.maximum;
     if (!raw.empty())

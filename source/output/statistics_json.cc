@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// statistics.json: each quantity an object with value and unit, and where something is expected of
-// it the range in the same unit and whether it is inside. Keys are identifiers, but for the names
-// of items, which are in the order of the scene.
+// statistics.json: each quantity is an object with value and unit. If a range is expected, it has
+// also the range in this unit and whether the value is inside. Keys are identifiers, except for
+// names of items, which are in the order of the scene.
 #include <taut/base/version.h>
 #include <taut/base/write_file.h>
 #include <taut/output/statistics.h>

@@ -8,7 +8,7 @@ namespace taut
 {
   namespace
   {
-    /// What tables keep in memory before they write [bytes].
+    /// Memory of a table before it is written [bytes].
     constexpr std::size_t largest_buffer = 1 << 16;
   } // namespace
 
@@ -123,7 +123,7 @@ namespace taut
     buffer.append(reinterpret_cast<const char *>(values), n * sizeof(double));
   }
 
-  /// What could not be written stays in the buffer, for another try.
+  /// Data that cannot be written stay in the buffer for the next attempt.
   void TableFile::write()
   {
     file.append(buffer);

@@ -10,7 +10,7 @@ namespace taut
 {
   namespace
   {
-    /// The memory of numbers, as it goes into the file.
+    /// Bytes of numbers in memory order, for the file.
     template <typename Number>
     std::string bytes_of(const std::vector<Number> &values)
     {
@@ -74,7 +74,7 @@ namespace taut
   void VtuFile::add(const Location location, const std::string &name,
                     const std::vector<std::string> &values)
   {
-    // Characters as numbers, each text ended by a zero.
+    // Strings are numbers of characters, each ended by a zero.
     std::ostringstream text;
     for (const std::string &value : values)
     {
@@ -120,7 +120,7 @@ namespace taut
     }
     text += "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
 
-    // All in one write.
+    // All data in one write.
     text.reserve(text.size() + offset + 64);
     for (const char *wanted : {"Points", "Cells", "PointData", "CellData"})
       for (const Array &array : arrays)
@@ -139,7 +139,7 @@ namespace taut
     n_entries = n;
     if (n == 0)
       return;
-    // The end of the collection again: it may have been written over.
+    // Writes the end of the collection again, which may be overwritten.
     stream.resume(path, length);
     stream.insert("", tail);
   }
@@ -153,7 +153,7 @@ namespace taut
       stream.insert(entry, tail);
     else
     {
-      // As a whole: an empty file would be no collection.
+      // Writes the whole text: an empty file is no collection.
       const std::string text = std::string("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" "
                                            "version=\"1.0\" byte_order=\"") +
                                byte_order() + "\">\n<Collection>\n" + entry + tail;

@@ -20,7 +20,7 @@ namespace taut
 {
   namespace
   {
-    /// First line of the file. The number changes with what is stored.
+    /// First line of the file. The version changes with the stored data.
     const std::string first_line = "Taut checkpoint, version 5\n";
     const std::string any_first_line = "Taut checkpoint, version ";
 
@@ -33,7 +33,7 @@ namespace taut
       return text;
     }
 
-    /// Reads a file; what is wrong with it, or nothing.
+    /// Reads a file and returns its error, or nothing.
     std::string problem_of(const std::string &path, Checkpoint &checkpoint)
     {
       std::ifstream file(path, std::ios::binary);
@@ -65,8 +65,8 @@ namespace taut
   {
     const std::string content = archived([&](OutputArchive &archive) { archive << checkpoint; });
     const std::string path = folder + "/" + checkpoint_names[0];
-    // Between the two renames there is the old one only, which is enough; one that is damaged must
-    // not take the place of a good one.
+    // Between both renames only the old checkpoint exists, which is enough. A damaged one must not
+    // replace a good one.
     Checkpoint last;
     const std::string before = folder + "/" + checkpoint_names[1];
     if (problem_of(path, last).empty() && std::rename(path.c_str(), before.c_str()) != 0)

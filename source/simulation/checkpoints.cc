@@ -23,7 +23,7 @@ namespace taut
       return version() + ", " + instruction_set_in_use();
     }
 
-    /// What bodies stored, by their number in the system.
+    /// Data of bodies, by their number in the system.
     using StoredBodies = std::map<std::size_t, std::string>;
   } // namespace
 
@@ -62,11 +62,11 @@ namespace taut
     found = std::move(last);
   }
 
-  /// Throws an EntryError on an entry that the run of the checkpoint had otherwise, and says what
-  /// may change its bits.
+  /// Throws an EntryError on an entry that differs from that of the checkpoint, and warns of
+  /// changes that may change the bits.
   void Checkpoints::check_origin(const Checkpoint &stored) const
   {
-    const std::string own_folder = "Output/Folder"; // may have been moved
+    const std::string own_folder = "Output/Folder"; // may have moved
     for (const auto &[path, value] : entries)
     {
       const auto before = stored.entries.find(path);
@@ -121,7 +121,7 @@ namespace taut
         });
   }
 
-  /// The vectors of the bodies of all ranks.
+  /// Adds the vectors of the bodies of all ranks.
   void Checkpoints::add_bodies(Checkpoint &stored) const
   {
     const Structure &bodies = run->stepped().bodies();
@@ -166,7 +166,7 @@ namespace taut
     log << "Resumed after t = " << found->time << " s\n";
   }
 
-  /// The vectors of the bodies of this rank.
+  /// State with the stored vectors of the bodies of this rank.
   State Checkpoints::restored_state() const
   {
     SteppedMotion &motion = run->stepped();

@@ -47,7 +47,7 @@ namespace taut
       return names;
     }
 
-    /// "; sections here: A, B." where a section is more likely missing than an entry misspelt.
+    /// "; sections here: A, B." if a missing section is more likely than a misspelt entry.
     std::string sections_here(const std::string &name, const nlohmann::json &node)
     {
       std::string all;
@@ -57,8 +57,7 @@ namespace taut
       return all.empty() ? "" : all + ".";
     }
 
-    /// The section "Wire <name>" that each name in a list stands for, from the help of the list;
-    /// empty for another entry.
+    /// Section "Wire <name>" for the names in a list, from its help; empty for another entry.
     std::string section_of_names(const nlohmann::json &entry)
     {
       const std::string help = entry["documentation"].get<std::string>(), mark = " <name>'";
@@ -67,7 +66,7 @@ namespace taut
       return begin == std::string::npos ? "" : help.substr(begin + 1, end - begin - 1);
     }
 
-    /// Each name that the file lists has its section there.
+    /// Checks that each listed name has its section in the file.
     void check_sections_of_names(const ParameterFile &file, const ParameterFile::Entry &entry,
                                  const nlohmann::json &described)
     {
@@ -97,7 +96,7 @@ namespace taut
       const std::size_t space = section.rfind(' ');
       if (space == std::string::npos)
         return "";
-      // The help of a list says which sections its names have.
+      // The help of a list names its sections.
       for (const auto &[list, entry] : node.items())
         if (entry.contains("documentation"))
         {
@@ -110,8 +109,7 @@ namespace taut
       return "";
     }
 
-    /// deal.II's description of a pattern, as the middle of a sentence and without its largest
-    /// numbers.
+    /// deal.II's description of a pattern as the middle of a sentence, without its largest numbers.
     std::string expectation(const PatternBase &pattern)
     {
       std::string text = pattern.description(PatternBase::Text);
@@ -135,7 +133,7 @@ namespace taut
       return text;
     }
 
-    /// What is wrong with text that begins like a number, where a number is wanted; may be empty.
+    /// Error in a text that begins like a number, where a number is expected; may be empty.
     std::string hint(const std::string &value, const std::string &expected)
     {
       char *end = nullptr;
@@ -150,8 +148,8 @@ namespace taut
       return "";
     }
 
-    /// Where else in the tree there is an entry or section of this name, or a section that begins
-    /// with it; at most two places.
+    /// Other places in the tree with an entry or section of this name, or a section that begins
+    /// with it; at most two.
     void find_elsewhere(const nlohmann::json &node, const std::string &name, const bool section,
                         const std::string &path, std::vector<std::string> &places)
     {
@@ -167,7 +165,7 @@ namespace taut
       }
     }
 
-    /// " There is 'Catenary/Droppers/Positions'." for an entry that was sought in the wrong place.
+    /// " There is 'Catenary/Droppers/Positions'." for an entry in the wrong place.
     std::string elsewhere(const nlohmann::json &root, const std::string &name, const bool section)
     {
       std::vector<std::string> places;
@@ -178,7 +176,7 @@ namespace taut
       return text.empty() ? "" : text + ".";
     }
 
-    /// The node of a path, or an error about the first section that does not exist.
+    /// Node of a path, or an error about the first section that does not exist.
     const nlohmann::json &find_section(const nlohmann::json &root,
                                        const ParameterFile::Entry &entry,
                                        const std::size_t n_sections)
@@ -215,7 +213,7 @@ namespace taut
             (entry.path.size() > 1 ? " in '" + entry.path[entry.path.size() - 2] + "'" : "") +
             suggestion(name, names_in(node, false)) + sections_here(name, node) +
             elsewhere(root, name, false));
-      // A description that was cut off by a shortage, or is by one here, is a null pointer there.
+      // A description that a shortage of memory cut off, before or here, gives a null pointer.
       check_memory();
       const MemoryGuard guard;
       const auto pattern = pattern_factory(node[name]["pattern_description"].get<std::string>());

@@ -11,8 +11,8 @@ namespace dealii
 
 namespace taut
 {
-  /// Throws UserError about the first section or entry of @p file that is not declared in @p prm,
-  /// or whose value its pattern does not allow: place, what is expected and what is near.
+  /// Throws UserError about the first section or entry of @p file that @p prm does not declare, or
+  /// whose value does not match its pattern. The message has place, expectation and similar names.
   void check_entries(const ParameterFile &file, dealii::ParameterHandler &prm);
 } // namespace taut
 

@@ -31,7 +31,7 @@ namespace taut
       for (std::size_t k = 1; k < n; ++k)
         if ((byte(i + k) & 0xc0) != 0x80)
           return 0;
-      // Overlong forms, surrogates and what is beyond the last code point (RFC 3629).
+      // Overlong forms, surrogates and values beyond the last code point (RFC 3629).
       const unsigned char second = n > 1 ? byte(i + 1) : 0;
       if ((first == 0xe0 && second < 0xa0) || (first == 0xed && second > 0x9f) ||
           (first == 0xf0 && second < 0x90) || (first == 0xf4 && second > 0x8f))
@@ -80,7 +80,7 @@ namespace taut
       return "cannot read '" + file + "': it is a folder; name a file in it";
     if (fs::exists(file, error))
       return "cannot read '" + file + "': " + std::strerror(reason);
-    // Parameter files beside it; a folder that cannot be read has none.
+    // Parameter files beside it; an unreadable folder has none.
     const fs::path folder = fs::path(file).parent_path();
     std::vector<std::string> names;
     for (const auto &entry : fs::directory_iterator(folder.empty() ? "." : folder, error))
@@ -107,8 +107,8 @@ namespace taut
     {
       ++number;
       if (number == 1 && line.compare(0, 3, "\xef\xbb\xbf") == 0)
-        line.erase(0, 3); // the mark of UTF-8 that some editors write
-      // Comments may be in any encoding, but a zero says that all of this is something else.
+        line.erase(0, 3); // UTF-8 mark of some editors
+      // Comments may be in any encoding, but a zero means another kind of file.
       if (line.find('\0') == std::string::npos)
         line = trim(line.substr(0, line.find('#')));
       check_text(line, file + ":" + std::to_string(number));

@@ -8,22 +8,22 @@
 
 namespace taut
 {
-  /// Without spaces, tabs and carriage returns around it.
+  /// Removes spaces, tabs and carriage returns at both ends.
   std::string trim(const std::string &text);
 
   /// Parts between separators, without spaces around them.
   std::vector<std::string> split(const std::string &text, char separator);
 
-  /// Names and values go into messages, tables and JSON: throws UserError that begins with
-  /// @p place unless @p text is UTF-8 without control characters.
+  /// Throws UserError that begins with @p place unless @p text is UTF-8 without control characters,
+  /// for messages, tables and JSON.
   void check_text(const std::string &text, const std::string &place);
 
-  /// Why a file cannot be read (@p reason is errno), with the nearest name beside it if there is
-  /// none of this name.
+  /// Why a file cannot be read (@p reason is errno), with the nearest name if there is no such
+  /// file.
   std::string cannot_read(const std::string &file, int reason);
 
-  /// The lines of a file without comments, continued ones joined, each with the number of its
-  /// first. Throws UserError if it cannot be read or is not text.
+  /// Lines of a file without comments, continued lines joined, each with the number of its first
+  /// line. Throws UserError if it cannot be read or is not text.
   std::vector<std::pair<int, std::string>> lines_of(const std::string &file);
 } // namespace taut
 

@@ -12,14 +12,14 @@ namespace taut
   {
     using Vector = std::vector<double>;
 
-    /// Takes from @p v what a basis of orthogonal unit vectors has of it, and adds the rest to the
+    /// Removes the part of @p v in a basis of orthogonal unit vectors, and adds the rest to the
     /// basis unless it is rounding.
     void extend(std::vector<Vector> &basis, Vector v)
     {
       const auto dot = [](const Vector &a, const Vector &b)
       { return std::inner_product(a.begin(), a.end(), b.begin(), 0.); };
       const double size = std::sqrt(dot(v, v));
-      // Twice, because once leaves the rounding of what was taken away.
+      // Two passes, as one leaves the rounding of the removed part.
       for (int pass = 0; pass < 2; ++pass)
         for (const Vector &b : basis)
         {
@@ -35,7 +35,7 @@ namespace taut
       basis.push_back(std::move(v));
     }
 
-    /// The work of the force of a linear form on the rigid body modes of a body.
+    /// Work of the force of a linear form on the rigid body modes of a body.
     Vector work(const std::vector<Term> &terms, const std::size_t body,
                 const Substructure::NullSpace &null_space)
     {
@@ -53,7 +53,7 @@ namespace taut
   {
     const std::size_t n = null_spaces.size();
     std::vector<std::vector<Vector>> opposed(n);
-    // Groups of bodies that constraints join, by one of their members; n is the ground.
+    // Groups of joined bodies, each named by one member; n is the ground.
     std::vector<std::size_t> group(n + 1);
     std::iota(group.begin(), group.end(), 0);
     const auto join = [&](const std::size_t a, const std::size_t b)
@@ -75,7 +75,7 @@ namespace taut
         join(*ends.begin(), k);
         if (k < n && !null_spaces[k].vectors.empty())
         {
-          // Across itself a link that turns holds its ends like a pendulum.
+          // A turning link holds its ends also across itself, like a pendulum.
           for (const std::vector<Term> *const form : constraints[i].forms())
             extend(opposed[k], work(*form, k, null_spaces[k]));
         }

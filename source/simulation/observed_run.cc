@@ -165,7 +165,7 @@ namespace taut
     for (std::size_t i = 0; i < probe_terms.size(); ++i)
       probe_values[i] = evaluate(probe_terms[i], motion.reference().displacement) +
                         evaluate(probe_terms[i], state.U);
-    // Whether to stop goes with them: one message for both, and all ranks stop at the same step.
+    // The signal to stop shares a message, so that all ranks stop at the same step.
     const int asked = stop_asked ? stop_asked() : 0;
     probe_values.push_back(asked);
     processes().sum(probe_values);

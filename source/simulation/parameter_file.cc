@@ -202,7 +202,7 @@ namespace taut
 
   std::string ParameterFile::locate(const std::string &name) const
   {
-    // If it is not set, or a section: the innermost entry or section around it that is there.
+    // For a section or an unset entry: the innermost known entry or section around it.
     const std::string suffix = name.empty() ? "" : ": " + name;
     for (std::string path = name; !path.empty();)
     {

@@ -30,7 +30,7 @@ namespace taut
       return Double(0., Double::max_double_value);
     }
 
-    /// A list of a lower and an upper bound, or nothing.
+    /// Checks that a list is empty or has a lower and an upper bound.
     void check_pair(const std::vector<double> &pair, const std::string &entry)
     {
       if (pair.empty())
@@ -41,7 +41,7 @@ namespace taut
         throw EntryError(entry, "the first number is the smaller one; swap them");
     }
 
-    /// All entries by path, with their values, or with their defaults.
+    /// All entries by path, with their values or defaults.
     std::map<std::string, std::string> values_in(const dealii::ParameterHandler &prm,
                                                  const std::string &which = "value")
     {
@@ -61,7 +61,7 @@ namespace taut
       return values;
     }
 
-    /// The part of a deal.II exception that is for the user.
+    /// The part of a deal.II exception for the user.
     std::string message(const std::exception &e)
     {
       const std::string what = e.what();
@@ -170,7 +170,7 @@ namespace taut
 
   namespace
   {
-    /// The entries of a file that print() wrote, but for folders, which may have been moved.
+    /// Entries of a file from print(), without folders, which may have moved.
     std::vector<std::string> entries_in(std::istream &printed)
     {
       const std::string folder = "set Folder ";
@@ -203,7 +203,7 @@ namespace taut
     read_entries(name, overrides, processes);
     if (!(study.accuracy > 0.))
       return;
-    std::string text; // of the choice, a line each
+    std::string text; // choice, line by line
     processes.agree(
         [&]()
         {
@@ -226,7 +226,7 @@ namespace taut
     std::istringstream lines(text);
     std::string description;
     std::getline(lines, description);
-    // The entries of the run are then those of the setting: a file with them runs alike.
+    // The run then has the entries of the setting, so that a file with them gives the same run.
     std::vector<std::string> all = overrides;
     for (std::string line; std::getline(lines, line);)
       all.push_back(line);
@@ -267,8 +267,8 @@ namespace taut
     }
   }
 
-  /// Plugins and the generator's name, then the names of items, then everything: each pass knows
-  /// what to declare for the next one, and only the last is strict.
+  /// Declares plugins and the generator's name, then names of items, then all entries. Each pass
+  /// knows the declarations for the next; only the last is strict.
   void Parameters::declare_in_passes(const std::string &text)
   {
     declared.structural.clear();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The schemes and observers of a parameter file, those of plugins too, each with its own entries.
+// Schemes and observers of a parameter file, also of plugins, each with its own entries.
 #include "file_text.h"
 
 #include <taut/base/exceptions.h>
@@ -16,7 +16,7 @@ namespace taut
   void Parameters::load_registered()
   {
     for (const std::string &name : shared_libraries)
-      // What is registered lives as long as the process, so it is never closed.
+      // Registered objects live as long as the process, so that it is never closed.
       if (dlopen(name.c_str(), RTLD_NOW | RTLD_GLOBAL) == nullptr)
       {
         const char *reason = dlerror();

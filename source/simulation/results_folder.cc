@@ -19,8 +19,8 @@ namespace taut
   {
     namespace fs = std::filesystem;
 
-    /// Names of the tables and other single files of a run; those of observers that it does not
-    /// have, too: they would be of another run.
+    /// Names of tables and other single files of a run, including those of all observers, which may
+    /// be from another run.
     std::set<std::string> names_of_results()
     {
       std::set<std::string> names = {"used.prm", "start.csv", "wires.pvd", "statistics.json",
@@ -36,8 +36,7 @@ namespace taut
       return names;
     }
 
-    /// The files of a run in a folder. One that cannot be read has none: writing then says what is
-    /// wrong.
+    /// Files of a run in a folder; none in an unreadable folder, which writing then reports.
     std::vector<fs::path> results_in(const fs::path &folder)
     {
       const std::set<std::string> names = names_of_results();
@@ -95,8 +94,7 @@ namespace taut
     const fs::path folder = parameters.output.folder;
     std::error_code error;
     check_folder(parameters);
-    // Files of a longer run would mix with those of this one. used.prm goes last: until then it
-    // says whose they are.
+    // Files of a longer run would mix with new ones. used.prm goes last, as it names their run.
     const fs::path used_file = folder / "used.prm";
     for (const fs::path &file : results_in(folder))
       if (file != used_file)

@@ -8,12 +8,12 @@
 
 namespace taut
 {
-  /// Throws an EntryError on Output/Folder if it is a file or holds the results of another run that
-  /// may neither be replaced nor resumed.
+  /// Throws an EntryError on Output/Folder if it is a file or has results of another run that must
+  /// not be replaced or resumed.
   void check_folder(const Parameters &parameters);
 
-  /// Makes the folder, takes the results of an earlier run out of it, and writes used.prm with
-  /// @p comments, lines without '#', before the entries. Throws an EntryError.
+  /// Makes the folder, removes results of an earlier run, and writes used.prm with @p comments,
+  /// lines without '#', before the entries. Throws an EntryError.
   void prepare_folder(const Parameters &parameters, const std::vector<std::string> &comments);
 } // namespace taut
 

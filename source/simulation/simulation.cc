@@ -27,7 +27,7 @@ namespace taut
 {
   namespace
   {
-    /// The scene with all lengths, and nodes without mass where the contacts ask for that.
+    /// Scene with all lengths, and with massless nodes if its contacts require them.
     Scene prepare_scene(const Parameters &parameters, SharedParts *const shared)
     {
       if (shared)
@@ -79,8 +79,8 @@ namespace taut
     }
     catch (...)
     {
-      // What was computed before the error is kept; it may show the reason. An error that comes of
-      // it says less than the first. Other ranks may not be here.
+      // Results before the error are kept; they may show the reason. A second error says less than
+      // the first. Other ranks may have ended.
       try
       {
         finish(true);
@@ -113,7 +113,7 @@ namespace taut
     log << "The scene is consistent\n";
   }
 
-  /// The steps that fit into the time of the run: what was checked up to its end stays true.
+  /// Number of steps within the time of the run, for which the checks hold.
   long Simulation::n_steps() const
   {
     constexpr double rounding = 1e-9;
@@ -133,7 +133,7 @@ namespace taut
                                   " before the first step; nothing was written");
   }
 
-  /// Everything that steps need; the first factorisation finds the bodies that nothing holds.
+  /// Prepares the steps; the first factorisation finds unsupported bodies.
   void Simulation::choose_scheme()
   {
     std::vector<std::size_t> massless;
@@ -167,7 +167,7 @@ namespace taut
     return is_wanted ? std::make_unique<StepAccuracy>(std::move(run)) : nullptr;
   }
 
-  /// Nothing on the disk is touched before, where the scene is known to make sense.
+  /// Called once the scene is known to be valid: before this, the disk is not touched.
   void Simulation::prepare_results(const bool resumes)
   {
     BodyVectors at_start = motion->reference().displacement;
@@ -195,7 +195,7 @@ namespace taut
         });
   }
 
-  /// Those of the results, the caller's, and those of the model, in the order of what they say.
+  /// Adds observers of results, of the caller and of the model, in the order of their reports.
   void Simulation::add_observers()
   {
     const OutputParameters &output = parameters.output;
@@ -220,7 +220,7 @@ namespace taut
     observed->observe(std::make_unique<SlackMonitor>());
     if (has_time())
       observed->observe(std::make_unique<ImpactWatch>());
-    // At least a hundred times a run, and too seldom to be felt.
+    // At least a hundred times in a run, and too seldom to cost time.
     limits = std::make_unique<ModelLimits>(
         model, bodies, has_time() ? parameters.statistics.filter_frequency : 0., parameters.step,
         has_time() ? std::clamp(n_steps() / 100, 1L, 50L) : 1L);
@@ -262,7 +262,7 @@ namespace taut
             warnings};
   }
 
-  /// Throws if it was asked to, or if its energies are wrong.
+  /// Throws after a request to stop, or for wrong energies.
   void Simulation::say_how_it_ended() const
   {
     if (const int signal = observed->signal())

@@ -80,7 +80,7 @@ namespace taut
     log << '\n';
   }
 
-  /// What is special in the scene, which saves work or is not meant.
+  /// Reports special features of the scene, which save work or are not intended.
   void Simulation::print_links() const
   {
     std::size_t n_unilateral = 0, n_rigid = 0;
@@ -148,7 +148,7 @@ namespace taut
     observed->stop_if(stop_asked);
   }
 
-  /// The names of some of all bodies: "'a', 'b' and 3 more".
+  /// Names of selected bodies: "'a', 'b' and 3 more".
   std::string Simulation::names_of(const std::vector<char> &some) const
   {
     std::string names;
@@ -159,7 +159,7 @@ namespace taut
     return names + (n > most_named ? " and " + std::to_string(n - most_named) + " more" : "");
   }
 
-  /// Says which bodies have small motions about the start from here on, and which links with them.
+  /// Reports bodies and links that are linearised at the start.
   void Simulation::report_linearised() const
   {
     const InitialState &start = motion->start();
@@ -175,7 +175,7 @@ namespace taut
     log << '\n';
   }
 
-  /// Says which bodies are at rest only because nothing pushes them.
+  /// Reports bodies that are at rest only because nothing pushes them.
   void Simulation::report_free_bodies() const
   {
     std::vector<Substructure::NullSpace> null_spaces;
@@ -198,7 +198,7 @@ namespace taut
   {
     if (model.start != Start::equilibrium || model.probes.empty())
       return;
-    // Where nothing moves, the equilibrium is what there is to see.
+    // In a scene without motion the probes show the equilibrium itself.
     if (!has_time() && links.sliding_rows().empty())
       return;
     const Reference &reference = motion->reference();
@@ -235,7 +235,7 @@ namespace taut
       const Link &link = model.links[links[i].link];
       const Coordinates &at = link.to.kind == Attachment::Kind::ground ? places.from[links[i].link]
                                                                        : places.to[links[i].link];
-      // Droppers are longer under their force, the others shorter.
+      // A force makes droppers longer, other links shorter.
       const double elongation = link.elongation(start.multiplier[i]),
                    stretched = link.unstressed_length > 0.
                                    ? link.unstressed_length +

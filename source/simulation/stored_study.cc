@@ -36,7 +36,7 @@ namespace taut
       }
     }
 
-    /// Equal as text, or number for number.
+    /// Equal as text or as numbers.
     bool same_value(const std::string &a, const std::string &b)
     {
       if (a == b)
@@ -58,7 +58,7 @@ namespace taut
       }
     }
 
-    /// What differs between two scenes, outside of the entries that were varied; empty: nothing.
+    /// Difference between two scenes, except in varied entries; empty: none.
     std::string difference(const std::map<std::string, std::string> &scene, const json &studied,
                            const std::set<std::string> &varied)
     {
@@ -109,7 +109,7 @@ namespace taut
       for (const json &setting : study.at("settings"))
       {
         if (!setting.contains("error"))
-          continue; // it failed
+          continue; // failed setting
         const double error =
             setting.at("error").get<double>() + setting.at("error of the reference").get<double>();
         least_error = std::min(least_error, error);

@@ -92,7 +92,7 @@ namespace taut
   std::vector<ParameterList>
   StudyParameters::parameter_lists(const std::map<std::string, std::string> &scene) const
   {
-    // A study runs each of them several times.
+    // A study runs each value several times.
     constexpr std::size_t most_values = 10000;
     std::vector<ParameterList> result;
     std::set<std::string> taken;

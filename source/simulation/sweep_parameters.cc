@@ -19,7 +19,7 @@ namespace taut
   {
     constexpr std::size_t most_cases = 10000000;
 
-    /// Throws EntryError unless the range is one or more pairs that the distribution can have.
+    /// Throws EntryError unless the range has one or more pairs that suit the distribution.
     void check_range(const SweepParameters::Item &item, const std::string &entry)
     {
       const bool is_uniform = item.distribution == "uniform";
@@ -32,7 +32,7 @@ namespace taut
                               : "give the mean and a standard deviation that is not negative");
     }
 
-    /// A number for each pair of the range, with commas between them.
+    /// A random number for each pair of the range, separated by commas.
     std::string drawn(const SweepParameters::Item &item, boost::random::mt19937_64 &generator)
     {
       std::string text;
@@ -103,7 +103,7 @@ namespace taut
     return result;
   }
 
-  /// Of the parameters that are not random; empty for those that are.
+  /// Values of each parameter; empty for random ones.
   std::vector<std::vector<std::string>> SweepParameters::value_lists() const
   {
     std::vector<std::vector<std::string>> lists;
@@ -122,7 +122,7 @@ namespace taut
     return lists;
   }
 
-  /// At most one more than most_cases.
+  /// Bounded by most_cases + 1.
   std::size_t
   SweepParameters::n_combinations(const std::vector<std::vector<std::string>> &lists) const
   {
@@ -148,7 +148,7 @@ namespace taut
     return n;
   }
 
-  /// Of each combination.
+  /// Number of samples for each combination.
   std::size_t SweepParameters::n_samples() const
   {
     if (std::none_of(items.items.begin(), items.items.end(),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Entries that another entry leaves without effect: a run says so.
+// Entries without effect because of another entry: a run reports them.
 #include "file_text.h"
 
 #include <taut/simulation/parameters.h>
@@ -15,11 +15,10 @@ namespace taut
 {
   namespace
   {
-    /// The value of another entry of the same section; empty if it has none of this name.
+    /// Value of another entry of the same section; empty: no such entry.
     using ValueOf = std::function<std::string(const std::string &entry)>;
 
-    /// Entries of sections whose path begins in the same way, and why they have no effect; empty:
-    /// they have one.
+    /// Entries of sections whose paths begin alike, and why they have no effect; empty: they have.
     struct Rule
     {
       std::string section;
@@ -32,7 +31,7 @@ namespace taut
       return start == "given" ? "" : "without Start = given";
     }
 
-    /// Of a contact, unless its Obstacle is one of these.
+    /// For a contact, unless its Obstacle is one of these.
     std::function<std::string(const ValueOf &, const std::string &)>
     unless_obstacle_is(const std::vector<std::string> &obstacles)
     {
@@ -65,7 +64,7 @@ namespace taut
       return all;
     }
 
-    /// Equal as texts, or number by number.
+    /// Equal as texts or number by number.
     bool is_same(const std::string &a, const std::string &b)
     {
       const std::vector<std::string> p = split(a, ','), q = split(b, ',');

@@ -27,7 +27,7 @@ namespace taut
                  : std::nullopt;
     }
 
-    /// A value, or all of "first:step:last".
+    /// A value, or all values of "first:step:last".
     std::vector<std::string> expanded(const std::string &text, const std::string &entry,
                                       const std::size_t most)
     {
@@ -55,7 +55,7 @@ namespace taut
       return path.compare(0, head.size(), head) == 0;
     }
 
-    /// Where results go and what is done with the scene.
+    /// Whether an entry is about results or the use of the scene.
     bool is_outside_of_scene(const std::string &path)
     {
       return begins(path, "Study/") || begins(path, "Sweep/") ||

@@ -12,14 +12,13 @@ namespace taut
 {
   namespace
   {
-    /// Part of |K||dU| and of the other terms that their rounding may be; what is more is an
-    /// error.
+    /// Part of |K||dU| and of the other terms up to which a residual is rounding.
     constexpr double rounding_of_increment = 1e-10;
 
-    /// Residual that a body's own rounding counts as.
+    /// Relative residual that stands for the rounding of a body.
     constexpr double residual_of_rounding = 1e-10;
 
-    /// Entries begin to end - 1 of the accelerations that M acts on.
+    /// Mean accelerations in rows begin to end - 1.
     void combine(const StepCoefficients &c, const double *A, const double *A0,
                  const std::size_t begin, const std::size_t end, double *result)
     {
@@ -33,7 +32,7 @@ namespace taut
           });
     }
 
-    /// Takes K U and C V of a tile from r, and r from the inertia in @p residual.
+    /// Subtracts K U and C V of a tile from r, and r from the inertia in @p residual.
     void subtract_forces(const std::size_t size, const double factor, const double kappa,
                          const double *KU, const double *CV, const double *r0, double *r,
                          double *residual)
@@ -174,7 +173,7 @@ namespace taut
                                                const StepForces &forces, const Sizes &sizes,
                                                const double time)
   {
-    // P and B N may cancel, and both against the forces of the reference: each counts.
+    // P and B N may cancel each other and the forces of the reference: each counts.
     PerKind force = forces.external_size[k];
     for (int kind = 0; kind < 2; ++kind)
       force[kind] += contact_force[k][kind] + reference_force[k][kind];
@@ -199,10 +198,10 @@ namespace taut
                     structure[k].rounding_of_force(kind) / residual_of_rounding;
       if (sizes.residual[kind] > rounding_of_increment * (size + of_increment[kind]))
         may_be_cancellation = false;
-      // With mean forces nothing is refined.
+      // There is no refinement with mean forces.
       if (c.mean_force)
         size += of_increment[kind];
-      // Numbers that are about to underflow have few digits.
+      // Numbers close to underflow have few digits.
       const double relative =
           sizes.residual[kind] <= 1. / largest_number / largest_number / largest_number
               ? 0.

@@ -8,9 +8,8 @@
 
 namespace taut
 {
-  /// Rows of a body that are worked on at once: their part of all vectors stays in the nearest
-  /// cache. A multiple of all block sizes and of the widths of vector registers; all rows, if the
-  /// matrices have no blocks.
+  /// Rows of a tile: their part of all vectors fits in the nearest cache. A multiple of all block
+  /// sizes and vector widths; all rows if the matrices have no blocks.
   inline std::size_t tile_size(const Substructure &body)
   {
     constexpr std::size_t n_rows = 480;
@@ -18,8 +17,8 @@ namespace taut
                                          : std::min<std::size_t>(body.n_dofs(), n_rows);
   }
 
-  /// Calls work(begin, end, reached) for one tile of rows after the other. The products of rows
-  /// begin to end - 1 with the matrices of the body read nothing from `reached` on.
+  /// Calls work(begin, end, reached) for each tile of rows. Products of rows begin to end - 1 with
+  /// the matrices of the body read nothing from `reached` on.
   template <typename Work>
   void visit_tiles(const Substructure &body, const Work &work)
   {

@@ -13,8 +13,7 @@ namespace taut
 {
   namespace
   {
-    /// Part of the longest stable step that is taken for stable, as the largest frequency is known
-    /// from below only: see largest_frequency().
+    /// Safety factor of the longest stable step: largest_frequency() is a lower bound.
     constexpr double surely_stable = .98;
 
     /// Not 0 for each constraint that acts on elements, and not on lumped masses alone.
@@ -48,7 +47,7 @@ namespace taut
                                 "none. Set it to 0, or remove the Stiffness of a link");
     }
 
-    /// Name of a body, of some rank, of which this is true; empty: none.
+    /// Name of a body of any rank with this property; empty: none.
     std::string body_that(const Structure &structure,
                           const std::function<bool(const Substructure &)> &is_so)
     {
@@ -60,14 +59,12 @@ namespace taut
       return index < 0. ? "" : structure.all_bodies()[static_cast<std::size_t>(index)].name;
     }
 
-    /// One whose mass matrix cannot be inverted.
     std::string body_without_definite_mass(const Structure &structure)
     {
       return body_that(structure,
                        [](const Substructure &body) { return !body.has_definite_mass(); });
     }
 
-    /// Name of a link whose spring follows a law; empty: none.
     std::string link_with_law(const Constraints &constraints)
     {
       for (std::size_t i = 0; i < constraints.size(); ++i)
@@ -76,7 +73,6 @@ namespace taut
       return "";
     }
 
-    /// Name of a link that turns; empty: none.
     std::string link_that_turns(const Constraints &constraints)
     {
       for (const std::size_t i : constraints.turning_rows())

@@ -9,21 +9,21 @@ namespace taut
 {
   namespace
   {
-    /// The iteration ends where a law lacks this part of the terms of its gap; or, where rounding
-    /// keeps it above, the second one. The certificate of the step then says what it is worth.
+    /// Relative residual of a law, in terms of its gap, that ends the iteration. Rounding may keep
+    /// it between both; the certificate of the step then shows it.
     constexpr double converged = 1e-14, stagnated = 1e-8;
     constexpr int most_iterations = 200;
 
-    /// Part of the last error above which one counts as rounding.
+    /// Part of the last residual above which the next one is rounding.
     constexpr double not_closer = .9;
 
-    /// Part of the largest stiffness below which a law counts as this stiff when it is linearised.
+    /// Lower bound of the slope of a law in its linearisation, over its largest stiffness.
     constexpr double least_slope = 1e-9;
 
-    /// The same of a conserving one, whose slope between far open and closed is small, but right.
+    /// Bound for a conserving law, whose slope between far open and closed is small, but right.
     constexpr double least_slope_of_conserving = 1e-40;
 
-    /// Part of the compressions below which their difference says nothing of the slope of the mean.
+    /// Relative difference of compressions below which it gives no slope of the mean.
     constexpr double least_difference = 1e-5;
   } // namespace
 
@@ -119,7 +119,7 @@ namespace taut
     row.open = 0.;
     if (u > 0.)
     {
-      // The mean falls as 1 / (u_0 - u), what the damper takes off it stays.
+      // The mean falls as 1 / (u_0 - u), the force of the damper stays.
       double low = -u;
       while (damping > 0. && row.force(low) > 0.)
         low *= 4.;
@@ -172,8 +172,8 @@ namespace taut
     }
   }
 
-  /// The largest that a law lacks, over the terms of its gap; and of conserving ones, whose slope
-  /// may change by orders of magnitude, what they lack as a force.
+  /// Largest residual of a law over the terms of its gap. For conserving laws, whose slope varies
+  /// by orders of magnitude, also the residual force.
   ConstraintLaws::Error ConstraintLaws::error(const Point &at,
                                               const MixedComplementarityProblem &problem,
                                               const ComplementarityOperator &F) const
@@ -197,7 +197,7 @@ namespace taut
     return result;
   }
 
-  /// Derivative of the energy by s at the part s of the way.
+  /// Derivative of the energy by s, at the part s of the way.
   double ConstraintLaws::slope_of_energy(const Point &from, const Point &to, const double s,
                                          const std::vector<double> &S) const
   {
@@ -216,8 +216,8 @@ namespace taut
     return sum;
   }
 
-  /// Moves the end of the way to where the energy is least, unless it has certainly become less:
-  /// its derivative grows along the way.
+  /// Moves the end of the way to the least energy, unless the energy has certainly decreased: its
+  /// derivative grows along the way.
   void ConstraintLaws::shorten(const Point &from, Point &to, const std::vector<double> &S) const
   {
     const auto slope = [&](const double part) { return slope_of_energy(from, to, part, S); };
@@ -238,7 +238,7 @@ namespace taut
   {
     const std::vector<double> gap = problem.free_gap, scale = problem.gap_scale;
     std::vector<double> u;
-    // From the side where the slopes of a conserving constraint only fall.
+    // For a conserving constraint, start where slopes only fall.
     for (const Row &row : rows)
       u.push_back(std::max(row.conserving ? -gap[row.index] : row.u0, row.open));
     Point last, now;
@@ -273,7 +273,7 @@ namespace taut
       std::swap(last, now);
       u = compressions(last.gap);
     }
-    // Where a link is open, the law is that of rest. What the others lack is in the certificate.
+    // An open constraint has its law at rest. The certificate measures the residuals of the others.
     for (const Row &row : rows)
       if (solution->multiplier[row.index] == 0. && std::isfinite(row.open))
       {

@@ -67,7 +67,7 @@ namespace taut
     }
   }
 
-  /// (1 - alpha_f) step (D' + e D'_0) without multipliers.
+  /// Sets (1 - alpha_f) step (D' + e D'_0) without multipliers.
   void ContactConditions::set_velocity_condition(const std::size_t i, const State &before)
   {
     const double theta = 1. - c.alpha_f, rebound = constraints[i].cone.restitution(c.restitution);
@@ -137,8 +137,7 @@ namespace taut
 
   bool ContactConditions::remains_in_contact(const std::size_t i, const State &state) const
   {
-    // Part of the distance of its ends, and of the terms of its rate, by which one that is closed
-    // rounds.
+    // Part of the distance of the ends, and of the terms of the rate, that is rounding.
     constexpr double rounding = 1e-9;
     const bool is_inconsistent = is_first && std::fabs(gap_rates.before_step()[i]) >
                                                  rounding * gap_rates.velocity_sizes()[i];

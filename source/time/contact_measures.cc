@@ -11,20 +11,19 @@ namespace taut
 {
   namespace
   {
-    /// Steps between two measurements of the energies that contact energy is compared with: they
-    /// cost as much as a tenth of a step.
+    /// Steps between two measurements of the scale of contact energy: one costs a tenth of a step.
     constexpr long steps_between_scales = 16;
 
-    /// Motions of a step that a condition on velocities may leave a gap of: one, and the next
-    /// one's.
+    /// Motions of a step that a condition on velocities may leave as a gap: of this step and the
+    /// next.
     constexpr double most_steps_of_motion = 2.;
 
-    /// Part of the energy that rounding gives or takes in a step of a body that is not linear, and
-    /// the turn through which moments that are rounding may do work [rad].
+    /// Part of the energy of a nonlinear body that is rounding in a step, and the rotation through
+    /// which rounding of moments may do work [rad].
     constexpr double rounding_of_step = 1e-14, noise_turn = 1e-2;
 
     /// Bound of the highest angular frequency at each DoF from the diagonals, 2 sqrt(K_jj / M_jj);
-    /// 0 where there is no mass or no stiffness [rad/s].
+    /// 0 without mass or stiffness [rad/s].
     std::vector<double> frequencies(const Substructure &body)
     {
       std::vector<double> k(body.n_dofs(), 0.), m(body.n_dofs(), 0.);
@@ -65,7 +64,7 @@ namespace taut
     measure_rest(start);
   }
 
-  /// Groups that move far, and what rounding may give in each of their steps.
+  /// Finds groups with large motions, and their rounding of energy in a step.
   void ContactMeasures::measure_rest(const State &start)
   {
     const ConnectedBodies &groups = energies.groups();
@@ -134,7 +133,7 @@ namespace taut
     (void)certificate;
   }
 
-  /// Without a unilateral constraint there is no contact that could have given it.
+  /// Without a unilateral constraint, no contact can have caused a gain.
   void ContactMeasures::add_gains(const State &state, const StepCoefficients &c)
   {
     if (state.energy_gains.empty())
@@ -209,14 +208,14 @@ namespace taut
       found.gap = gap;
       found.gap_constraint = i;
     }
-    // A condition on velocities leaves a gap of the motion of a step.
+    // A condition on velocities leaves a gap of about the motion of a step.
     Force &force = forces[i];
     if (c.velocity_level)
       force.motion = std::max(force.motion, state.last_step * std::fabs(state.gap_rate[i]));
     force.gap = std::max(force.gap, gap);
   }
 
-  /// Of the group whose constraints gave and took most; named is the worst of them.
+  /// Finds the group with most contact energy, and its worst constraint.
   void ContactMeasures::find_contact_energy(Summary &result) const
   {
     const ConnectedBodies &groups = energies.groups();
@@ -303,7 +302,7 @@ namespace taut
     return result;
   }
 
-  /// Who gave or took what, and how long its contacts are.
+  /// States the constraint, its energy and the duration of its contacts.
   std::string ContactMeasures::energy_message(const Summary &s) const
   {
     std::ostringstream out;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The part of the certificate that is about the conditions of the constraints.
+// Residuals of the conditions on the constraints, for the certificate.
 #include <taut/time/contact_conditions.h>
 #include <taut/time/matrix_norms.h>
 
@@ -10,18 +10,18 @@ namespace taut
 {
   namespace
   {
-    /// Residuals up to this need no second look.
+    /// Residuals up to this bound need no second measurement.
     constexpr double conspicuous = 1e-10;
 
-    /// Columns of A^-1 end where they have decayed to 1e-18: what moves less than this part of the
-    /// constraints that move most is not known by its own terms.
+    /// Columns of A^-1 end where they have decayed to 1e-18. A motion below this part of the
+    /// largest one is hence not known from its own terms.
     constexpr double decayed = 1e-6;
 
-    /// Part of the motion of the bodies as a whole with which a constraint rounds.
+    /// Part of the motion of whole bodies that counts in the scale of a constraint.
     constexpr double rest = 1e-3;
   } // namespace
 
-  /// Gaps from the increments of the displacements, not from F N + d.
+  /// Sets gaps from increments of the displacements, not from F N + d.
   void ContactConditions::set_recomputed_gaps(const State &state)
   {
     recomputed.at.multiplier = solved.multiplier;
@@ -52,8 +52,8 @@ namespace taut
       problem.gap_scale[i] += decayed * most[constraints[i].rotational];
   }
 
-  /// A constraint rounds with the motion of the bodies as a whole, too: the slopes of a beam that
-  /// falls without bending are nothing but rounding. |b . dU|^2 <= (b . A^-1 b) (dU . A dU).
+  /// Adds motions of whole bodies to the scale of a constraint: slopes of a beam that falls without
+  /// bending are only rounding. |b . dU|^2 <= (b . A^-1 b) (dU . A dU).
   void ContactConditions::add_inertial_terms(const State &state, const ComplementarityOperator &F)
   {
     double sum = 0.;
@@ -94,7 +94,7 @@ namespace taut
     double max = recomputed.found.max;
     const std::vector<double> &rows = recomputed.found.rows;
     worst = std::max_element(rows.begin(), rows.end()) - rows.begin();
-    // Carried gaps must not drift away from the displacements.
+    // Tracked gaps must not drift away from the displacements.
     std::size_t strayed = 0;
     const double stray = gap_tracker.largest_stray(state, strayed);
     if (!(stray <= max) && !std::isnan(max))

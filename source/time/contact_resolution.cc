@@ -16,40 +16,40 @@ namespace taut
 {
   namespace
   {
-    /// Ratio times share up to which generalised-alpha keeps the energy of an impact to a percent:
-    /// a mass on a stop with twelve steps a contact.
+    /// Bound of ratio times share for an energy error of a percent in generalised-alpha: a mass on
+    /// a stop with twelve steps in a contact.
     constexpr double resolved = .018;
 
-    /// Share of its energy that a body may lose in an impact: below, a smooth force is worth more.
+    /// Energy loss of a body in an impact, as a share, below which a smooth force is preferred.
     constexpr double small_share = .02;
 
-    /// Share from which an impact is more than waves: adaptive steps, too, then keep its energy.
+    /// Share above which an impact is more than waves: adaptive steps, too, keep its energy.
     constexpr double large_share = .1;
 
-    /// Part of the critical damping from which nothing rebounds, and steps of a contact without
-    /// damper that resolve it.
+    /// Part of the critical damping above which nothing rebounds, and steps that resolve a contact
+    /// without damper.
     constexpr double no_rebound = .7, steps_of_a_contact = 12.;
 
-    /// Steps that a contact with a damper needs for a rebound that is right to a percent: so many
-    /// in the time of one without damper, and more by so many times the part of the critical
-    /// damping, as less rebounds and a strong damper acts faster than the spring.
+    /// Steps of a contact with a damper for a rebound within a percent: a number in the time of a
+    /// contact without damper, and more in proportion to the part of the critical damping. A strong
+    /// damper acts faster than the spring.
     constexpr double steps_of_a_damped_contact = 16., more_by_damping = 32.;
 
-    /// Part of the step that is short for everything: F then is that of the mass alone.
+    /// Part of the step that is so short that F is that of the mass alone.
     constexpr double short_step = 1e-3;
 
-    /// Part of its flexibility that a node without mass keeps when all that is joined to it holds
-    /// still; below, something with mass stands behind it.
+    /// Part of the flexibility of a massless node that remains with its joined bodies held; below,
+    /// a mass stands behind the node.
     constexpr double own_part = .5;
 
-    /// Constraints of connected bodies whose couplings are looked at entry by entry; of more,
-    /// bounds are taken.
+    /// Number of constraints of connected bodies up to which couplings are entries of F; beyond,
+    /// they are bounds.
     constexpr std::size_t most_columns = 1500;
 
-    /// Places along the way of a moving constraint.
+    /// Samples along the way of a moving constraint.
     constexpr int n_places = 400;
 
-    /// How much of a motion as a whole the linear form takes, with its sign.
+    /// Signed part of a translation in a linear form.
     double part_of_translation(const Structure &structure, const Term &term)
     {
       double size = 0., sum = 0.;
@@ -62,7 +62,7 @@ namespace taut
       return std::copysign(size, sum);
     }
 
-    /// Rigid and elastic bilateral constraints, and unilateral ones between two bodies if asked.
+    /// Rigid and elastic bilateral constraints, and on request unilateral ones between two bodies.
     std::vector<std::size_t> joins(const Structure &structure, const Constraints &constraints,
                                    const bool unilateral, const std::size_t but)
     {
@@ -84,11 +84,9 @@ namespace taut
     }
   } // namespace
 
-  /**
-   * Ratio, share and contact time of the constraints of a system. The elastic ones are looked at
-   * together, as a step closes them together; of rigid ones only whether they press on a node
-   * without mass.
-   */
+  /// Finds ratio, share and contact time of the constraints of a system. Elastic constraints are
+  /// judged together, as a step closes them together. Rigid constraints are checked only for
+  /// massless nodes.
   class ContactResolution::Search
   {
   public:
@@ -127,7 +125,7 @@ namespace taut
       }
     }
 
-    /// Those of bodies that nothing connects do not see each other.
+    /// Judges elastic constraints in each group of connected bodies.
     void judge_elastic(const std::vector<std::size_t> &rows)
     {
       find_shares(rows);
@@ -142,7 +140,7 @@ namespace taut
           judge_together(group);
     }
 
-    /// The same from now until a time [s]; @p moved are the constraints of this search.
+    /// Judges sliding constraints from now until a time [s]; @p moved are those of this search.
     void judge_way(Constraints &moved, const std::vector<std::size_t> &rows, const double until)
     {
       for (int place = 0; place <= (until > 0. ? n_places : 0); ++place)
@@ -155,7 +153,7 @@ namespace taut
     }
 
   private:
-    /// By the entries of F.
+    /// Judges by entries of F.
     void judge_together(const std::vector<std::size_t> &rows)
     {
       std::vector<std::vector<double>> G(rows.size(), std::vector<double>(rows.size(), 0.));
@@ -175,7 +173,7 @@ namespace taut
       }
     }
 
-    /// False where one leaves its body, of which the run says so when it comes there.
+    /// False if a constraint leaves its body; the run reports this when it gets there.
     bool move(Constraints &moved, const double t)
     {
       bool has_left = false;
@@ -194,7 +192,7 @@ namespace taut
       return true;
     }
 
-    /// An elastic constraint that moves, where it is now.
+    /// Judges an elastic sliding constraint in its present place.
     void judge_moving(const std::size_t i)
     {
       std::vector<double> column;
@@ -204,7 +202,7 @@ namespace taut
       find_share(i, column[i]);
     }
 
-    /// From |F_ij| <= sqrt(F_ii F_jj): the sum of the ratios of all.
+    /// Judges by |F_ij| <= sqrt(F_ii F_jj): the sum of the ratios.
     void judge_by_bounds(const std::vector<std::size_t> &rows)
     {
       double sum = 0.;
@@ -218,7 +216,7 @@ namespace taut
         of[i].ratio = sum;
     }
 
-    /// Of a constraint by itself, with f_ii / m of its joined bodies as F of a short step.
+    /// Share of a single constraint, with F of a short step for f_ii / m of its joined bodies.
     void find_share(const std::size_t i, const double flexibility)
     {
       double share = 0.;
@@ -234,8 +232,8 @@ namespace taut
       of[i].share = std::min(1., structure.communicator().max(share));
     }
 
-    /// Of elements, those of all constraints that push them to the same side together. Bodies that
-    /// rigid bilateral constraints join are one: a wire is whole, cut in parts or not.
+    /// Shares on elastic bodies: constraints that push a body to the same side act together. Bodies
+    /// joined by rigid bilateral constraints count as one, so that cuts of a wire have no effect.
     void find_shares(const std::vector<std::size_t> &rows)
     {
       std::vector<double> column, of_whole(2 * wholes.n_groups(), 0.);
@@ -276,8 +274,8 @@ namespace taut
     std::vector<Row> &of;
     const double step; ///< [s]
     LinkFlexibilities in_step, at_once;
-    const ConnectedBodies wholes; ///< what rigid bilateral constraints join
-    std::vector<double> mass;     ///< of these [kg]
+    const ConnectedBodies wholes; ///< bodies joined by rigid bilateral constraints
+    std::vector<double> mass;     ///< of each group in wholes [kg]
     const std::vector<std::size_t> closed;
   };
 
@@ -286,7 +284,7 @@ namespace taut
                                        const double longest, const double until)
       : adaptive(longest > step), of(all.size())
   {
-    Constraints constraints = all; // moves along its way here
+    Constraints constraints = all; // slides along its way
     const std::vector<char> without_mass = constraints.without_mass();
     std::vector<std::size_t> elastic, moving;
     bool is_needed = false;

@@ -10,7 +10,7 @@ namespace taut
 {
   namespace
   {
-    /// How far the largest eigenvalue is found, and in how many iterations.
+    /// Accuracy of the largest eigenvalue, and bound of iterations.
     constexpr double eigenvalue_tolerance = .01;
     constexpr int most_iterations = 200;
   } // namespace
@@ -35,7 +35,7 @@ namespace taut
       above = std::min(above, highest);
       if (highest <= (1. + eigenvalue_tolerance) * lowest || !(largest > 0.))
         break;
-      // The mean of both vectors converges where the matrix only swaps them.
+      // The mean of both vectors converges even if the matrix only swaps them.
       for (std::size_t a = 0; a < group.size(); ++a)
         x[a] = std::max(.5 * (x[a] + y[a] / largest), std::numeric_limits<double>::min());
     }

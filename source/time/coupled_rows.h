@@ -7,12 +7,12 @@
 
 namespace taut
 {
-  /// The largest eigenvalue of the rows @p group of a matrix without negative entries, from above
-  /// (L. Collatz, 1942): the largest (G x)_i / x_i of any positive x.
+  /// Upper bound of the largest eigenvalue of the rows @p group of a nonnegative matrix (L.
+  /// Collatz, 1942): the largest (G x)_i / x_i for a positive x.
   double largest_eigenvalue(const std::vector<std::vector<double>> &G,
                             const std::vector<std::size_t> &group);
 
-  /// Rows that have to do with each other, by the entries of a symmetric matrix.
+  /// Groups of rows that entries of a symmetric matrix couple.
   std::vector<std::vector<std::size_t>> coupled_rows(const std::vector<std::vector<double>> &G);
 } // namespace taut
 

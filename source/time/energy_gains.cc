@@ -25,7 +25,7 @@ namespace taut
     structure.communicator().sum(state.kinetic_energies);
   }
 
-  /// v . M v / 2 of each body.
+  /// Adds V . M V / 2 of each body to its group.
   void EnergyGains::add_kinetic_energies(const BodyVectors &V, std::vector<double> &of_groups)
   {
     for (std::size_t k = 0; k < structure.size(); ++k)
@@ -47,8 +47,8 @@ namespace taut
         });
   }
 
-  /// What a constraint with a mean force adds to the gain of its group: what its spring stores, and
-  /// if it moves, its work, which is that of what moves it.
+  /// Contribution of a constraint with a mean force: the change of its spring energy, or minus its
+  /// work if it slides.
   double EnergyGains::gain_of_spring(const std::size_t i, const State &state) const
   {
     const ConstraintData &constraint = constraints[i];

@@ -30,7 +30,7 @@ namespace taut
     sum_together(structure.communicator(), {&velocity, &velocity_size});
   }
 
-  /// With the places of the moving constraints exact.
+  /// Places of sliding constraints count exactly.
   void GapRates::measure_convection(const State &state)
   {
     if (constraints.sliding_rows().empty())

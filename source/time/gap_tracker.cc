@@ -10,9 +10,8 @@ namespace taut
 {
   namespace
   {
-    /// Part of the largest terms of a gap so far below which smaller ones count as rest: motion
-    /// that contacts have stopped leaves rounding, and that of several constraints contradicts
-    /// itself.
+    /// Part of the largest terms of a gap so far below which terms count as rest: motion that
+    /// contacts stopped leaves rounding, which contradicts itself between constraints.
     constexpr double rest = 1e-3;
   } // namespace
 
@@ -108,7 +107,7 @@ namespace taut
 
   double GapTracker::largest_stray(const State &state, std::size_t &worst)
   {
-    // A constraint at a support moves by nothing but the rounding of its body.
+    // At a support, a constraint moves only by the rounding of its body.
     constexpr double suspicious = 1e-12;
     const double found = stray(state, worst);
     if (found <= suspicious)
@@ -134,7 +133,7 @@ namespace taut
     return max;
   }
 
-  /// A displacement rounds with the largest of its body.
+  /// Adds sizes of terms: a displacement rounds with the largest one of its body.
   void GapTracker::add_body_terms(const BodyVectors &U)
   {
     std::vector<PerKind> size;

@@ -12,8 +12,8 @@ namespace taut
 {
   namespace
   {
-    /// Those that turn, where all of them may keep their direction. With the springs across them
-    /// there are more of them.
+    /// Makes all turning constraints keep their direction if possible, with rows for springs
+    /// across.
     void linearise_links(const Structure &structure, Constraints &constraints, InitialState &result)
     {
       std::vector<double> &N = result.state.multiplier;
@@ -35,7 +35,7 @@ namespace taut
       result.state.link_springs.resize(constraints.size());
     }
 
-    /// Of what a body says at t = 0: its size, and numbers that are finite.
+    /// Checks the size of a vector at t = 0, and that its numbers are finite.
     void check_vector(const Substructure &body, const std::vector<double> &x, const char *what)
     {
       if (x.size() != body.n_dofs())
@@ -68,12 +68,12 @@ namespace taut
           });
     }
 
-    /// Part of the terms of a gap that it may start below zero by, and be zero: some thousand
-    /// roundings of their sum, far less than an atom on any machine.
+    /// Part of its terms by which a gap may start below zero and count as zero: some thousand
+    /// roundings of the sum, far less than an atom on any machine.
     constexpr double rounding_of_start = 1e-12;
 
-    /// Gaps of rigid unilateral constraints that are negative by rounding of their terms become 0,
-    /// as they are from then on: the reference has what is missing.
+    /// Sets gaps of rigid unilateral constraints to 0 if they are negative by rounding; the
+    /// reference takes the difference.
     void close_rounded_gaps(const Structure &structure, const Constraints &constraints,
                             const std::vector<double> &motion, const std::vector<Coordinates> &ends,
                             InitialState &result)
@@ -110,7 +110,7 @@ namespace taut
                                "Gap or the start."));
     }
 
-    /// Gaps, and the springs of the links with their forces.
+    /// Sets gaps, and springs of links with their forces.
     void set_rows(const Structure &structure, Constraints &constraints, const Start start,
                   InitialState &result)
     {
@@ -130,8 +130,8 @@ namespace taut
         state.geometric_gap[i] =
             constraints.turns(i) ? constraints.turning(i).gap(ends[constraints.turning_index(i)])
                                  : constraint.gap + reference_motion[i] + motion[i];
-        // The spring of a link starts as compressed as its ends stand, and a compressed one as fast
-        // as they move; a rigid one is not compressed.
+        // A spring starts with the compression between its ends, and if compressed, at their speed.
+        // Rigid ones have no compression.
         double u = constraint.spring.compression(state.multiplier[i]);
         if (start != Start::equilibrium && !constraint.spring.is_rigid())
         {
@@ -142,7 +142,7 @@ namespace taut
               constraint.cone.project(constraint.spring.force(u) + v * constraint.spring.damping);
         }
         state.link_springs[i].u = u;
-        // Rounding of the gap over a small compliance, or over what a short step moves, would be a
+        // Rounding of the gap over a small compliance, or over a motion in a short step, would be a
         // force.
         if (start == Start::equilibrium && constraint.cone.is_closed(state.multiplier[i]))
           state.geometric_gap[i] = -u;
@@ -166,10 +166,10 @@ namespace taut
           complain_about_penetration(constraints, i, state.gap[i]);
     }
     /// Part of the terms of a gap, or of the distance of the ends, up to which a joint counts as
-    /// closed: numbers that are written with five digits.
+    /// closed: for numbers with five digits.
     constexpr double closed = 1e-5;
 
-    /// A rigid joint that starts open would close within the first step, whatever its length.
+    /// Refuses open rigid joints: they would close within the first step, of any length.
     void check_joints(const Structure &structure, const Constraints &constraints,
                       const InitialState &start)
     {
@@ -235,7 +235,7 @@ namespace taut
         {
           for (std::size_t k = 0; k < structure.size(); ++k)
           {
-            // A body may be under prestress as it is made.
+            // A body may have prestress as constructed.
             structure[k].internal_force(result.reference.displacement[k], {},
                                         result.reference.force[k]);
             if (start == Start::given)

@@ -23,8 +23,8 @@ namespace taut
 
   double StepCoefficients::ringing() const
   {
-    // V = v_V V0 + v_A A0, A = a_V V0 + a_A A0, and N = -old_balance N0 + ...; what the scheme
-    // needs of the steps before is gone after two of them.
+    // V = v_V V0 + v_A A0, A = a_V V0 + a_A A0, and N = -old_balance N0 + ...; steps further back
+    // have no effect after two steps.
     const double half_trace = .5 * (v_V + a_A), determinant = v_V * a_A - v_A * a_V,
                  discriminant = half_trace * half_trace - determinant;
     const double radius = discriminant < 0. ? std::sqrt(determinant)

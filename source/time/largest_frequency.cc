@@ -10,13 +10,13 @@ namespace taut
 {
   namespace
   {
-    /// Rayleigh's quotients that agree so far end the iteration [1].
+    /// Relative change of Rayleigh quotients that ends the iteration [1].
     constexpr double same_quotient = 1e-5;
-    /// The quotient of n iterations from any vector of N DoFs is short by log(N) / n at most in
-    /// the mean, half of it for the frequency: 2 % with the 1e6 DoFs that matter.
+    /// After n iterations from any vector of N DoFs the mean error of the quotient is at most
+    /// log(N) / n, half of it for the frequency: 2 % with 1e6 DoFs.
     constexpr unsigned int most_iterations = 400;
 
-    /// Y = K X, with the springs of elastic constraints.
+    /// Y = K X, including springs of elastic constraints.
     void multiply_with_springs(const Structure &structure, const Constraints &constraints,
                                const BodyVectors &X, BodyVectors &Y)
     {

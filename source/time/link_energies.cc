@@ -13,10 +13,10 @@ namespace taut
 {
   namespace
   {
-    /// Part of the energy of the reference that rounding gives or takes in a long run at rest.
+    /// Part of the energy of the reference that is rounding in a long run at rest.
     constexpr double rounding_of_energy = 1e-8;
 
-    /// Scalar product, in partial sums that do not wait for each other.
+    /// Scalar product in independent partial sums.
     double product(const std::vector<double> &x, const std::vector<double> &y)
     {
       constexpr std::size_t lanes = 16;
@@ -73,7 +73,7 @@ namespace taut
       energies[g].rest = rounding_of_energy * sums[g];
   }
 
-  /// What a constraint gives the bodies in a step beside its spring and damper.
+  /// Energy that a constraint gives in a step, beyond its spring and damper.
   double LinkEnergies::gain(const std::size_t i, const State &state,
                             const StepCoefficients &c) const
   {
@@ -88,8 +88,8 @@ namespace taut
       const State::LinkSpring &spring = state.link_springs[i];
       const double with_damper = state.constraint_work[i] + constraint.spring.energy(spring.u) -
                                  constraint.spring.energy(row.u);
-      // A contact with a damper ends where its force is zero: what its spring has left the damper
-      // takes, and in part of a step that is as much as it is.
+      // A contact with a damper ends at zero force. The damper takes the remaining energy of the
+      // spring, all of it within part of a step.
       if (constraint.spring.damping > 0. && !(row.multiplier > 0. && state.multiplier[i] > 0.))
         return std::max(0., with_damper);
       return with_damper + constraint.spring.damping * spring.du * spring.du / state.last_step;
@@ -115,7 +115,7 @@ namespace taut
 
   void LinkEnergies::record(const State &state, const StepCoefficients &c)
   {
-    const bool whole = c.mean_force && !c.velocity_level; // gains are those of groups
+    const bool whole = c.mean_force && !c.velocity_level; // gains count in groups
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
       if (!constraints[i].cone.may_open())
@@ -160,8 +160,7 @@ namespace taut
     return result;
   }
 
-  /// What the loads of a body would give it in one step if nothing held it: at rest, all that
-  /// moves is rounding of this [J].
+  /// Energy that the loads give a free body in one step: at rest, motions are rounding of it [J].
   double LinkEnergies::energy_of_loads(const std::size_t k, const State &state)
   {
     if (!(masses[k] > 0.))

@@ -9,7 +9,7 @@ namespace taut
 {
   namespace
   {
-    /// Part of the diagonal that makes a system with dependent constraints definite.
+    /// Relative shift that makes a system with dependent constraints definite.
     constexpr double shift_of_dependent_rows = 1e-9;
   } // namespace
 
@@ -56,7 +56,7 @@ namespace taut
       result[j] -= of_x[j];
   }
 
-  /// The motions as a whole of bodies whose inertia is lost in their stiffness.
+  /// Adds rigid body modes of bodies whose inertia is lost in their stiffness.
   void LinkFlexibilities::add_modes(const std::size_t i, std::vector<double> &result) const
   {
     if (!solvers.has_rigid_body_modes())

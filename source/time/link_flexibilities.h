@@ -11,25 +11,25 @@
 
 namespace taut
 {
-  /// F of the bodies in one step of generalised-alpha, without the springs of the constraints: what
-  /// ContactResolution asks of it.
+  /// F of the bodies in one step of generalised-alpha without springs of the constraints, for
+  /// ContactResolution.
   class LinkFlexibilities
   {
   public:
-    /// @p step [s]; the references are kept. Called by all ranks together, as all functions.
+    /// @p step in [s]; references are kept. Called, as all functions, by all ranks together.
     LinkFlexibilities(const Structure &structure, const Constraints &constraints,
                       const SolverParameters &parameters, double step);
 
-    /// S of a constraint, with its damper [m/N, rad/(N m)].
+    /// S of a constraint with its damper [m/N, rad/(N m)].
     double compliance(const std::size_t i) const { return S[i]; }
 
     /// Factor of M in A [1/s^2].
     double mass_factor() const { return c.mass_factor(); }
 
-    /// B_i^T A^-1 B_i of one body of this rank [m/N, rad/(N m)].
+    /// B_i^T A^-1 B_i for one body of this rank [m/N, rad/(N m)].
     double of_body(const Term &term) const;
 
-    /// Column i of F with the constraints of @p closed imposed, each with its S.
+    /// Column i of F with the constraints in @p closed imposed, each with its S.
     void column(std::size_t i, const std::vector<std::size_t> &closed,
                 std::vector<double> &result) const;
 

@@ -56,7 +56,7 @@ namespace taut
                         : laws.solve(problem, system, check, certificate, S, history);
   }
 
-  /// What is a small part of the motions that it is a difference of, its force tells better.
+  /// A gap that is a small difference of motions has a more exact value from its force.
   double LinkSprings::conserving_compression(const std::size_t i, const double gap, const double N,
                                              const double scale) const
   {

@@ -8,7 +8,7 @@ namespace taut
 {
   namespace
   {
-    /// Values in a reference step, and the least number in a step; even.
+    /// Samples in a reference step, and bounds of the samples in a step; even numbers.
     constexpr int samples_of_reference = 16, fewest_samples = 4, most_samples = 1 << 16;
   } // namespace
 
@@ -26,7 +26,7 @@ namespace taut
     is_constant = !structure.communicator().any(has_motion || !varying.empty());
   }
 
-  /// The difference of both integrals, over the largest value so far and the reference step.
+  /// Difference of both integrals, over the largest value so far and the reference step.
   template <typename Sample>
   double LoadSampling::mismatch(const double t, const double length, const double reference_step,
                                 const Sample &sample, double &largest)

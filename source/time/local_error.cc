@@ -23,8 +23,8 @@ namespace taut
     structure.communicator().sum(mass_of_whole);
   }
 
-  /// What the motion of a body misses in a step, and what impulses change of its velocities
-  /// besides, times the step.
+  /// Sets the error of the motion of a body in a step, and the further change of velocities by
+  /// impulses times the step.
   void LocalError::set_error(const OfStep &of, const std::size_t k)
   {
     const std::vector<double> &dU = of.state.dU[k], &V = of.state.V[k], &V0 = of.state.V_old[k],
@@ -41,7 +41,7 @@ namespace taut
     }
   }
 
-  /// Multipliers of conditions inside a body are no motions, and may be rounding.
+  /// Multipliers of internal constraints are no motions, and may be rounding.
   PerKind LocalError::largest_of(const std::size_t k, std::vector<double> &x) const
   {
     if (dynamic_cast<const ConstrainedBody *>(&structure[k]))
@@ -54,7 +54,7 @@ namespace taut
                              const double step_before, const BodyVectors &old_A)
   {
     PerKind error = {0., 0.}, size = {0., 0.};
-    std::array<std::vector<double>, 2> squares; // of motions and impulses of elements
+    std::array<std::vector<double>, 2> squares; // errors of elements: motions and impulses
     for (std::vector<double> &of_wholes : squares)
       of_wholes.assign(wholes.n_groups(), 0.);
     for (std::size_t k = 0; k < structure.size(); ++k)
@@ -99,7 +99,6 @@ namespace taut
     return result;
   }
 
-  /// x . M x [kg m^2].
   double LocalError::square(const std::size_t k, const std::vector<double> &x)
   {
     product.assign(structure[k].n_dofs(), 0.);

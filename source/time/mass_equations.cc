@@ -6,7 +6,7 @@ namespace taut
 {
   namespace
   {
-    /// Systems with M are well-conditioned: nothing has to be taken from the bodies' other solvers.
+    /// Systems with M are well conditioned and need no better preconditioner.
     InterfaceParameters for_mass(InterfaceParameters parameters)
     {
       parameters.preconditioner = "diagonal";
@@ -34,7 +34,7 @@ namespace taut
     softening.setup(*schur);
   }
 
-  /// Bodies with constraints inside, at the displacements of the state.
+  /// Factors M of bodies with internal constraints at the displacements of the state.
   void MassEquations::factor_at(const State &state)
   {
     structure.communicator().agree(

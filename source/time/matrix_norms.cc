@@ -12,7 +12,7 @@ namespace taut
 {
   namespace
   {
-    /// Not-a-number stays.
+    /// Takes the maximum; keeps not-a-number.
     void raise(double &largest, const double a)
     {
       largest = a > largest || std::isnan(a) ? a : largest;
@@ -27,7 +27,7 @@ namespace taut
   {
   }
 
-  /// Whole lanes.
+  /// Adds rows of whole lanes.
   template <std::size_t n_vectors>
   template <std::size_t lanes>
   void Largest<n_vectors>::add_rows(const std::array<const double *, n_vectors> &x,

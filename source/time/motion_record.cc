@@ -19,21 +19,21 @@ namespace taut
     /// Part of the displacements of a group below which its motion is rounding.
     constexpr double rounding_of_places = 1e-9;
 
-    /// Impulses below this part of the largest momentum are nothing.
+    /// Part of the largest momentum below which impulses are ignored.
     constexpr double least_impulse = 1e-3;
 
-    /// Part of the time by which an impact may be early or late that two runs may be apart: what is
-    /// left is for what the better one is off by.
+    /// Part of the tolerated shift of an impact that two runs may differ by; the rest is for the
+    /// error of the better run.
     constexpr double part_of_lateness = .5;
 
-    /// Ends of steps with impulses; of more steps every second one, or fourth, and so on. Even, so
-    /// that the last one is kept.
+    /// Number of stored ends of steps with impulses; longer runs store every second end, fourth
+    /// end, and so on. Even, so that the last end is stored.
     constexpr std::size_t most_ends = 16000;
 
     /// Part of a step by which its end may miss a sample.
     constexpr double rounding_of_times = 1e-6;
 
-    /// The larger one; not-a-number if one is.
+    /// The larger number; not-a-number if one is.
     double worse(const double a, const double b)
     {
       return a > b || a != a ? a : b;
@@ -70,7 +70,7 @@ namespace taut
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       const Substructure &body = structure[k];
-      std::vector<unsigned int> inner; // multipliers of conditions inside a body
+      std::vector<unsigned int> inner; // multipliers of internal constraints
       if (dynamic_cast<const ConstrainedBody *>(&body))
         inner = body.dofs_without_mass();
       for (unsigned int i = 0; i < body.n_dofs(); ++i)
@@ -126,7 +126,7 @@ namespace taut
     stride *= 2;
   }
 
-  /// Places at a part of the last step.
+  /// Adds places at a part of the last step.
   void MotionRecord::add_places(const State &state, const double part)
   {
     const double left = 1. - part, h = state.last_step;
@@ -142,7 +142,7 @@ namespace taut
     }
   }
 
-  /// Kinetic energy; strain energy less the work of the loads of the start, and springs of links.
+  /// Kinetic energy; strain energy minus work of the initial loads, plus link springs.
   MotionRecord::Energies MotionRecord::energies_of(const State &state)
   {
     Energies result(groups.n_groups(), {0., 0.});
@@ -185,13 +185,13 @@ namespace taut
     }
   }
 
-  /// Largest values of the groups, on all ranks.
+  /// Largest values of the groups over all ranks.
   struct MotionRecord::Sizes
   {
     std::vector<double> place, energy;
-    std::vector<double> impulse;    ///< below which there is none to compare [N s]
-    std::vector<double> late;       ///< by which an impact may be early or late [s]
-    std::vector<Energies> energies; ///< of the samples, of all ranks
+    std::vector<double> impulse;    ///< below which impulses are not compared [N s]
+    std::vector<double> late;       ///< tolerated shift of an impact [s]
+    std::vector<Energies> energies; ///< of the samples, over all ranks
   };
 
   MotionRecord::Sizes MotionRecord::sizes() const
@@ -259,7 +259,7 @@ namespace taut
 
   namespace
   {
-    /// How far @p x is from the range of @p value from @p first to @p last.
+    /// Distance of @p x from the range of @p value from @p first to @p last.
     template <typename Value>
     double distance(const double x, const std::size_t first, const std::size_t last,
                     const Value &value)
@@ -274,7 +274,7 @@ namespace taut
     }
   } // namespace
 
-  /// The impulses of this motion at given times, linear between its own.
+  /// Impulses of this motion at given times, by linear interpolation.
   std::vector<std::vector<double>> MotionRecord::impulses_at(const std::vector<double> &at) const
   {
     std::vector<std::vector<double>> result;
@@ -356,7 +356,7 @@ namespace taut
     return result;
   }
 
-  /// Places by the number of their body, as bodies may be on other ranks when a run goes on.
+  /// Places by number of the body, as a continued run may have bodies on other ranks.
   MotionRecord::PlacesOfBodies MotionRecord::places_of_bodies() const
   {
     PlacesOfBodies result;
@@ -397,7 +397,7 @@ namespace taut
     archive >> n_stored >> of_all >> energies >> speed >> impulse >> multiplier >> times >>
         impulses >> stride >> n_steps;
     places.assign(n_stored, std::vector<double>(dofs.size()));
-    std::map<std::size_t, std::size_t> next; // of each body
+    std::map<std::size_t, std::size_t> next; // sample of each body
     for (std::vector<double> &sample : places)
       for (std::size_t j = 0; j < dofs.size(); ++j)
       {

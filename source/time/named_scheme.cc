@@ -15,7 +15,7 @@ namespace taut
 {
   namespace
   {
-    /// Paths of all entries, "Moreau-Jean/Theta".
+    /// Paths of all entries, as "Moreau-Jean/Theta".
     std::vector<std::string> entries_of(const dealii::ParameterHandler &prm)
     {
       std::stringstream listing;
@@ -43,7 +43,7 @@ namespace taut
       return result;
     }
 
-    /// Sets an entry that there is; the path has one section.
+    /// Sets a known entry; its path has one section.
     void set_entry(const std::string &path, const std::string &value, dealii::ParameterHandler &prm)
     {
       const std::size_t slash = path.find('/');

@@ -12,17 +12,16 @@ namespace taut
 {
   namespace
   {
-    /// What a guess of the increments may miss, see NonlinearBodies::set_guess(). Where rounding
-    /// keeps it above, the balance of the step says what it is worth.
+    /// Limits of the error of increments, see NonlinearBodies::set_guess(). If rounding keeps it
+    /// above the first limit, the balance of the step shows the error.
     constexpr NewtonConvergence::Limits limits = {1e-9, 1e-5, 2};
 
-    /// A tangent is kept while the rate at which changes fall promises no more iterations than
-    /// this, and for the next step if this one took no more: a tangent and its factors cost as much
-    /// as two or three, and spare some, but not all of those.
+    /// Iterations up to which a tangent is kept, by the rate of convergence, also for the next
+    /// step. A tangent with its factors costs two or three iterations, but saves fewer.
     constexpr int most_with_a_kept_tangent = 5;
     constexpr int most_iterations = 30;
 
-    /// Whether a change that follows one @p before needs more, at the same rate.
+    /// Whether a change after @p before needs more iterations at the same rate.
     bool is_slow(const double change, const double before)
     {
       return !(change * std::pow(change / before, most_with_a_kept_tangent) <= limits.converged);
@@ -37,7 +36,7 @@ namespace taut
     check_masses(constraints);
   }
 
-  /// Inertia has to resist the force of a constraint that turns whatever its direction is.
+  /// Requires inertia that resists the force of a turning constraint in all directions.
   void NewtonSearch::check_masses(const Constraints &constraints) const
   {
     if (turning.empty())
@@ -68,7 +67,6 @@ namespace taut
     nonlinear.begin(state, c, length);
   }
 
-  /// Tangents and F anew.
   void NewtonSearch::linearise(StepEquations &equations) const
   {
     if (bodies_are_linear)
@@ -77,7 +75,7 @@ namespace taut
       equations.linearise();
   }
 
-  /// The largest change of the increments of all ranks.
+  /// Largest change of the increments over all ranks.
   double NewtonSearch::set_guess(const Step &step)
   {
     double change = 0.;
@@ -117,7 +115,7 @@ namespace taut
                             " s. Take a smaller step"));
   }
 
-  /// From dU = 0 on; a new tangent is that of the last guess.
+  /// Iterates from dU = 0; new tangents are those at the last guess.
   bool NewtonSearch::iterate(const Step &step)
   {
     const std::vector<double> multiplier = step.state.multiplier;

@@ -12,13 +12,13 @@ namespace taut
 {
   namespace
   {
-    /// Of a relative force beside a relative displacement.
+    /// Weight of a relative force beside a relative displacement.
     constexpr double weight_of_force = 100.;
   } // namespace
 
   PerKind significant_part(const Substructure &body, const PerKind &largest_force)
   {
-    // The solve rounds, too.
+    // The solution rounds, too.
     constexpr double of_all = 4.;
     PerKind result = largest_force;
     for (int kind = 0; kind < 2; ++kind)

@@ -10,7 +10,7 @@ namespace taut
 {
   namespace
   {
-    /// Fades the projection of elastic constraints out where S exceeds this part of F_ii.
+    /// Part of F_ii above which S fades the projection of elastic constraints out.
     constexpr double fading = .3;
   } // namespace
 
@@ -78,7 +78,7 @@ namespace taut
     return std::isfinite(relative[i]);
   }
 
-  /// f has no softening on the diagonals of the rows.
+  /// f must have no softening on the diagonals of @p rows.
   void ProjectionCompliance::find_mass_flexibilities(const std::vector<std::size_t> &rows,
                                                      SchurComplement &f)
   {
@@ -90,7 +90,7 @@ namespace taut
 
   void ProjectionCompliance::set(SchurComplement &f)
   {
-    // Infinite: a constraint without flexibility of its own takes no part.
+    // Infinite for a constraint without flexibility, which takes no part.
     for (std::size_t i = 0; i < constraints.size(); ++i)
       softening[i] = of_mass[i] > 0. && takes_part(i) ? of_mass[i] * relative[i] : 0.;
     f.set_compliance(softening);

@@ -13,36 +13,35 @@ namespace taut
 {
   namespace
   {
-    /// Samples of a run.
+    /// Largest number of samples in a run.
     constexpr long most_samples = 1000;
 
-    /// Steps below which the longer ones say nothing.
+    /// Number of steps below which longer steps say nothing.
     constexpr long least_steps = 64;
 
-    /// Other runs have this many times the step, or as many steps in one: the third power of the
-    /// golden ratio, so that impacts do not come at the same part of a step in both.
+    /// Ratio of the steps of another run, longer or shorter: the third power of the golden ratio,
+    /// so that impacts have different places within a step in both.
     constexpr double ratio_of_steps = 4.2360679774997896;
 
-    /// Tolerance of adaptive steps for steps that are so many times shorter: local errors fall with
-    /// the third power of a step, errors of a run with the second.
+    /// Power of the step ratio in the tolerance of adaptive steps: local errors have order three,
+    /// errors of a run order two.
     constexpr double power_of_tolerance = 1.5;
 
-    /// Lengths of adaptive steps are powers of two: they may stay up to twice as long as a
-    /// tolerance asks for.
+    /// Lengths of adaptive steps are powers of two, up to twice as long as the tolerance asks for.
     constexpr double rounding_of_lengths = .5;
 
-    /// Differences to the longer steps, over the bounds, up to which an error is within them; to
-    /// the shorter ones, below which it is and above which it is not, also where these are no
-    /// better.
+    /// Bounds of differences over the bounds of MotionDifference. Compared with longer steps, an
+    /// error is within its bound below the first. Compared with shorter steps, it is within below
+    /// the second and beyond above the third, even if these are no better.
     constexpr double agrees = .6, surely_good = .25, surely_bad = 1.25;
 
-    /// Part of the bounds that the needed step aims at, and that the difference to the shortest
-    /// steps, with what it has more than that to the next ones, may have.
+    /// Part of the bounds for the recommended step, and bound of the difference to the shortest
+    /// steps plus their own estimated error.
     constexpr double aim = .8, good = .95;
 
-    /// Products of DoFs and steps of another run, of which a second has about a hundred millions. A
-    /// step costs as much as some DoFs; it is solved several times for bodies that are not linear,
-    /// and about twice for links that turn.
+    /// Products of DoFs and steps in another run; a second has about a hundred millions. A step
+    /// costs as much as some DoFs. Nonlinear bodies need several solutions, turning links about
+    /// two.
     constexpr double most_work = 4e7, work_of_step = 100., work_of_newton = 8.,
                      work_of_turning = 2.;
 
@@ -103,14 +102,14 @@ namespace taut
            most_work * (has_longer_steps(run) ? ratio_of_steps : 1. / ratio_of_steps);
   }
 
-  /// Whether a run may be made with steps that are so many times as long.
+  /// Whether a run with steps that are so many times as long is affordable.
   bool StepAccuracy::affords(const double about) const
   {
     return run.at_any_cost || work <= most_work * about;
   }
 
-  /// The difference to a run to the same end with steps that are about so many times as long;
-  /// nothing if there is none.
+  /// Difference from a run to the same end with steps that are about so many times as long;
+  /// nothing: no such run.
   std::optional<MotionDifference> StepAccuracy::compare(const double about,
                                                         const std::function<bool()> &stop)
   {
@@ -145,7 +144,7 @@ namespace taut
     }
     catch (const UserError &e)
     {
-      // One without an entry may be that of this rank alone, and ends the run.
+      // An error without an entry may be on this rank alone, and ends the run.
       if (run.structure.communicator().size() > 1 && !dynamic_cast<const EntryError *>(&e))
         throw;
       reason = to_text("a run with a step of ", step, " s ended: ", e.what());
@@ -187,13 +186,13 @@ namespace taut
     const auto finest = affords(shortest) ? compare(shortest, stop) : std::nullopt;
     if (finest)
       found = finest;
-    // What the shorter steps are off by, too.
+    // The shorter steps have an error, too.
     const double now = found->over_bounds(),
                  more = finest ? std::max(0., now - over) : now / (ratio_of_steps - 1.);
     too_long = !(now + more <= good);
   }
 
-  /// The error from the difference to longer steps, whose error is larger by the ratio at least.
+  /// Estimates the error from longer steps, whose error is at least larger by the ratio.
   void StepAccuracy::extrapolate(MotionDifference coarse)
   {
     for (double *const e : {&coarse.place, &coarse.impulse, &coarse.energy})
@@ -202,7 +201,7 @@ namespace taut
     too_long = !(coarse.over_bounds() <= good);
   }
 
-  /// Part of the step with which an error falls to its bound.
+  /// Part of the step with which the error falls to its bound.
   double StepAccuracy::shortened(const double over_bounds) const
   {
     return std::min(.5, std::pow(aim / over_bounds, 1. / order));

@@ -13,15 +13,15 @@ namespace taut
 {
   namespace
   {
-    /// How often a step is halved that Newton's method does not converge in, and at most for a
+    /// Largest number of halvings of a step without convergence of Newton's method, and for a
     /// contact with a damper.
     constexpr unsigned int most_halvings = 8, most_for_contacts = 20;
 
-    /// Steps with a tenth of the tolerance after which the length doubles.
+    /// Number of steps with this part of the tolerance after which the length doubles.
     constexpr unsigned int most_calm = 2;
     constexpr double calm = .1;
 
-    /// Local errors of smooth motions fall with the third power of the step.
+    /// Order of the local error of smooth motions in the step.
     constexpr double order_of_error = 3.;
 
     unsigned int halvings(const StepParameters &parameters, const double step, const bool may_halve,
@@ -81,7 +81,7 @@ namespace taut
   {
   }
 
-  /// The step of the present length, or a shorter one if it has no answer.
+  /// Makes a step of the present length, or a shorter one if it has no solution.
   void StepControl::solve(TimeStepper &stepper)
   {
     for (;;)
@@ -109,8 +109,8 @@ namespace taut
     n_calm = 0;
   }
 
-  /// Whether a contact is under way. One that rests, with the same force before and after the step,
-  /// has nothing to resolve.
+  /// Whether a contact is under way. With the same force before and after the step it rests and
+  /// needs no resolution.
   bool StepControl::is_moving_contact(const std::size_t i, const State &state) const
   {
     constexpr double same = 1e-2;
@@ -120,7 +120,7 @@ namespace taut
     return !(std::fabs(last - first) <= same * std::max(first, last));
   }
 
-  /// A contact under way asks for shorter steps than the last one.
+  /// A contact under way may need shorter steps than the last one.
   bool StepControl::is_too_long_for_contacts(const State &state) const
   {
     constexpr double rounding = 1e-9;
@@ -146,7 +146,7 @@ namespace taut
       solve(stepper);
     }
     position += length();
-    bool is_closed = false; // and not at rest
+    bool is_closed = false; // by a contact under way
     for (std::size_t i = 0; i < longest_steps.size(); ++i)
       is_closed = is_closed || (longest_steps[i] < step && stepper.state().multiplier[i] > 0. &&
                                 is_moving_contact(i, stepper.state()));

@@ -12,11 +12,11 @@ namespace taut
 {
   namespace
   {
-    /// Part of the largest multiplier by which refinement may make one negative, and of the terms
-    /// of a gap by which it may close an open one.
+    /// Part of the largest multiplier, and of the terms of a gap, by which refinement may make a
+    /// multiplier negative or close an open gap.
     constexpr double admissible = 1e-12;
 
-    /// How often a tangent that is not definite is replaced by one that is closer to it.
+    /// Number of attempts to replace an indefinite tangent.
     constexpr int most_attempts = 9;
   } // namespace
 
@@ -46,7 +46,7 @@ namespace taut
             {
               factor(attempt);
             }
-            catch (const EntryError &) // singular, or next to it
+            catch (const EntryError &) // singular or nearly so
             {
               if (!has_tangents || attempt == most_attempts)
                 throw;
@@ -59,8 +59,7 @@ namespace taut
     schur->setup(S);
   }
 
-  /// All bodies, so that a structure without a definite tangent has the same tangents on any number
-  /// of ranks.
+  /// Factors all bodies, so that tangents are the same on any number of ranks if one is indefinite.
   void StepEquations::factor(const int attempt)
   {
     for (const std::size_t k : nonlinear)
@@ -103,14 +102,14 @@ namespace taut
           solvers.factor_again(k);
           break;
         }
-        catch (const EntryError &) // singular, or next to it
+        catch (const EntryError &) // singular or nearly so
         {
           if (attempt == most_attempts)
             throw;
         }
   }
 
-  /// Rank after rank, and body after body.
+  /// Numbers modes by rank, then by body.
   void StepEquations::number_modes()
   {
     std::size_t n_own = 0;
@@ -215,8 +214,8 @@ namespace taut
       return true;
     if (correct_on_closed_set(remainder, applied, correction))
       return true;
-    // The unknowns are the multipliers as they become and not their changes, so that conditions and
-    // search are those of a step.
+    // The unknowns are the new multipliers, not their changes, so that conditions and search are
+    // those of a step.
     MixedComplementarityProblem problem = remainder;
     std::vector<double> before(constraints.size());
     std::vector<char> closed = applied.closed;

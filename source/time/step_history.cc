@@ -10,7 +10,7 @@ namespace taut
 {
   namespace
   {
-    /// What is known of velocity and acceleration at the end of a step before its increment is.
+    /// Known parts v* and a* of velocity and acceleration at the end of a step.
     class Predictor
     {
     public:
@@ -21,7 +21,7 @@ namespace taut
       {
       }
 
-      /// Calls visit(i, v*, a*) for DoFs begin to end - 1 and reads only what the scheme needs.
+      /// Calls visit(i, v*, a*) for DoFs begin to end - 1; reads only the vectors in use.
       template <typename Visitor>
       void visit(const std::size_t begin, const std::size_t end, const Visitor &visitor) const
       {
@@ -166,8 +166,7 @@ namespace taut
     impose_lift(state.dU);
   }
 
-  /// The increments of the step before are where those of this step were, and the velocity that a
-  /// scheme looks back at is where the new one will be.
+  /// shared has the old increments; state.V has V_{-1} until the new velocity replaces it.
   void StepHistory::accept(const StepCoefficients &c, const std::size_t k, const std::size_t begin,
                            const std::size_t end, State &state) const
   {

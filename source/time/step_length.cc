@@ -6,7 +6,7 @@
 
 namespace taut
 {
-  /// A shorter step may have what this one misses.
+  /// Reports a nonlinear step without solution, so that a shorter step can replace it.
   void TimeStepper::attempt(const std::function<void()> &work)
   {
     try

@@ -3,11 +3,9 @@
 
 namespace taut
 {
-  /**
-   * Iterative refinement of an accepted step. A step whose increment is large against the
-   * displacement that it ends with loses digits by cancellation; what the balance at its end lacks
-   * is solved for. False, and nothing changes, if the constraints have no answer to it.
-   */
+  /// Iterative refinement of an accepted step: solves for the residual of the balance at its end. A
+  /// large increment against the final displacement loses digits by cancellation. False, without
+  /// changes, if the constraints have no solution.
   bool TimeStepper::refine()
   {
     history.set_lacking(coefficients, *system, current);

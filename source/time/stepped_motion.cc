@@ -13,7 +13,7 @@ namespace taut
     contact_measures.set_scheme(options.scheme == "automatic", options.steps.adaptive());
   }
 
-  /// Made where it is needed only: its factors may be lost in rounding where the run's are not.
+  /// Made on demand only: its factors may be lost in rounding where those of the run are not.
   const ContactResolution &SteppedMotion::resolution()
   {
     if (!resolved)

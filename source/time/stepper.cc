@@ -11,12 +11,12 @@ namespace taut
 {
   namespace
   {
-    /// The system, if there is something to step and the options are possible.
+    /// Checks that the system has a body and the options are possible.
     const System &checked(const System &system, const StepperOptions &options)
     {
       if (system.n_bodies() == 0)
         throw UserError("the system of a Stepper has no body; add one");
-      // A step whose square is beyond the range of numbers has no coefficients.
+      // A step with a square out of range has no coefficients.
       const double inverse_square = 1. / (options.step * options.step);
       if (!(options.step > 0.) || !std::isfinite(inverse_square) || !(inverse_square > 0.))
         throw UserError("StepperOptions::step is " + to_text(options.step) +

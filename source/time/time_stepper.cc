@@ -11,7 +11,7 @@ namespace taut
       return constraints;
     }
 
-    /// Balance from which a step is refined, and how often: ordinary steps are below 1e-11.
+    /// Balance above which a step is refined, and most repetitions: normal steps are below 1e-11.
     constexpr double refined_balance = 1e-10;
     constexpr int most_refinements = 3;
   } // namespace
@@ -43,8 +43,7 @@ namespace taut
     }
   }
 
-  /// r = P + B N - C V - K U at the start, where no rigid constraint has a force that a scheme
-  /// would need.
+  /// Sets r = P + B N - C V - K U at the start, where no scheme needs forces of rigid constraints.
   void TimeStepper::start_balance()
   {
     for (std::size_t k = 0; k < structure.size(); ++k)
@@ -63,7 +62,7 @@ namespace taut
     hold_quasi_static_dofs();
   }
 
-  /// With a velocity projection they are in equilibrium at the ends of steps.
+  /// Puts quasi-static DoFs in equilibrium at the ends of steps, with a velocity projection.
   void TimeStepper::hold_quasi_static_dofs()
   {
     if (projection)
@@ -72,7 +71,7 @@ namespace taut
           current.balance[k][dof] = 0.;
   }
 
-  /// After an error no step is prepared for.
+  /// After an error, no step is prepared.
   void TimeStepper::prepare(const StepCoefficients c)
   {
     coefficients = {};
@@ -102,7 +101,7 @@ namespace taut
     attempt([this] { solve(); });
   }
 
-  /// The time at the end of the step, and the places that the constraints have there.
+  /// Sets the time at the end of the step, and the places of the constraints there.
   void TimeStepper::begin_step(const double end)
   {
     conditions.begin_step(current.last_step == 0.);
@@ -120,7 +119,7 @@ namespace taut
       system->interface().update_moving();
   }
 
-  /// The new state and its certificate.
+  /// Finds the new state and its certificate.
   void TimeStepper::solve()
   {
     if (is_linear())
@@ -140,7 +139,6 @@ namespace taut
     measure_energy();
   }
 
-  /// P^ of the step.
   void TimeStepper::set_loads()
   {
     structure.communicator().agree([&] { history.set_loads(coefficients, *system, current); });
@@ -148,7 +146,7 @@ namespace taut
       constraints.add_forces(old, history.loads());
   }
 
-  /// N of the step, and with it dU from P^.
+  /// Finds N of the step, and dU from P^.
   void TimeStepper::find_increments()
   {
     conditions.set_problem(current, *system, history.loads(), history.lift());
@@ -163,7 +161,7 @@ namespace taut
                             history.increments());
   }
 
-  /// New displacements, velocities and accelerations, the balance with them, and the gaps.
+  /// Sets new displacements, velocities, accelerations, balance and gaps.
   void TimeStepper::accept_increments()
   {
     history.exchange(current);
@@ -172,7 +170,7 @@ namespace taut
     conditions.update(current);
   }
 
-  /// Constraints that turn have the directions of the new state from here on.
+  /// Gives turning constraints the directions of the new state.
   void TimeStepper::face_new_directions()
   {
     if (newton.constraints().empty())
@@ -191,8 +189,7 @@ namespace taut
       energy_gains.measure_at_ends(current, last);
   }
 
-  /// Velocities and forces that the step ends with, and the balance that the next one looks back
-  /// at.
+  /// Sets the final velocities and forces of the step, and the balance for the next step.
   void TimeStepper::project_velocities()
   {
     VelocityProjection::Residual of_rates;
@@ -242,7 +239,7 @@ namespace taut
     check.check_balance(last, balance.residual());
   }
 
-  /// On all ranks.
+  /// True if this holds on all ranks.
   bool TimeStepper::is_cancellation() const
   {
     return !structure.communicator().any(!balance.is_cancellation());

@@ -10,14 +10,14 @@ namespace taut
 {
   namespace
   {
-    /// Newton's method ends at 1e-9 of its changes: directions then are known to 1e-11, and gaps to
-    /// 1e-12 of the distance of the ends.
+    /// Newton's method ends at a change of 1e-9: directions are exact to 1e-11 then, gaps to 1e-12
+    /// of the distance of the ends.
     constexpr double weight_of_direction = 1e2, weight_of_gap = 1e3;
 
-    /// Cosine of the largest angle by which a link that has a force turns in a step, 120 degrees.
+    /// Cosine of the largest rotation of a link with a force in a step, 120 degrees.
     constexpr double largest_turn = -.5;
 
-    /// Ends that turn by more and pass each other by less than this part of the length meet.
+    /// Distance, as a part of the length, below which ends that rotate further meet.
     constexpr double nearest_pass = 1e-3;
 
     Coordinates scaled(const double s, const Coordinates &a)
@@ -81,7 +81,7 @@ namespace taut
       end[k] = add_scaled(start[k], 1., motion[k]);
       const Coordinates sum = add_scaled(start[k], 1., end[k]);
       const double size = norm(end[k]), sizes = norm(start[k]) + size;
-      // Without cancellation.
+      // Avoids cancellation.
       increments[k] = sizes > 0. ? turning.sign * dot(sum, motion[k]) / sizes : 0.;
       const double linear = offsets[k] + turning.sign * dot(used[k], motion[k]),
                    gap = before.geometric_gap[i] + increments[k] + history[i];
@@ -102,7 +102,7 @@ namespace taut
     return result;
   }
 
-  /// Of one with a force: its ends neither meet nor pass each other.
+  /// Checks that the ends of a constraint with a force neither meet nor pass each other.
   void TurningConstraints::check_turn(const std::size_t i, const State &before) const
   {
     const std::size_t k = constraints.turning_index(i);

@@ -9,12 +9,11 @@ namespace taut
 {
   namespace
   {
-    /// Rates over their terms that are rounding: steps of thousands of operations, each with one of
-    /// 1e-16.
+    /// Relative rates that are rounding: steps of thousands of operations, each with 1e-16.
     constexpr double rounding_of_rates = 1e-12;
 
-    /// Part of the largest terms of a rate so far, and of the rate that the kinetic energy could
-    /// make, below which smaller ones count as rest.
+    /// Part of the largest terms of a rate so far, and of the largest rate with the kinetic energy,
+    /// below which rates count as rest.
     constexpr double rest = 1e-3;
   } // namespace
 
@@ -57,8 +56,7 @@ namespace taut
       masses.setup(softening);
   }
 
-  /// Sets the constraints that take part and their impulses. False if all their rates are as they
-  /// shall be.
+  /// Sets which constraints take part and their impulses. False if all rates satisfy conditions.
   bool VelocityProjection::has_to_act(const ContactConditions &conditions, const State &state)
   {
     bool acts = false;
@@ -96,7 +94,7 @@ namespace taut
     return std::max(0., sum);
   }
 
-  /// d = D'* - (f + softening) p on the constraints that take part.
+  /// Sets d = D'* - (f + softening) p for the constraints that take part.
   void VelocityProjection::set_problem(const State &state)
   {
     const ComplementarityOperator &f = masses.interface().matrix();
@@ -143,7 +141,7 @@ namespace taut
     return set_velocities(rates, state);
   }
 
-  /// P - p.
+  /// Solves for P - p.
   void VelocityProjection::solve(const ContactConditions &conditions, const State &state)
   {
     const auto impulses = [&]()
@@ -173,11 +171,9 @@ namespace taut
       q[i] += s * difference[i];
   }
 
-  /**
-   * The largest s in [0, 1] for which impulses q + s r, after p, give no energy: the contacts of a
-   * step do the work p . (D - D_0) / step + q . (D'* + D') / 2 with D' = D'* + f q, a convex
-   * parabola in s that is not positive at s = 0.
-   */
+  /// The largest s in [0, 1] for which impulses q + s r after p give no energy. Contacts of a step
+  /// do the work p . (D - D_0) / step + q . (D'* + D') / 2 with D' = D'* + f q. This is a convex
+  /// parabola in s, not positive at s = 0.
   double VelocityProjection::largest_part(const ContactConditions &conditions, const State &state,
                                           const std::vector<double> &plain,
                                           const std::vector<double> &rebounding)
@@ -203,7 +199,7 @@ namespace taut
     return std::min(1., std::max(0., (-b + std::sqrt(discriminant)) / (2. * a)));
   }
 
-  /// The mean velocity over the step instead of the one that the scheme found: this alternates.
+  /// Sets the mean velocity over the step: that of the scheme alternates.
   void VelocityProjection::move_quasi_static(State &state)
   {
     for (std::size_t k = 0; k < structure.size(); ++k)

@@ -9,34 +9,34 @@
 
 namespace taut
 {
-  /// The constraints by the substructures of this rank that they act on: B_k^T of each.
+  /// The constraints on each substructure of this rank: the rows of B_k^T.
   class BodyConstraints
   {
   public:
-    /// A constraint of B_k^T; all terms of the constraint on this substructure in one form.
+    /// Row of B_k^T with all terms of a constraint on one substructure.
     struct Entry
     {
       std::size_t constraint;
-      bool varies; ///< moves or turns
+      bool varies; ///< slides or turns
       LinearForm form;
     };
 
     /// The arguments are kept by reference.
     BodyConstraints(const Structure &structure, const Constraints &constraints);
 
-    /// After Constraints::update() or turn(): the constraints that move or turn anew.
+    /// After Constraints::update() or turn(): updates the sliding and turning constraints.
     void update();
 
     std::size_t size() const { return entries.size(); }
 
-    /// Of body k of this rank, as Structure counts them.
+    /// Constraints on body k of this rank.
     const std::vector<Entry> &operator[](std::size_t k) const { return entries[k]; }
 
   private:
     void add(std::size_t constraint);
 
     const Constraints &constraints;
-    std::vector<std::vector<Entry>> entries; ///< those that vary are the last ones of each
+    std::vector<std::vector<Entry>> entries; ///< sliding and turning constraints last
   };
 } // namespace taut
 

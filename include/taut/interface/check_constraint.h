@@ -9,24 +9,19 @@
 
 namespace taut
 {
-  /**
-   * Throws EntryError, which names the constraint, for a stiffness that is not positive, a negative
-   * damping, a gap or a length that is not finite, or forms that do not fit the bodies of @p
-   * structure or are on others. Each rank checks its own terms; the terms of a moving place are the
-   * last ones that it gave.
-   */
+  /// Checks stiffness > 0, damping >= 0, finite gap and length, and forms on bodies of
+  /// @p structure. Throws EntryError with the name of the constraint. Each rank checks its own
+  /// terms, for a moving place the last ones.
   void check_constraint(const ConstraintData &constraint, const Structure &structure);
 
-  /// The part of it about bodies and DoFs that there are, of forms that the place of a constraint
-  /// gives; bodies may have been linearised since then.
+  /// Checks bodies and DoFs in @p terms of a moving place, as bodies may have been linearised.
   void check_terms(const ConstraintData &constraint, const std::vector<Term> &terms,
                    const Structure &structure);
 
-  /// True if one of the forms is not zero, on this rank.
+  /// True if the constraint slides, or if a form on this rank is not zero.
   bool acts_here(const ConstraintData &constraint);
 
-  /// What makes @p terms no displacement of bodies of @p structure, as a part of a message; empty:
-  /// nothing.
+  /// Why @p terms are no displacement of bodies of @p structure, for a message; empty: they are.
   std::string fault_of(const std::vector<Term> &terms, const Structure &structure);
 } // namespace taut
 

@@ -9,23 +9,21 @@
 
 namespace taut
 {
-  /// The groups of bodies that constraints connect with each other, whether these are closed or
-  /// not. Energies are compared within a group: what moves elsewhere says nothing of a contact.
+  /// Groups of bodies connected by constraints, open or closed. Energies are compared within a
+  /// group, as other motions say nothing of a contact.
   class ConnectedBodies
   {
   public:
-    /// With the constraints where they are now. @p connects: those by their numbers that do; empty:
-    /// all of them. Called by all ranks together.
+    /// Uses the constraints in their present places. @p connects selects constraints by number;
+    /// empty: all. Called by all ranks together.
     ConnectedBodies(const Structure &structure, const Constraints &constraints,
                     const std::function<bool(std::size_t)> &connects = {});
 
-    /// Number of groups of all ranks, the same on all of them.
+    /// Number of groups over all ranks; the same on each rank.
     std::size_t n_groups() const { return n; }
 
-    /// Group of body @p k of this rank.
     std::size_t of_body(const std::size_t k) const { return body[k]; }
 
-    /// Group of constraint @p i.
     std::size_t of_constraint(const std::size_t i) const { return constraint[i]; }
 
   private:

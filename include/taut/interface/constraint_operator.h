@@ -12,8 +12,7 @@
 
 namespace taut
 {
-  /// A symmetric operator on vectors over constraints, as Belos applies it. The vectors are the
-  /// same on all ranks.
+  /// A symmetric operator on vectors over constraints for Belos. Vectors are equal on all ranks.
   class ConstraintOperator : public Epetra_Operator
   {
   public:
@@ -22,7 +21,7 @@ namespace taut
     {
     }
 
-    /// Y = A X, for each column of the multivectors over the constraints.
+    /// Y = A X for each column of the multivectors over the constraints.
     int Apply(const Epetra_MultiVector &X, Epetra_MultiVector &Y) const override
     {
       for (int v = 0; v < X.NumVectors(); ++v)
@@ -35,13 +34,13 @@ namespace taut
       return 0;
     }
 
-    /// The same: Belos asks a preconditioner, which approximates an inverse, by this name.
+    /// Calls Apply(): Belos uses this name for a preconditioner.
     int ApplyInverse(const Epetra_MultiVector &X, Epetra_MultiVector &Y) const override
     {
       return Apply(X, Y);
     }
 
-    /// Columns that it was applied to so far.
+    /// Number of products so far.
     int n_products() const { return products; }
 
     int SetUseTranspose(bool) override { return 0; } // symmetric

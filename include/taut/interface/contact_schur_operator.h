@@ -14,11 +14,11 @@ namespace taut
 
   /**
    * The interface operator of FETI, F = sum_k B_k^T A_k^-1 B_k + S, applied through the factors of
-   * A_k without being formed. Restricted to an active set it acts as the identity on the other
-   * constraints, so that it stays definite and an iterative solver sees vectors of one length.
+   * A_k without being assembled. On an active set F is the identity for the other constraints: it
+   * stays definite, and an iterative solver sees vectors of one length.
    *
-   * Belos applies P^T D F D P, with a scale D of the constraints and, in statics, the projector P
-   * of the natural coarse problem.
+   * Belos applies P^T D F D P with a scale D of the constraints and, in statics, the projector P of
+   * the natural coarse problem.
    */
   class ContactSchurOperator : public ConstraintOperator
   {
@@ -27,29 +27,29 @@ namespace taut
     ContactSchurOperator(const FactoredStructure &solvers, const BodyConstraints &body_constraints,
                          std::size_t n_constraints);
 
-    /// Diagonal S [m/N, rad/(N m)].
+    /// Sets the diagonal S [m/N, rad/(N m)].
     void set_compliance(const std::vector<double> &S) { compliance = S; }
 
-    /// Rows on which F acts: those that are not 0; the identity elsewhere.
+    /// Restricts F to rows i with set[i] other than 0; F is the identity on other rows.
     void restrict_to(const std::vector<char> &set) { active = set; }
     void unrestrict();
 
-    /// Adds shift * diagonal, one entry a constraint.
+    /// Adds factor * diagonal to F, one entry a constraint.
     void set_shift(double factor, const std::vector<double> &diagonal);
 
-    /// Diagonal D > 0, kept by reference; it has to be set before D F D is applied.
+    /// Sets D > 0, kept by reference; required before products with D F D.
     void set_scale(const std::vector<double> &D) { scale = &D; }
 
-    /// P, kept by reference; null: the identity.
+    /// Sets P, kept by reference; null: the identity.
     void set_projector(const NaturalCoarseProblem *P) { projector = P; }
 
-    /// y = F x; both have one entry a constraint [m, rad; N, N m].
+    /// y = F x with one entry a constraint [m, rad; N, N m].
     void apply(const double *x, double *y) const;
 
-    /// y = D F D x on the rows of F; the identity elsewhere.
+    /// y = D F D x on the rows of F; the identity on other rows.
     void scaled_apply(const std::vector<double> &x, std::vector<double> &y) const;
 
-    /// Products so far but those with zero, and systems of one A_k solved for them on this rank.
+    /// Number of products with nonzero vectors, and of systems with one A_k for these on this rank.
     long n_applications() const { return applications; }
     long n_local_solves() const { return local_solves; }
 

@@ -10,44 +10,44 @@
 
 namespace taut
 {
-  /// Where a constraint acts, if that changes with the time or with the motion. A fixed constraint
-  /// has no Geometry: its linear form and its gap stay as they are.
+  /// The place of a constraint that depends on time or motion. A fixed constraint has no Geometry:
+  /// its linear form and gap are constant.
   class Geometry
   {
   public:
     virtual ~Geometry() = default;
 
-    /// Constraints keep their rows in the order of these kinds.
+    /// Constraints order their rows by these kinds.
     enum class Kind
     {
       fixed,
-      turning, ///< with its ends, see TurningDirection
-      sliding  ///< along a body, see MovingPlace
+      turning, ///< turns with its ends, see TurningDirection
+      sliding  ///< slides along a body, see MovingPlace
     };
     virtual Kind kind() const = 0;
 
-    /// What is wrong with it, for a message; empty: nothing.
+    /// Error in the geometry, for a message; empty: none.
     virtual std::string fault() const { return ""; }
 
-    /// The linear forms that B_i is combined from, where they are the same at all times.
+    /// The linear forms that combine to B_i, if they are constant.
     virtual std::vector<const std::vector<Term> *> forms() const { return {}; }
   };
 
-  /// The geometry of a constraint that slides: its linear form at each time. A place that depends
-  /// on the motion is that of one Stepper.
+  /// The geometry of a sliding constraint: its linear form at each time. A place that depends on
+  /// the motion belongs to one Stepper only.
   class MovingPlace : public Geometry
   {
   public:
     Kind kind() const final { return Kind::sliding; }
 
-    /// Position on what it moves along at time @p t [s], for tables [m].
+    /// Position on its body at time @p t [s], for tables [m].
     virtual double position(double t) const = 0;
 
-    /// B_i at time @p t [s]; throws an EntryError if the constraint has no place then.
+    /// B_i at time @p t [s]. Throws an EntryError if the constraint has no place then.
     virtual std::vector<Term> terms(double t) const = 0;
 
-    /// The derivative of B_i by time: what the motion of the place adds to D', but for that of the
-    /// gap [1/s].
+    /// Time derivative of B_i: the part of D' by motion of the place, without that of the gap
+    /// [1/s].
     virtual std::vector<Term> rates(double t) const = 0;
 
     /// D at U = 0, N = 0 [m].
@@ -56,12 +56,11 @@ namespace taut
     /// B U of a linear form at a time near the start of a step, over all ranks [m].
     using Motion = std::function<double(const std::vector<Term> &form, double t)>;
 
-    /// Before a step from @p start to @p end [s], of a place that depends on the motion of the
-    /// bodies: takes the place that it will have. Called by all ranks together.
+    /// Before a step from @p start to @p end [s]: predicts the place if it depends on the motion of
+    /// the bodies. Called by all ranks together.
     virtual void follow(const Motion &, double /*start*/, double /*end*/) {}
 
-    /// What follow() has found, for checkpoints and for steps that are taken back; empty: nothing
-    /// yet.
+    /// Result of follow(), for checkpoints and repeated steps; empty: none yet.
     virtual std::vector<double> course() const { return {}; }
     virtual void set_course(const std::vector<double> &) {}
   };

@@ -11,7 +11,7 @@
 
 namespace taut
 {
-  /// An end of a constraint that turns: a place of a body; without motion one of the ground.
+  /// An end of a turning constraint: a place of a body, or of the ground if it has no motion.
   struct LinkEnd
   {
     Coordinates position;                         ///< at U = 0, the same on all ranks [m]
@@ -19,23 +19,21 @@ namespace taut
   };
 
   /**
-   * The geometry of a constraint that turns with its ends, and acts from one of them to the other,
-   * wherever these are:
+   * The geometry of a constraint that turns with its ends and acts along the line between them:
    *
    *     D = sign (|Delta| - length),    Delta = start + motion . U.
    *
-   * B_i is then sign times a direction d . motion, with d = Delta / |Delta| where forces act at one
-   * state.
+   * B_i is sign times d . motion along a direction d; d = Delta / |Delta| for forces at one state.
    */
   class TurningDirection : public Geometry
   {
   public:
-    /// From end to end; the length is their distance at U = 0. @p push: as @ref sign.
+    /// From end to end; the length is their distance at U = 0. @p push: see @ref sign.
     TurningDirection(const LinkEnd &first, const LinkEnd &second, double push);
 
     LinkEnd first;
 
-    /// Along x, y, z of the second end, then minus that of the first, on bodies of this rank [m].
+    /// Motion along x, y, z of the second end, then minus that of the first, on this rank [m].
     std::array<std::vector<Term>, 3> motion;
     Coordinates start;  ///< Delta at U = 0, the same on all ranks [m]
     double length = 1.; ///< |Delta| at D = 0, positive [m]
@@ -45,11 +43,10 @@ namespace taut
     std::string fault() const override;
     std::vector<const std::vector<Term> *> forms() const override;
 
-    /// D without a spring, of ends so far from each other [m].
+    /// D without a spring, at the difference of the ends [m].
     double gap(const Coordinates &difference) const { return sign * (norm(difference) - length); }
 
-    /// True of ends that are nearer to each other than a millionth of the length: they have no
-    /// direction.
+    /// True if the ends are closer than a millionth of the length: they have no direction.
     bool vanishes(const Coordinates &difference) const
     {
       constexpr double least_part = 1e-6;
@@ -59,23 +56,23 @@ namespace taut
     /// Delta / |Delta|; where it vanishes, the direction at U = 0.
     Coordinates at(const Coordinates &difference) const;
 
-    /// The constraint made linear about a state: D = terms . U + gap.
+    /// The constraint, linearised at a state: D = terms . U + gap.
     struct Linear
     {
-      Coordinates direction; ///< of the link there
-      double distance;       ///< |Delta| there [m]
+      Coordinates direction; ///< of the link at the state
+      double distance;       ///< |Delta| at the state [m]
       std::vector<Term> terms;
       double gap; ///< [m]
     };
 
-    /// About the state where Delta is start + @p motion [m].
+    /// Linearises at the state Delta = start + @p motion [m].
     Linear linearised(const Coordinates &motion) const;
 
-    /// Motion along a direction, one term for each body of each end.
+    /// Motion along a direction, with one term for each body of each end.
     std::vector<Term> along(const Coordinates &direction) const;
   };
 
-  /// Two unit vectors across the unit vector @p d and each other.
+  /// Two unit vectors normal to the unit vector @p d and to each other.
   std::array<Coordinates, 2> across(const Coordinates &d);
 } // namespace taut
 

@@ -11,8 +11,7 @@
 
 namespace taut
 {
-  /// Says at the end of a run what its contacts did, and of a run whose steps are checked whether
-  /// they are short enough.
+  /// Reports the measures of contacts at the end of a run, and on request the errors of its steps.
   class AccuracyReport : public Observer
   {
   public:
@@ -23,17 +22,17 @@ namespace taut
     {
     }
 
-    /// After the last step: makes the other runs that a check needs, see StepAccuracy::measure().
+    /// After the last step: makes the other runs for the check, see StepAccuracy::measure().
     void check_steps(const std::function<bool()> &stop);
 
     void record(const StepView &step) override;
     void save(OutputArchive &archive) override;
     void resume(InputArchive &archive, const StepView &step) override;
 
-    /// Of contacts, then of steps.
+    /// Warnings about contacts, then about steps.
     std::vector<Warning> warnings() const;
 
-    /// A line each, with its warnings; none if the run failed.
+    /// A line for each measure, with its warnings; nothing if the run failed.
     void report(std::ostream &log, bool failed) const override;
 
   private:

@@ -14,17 +14,17 @@
 namespace taut
 {
   /**
-   * The contacts of surfaces. `contact_<name>.csv`: a line each Output/Interval with the resultant
-   * force on the slave, where it acts (on cables displaced, else undeformed), the area in contact,
-   * the largest pressure and the least gap. `contact_<name>_NNNNN.vtu`, joined by
-   * `contact_<name>.pvd`: the nodes of the slave that may touch, with displacement, pressure, gap
-   * and normal, for ParaView: of cables in their displaced places, of solids undeformed, as in
-   * `body_<name>.pvd`.
+   * Writes the contacts of surfaces. `contact_<name>.csv` has a line each Output/Interval: the
+   * resultant force on the slave and its place (displaced on cables, otherwise undeformed), contact
+   * area, largest pressure and least gap. `contact_<name>_NNNNN.vtu`, joined by
+   * `contact_<name>.pvd`, are for ParaView. They have the nodes of the slave that may touch, with
+   * displacement, pressure, gap and normal. Places are displaced on cables and undeformed on
+   * solids, as in `body_<name>.pvd`.
    */
   class ContactTables : public Observer
   {
   public:
-    /// @p field_interval: least time between two .vtu files; 0: none [s].
+    /// @p field_interval: least time between two .vtu files [s]; 0: no files.
     ContactTables(const Scene &scene, double field_interval);
 
     std::vector<std::string> files() const override;

@@ -13,27 +13,27 @@
 namespace taut
 {
   /**
-   * The balance of energy of a run, energy.csv. Energies are those of the state, works are summed
-   * since the start [J]:
+   * Writes the energy balance of a run, energy.csv. Energies are those of the state; works are
+   * summed since the start [J]:
    *
    *     kinetic + strain + links = start + loads + supports + contacts - damping - link dampers
    *                                - algorithmic.
    *
-   * Works take the mean of the forces before and after a step. The algorithmic dissipation follows
+   * Works use the mean of the forces before and after a step. The algorithmic dissipation follows
    * from the definition of the scheme, dU . M a - (change of kinetic energy) - dU . (mean of the
-   * scheme - mean) of the forces with a the acceleration of its balance, so that the error of the
-   * sum shows what a step does not account for. Contacts do work where a rigid one ends an impact,
-   * where a force opens or closes within a step, and where a contact slides on a slope.
+   * scheme - mean) of the forces, with a the acceleration of its balance. The error of the sum
+   * hence shows energy that a step does not explain. Contacts do work where a rigid contact ends an
+   * impact, where a force opens or closes within a step, and where a contact slides on a slope.
    */
   class Energy : public Observer
   {
   public:
     std::vector<std::string> files() const override { return {"energy.csv"}; }
 
-    /// Each rank gives its own bodies; the root writes, at least run.interval apart [s].
+    /// Each rank provides its bodies; the root writes, at least run.interval apart [s].
     void begin(const RunView &run) override;
 
-    /// The start, and each step after the last one.
+    /// Records the start, then each step.
     void record(const StepView &step) override;
 
     /// Throws UserError when the disk is full.
@@ -42,7 +42,7 @@ namespace taut
     void resume(InputArchive &archive, const StepView &step) override;
 
   private:
-    /// Of a state or, added up, of a run [J].
+    /// Energies and works of a state, or summed over a run [J].
     struct Balance
     {
       double kinetic = 0., strain = 0., links = 0.;
@@ -73,12 +73,12 @@ namespace taut
     double interval = 0., next = 0., start_energy = 0.;
     Balance total;
 
-    std::vector<double> reference_energy; ///< strain of the bodies of this rank [J]
+    std::vector<double> reference_energy; ///< strain energy of each body of this rank [J]
     BodyVectors P, CV, balance, impulses; ///< of the last call
-    BodyVectors P0, CV0, balance0, A0;    ///< of the one before it
+    BodyVectors P0, CV0, balance0, A0;    ///< of the call before
     std::vector<double> N0, gap0;
     std::vector<State::LinkSpring> springs0;
-    std::vector<std::vector<Term>> terms0; ///< of the moving constraints
+    std::vector<std::vector<Term>> terms0; ///< of varying constraints
   };
 } // namespace taut
 

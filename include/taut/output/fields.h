@@ -13,24 +13,22 @@
 namespace taut
 {
   /**
-   * The motion for ParaView. wires_NNNNN.vtu: the wires as lines, cut where their parts meet, with
-   * the displacement of their points from the undeformed line as a vector to warp by, and with
-   * name, number and part of each line. links_NNNNN.vtu: each link as a line between its ends, or
-   * as a point if one end is the ground, with displacement, force, gap and whether it is open at
-   * the ends, and with its name. A sliding contact stands where its contact is. wires.pvd and
-   * links.pvd join the files in time. A body of a plugin that shows itself has files
-   * `body_<name>_NNNNN.vtu` and `body_<name>.pvd`, written by the rank that owns it.
+   * Writes the motion for ParaView. wires_NNNNN.vtu has the wires as lines, cut between parts.
+   * Their data are displacements from the undeformed line as vectors to warp by, name, number and
+   * part. links_NNNNN.vtu has each link as a line between its ends, or as a point if one end is the
+   * ground. Its data are displacement, force, gap, whether the link is open, and its name; a
+   * sliding contact is in its present place. wires.pvd and links.pvd join the files in time. A
+   * plugin's body with a picture has files `body_<name>_NNNNN.vtu` and `body_<name>.pvd`, written
+   * by its owner.
    */
   class Fields : public Observer
   {
   public:
-    /// @p interval: least time between two files [s]; @p subdivisions: pieces an element is drawn
-    /// with.
+    /// @p interval: least time between two files [s]; @p subdivisions: lines in each element.
     Fields(const std::string &folder, const Scene &scene, const SceneBodies &structure,
            double interval, unsigned int subdivisions);
 
-    /// Called by all ranks together; the root writes. Throws UserError when a file cannot be
-    /// written.
+    /// Called by all ranks together; the root writes. Throws UserError if it cannot write.
     void record(const StepView &step) override;
     void save(OutputArchive &archive) override;
     void resume(InputArchive &archive, const StepView &step) override;
@@ -61,17 +59,17 @@ namespace taut
     double interval, next = 0.;
     std::vector<Sample> wires; ///< along each wire, `subdivisions` an element
 
-    /// Ends of links on bodies: of the fixed ones, in the order of the scene, then of the moving.
+    /// Ends of links on bodies: of fixed links in the order of the scene, then of sliding ones.
     std::vector<Sample> ends;
     std::vector<std::size_t> link_of_end; ///< index in the scene
     std::size_t n_fixed_ends = 0;
 
-    std::unique_ptr<VtuFile> wire_file, link_file; ///< none if there is nothing to show
+    std::unique_ptr<VtuFile> wire_file, link_file; ///< null if there is nothing to show
     std::size_t wire_displacement = 0;             ///< arrays of the files
     std::size_t link_displacement = 0, force = 0, gap = 0, open = 0;
     PvdFile wire_collection, link_collection;
 
-    /// A custom body that shows itself.
+    /// A custom body with a picture.
     struct BodyFiles
     {
       std::string stem;

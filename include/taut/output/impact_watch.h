@@ -10,12 +10,12 @@
 namespace taut
 {
   /**
-   * Notes impacts with restitution that happen in one step at contacts that share a body. Newton's
-   * law then holds for all of them at once; impacts one after the other may end otherwise.
+   * Detects simultaneous impacts with restitution, in one step at contacts that share a body.
+   * Newton's law then holds for all of them together; successive impacts may end differently.
    *
-   * Rigid unilateral constraints are struck in a step if their forces are far above those of the
-   * step before, and one of them was closing. Two share a body if both move one, or of
-   * lumped masses the same DoF.
+   * An impact has a force far above that of the step before, and one of the impacts had a closing
+   * gap. Two rigid unilateral constraints share a body if both act on it; for lumped masses, on the
+   * same DoF.
    */
   class ImpactWatch : public Observer
   {
@@ -36,12 +36,12 @@ namespace taut
                                      const std::vector<std::size_t> &constraints) const;
 
     Communicator processes;
-    std::vector<double> rate, force; ///< of each constraint after the step before [m/s, N]
-    double largest[2] = {0., 0.};    ///< rate of a displacement or a rotation so far
+    std::vector<double> rate, force; ///< of each constraint after the last step [m/s, N]
+    double largest[2] = {0., 0.};    ///< largest rate of a displacement and of a rotation so far
     bool is_running = false;         ///< the start was recorded
-    long n_steps = 0;                ///< with such impacts
-    double first = 0.;               ///< time of the first one [s]
-    std::string names;               ///< of its constraints
+    long n_steps = 0;                ///< number of such steps
+    double first = 0.;               ///< time of the first such step [s]
+    std::string names;               ///< names of its constraints
   };
 } // namespace taut
 

@@ -11,40 +11,38 @@
 
 namespace taut
 {
-  /**
-   * A table of quantities in time: a line each step, or lines at least an interval apart. The
-   * latter have, beside the value at the time of the line, the least and the largest value of the
-   * steps since the line before, "a force least [N]", so that no peak is lost between lines.
-   */
+  /// A table of quantities in time, with a line each step or lines at least an interval apart. With
+  /// an interval, a quantity has its value at the time of the line, and the extremes since the line
+  /// before, "a force least [N]". Hence no peak is lost.
   class IntervalTable
   {
   public:
     /// @p interval [s]; 0: every step.
     explicit IntervalTable(const double interval = 0.) : interval(interval) {}
 
-    /// A quantity that changes smoothly and needs no extremes.
+    /// Adds a smooth quantity, without extremes.
     void add_value(const std::string &name, const std::string &unit);
 
-    /// A quantity with extremes, if there is an interval.
+    /// Adds a quantity with extremes, if there is an interval.
     void add_quantity(const std::string &name, const std::string &unit);
 
-    /// How often a state changed since the line before, if there is an interval.
+    /// Adds the number of changes of a state since the line before, if there is an interval.
     void add_state(const std::string &name);
 
     bool is_empty() const { return columns.empty(); }
 
-    /// Creates the file @p stem.csv or @p stem.bin, or leaves one that @p goes_on for load().
-    /// Throws UserError if it cannot.
+    /// Creates the file @p stem.csv or @p stem.bin; if it @p goes_on, leaves it for load(). Throws
+    /// UserError on failure.
     void open(TableFormat format, const std::string &stem, bool goes_on = false);
 
-    /// One step at a time [s]: a value for each column in the order in which they were added, of a
-    /// state a number that changes with it. Throws UserError when the disk is full.
+    /// Records one step at a time [s]: a value for each column in the order of their addition; for
+    /// a state, a number that changes with it. Throws UserError if the disk is full.
     void record(double time, const std::vector<double> &values);
 
-    /// Writes the steps since the last line, too. Throws UserError when the disk is full.
+    /// Writes also the steps since the last line. Throws UserError if the disk is full.
     void close();
 
-    /// Where it is, for a checkpoint; what was recorded is on the disk then.
+    /// Stores the position for a checkpoint, with all records on the disk.
     void save(OutputArchive &archive);
     void load(InputArchive &archive);
 

@@ -9,7 +9,7 @@
 
 namespace taut
 {
-  /// Linear forms on the displacements of this rank, one after the other.
+  /// A list of linear forms on the displacements of this rank.
   class LinearForms
   {
   public:
@@ -24,7 +24,7 @@ namespace taut
       ends.push_back(entries.size());
     }
 
-    /// Adds this rank's share of their values to @p result, of length size().
+    /// Adds the part of this rank in the values to @p result, of length size().
     void evaluate(const BodyVectors &U, double *const result) const
     {
       std::size_t e = 0;

@@ -14,16 +14,16 @@
 namespace taut
 {
   /**
-   * Watches over what the equations take for granted: small slopes, wires that stay on their side
-   * of each other, contacts slower than the waves, steps that resolve the filter of the statistics.
-   * Of each kind the worst case of a run is kept.
+   * Checks assumptions of the equations: small slopes, wires that do not pass each other, contacts
+   * slower than waves, and steps that resolve the filter of the statistics. The worst case of each
+   * kind in a run is kept.
    *
    * - A slope of 0.1 rad stretches a wire by slope^2 / 2 = 0.5 %, which the equations neglect: a
-   *   copper wire of 100 mm^2 would gain 60 kN of tension. It is that of all motions across the
-   *   wire, also of lateral ones; of a linearised cable it is the change of direction since the
-   *   start that it is linearised about, of a linear one since its shape at rest.
-   * - Two wires above each other at the start, with nothing between them that pushes, are as far
-   *   apart as their displacements may bring them together.
+   *   copper wire of 100 mm^2 would gain 60 kN of tension. All motions across the wire count, also
+   *   lateral ones. For a linearised cable it is the change of direction since the state of
+   *   linearisation, for a linear one since its shape at rest.
+   * - Two wires above each other at the start, without a link that pushes them apart, must not come
+   *   closer by more than their distance.
    * - Waves of a wire run at sqrt(T / m); nothing runs ahead of a faster contact.
    * - A peak that is sampled n times a period is found up to 1 - cos(pi / n) of its height: 5 % for
    *   n = 10.
@@ -31,40 +31,39 @@ namespace taut
   class ModelLimits : public Observer
   {
   public:
-    /// Places are sampled and looked at every @p interval steps. @p step [s] is compared with
-    /// @p filter_frequency [Hz], 0: none. Called by all ranks together.
+    /// Samples places every @p interval steps. Compares @p step [s] with @p filter_frequency [Hz],
+    /// 0: no filter. Called by all ranks together.
     ModelLimits(const Scene &scene, const SceneBodies &structure, double filter_frequency,
                 double step, long interval);
 
-    /// Each step, the start first. Called by all ranks together. Throws what
-    /// SolidLimits::record() throws.
+    /// Records the start, then each step. Throws the errors of SolidLimits::record(). Called by all
+    /// ranks together.
     void record(const StepView &step) override;
     void save(OutputArchive &archive) override;
     void resume(InputArchive &archive, const StepView &step) override;
 
-    /// At most one of each kind.
+    /// At most one warning of each kind.
     std::vector<Warning> warnings() const;
 
-    /// A line for each warning, and what the searches of contacts left out.
+    /// A line for each warning, and the nodes that searches of contacts left out.
     void report(std::ostream &log, bool failed) const override;
 
   private:
-    /// Samples along a wire or a cable, or along the place where one wire is above another.
+    /// Samples along a wire or a cable, or along the overlap of two wires.
     struct Line
     {
       std::string name, other;       ///< "wire 'contact'"
       std::size_t first = 0, n = 0;  ///< samples
       std::vector<double> positions; ///< on the wire [m]
-      std::vector<double> distances; ///< to the wire above; empty: slopes are watched [m]
+      std::vector<double> distances; ///< to the wire above; empty: checks slopes [m]
 
-      /// Forms of a sample, one after the other for all samples of one direction: directions across
-      /// a wire, or x, y, z.
+      /// Forms of all samples, direction by direction: directions across a wire, or x, y, z.
       unsigned int n_directions = 1;
       std::vector<Coordinates> chords;   ///< of a cable, from sample to sample [m]
-      bool turns_from_reference = false; ///< its chords are those there, not those at U = 0
+      bool turns_from_reference = false; ///< chords are those of the reference, not those at U = 0
     };
 
-    /// The worst of a kind so far.
+    /// Worst case of a kind so far.
     struct Extreme
     {
       double excess = 0.; ///< value over limit

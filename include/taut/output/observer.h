@@ -23,7 +23,7 @@ namespace dealii
 
 namespace taut
 {
-  /// What an observer sees of an accepted step.
+  /// Data of an accepted step for observers.
   struct StepView
   {
     const Scene &scene;
@@ -33,55 +33,55 @@ namespace taut
     const State &state;
     const Certificate &certificate;
 
-    /// The scheme of the step, and what the contacts did until its end.
+    /// Scheme of the step, and measures of the contacts until its end.
     const StepCoefficients &scheme;
     const ContactMeasures &measures;
 
-    /// Displacement of each probe from the equilibrium without sliding contacts, if the run starts
-    /// from one; otherwise, and at rest with no such contact, from the undeformed place [m, rad].
+    /// Displacement of each probe from the equilibrium without sliding contacts if the run starts
+    /// from one; otherwise, and at rest without such contacts, from the undeformed place [m, rad].
     const std::vector<double> &probes;
 
     /// Force of each of the support_points() on its wire [N, N m].
     const std::vector<double> &supports;
   };
 
-  /// What an observer knows of a run before its first record.
+  /// Data of a run before the first record.
   struct RunView
   {
-    const std::string &folder; ///< of the results, made
+    const std::string &folder; ///< of the results, exists
     double interval;           ///< Output/Interval: least time between two lines of a table [s]
     const Communicator &communicator;
-    bool resumes = false; ///< its files go on where the checkpoint says, see Observer::resume()
+    bool resumes = false; ///< files continue from the checkpoint, see Observer::resume()
   };
 
   /**
    * Receives the start of a run and each accepted step, in order. An observer that is registered
    * with Register<Observer, ...> runs if a parameter file names it in Output/Observers.
    *
-   * All ranks call each function together. An exception on any rank ends the run on all; a function
-   * that communicates throws on all ranks or on none (Communicator::agree). finish() does not
-   * communicate: other ranks may not be there any more.
+   * All ranks call each function together. An exception on any rank ends the run on all ranks. A
+   * function that communicates throws on all ranks or on none (Communicator::agree). finish() does
+   * not communicate, as other ranks may have ended.
    */
   class Observer
   {
   public:
     virtual ~Observer() = default;
 
-    /// Declares its entries, in a section of Output that has its name.
+    /// Declares its entries, in a section of Output with its name.
     virtual void declare_parameters(dealii::ParameterHandler &) {}
 
-    /// Names of the files that it writes into the folder of the results: those of an earlier run
-    /// are results, too.
+    /// Names of its files in the folder of the results. Such files of earlier runs count as
+    /// results, too.
     virtual std::vector<std::string> files() const { return {}; }
 
-    /// Called once, before the first record or resume().
+    /// Called once, before the first record() or resume().
     virtual void begin(const RunView &) {}
 
     /**
-     * Stores in a checkpoint what it needs to go on after the last step that was recorded; files
-     * are to be on the disk until there. What the root stores is kept; what other ranks know that
-     * it does not has to be sent to it first. An observer with files that does not know how throws
-     * a UserError, before the first step of a run with checkpoints.
+     * Stores in a checkpoint the data to continue after the last recorded step, with all files on
+     * the disk. Only the data of the root are kept: other ranks have to send theirs to the root
+     * first. An observer with files that cannot do this throws a UserError, before the first step
+     * of a run with checkpoints.
      */
     virtual void save(OutputArchive &)
     {
@@ -91,17 +91,17 @@ namespace taut
                         "save() and resume()");
     }
 
-    /// Instead of the first record of a run that goes on from a checkpoint: reads on each rank what
-    /// the root stored at this step, in the same order.
+    /// Called in place of the first record() of a run that continues from a checkpoint: reads on
+    /// each rank the data that the root stored at this step, in the same order.
     virtual void resume(InputArchive &, const StepView &) {}
 
     virtual void record(const StepView &step) = 0;
 
-    /// Called once after the last step, also of a run that ends early or with an error.
+    /// Called once after the last step, also if a run ends early or with an error.
     virtual void finish() {}
 
-    /// Called after finish(): says in the log what there is to say at the end. Nothing communicates
-    /// if the run @p failed, which other ranks may not have seen.
+    /// Called after finish(): writes the final report to the log. It must not communicate if the
+    /// run @p failed, as other ranks may not know.
     virtual void report(std::ostream & /*log*/, bool /*failed*/) const {}
   };
 } // namespace taut

@@ -9,8 +9,7 @@
 
 namespace taut
 {
-  /// How far a run is: a bar that redraws itself on a terminal, a line a tenth of the run
-  /// otherwise.
+  /// Shows the progress of a run: a bar on a terminal, otherwise a line each tenth of the run.
   class Progress : public Observer
   {
   public:

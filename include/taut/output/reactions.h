@@ -12,10 +12,10 @@
 
 namespace taut
 {
-  /// One position of a support of the scene.
+  /// One position of a support in the scene.
   struct SupportPoint
   {
-    std::string name;        ///< of the support, with a number from 1 if it has several positions
+    std::string name;        ///< of the support, numbered from 1 if it has several positions
     std::size_t support = 0; ///< index in the scene
     double position = 0.;    ///< on its wire [m]
     bool is_moment = false;  ///< it holds a slope
@@ -25,11 +25,11 @@ namespace taut
   std::vector<SupportPoint> support_points(const Scene &scene);
 
   /**
-   * The forces with which supports act on their wires [N], or moments [N m]: positive from the
-   * wire's first end to its second (axial), along its normal, to the left of that way (transverse),
-   * or its binormal (lateral), and as the slope of these. Of a support that prescribes the motion u
-   * it is what the equation of motion lacks along it, M u" + C u' + K u - P - B N with the state at
-   * the time in question; of an elastic one -(k u + c u').
+   * The forces [N] or moments [N m] of supports on their wires. Axial forces are positive from the
+   * wire's first end to its second. Transverse forces are positive along its normal, to the left of
+   * that way, lateral forces along its binormal, moments as the slope. At a prescribed motion u the
+   * force is the residual M u" + C u' + K u - P - B N of the equation of motion at the time of the
+   * state. At an elastic support it is -(k u + c u').
    */
   class Reactions
   {
@@ -37,25 +37,25 @@ namespace taut
     /// @p scene and @p structure are kept by reference.
     Reactions(const Scene &scene, const SceneBodies &structure);
 
-    /// In a state whose balance is known: an accepted step of @p scheme. Called by all ranks
-    /// together.
+    /// Updates forces for a state with a known balance: an accepted step of @p scheme. Called by
+    /// all ranks together.
     void update(const Reference &reference, const State &state, const Constraints &constraints,
                 const StepCoefficients &scheme);
 
-    /// In a state whose balance is not known: the start. Called by all ranks together.
+    /// Updates forces for the start, without a known balance. Called by all ranks together.
     void update_start(const Reference &reference, State state, const Constraints &constraints);
 
-    /// One for each of the support_points() [N, N m].
+    /// A force for each of the support_points() [N, N m].
     const std::vector<double> &forces() const { return values; }
 
   private:
-    /// Where a support acts.
+    /// Place of a support.
     struct Place
     {
       bool is_here = false; ///< on this rank
       std::size_t body = 0;
-      LinearForm form; ///< of the displacement that it holds
-      LinearForm mass; ///< form . M, of a support that prescribes the motion
+      LinearForm form; ///< of the supported displacement
+      LinearForm mass; ///< form . M, for a prescribed motion
       double stiffness = 0., damping = 0.;
       bool fixed = false;
     };
@@ -65,8 +65,8 @@ namespace taut
 
     const SceneBodies &structure;
     std::vector<Place> places;
-    std::vector<std::vector<char>> is_held; ///< of each body and DoF: a place prescribes its motion
-    std::vector<double> values;             ///< on this rank, then of all
+    std::vector<std::vector<char>> is_held; ///< of each body and DoF: prescribed by a support
+    std::vector<double> values;             ///< on this rank, then over all ranks
   };
 } // namespace taut
 

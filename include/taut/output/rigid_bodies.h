@@ -11,8 +11,8 @@
 
 namespace taut
 {
-  /// Where the rigid bodies of a scene are, rigid_bodies.csv: the place of the centre of each [m]
-  /// and the rotation from the undeformed position, a vector along its axis [rad].
+  /// Writes the motion of the rigid bodies of a scene, rigid_bodies.csv: the place of each centre
+  /// [m], and the rotation from the undeformed position, a vector along its axis [rad].
   class RigidBodies : public Observer
   {
   public:
@@ -30,7 +30,7 @@ namespace taut
     std::string folder;
     double interval = 0., next = 0.;
     bool is_root = false, has_begun = false;
-    std::vector<std::size_t> bodies; ///< their numbers among all
+    std::vector<std::size_t> bodies; ///< numbers among all bodies
     std::vector<std::string> names;
     std::unique_ptr<TableFile> file;
   };

@@ -10,24 +10,24 @@
 
 namespace taut
 {
-  /// Where points of a scene are in space [m].
+  /// Places of points of a scene in space [m].
   struct ScenePlaces
   {
-    std::vector<Coordinates> from, to; ///< of each link; of a ground without a place, zero
+    std::vector<Coordinates> from, to; ///< of each link; zero for a ground without a place
     std::vector<Coordinates> loads, probes;
-    std::vector<std::vector<Coordinates>> cables; ///< a line for each body; of other types, none
+    std::vector<std::vector<Coordinates>> cables; ///< a line for each body; empty for other types
   };
 
-  /// At U = 0, on cables at the displacements @p U if these are given. Called by all ranks
-  /// together, with the same result.
+  /// Places at U = 0; on cables at the displacements @p U if given. Called by all ranks together,
+  /// with the same result.
   ScenePlaces places_in_space(const Scene &scene, const SceneBodies &bodies,
                               const BodyVectors *U = nullptr);
 
-  /// The scene as understood: tables of wires, supports, masses, springs, links, loads and probes,
-  /// with units. Places on cables are arc lengths, with the place in space behind them.
+  /// Prints the scene as read: tables of wires, supports, masses, springs, links, loads and probes,
+  /// with units. Places on cables are arc lengths, followed by places in space.
   void print_scene(const Scene &scene, const ScenePlaces &places, std::ostream &out);
 
-  /// The geometry at U = 0 along x and y as an SVG drawing, heights exaggerated if the scene is
+  /// Draws the geometry at U = 0 along x and y as SVG, with exaggerated heights if the scene is
   /// much longer than high. Throws UserError.
   void write_sketch(const Scene &scene, const ScenePlaces &places, const std::string &path);
 } // namespace taut

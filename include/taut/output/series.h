@@ -12,24 +12,24 @@
 namespace taut
 {
   /**
-   * Time series as tables: sliding.csv (each sliding contact: position, force, gap), links.csv
-   * (force and gap of every fixed link), supports.csv (force of every support on its wire),
-   * probes.csv, certificate.csv; as binary tables .bin. A file without content is not made. With an
-   * interval, tables but the last have the extremes since the line before, and of unilateral links
-   * how often they opened or closed.
+   * Writes time series as tables: sliding.csv (position, force, gap of each sliding contact),
+   * links.csv (force and gap of each fixed link), supports.csv (force of each support on its wire),
+   * probes.csv, certificate.csv; .bin for binary tables. Empty files are not made. With an
+   * interval, all tables but the last have the extremes since the line before, and for unilateral
+   * links the number of openings and closings.
    */
   class Series : public Observer
   {
   public:
-    /// @p scene and @p constraints are kept by reference. @p link_interval: least time between two
-    /// lines of links.csv and supports.csv [s]; 0: every step. The others have that of the run.
+    /// @p scene and @p constraints are kept by reference. @p link_interval: least time between
+    /// lines of links.csv and supports.csv [s], 0: each step. Others have the interval of the run.
     Series(const Scene &scene, const Constraints &constraints,
            const TableFormat format = TableFormat::csv, const double link_interval = 0.)
         : scene(scene), constraints(&constraints), format(format), link_interval(link_interval)
     {
     }
 
-    /// Of a scene at rest: supports.csv and probes.csv, with one line.
+    /// For a scene at rest: supports.csv and probes.csv, with one line.
     explicit Series(const Scene &scene)
         : scene(scene), constraints(nullptr), format(TableFormat::csv), link_interval(0.)
     {
@@ -39,7 +39,7 @@ namespace taut
     void begin(const RunView &run) override;
     void record(const StepView &step) override;
 
-    /// Writes the rest. Throws UserError when the disk is full.
+    /// Writes the remaining lines. Throws UserError if the disk is full.
     void finish() override;
     void save(OutputArchive &archive) override;
     void resume(InputArchive &archive, const StepView &step) override;

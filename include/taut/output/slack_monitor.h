@@ -9,7 +9,7 @@
 
 namespace taut
 {
-  /// Notes when and where each body first goes slack, see SlenderBody::is_slack().
+  /// Detects when and where each body first goes slack, see SlenderBody::is_slack().
   class SlackMonitor : public Observer
   {
   public:
@@ -18,11 +18,11 @@ namespace taut
     void save(OutputArchive &archive) override;
     void resume(InputArchive &archive, const StepView &step) override;
 
-    /// A line for each of them, at most six; none of several ranks if the run failed.
+    /// A line for each slack body, at most six; nothing with several ranks if the run failed.
     void report(std::ostream &log, bool failed) const override;
 
   private:
-    /// What is known of a body.
+    /// Data of a body.
     enum Entry
     {
       is_found,
@@ -33,13 +33,13 @@ namespace taut
       n_entries
     };
 
-    /// Of all bodies of all ranks, n_entries each.
+    /// Data of all bodies over all ranks, n_entries each.
     std::vector<double> of_all_ranks() const;
 
     Communicator processes;
     std::vector<Structure::Body> bodies;
-    std::vector<double> own; ///< what this rank found, zero elsewhere; n_entries of each body
-    std::vector<std::size_t> watched; ///< bodies here that are not slack so far
+    std::vector<double> own; ///< data from this rank, zero for other bodies; n_entries each
+    std::vector<std::size_t> watched; ///< bodies here that have not been slack so far
     bool is_new = true;
   };
 } // namespace taut

@@ -15,17 +15,17 @@
 namespace taut
 {
   /**
-   * Watches over what the equations of solids and their contacts take for granted. Of each kind the
-   * worst case of a run is kept.
+   * Checks assumptions of the equations of solids and their contacts. The worst case of each kind
+   * in a run is kept.
    *
-   * - "turn": a line between two nodes of the surface of a body turns by less than 0.1 rad. A turn
-   *   of that stretches what is stiff by 0.5 %.
-   * - "sliding": at a closed contact the sides slide by less than half of an element, the shorter
-   *   of both. A plane as the obstacle does not care.
+   * - "turn": a line between two nodes of the surface of a body turns by less than 0.1 rad. Such a
+   *   turn stretches stiff parts by 0.5 %.
+   * - "sliding": at a closed contact the sides slide by less than half of the shorter element of
+   *   both sides. A plane as the obstacle has no such limit.
    * - "overhang": where a contact is closed, the master covers the faces of the slave as a whole.
-   * - "nodes on faces": nodes of the slave that carry are at nodes of the master.
-   * - "facets": sides of degree 2 that carry have no kinks of a few degrees.
-   * - "search": nodes that an automatic search distance left out stay open.
+   * - "nodes on faces": loaded nodes of the slave are at nodes of the master.
+   * - "facets": loaded sides of degree 2 have no kinks of a few degrees.
+   * - "search": nodes outside an automatic search distance stay open.
    */
   class SolidLimits
   {
@@ -33,17 +33,17 @@ namespace taut
     /// Called by all ranks together.
     SolidLimits(const Scene &scene, const SceneBodies &structure);
 
-    /// Called by all ranks together. Throws EntryError for a body that turns, or a contact that
-    /// slides, by more than its entry allows.
+    /// Throws EntryError for a body that turns, or a contact that slides, by more than its entry
+    /// allows. Called by all ranks together.
     void record(const StepView &step);
 
-    /// How many nodes the search left out.
+    /// Prints the number of nodes that the search left out.
     void print_left_out(std::ostream &out) const;
 
-    /// At most one of each kind.
+    /// At most one warning of each kind.
     std::vector<Warning> warnings() const;
 
-    /// For checkpoints: the worst so far.
+    /// Stores the worst cases so far, for checkpoints.
     template <typename Archive>
     void store(Archive &archive)
     {
@@ -63,15 +63,15 @@ namespace taut
       n_kinds
     };
 
-    /// The worst of a kind so far.
+    /// Worst case of a kind so far.
     struct Worst
     {
       double excess = 0.; ///< value over limit
       double value = 0., limit = 0., time = 0.;
-      std::size_t item = 0, place = 0; ///< body or contact, line or constraint of it
+      std::size_t item = 0, place = 0; ///< body or contact; its line or constraint
     };
 
-    /// Lines between nodes of a body's surface; three forms each.
+    /// Lines between nodes of a body's surface, with three forms each.
     struct Turning
     {
       std::string name, origin;
@@ -80,7 +80,7 @@ namespace taut
       std::vector<Coordinates> places, chords; ///< [m]
     };
 
-    /// A contact; three forms for each constraint if it can slide, then one for each left out.
+    /// A contact: three forms for each constraint if it can slide, then one for each left-out node.
     struct Sliding
     {
       std::string name, origin;
@@ -90,7 +90,7 @@ namespace taut
       ContactGeometry geometry;
       std::vector<double> elements; ///< of each constraint [m]
       std::vector<double> kinks;    ///< of each constraint [rad]
-      std::vector<char> between;    ///< of each constraint: on a master's face, not at its node
+      std::vector<char> between;    ///< of each constraint: on a face of the master, not at a node
       std::vector<SurfaceConstraint> left_out;
     };
 

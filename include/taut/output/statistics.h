@@ -17,30 +17,30 @@ namespace dealii
 
 namespace taut
 {
-  /// What is evaluated, and what is expected of it.
+  /// Parameters of the statistics, with expected ranges.
   struct StatisticsParameters
   {
-    std::vector<double> window;    ///< positions of a sliding contact [m]; empty: the whole run
+    std::vector<double> window;    ///< positions of a sliding contact [m]; empty: whole run
     double filter_frequency = 20.; ///< [Hz]
 
-    /// Lower and upper bound by quantity; empty: none.
+    /// Lower and upper bound by quantity; empty: no bounds.
     std::map<std::string, std::vector<double>> expected;
 
     /// Declares the members in subsection "Statistics".
     void declare_parameters(dealii::ParameterHandler &prm);
 
-    /// Throws an EntryError if no sliding contact comes into the window until @p end_time [s].
+    /// Throws an EntryError if no sliding contact enters the window before @p end_time [s].
     void check_window(const Scene &scene, double end_time) const;
   };
 
-  /// What the quantities are of.
+  /// Description of the run in the file of statistics.
   struct RunDescription
   {
     std::string scene;          ///< name of the parameter file
     std::string generator;      ///< of the scene
     std::string scheme;         ///< of the time integration, with its parameters
     double step = 0., end = 0.; ///< [s]
-    bool is_partial = false;    ///< the run was ended before its end
+    bool is_partial = false;    ///< the run ended early
     std::vector<Warning> warnings;
   };
 
@@ -51,11 +51,9 @@ namespace taut
     static Moments of(const std::vector<double> &record);
   };
 
-  /**
-   * Statistics of a run: contact forces of sliding contacts, raw and low-passed, in a window;
-   * contact loss; uplift of the probes; open time, largest force and impulse of the fixed links;
-   * extremes of the forces of supports; certificates.
-   */
+  /// Statistics of a run: contact forces of sliding contacts, raw and low-passed, in a window;
+  /// contact loss; uplift of the probes; open time, largest force and impulse of the fixed links;
+  /// extremes of the forces of supports; certificates.
   class Statistics : public Observer
   {
   public:
@@ -76,7 +74,7 @@ namespace taut
       double begin = 0., end = 0.; ///< positions of the first and last sample [m]
       double longest_step = 0.;    ///< that resolves the filter frequency; 0: no filter [s]
 
-      /// Whether they may be compared with expected ranges: those are of the filtered force.
+      /// Whether expected ranges apply, which are for the filtered force.
       bool are_judged() const { return n_samples > 0 && (is_filtered || longest_step == 0.); }
     };
     std::size_t n_contacts() const { return contacts.size(); }
@@ -98,19 +96,19 @@ namespace taut
       std::string unit;
     };
 
-    /// All quantities that are one number; of a sliding contact of its filtered force.
+    /// All quantities that are one number; sliding contacts count with their filtered force.
     std::vector<NamedQuantity> named_quantities() const;
 
     /// Largest residuals of all steps.
     const Certificate &worst_certificate() const { return worst; }
 
-    /// The table, with the expected ranges beside the quantities.
+    /// Prints the table of quantities with their expected ranges.
     void report(std::ostream &log, bool failed) const override;
 
-    /// The same as JSON. Throws UserError if the file cannot be written.
+    /// Writes the table as JSON. Throws UserError if the file cannot be written.
     void write(const std::string &path, const RunDescription &run) const;
 
-    /// Time of the last step recorded, 0 without one [s].
+    /// Time of the last recorded step, or 0 [s].
     double until() const { return times.empty() ? 0. : times.back(); }
 
   private:
@@ -122,7 +120,7 @@ namespace taut
       std::vector<double> position, force;
       std::vector<double> mean_force = {}; ///< over the time that the element resolves
     };
-    /// What a fixed link did.
+    /// Quantities of a fixed link.
     struct LinkQuantities
     {
       std::string name;
@@ -161,19 +159,19 @@ namespace taut
       const std::vector<double> *expected = nullptr; ///< range in the same unit
     };
 
-    /// Of a sliding contact: the filtered force unless @p raw, with the loss unless raw.
+    /// Rows of a sliding contact: raw force if @p raw, otherwise filtered force and loss.
     std::vector<Quantity> table(const ContactQuantities &quantities, bool raw) const;
 
-    /// Largest and smallest displacement of a probe.
+    /// Rows with the largest and smallest displacement of a probe.
     std::vector<Quantity> table(const ProbeQuantities &probe) const;
 
     const std::vector<double> *expected_range(const std::string &quantity) const;
 
-    /// How the quantities compare with their expected ranges.
+    /// Comparison of the quantities with their expected ranges.
     struct Verdict
     {
       std::size_t n_inside = 0, n_outside = 0;
-      bool is_complete = true; ///< nothing that is expected was left out
+      bool is_complete = true; ///< all expected quantities were compared
       std::string text() const;
     };
     Verdict verdict() const;

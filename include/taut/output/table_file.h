@@ -11,55 +11,52 @@
 
 namespace taut
 {
-  /// A time [s] as short as it was meant: to 14 digits, 0.009 for 9 steps of 0.001.
+  /// A time [s] in at most 14 digits: 0.009 for 9 steps of 0.001.
   std::string time_text(double time);
 
-  /// A number as short as possible without loss, and a text, quoted if it has to be.
+  /// Shortest text of a number without loss; a text, quoted if necessary.
   std::string csv_number(double value);
   std::string csv_cell(const std::string &text);
 
-  /// How tables of numbers are written.
+  /// Format of tables of numbers.
   enum class TableFormat
   {
-    csv,   ///< as text, numbers as short as possible without loss
+    csv,   ///< text, with the shortest numbers without loss
     binary ///< the header line of a CSV file, then all numbers as doubles of this machine
   };
 
-  /// A table with a header line that grows line by line. Whatever fails, the file ends with a
-  /// complete line.
+  /// A table with a header line that grows by lines. It ends with a complete line after failures.
   class TableFile
   {
   public:
-    /// Creates the file; one that @p goes_on is left as it is until resume(). Throws UserError if
-    /// it cannot.
+    /// Creates the file; if it @p goes_on, leaves it for resume(). Throws UserError on failure.
     TableFile(const std::string &path, const std::vector<std::string> &columns,
               bool goes_on = false, TableFormat format = TableFormat::csv);
 
-    /// The file @p stem.csv or @p stem.bin. Throws as the other.
+    /// The file @p stem.csv or @p stem.bin; throws UserError likewise.
     TableFile(TableFormat format, const std::string &stem, const std::vector<std::string> &columns,
               bool goes_on = false);
 
-    /// Adds a cell to the current line; a text only to a CSV file.
+    /// Adds a cell to the current line; text only to a CSV file.
     TableFile &operator<<(double value);
     TableFile &operator<<(const std::string &text);
 
     /// Begins a line with a time [s].
     TableFile &begin_line(double time);
 
-    /// Ends the current line. Throws UserError when the disk is full.
+    /// Ends the current line. Throws UserError if the disk is full.
     void end_line();
 
     /// Adds a line: a time [s] and a value for each other column. Throws as end_line().
     void add_line(double time, const std::vector<double> &values);
 
-    /// Writes what is buffered and closes. Throws UserError when the disk is full.
+    /// Writes the buffer and closes. Throws UserError if the disk is full.
     void close();
 
-    /// Brings what is buffered to the disk and returns the length of the file. Throws UserError
-    /// when the disk is full.
+    /// Writes the buffer and returns the length of the file. Throws UserError if the disk is full.
     std::size_t save();
 
-    /// Goes on after this length and drops what follows. Throws UserError if the file is shorter.
+    /// Continues at this length and drops the rest. Throws UserError if the file is shorter.
     void resume(std::size_t length);
 
   private:
@@ -82,7 +79,7 @@ namespace taut
     std::string buffer;
     bool line_begins = true;
 
-    /// The last two numbers: a value, its least and its largest are often two.
+    /// Cache of two numbers: a value, its least and its largest often are two numbers.
     std::array<Number, 2> last = {Number(0.), Number(0.)};
   };
 } // namespace taut

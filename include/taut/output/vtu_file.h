@@ -11,10 +11,10 @@
 namespace taut
 {
   /**
-   * Points and lines with data on them as a VTK unstructured grid, written again and again with
-   * other values. VTK XML format 1.0 with raw appended data, 4-byte floats and integers in the
-   * byte order of the machine: nothing is compressed or turned into text, because a run writes such
-   * files by the hundred; arrays that do not change are put together once.
+   * A VTK unstructured grid of points and lines with data, for repeated writing with other values.
+   * The format is VTK XML 1.0 with raw appended data, 4-byte floats and integers in the byte order
+   * of the machine. Nothing is compressed or converted to text, as a run writes hundreds of files;
+   * constant arrays are assembled once.
    */
   class VtuFile
   {
@@ -25,17 +25,17 @@ namespace taut
       cells
     };
 
-    /// @p cells: the points of each; one point is a vertex, more are a line through them.
+    /// @p cells: the points of each cell. One point is a vertex, more points are a line.
     VtuFile(std::size_t n_points, const std::vector<std::vector<std::int32_t>> &cells);
 
     /// Adds an array of zeros with @p n_components a point or cell, and returns its number.
     std::size_t add(Location location, const std::string &name, unsigned int n_components);
 
-    /// Adds an array that stays as it is.
+    /// Adds a constant array.
     void add(Location location, const std::string &name, const std::vector<std::int32_t> &values);
     void add(Location location, const std::string &name, const std::vector<std::string> &values);
 
-    /// Number of the array of positions, three components a point.
+    /// Index of the array of positions, three components a point.
     static constexpr std::size_t positions = 0;
 
     /// Sets all values of an array of floats.
@@ -49,35 +49,33 @@ namespace taut
     {
       std::string section, name, type;
       unsigned int n_components;
-      std::string bytes; ///< raw; of strings, the codes of their characters as text
+      std::string bytes; ///< raw; for strings, the codes of their characters as text
     };
 
     std::size_t n_points, n_cells;
     std::vector<Array> arrays;
   };
 
-  /**
-   * A ParaView collection: files with their times. Complete after each call, so that what a run
-   * wrote before it was killed opens.
-   */
+  /// A ParaView collection: files with their times. It is complete after each call, so that it can
+  /// be opened after a run was killed.
   class PvdFile
   {
   public:
-    /// The file is made when the first entry is added.
+    /// The first add() makes the file.
     explicit PvdFile(std::string path) : path(std::move(path)) {}
 
-    /// @p time [s]; @p file is relative to the folder of this one; several files of one time are
-    /// the parts of what is shown. Throws UserError if it cannot be written.
+    /// @p time [s]; @p file is relative to the folder of the collection; several files at one time
+    /// are parts of one picture. Throws UserError if it cannot be written.
     void add(double time, const std::string &file, std::size_t part = 0);
 
     std::size_t size() const { return n_entries; }
 
-    /// Length of the file with @p n entries; resume() goes on there and drops what follows. Throws
-    /// UserError if the file is shorter.
+    /// Length of the file. resume() continues a file of @p n entries at this length and drops the
+    /// rest. Throws UserError if the file is shorter.
     std::size_t length() const { return stream.length(); }
     void resume(std::size_t n, std::size_t length);
 
-    /// Throws UserError if what was written did not reach the file after all.
+    /// Throws UserError if data did not reach the file.
     void close() { stream.close(); }
 
   private:

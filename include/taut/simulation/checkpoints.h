@@ -15,32 +15,30 @@ namespace taut
   class SteppedMotion;
   struct Checkpoint;
 
-  /**
-   * Stores a run at intervals, so that one that was killed goes on from there with the same bits.
-   * Each observer stores its own part, see Observer::save(). To go on, call find() before
-   * ObservedRun::observe(), with everything else as it was.
-   */
+  /// Stores a run at intervals, so that a killed run continues from there with the same bits. Each
+  /// observer stores its own part, see Observer::save(). To continue, call find() before
+  /// ObservedRun::observe(), with all else unchanged.
   class Checkpoints : public Observer
   {
   public:
-    /// Every @p interval [s] of a run, into @p folder; 0: never. What is said goes to @p log.
-    /// @p entries, by name, have to be the same in a run that goes on.
+    /// Stores every @p interval [s] of a run in @p folder; 0: never. Messages go to @p log. The
+    /// @p entries, by name, have to be the same in a continued run.
     Checkpoints(const std::string &folder, double interval, std::ostream &log,
                 const std::map<std::string, std::string> &entries = {});
     ~Checkpoints() override;
 
-    /// Reads the last checkpoint of the folder, if there is one. Throws UserError if it cannot be
-    /// used, and EntryError on an entry that is not the same. Called by all ranks together.
+    /// Reads the last checkpoint of the folder, if any. Throws UserError if it is unusable, and
+    /// EntryError on an entry that differs. Called by all ranks together.
     void find(const Communicator &communicator = Communicator());
     bool is_found() const { return found != nullptr; }
 
     /// @p observed is kept by reference.
     void set_run(ObservedRun &observed) { run = &observed; }
 
-    /// Puts the run where the checkpoint is. Throws UserError if it has other bodies or observers.
+    /// Sets the run to the checkpoint. Throws UserError if it has other bodies or observers.
     void go_on();
 
-    /// An observer that stores no checkpoints says so here.
+    /// Throws if an observer stores no checkpoints.
     void begin(const RunView &view) override;
     void record(const StepView &step) override;
     void save(OutputArchive &archive) override;
@@ -57,7 +55,7 @@ namespace taut
     const std::map<std::string, std::string> entries;
     Communicator processes;
     ObservedRun *run = nullptr;
-    std::shared_ptr<const Checkpoint> found; ///< that the run goes on from
+    std::shared_ptr<const Checkpoint> found; ///< checkpoint to continue from
     double next;                             ///< [s]
   };
 } // namespace taut

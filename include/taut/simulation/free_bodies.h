@@ -9,11 +9,11 @@
 namespace taut
 {
   /**
-   * The bodies with a motion that costs nothing and that no constraint in @p constraints opposes,
-   * where those count that are bilateral or carry a multiplier: bodies of this rank that are
-   * joined, directly or through others, neither to a body that is held nor to the ground, and those
-   * whose own constraints leave one of their motions free. What several bodies can only do together
-   * while constraints to the ground leave it free is not seen.
+   * The bodies of this rank with a motion without energy that nothing opposes. Bilateral
+   * constraints count, and unilateral ones with a multiplier. A body is free if they join it to
+   * neither a held body nor the ground, directly or through others. It is also free if its own
+   * constraints leave one of its motions free. Motions that several bodies have only together,
+   * with constraints to the ground, are not found.
    */
   std::vector<char> free_bodies(const std::vector<Substructure::NullSpace> &null_spaces,
                                 const Constraints &constraints,

@@ -17,8 +17,8 @@
 namespace taut
 {
   /**
-   * Steps with observers. Use it in a program of yours that wants tables, fields, statistics or
-   * checkpoints of what its Stepper does:
+   * Steps with observers. Use it in a program with tables, fields, statistics or checkpoints of a
+   * Stepper:
    *
    *     ObservedRun run(stepper, "results");
    *     Statistics statistics({}, run.scene(), run.constraints());
@@ -28,70 +28,70 @@ namespace taut
    *       run.advance();
    *     run.finish();
    *
-   * A System is to observers a scene that names nothing but probes: what they know of the items of
-   * a scene, as of supports, wires and contacts of surfaces, is empty then. All ranks call each
-   * function together, but for finish() after an error.
+   * Observers see a System as a scene with probes only: data about items of a scene, as supports,
+   * wires and contacts of surfaces, are empty. All ranks call each function together, except
+   * finish() after an error.
    */
   class ObservedRun
   {
   public:
-    /// @p stepper is kept by reference and steps from now on through this object. The @p folder of
-    /// the results is made; @p interval is Output/Interval, for each observer [s].
+    /// @p stepper is kept by reference and steps only through this object from now on. The
+    /// @p folder of the results is made; @p interval is Output/Interval, for all observers [s].
     ObservedRun(Stepper &stepper, const std::string &folder, double interval = 0.);
 
-    /// The same of a scene, at its start; the references are kept. The folder is not made.
+    /// For a scene, at its start; the references are kept. The folder is not made.
     ObservedRun(SteppedMotion &motion, const Scene &scene, const SceneBodies &structure,
                 const std::string &folder, double interval);
 
-    /// Adds a probe, before the observers that have a column of it: the displacement of a form, or
-    /// its rotation, from where it was at the start if that is an equilibrium [m, rad].
+    /// Adds a probe before the observers with a column for it: displacement or rotation of a form,
+    /// from the start if that is an equilibrium [m, rad].
     void add_probe(const std::string &name, const Displacement &form, bool rotational = false);
 
-    /// Displacements of the bodies that probes count from [m, rad].
+    /// Sets the displacements of the bodies where probes are zero [m, rad].
     void set_rest_of_probes(const BodyVectors &rest);
 
     /// Adds an observer, kept by reference. Observers are called in the order of their addition.
     void observe(Observer &observer) { observers.push_back(&observer); }
     void observe(std::unique_ptr<Observer> observer);
 
-    /// Checkpoints have all observers and are called last. If there is one to go on from, begin()
-    /// does.
+    /// Checkpoints are called last and have all observers. begin() continues from the last
+    /// checkpoint, if any.
     void observe(Checkpoints &last);
 
-    /// @p asked is called on each rank after each step; what is not 0 on any of them is the
-    /// signal() to end the run.
+    /// Each rank calls @p asked after each step; a result other than 0 on any rank is the signal()
+    /// to end the run.
     void stop_if(std::function<int()> asked) { stop_asked = std::move(asked); }
 
-    /// Calls begin() of the observers. Throws what they throw.
+    /// Calls begin() of the observers and throws their errors.
     void open();
 
-    /// Records the start, or goes on from the checkpoint; calls open() if nobody did.
+    /// Records the start, or continues from the checkpoint; calls open() if necessary.
     void begin();
 
-    /// One step that counts, of the length StepperOptions::step or less, and its record. Throws
-    /// what Stepper::advance() and the observers throw.
+    /// Makes and records one accepted step, of length StepperOptions::step or less. Throws the
+    /// errors of Stepper::advance() and of the observers.
     void advance();
 
-    /// True after the last step of a scene, or if the run was asked to stop.
+    /// True after the last step of a scene, or after a request to stop.
     bool is_over() const { return motion.is_finished() || stop_signal != 0; }
 
-    /// What asked the run to stop; 0: nothing, or after its last step.
+    /// Signal to stop; 0: none, or after the last step.
     int signal() const { return motion.is_finished() ? 0 : stop_signal; }
 
-    /// Calls finish() of the observers of this rank, and nothing on others.
+    /// Calls finish() of the observers on this rank only.
     void finish();
 
-    /// What the observers say at the end, and what the steps cost; see Observer::report().
+    /// Reports of the observers, and the cost of the steps; see Observer::report().
     void report(std::ostream &log, bool failed = false) const;
 
-    /// What each observer stores in a checkpoint, complete on the root.
+    /// Checkpoint data of each observer, complete on the root.
     std::vector<std::string> save() const;
 
-    /// Hands what was stored to as many observers. Throws UserError for another number of them.
+    /// Passes checkpoint data to the observers. Throws UserError if their number differs.
     void resume(const std::vector<std::string> &stored);
 
     double time() const { return motion.state().time; }
-    double stepping_seconds() const { return seconds; } ///< of the steps, without observers
+    double stepping_seconds() const { return seconds; } ///< for the steps, without observers
     const Scene &scene() const { return named; }
     const SceneBodies &structure() const { return bodies; }
     const Constraints &constraints() const { return motion.links(); }
@@ -125,7 +125,7 @@ namespace taut
     int stop_signal = 0; ///< the same on all ranks; 0: go on
     bool is_open = false;
     double seconds = 0.;
-    Clock::time_point first, last; ///< begin() and finish()
+    Clock::time_point first, last; ///< times of begin() and finish()
   };
 } // namespace taut
 

@@ -11,11 +11,9 @@
 
 namespace taut
 {
-  /**
-   * The entries of a parameter file with the places where they stand, before anyone knows what they
-   * mean. Reads deal.II's .prm format (subsection, set, end, include, comments, continued lines; an
-   * include is sought beside the file that includes it).
-   */
+  /// The entries of a parameter file and their places, before interpretation. Reads deal.II's .prm
+  /// format (subsection, set, end, include, comments, continued lines). An included file is sought
+  /// beside the including file.
   class ParameterFile
   {
   public:
@@ -28,30 +26,29 @@ namespace taut
       std::string name() const; ///< the path joined with '/'
     };
 
-    /// Throws UserError with file and line if the text has no such structure, names an entry twice
-    /// or none at all, and for a .json file.
+    /// Throws UserError with file and line if the text has another structure, names an entry twice
+    /// or has none, and for a .json file.
     void read(const std::string &file);
 
-    /// Adds "A.B.Entry=value" or "A/B/Entry=value" from the command line; replaces the entry if it
-    /// is there. Returns it.
+    /// Sets "A.B.Entry=value" or "A/B/Entry=value" from the command line, in place of an existing
+    /// entry. Returns the entry.
     const Entry &set(const std::string &assignment);
 
-    /// What the root has read becomes what all ranks have.
+    /// Sends the data of the root to all ranks.
     void broadcast(const Communicator &processes);
 
     const std::vector<Entry> &entries() const { return list; }
 
-    /// Sections that were opened, empty or not, with the place of their first line.
+    /// Opened sections, empty or not, with the places of their first lines.
     const std::vector<Entry> &sections() const { return section_list; }
 
     /// All entries in .prm format.
     std::string text() const;
 
-    /// The file that was read, as named.
+    /// Name of the file, as given.
     const std::string &name() const { return main_file; }
 
-    /// "file:line: Section/Entry = 'value'", or as much of it as is known of a path joined with
-    /// '/'.
+    /// "file:line: Section/Entry = 'value'", or the known part for a path joined with '/'.
     std::string locate(const std::string &name) const;
 
   private:
@@ -60,9 +57,9 @@ namespace taut
     void add_section(const std::vector<std::string> &path, const std::string &place);
 
     std::vector<Entry> list, section_list;
-    std::map<std::string, std::size_t> index, section_index; ///< by name, of the lists
+    std::map<std::string, std::size_t> index, section_index; ///< by name, in the lists
     std::string main_file;
-    std::vector<std::string> open_files; ///< while they are read, to find a loop of includes
+    std::vector<std::string> open_files; ///< during reading, to detect a loop of includes
   };
 } // namespace taut
 

@@ -24,7 +24,7 @@
 
 namespace taut
 {
-  /// Where results go, and how often.
+  /// Place and interval of results.
   struct OutputParameters
   {
     std::string folder = "results", tables = "csv";
@@ -34,9 +34,9 @@ namespace taut
     std::vector<std::string> observers; ///< registered names
     bool overwrite = false;             ///< from the command line, not from the file
     bool resume = false;                ///< from the command line
-    bool writes = true;                 ///< false: a run leaves nothing on the disk
+    bool writes = true;                 ///< false: a run writes no files
 
-    /// A probe by name.
+    /// A named probe.
     struct ProbeItem
     {
       std::string point;
@@ -50,7 +50,7 @@ namespace taut
     void declare_parameters(dealii::ParameterHandler &prm);
   };
 
-  /// How a run goes through time.
+  /// Parameters of time integration.
   struct TimeParameters
   {
     std::string scheme = "automatic";
@@ -65,7 +65,7 @@ namespace taut
     void declare_parameters(dealii::ParameterHandler &prm);
   };
 
-  /// Everything a parameter file says. Members hold the defaults until read() has run.
+  /// All parameters of a file; members have default values before read().
   class Parameters : public TimeParameters
   {
   public:
@@ -73,36 +73,36 @@ namespace taut
     ~Parameters();
 
     /**
-     * Reads a .prm file; @p overrides are "Section.Entry=value" and replace entries of the
-     * file. With Study/Accuracy, entries that the stored study varied get the values it recommends.
-     * Only the root of @p processes reads, and hands on to all ranks. Throws UserError with file,
-     * line, entry, value and what is allowed.
+     * Reads a .prm file; @p overrides are "Section.Entry=value" and replace its entries. With
+     * Study/Accuracy, entries that the stored study varied get its recommended values. Only the
+     * root of @p processes reads, and sends the entries to all ranks. Throws UserError with file,
+     * line, entry, value and allowed values.
      */
     void read(const std::string &file, const std::vector<std::string> &overrides = {},
               const Communicator &processes = Communicator());
 
     /**
-     * Replaces entries of what was read on this process, "Section/Entry=value": the result is that
-     * of read() with these overrides besides, for a small part of its cost. False where only read()
-     * gets there: an entry decides which others there are, a value is not allowed, or a stored
-     * study was asked. Entries may then be changed in part. Throws UserError as read() does.
+     * Replaces entries on this process, "Section/Entry=value", with the result of read() with
+     * additional overrides for a small part of its cost. False if only read() can do this: an entry
+     * decides which others exist, a value is not allowed, or a stored study was used. Entries may
+     * then be changed in part. Throws UserError as read() does.
      */
     bool change(const std::vector<std::string> &overrides);
 
-    /// Leaves all entries at their defaults, for print().
+    /// Sets all entries to their defaults, for print().
     void set_defaults();
 
-    /// Writes all entries with their present values and help, as a .prm file; after read() or
+    /// Writes all entries with present values and help, as a .prm file; after read() or
     /// set_defaults().
     void print(std::ostream &out) const;
 
-    /// True if a file that print() wrote has the same entries, but for folders.
+    /// True if a file from print() has the same entries, except for folders.
     bool has_entries_of(const std::string &printed) const;
 
     /// The scene of the generator with gravity, start and probes, checked.
     Scene scene() const;
 
-    /// The message of an error about an entry, with file, line and value.
+    /// Message of an error about an entry, with file, line and value.
     std::string explain(const EntryError &error) const
     {
       return file.locate(error.entry()) + ": " + error.message();
@@ -122,7 +122,7 @@ namespace taut
     StudyParameters study;
     SweepParameters sweep;
 
-    /// Where the stored study is, or goes.
+    /// Folder of the stored study.
     std::string study_folder() const
     {
       return study.folder.empty() ? output.folder + "/study" : study.folder;
@@ -131,39 +131,38 @@ namespace taut
     /// All entries by path, "Section/Entry", with their values as text; after read().
     const std::map<std::string, std::string> &values() const { return entry_values; }
 
-    /// What a stored study chose for Study/Accuracy; empty if that was not asked for.
+    /// Choice of a stored study for Study/Accuracy; empty: not used.
     const std::string &accuracy_choice() const { return choice; }
 
-    /// The scheme of this name with its parameters.
     const TimeIntegrator &integrator(const std::string &name) const
     {
       return *integrators.at(name);
     }
 
-    /// The largest that a scheme has in the file, taken or not: a law of the contacts for whatever
-    /// 'automatic' takes [1].
+    /// Largest restitution of all schemes in the file, used or not: a law of the contacts for any
+    /// choice of 'automatic' [1].
     double restitution() const;
 
-    /// The values of all entries whose path begins with "Section/", by the rest of it.
+    /// Values of all entries with a path "Section/...", by the rest of the path.
     std::map<std::string, std::string> entries_below(const std::string &section) const;
 
-    /// A new observer of this name with the entries that the file gives it.
+    /// New observer of this name with its entries from the file.
     std::unique_ptr<Observer> make_observer(const std::string &name) const;
 
-    /// "Time/Newmark/Beta = 0.3" of each entry of a scheme that is not at its default and has no
-    /// part in this one.
+    /// "Time/Newmark/Beta = 0.3" for each entry of a scheme that is not at its default and has no
+    /// effect in this scheme.
     std::vector<std::string>
     unused_scheme_entries(const std::string &name,
                           const std::map<std::string, std::string> &entries) const;
 
-    /// "Body bar/Velocity = 1, 0, 0 (without Start = given)" of each entry of a body, contact, mass
-    /// or wire that is not at its default and has no part in a scene like this one.
+    /// "Body bar/Velocity = 1, 0, 0 (without Start = given)" for each entry of a body, contact,
+    /// mass or wire that is not at its default and has no effect in this scene.
     std::vector<std::string> unused_entries() const;
 
     /// The parameter file, without its folder.
     std::string file_name() const;
 
-    /// True if Time/Mass redistribution leaves to the choice of the scheme which nodes have mass.
+    /// True if the choice of the scheme decides which nodes have mass (Time/Mass redistribution).
     bool chooses_contact_mass() const
     {
       return scheme == "automatic" && mass_redistribution == "automatic" && end_time > 0.;
@@ -181,18 +180,18 @@ namespace taut
 
     std::string choice;
 
-    /// All entries with the members that they set: an object stays where it is.
+    /// All entries with the members that they set: addresses of objects are fixed.
     struct Declared
     {
       std::unique_ptr<dealii::ParameterHandler> entries;
-      std::set<std::string> structural; ///< those that decide which others there are
+      std::set<std::string> structural; ///< entries that decide which others exist
       std::map<std::string, std::string> defaults;
     } declared;
     std::map<std::string, std::string> entry_values;
     ParameterFile file;
     std::unique_ptr<SceneGenerator> generator;
     std::map<std::string, std::unique_ptr<TimeIntegrator>> integrators;
-    std::map<std::string, std::unique_ptr<Observer>> observers; ///< those that declare the entries
+    std::map<std::string, std::unique_ptr<Observer>> observers; ///< declare the entries
   };
 } // namespace taut
 

@@ -20,59 +20,53 @@ namespace taut
   struct ScenePlaces;
   struct SharedParts;
 
-  /**
-   * Throws an EntryError on Output/Folder if a run could not write its results there, because it is
-   * a file or holds those of another run; touches nothing. Worth asking before a large scene is
-   * made. Called by all ranks together.
-   */
+  /// Throws an EntryError on Output/Folder if a run cannot write its results there: it is a file,
+  /// or has results of another run. Changes nothing. Use it before constructing a large scene.
+  /// Called by all ranks together.
   void check_results_folder(const Parameters &parameters,
                             const Communicator &processes = Communicator());
 
-  /**
-   * A scene on its way through time: what a parameter file says becomes bodies and constraints, a
-   * SteppedMotion of these, and an ObservedRun with the observers that write the results.
-   */
+  /// A run of a scene: builds bodies and constraints from a parameter file, a SteppedMotion of
+  /// these, and an ObservedRun with the observers that write the results.
   class Simulation
   {
   public:
     /**
-     * @p parameters is kept by reference; what is said goes to @p log. All ranks of @p processes
-     * call each function together, with the same parameters; the root writes the results. What
-     * earlier runs left in @p shared is not made again, and later ones find there what this one
-     * makes; its results are the same.
+     * @p parameters is kept by reference; messages go to @p log. All ranks of @p processes call
+     * each function together, with the same parameters; the root writes the results. @p shared has
+     * parts of earlier runs that are not made again, and takes parts for later runs; the results
+     * are the same.
      */
     Simulation(const Parameters &parameters, std::ostream &log,
                const Communicator &processes = Communicator(), SharedParts *shared = nullptr);
 
-    /// Adds an observer of the start and of each step, called after those that write the results;
-    /// kept by reference.
+    /// Adds an observer of the start and each step, called after those that write the results; kept
+    /// by reference.
     void observe(Observer &observer) { guests.push_back(&observer); }
 
-    /// @p asked is called on each rank after each step; what is not 0 on any of them is the signal
-    /// that ends the run there. For taut::interruption, or a hook of the caller's own.
+    /// Each rank calls @p asked after each step; a result other than 0 on any rank is the signal to
+    /// end the run. For taut::interruption, or a hook of the caller.
     void stop_if(std::function<int()> asked) { stop_asked = std::move(asked); }
 
-    /**
-     * Runs to the end and writes the results. Throws UserError, and Interrupted if it was asked to
-     * stop. If it ends early in one of these ways, the results up to the last step are written and
-     * marked as partial; nothing is written if it ends before the first one.
-     */
+    /// Runs to the end and writes the results. Throws UserError, and Interrupted after a request to
+    /// stop. In both cases the results up to the last step are written and marked as partial;
+    /// before the first step nothing is written.
     void run();
 
-    /// Everything up to the first step, and the scene in tables; writes nothing. Throws UserError.
+    /// Does all work before the first step and prints the scene; writes nothing. Throws UserError.
     void check();
 
     const Scene &scene() const { return model; }
     const SceneBodies &structure() const { return bodies; }
     const Constraints &constraints() const { return links; }
 
-    /// Of the steps so far.
+    /// Statistics of the steps so far.
     const Statistics &statistics() const { return figures; }
 
-    /// Steps of a run: those that fit into its time.
+    /// Number of steps that fit into the time of the run.
     long n_steps() const;
 
-    /// Seconds that the loop over the steps took, without output.
+    /// Seconds in the loop over the steps, without output.
     double stepping_seconds() const { return observed ? observed->stepping_seconds() : 0.; }
 
   private:
@@ -104,7 +98,7 @@ namespace taut
     std::ostream &log;
     const Communicator processes;
     const Scene model;
-    std::string parts_reason; ///< why the parts are so many, if that was left to Taut
+    std::string parts_reason; ///< reason for the number of parts, if automatic
     SceneBodies bodies;
     std::vector<std::string> grounded_links; ///< at held ends of cables
     Constraints links;

@@ -8,22 +8,22 @@
 
 namespace taut
 {
-  /// Whether a study of a scene is a study of every scene with another value of this entry: where
-  /// results go, what is expected of them and how the study is made.
+  /// Whether a study of a scene holds for any value of this entry, which is about the place of
+  /// results, their expected ranges or the method of the study.
   bool is_irrelevant_for_study(const std::string &path);
 
   /// A setting of a stored study.
   struct StudyChoice
   {
     std::vector<std::string> overrides; ///< "Section/Entry=value"
-    std::string description;            ///< what was chosen and what it costs and loses
+    std::string description;            ///< the choice, its cost and its error
   };
 
   /**
-   * The cheapest setting in @p file, a study.json, whose error and that of its reference are
-   * together at most @p accuracy (relative). @p scene, all entries by path, must have the values of
-   * the studied scene but for those that the study varied; numbers compare as numbers. Throws
-   * EntryError on "Study/Accuracy" that says what differs or what could be had.
+   * The cheapest setting in @p file, a study.json, whose error plus that of its reference is at
+   * most @p accuracy (relative). @p scene, all entries by path, must have the values of the studied
+   * scene, except those that the study varied; numbers compare as numbers. Throws EntryError on
+   * "Study/Accuracy" with the difference, or the possible accuracy.
    */
   StudyChoice choose_setting(const std::string &file, double accuracy,
                              const std::map<std::string, std::string> &scene);

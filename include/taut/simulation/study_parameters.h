@@ -11,7 +11,7 @@
 
 namespace taut
 {
-  /// Entries of a scene that a study changes together, and the values they take in turn.
+  /// Entries of a scene that a study changes together, and their successive values.
   struct ParameterList
   {
     std::string name;
@@ -21,11 +21,11 @@ namespace taut
     bool refined = false;  ///< the reference takes halves of the least value
   };
 
-  /// What a study varies and measures, and the accuracy that a run asks of a stored study.
+  /// Parameters of a study, and the accuracy that a run asks of a stored study.
   struct StudyParameters
   {
     std::string folder;
-    double accuracy = 0.; ///< relative; 0: the scene is run as it is written
+    double accuracy = 0.; ///< relative; 0: the scene runs as written
     std::vector<double> accuracies = {0.05, 0.01, 0.001};
     unsigned int repeats = 3, reference_levels = 5;
 
@@ -53,7 +53,7 @@ namespace taut
     /// Declares the members in subsection "Study".
     void declare_parameters(dealii::ParameterHandler &prm);
 
-    /// The parameter lists, checked against all entries of the scene by path; throws EntryError.
+    /// The parameter lists, checked against all entries of the scene by path. Throws EntryError.
     std::vector<ParameterList>
     parameter_lists(const std::map<std::string, std::string> &scene) const;
   };

@@ -11,11 +11,11 @@
 
 namespace taut
 {
-  /// An entry, or several with one value, that a sweep varies.
+  /// An entry, or several entries with one value, that a sweep varies.
   struct SweptParameter
   {
     std::string name;
-    std::vector<std::string> entries; ///< their paths
+    std::vector<std::string> entries; ///< paths
   };
 
   /// The cases of a sweep, section "Sweep".
@@ -29,7 +29,7 @@ namespace taut
     {
       VariedEntries varied;
       std::string distribution = "values";
-      std::vector<double> range; ///< a pair for each number that is drawn
+      std::vector<double> range; ///< a pair for each random number
       void declare(dealii::ParameterHandler &prm);
       bool is_random() const { return distribution != "values"; }
     };
@@ -40,11 +40,10 @@ namespace taut
     /// Declares the members in subsection "Sweep".
     void declare_parameters(dealii::ParameterHandler &prm);
 
-    /// What is varied, checked against all entries of the scene by path; throws EntryError.
+    /// Varied parameters, checked against all entries of the scene by path. Throws EntryError.
     std::vector<SweptParameter> parameters(const std::map<std::string, std::string> &scene) const;
 
-    /// A value for each of the parameters in each case. The same on every machine; throws
-    /// EntryError.
+    /// A value for each parameter in each case, the same on every machine. Throws EntryError.
     std::vector<std::vector<std::string>> cases() const;
 
   private:

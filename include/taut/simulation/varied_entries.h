@@ -14,24 +14,21 @@ namespace dealii
 
 namespace taut
 {
-  /// Entries of a scene that take values together, one after the other: what a study and a sweep
-  /// have in common in the sections of their parameters.
+  /// Entries of a scene that take successive values together, in the sections of a study or sweep.
   struct VariedEntries
   {
     std::string entries, values; ///< as written
 
     void declare(dealii::ParameterHandler &prm);
 
-    /**
-     * The paths of the entries, each one of @p scene, all entries by path, and not among the @p
-     * taken ones, to which they are added. Throws EntryError on an entry of section @p title.
-     */
+    /// Paths of the entries, each in @p scene, all entries by path, and not in @p taken; adds them
+    /// to @p taken. Throws EntryError on an entry of section @p title.
     std::vector<std::string> paths(const std::string &title,
                                    const std::map<std::string, std::string> &scene,
                                    std::set<std::string> &taken) const;
 
-    /// The values, ranges "first:step:last" with all of theirs; at most @p most of one range.
-    /// Throws EntryError on an entry of section @p title if there is none, or an empty one.
+    /// The values, with all values of ranges "first:step:last", at most @p most of one range.
+    /// Throws EntryError on an entry of section @p title for no value or an empty one.
     std::vector<std::string> value_list(const std::string &title, std::size_t most) const;
   };
 } // namespace taut

@@ -14,20 +14,20 @@
 
 namespace taut
 {
-  /// What acts on the bodies of this rank from outside, and the step before.
+  /// External forces on the bodies of this rank, and the state of the step before.
   struct StepForces
   {
-    BodyVectors P;                      ///< external force minus the reference's [N, N m]
-    std::vector<PerKind> external_size; ///< largest of P of each body
-    BodyVectors old_A;                  ///< of the step before [m/s^2, rad/s^2]
-    BodyVectors old_balance;            ///< r of the step before [N, N m]
+    BodyVectors P;                      ///< external force minus that of the reference [N, N m]
+    std::vector<PerKind> external_size; ///< largest entries of P of each body
+    BodyVectors old_A;                  ///< accelerations of the step before [m/s^2, rad/s^2]
+    BodyVectors old_balance;            ///< balance r of the step before [N, N m]
   };
 
   /**
-   * How well a step satisfies the equation of motion of each body (see StepCoefficients). It is
-   * measured by products with M, C and K of the new state, and not with what was factored: the
-   * largest residual over the size of the terms that it is the difference of, displacements and
-   * slopes each for themselves.
+   * The residual of the equation of motion of each body (see StepCoefficients): a measure of how
+   * well a step solves it. Products with M, C and K of the new state give the residual; the factors
+   * of A take no part. It is relative to the size of its terms, for displacements and for slopes
+   * separately.
    */
   class BalanceCertificate
   {
@@ -36,37 +36,35 @@ namespace taut
     BalanceCertificate(const Structure &structure, const Constraints &constraints,
                        const Reference &reference, const NonlinearBodies &nonlinear);
 
-    /// Sets rows begin to end - 1 of displacement, velocity and acceleration of body k.
+    /// Sets displacement, velocity and acceleration of body k in rows begin to end - 1.
     using SetRows = std::function<void(std::size_t k, std::size_t begin, std::size_t end)>;
 
     /**
-     * Forms K U and r = P + B N - C V - K U of the state of a step, and the residual() of its
-     * equation of motion. @p in_balance are the multipliers in
-     * r, @p impulsive those that are forces of this step only, empty: none. Coefficients of zero
-     * are those of an equilibrium at rest. @p set_rows, if there is one, is called for all rows
-     * just before they are read first: their caches serve both. Throws an EntryError on the section
-     * of a body whose numbers are beyond largest_number.
+     * Forms K U and r = P + B N - C V - K U of the state after a step, and the residual() of its
+     * equation of motion. @p in_balance are the multipliers in r. @p impulsive are the forces that
+     * act in this step only; empty: none. Zero coefficients stand for an equilibrium at rest.
+     * @p set_rows, if given, sets rows just before their first use, so that both share the cache.
+     * Throws an EntryError on the section of a body with numbers beyond largest_number.
      */
     void measure(const StepCoefficients &c, const StepForces &forces,
                  const std::vector<double> &in_balance, const std::vector<double> &impulsive,
                  State &state, const SetRows &set_rows = {});
 
-    /// The largest relative residual of this rank's bodies after measure(); not-a-number if one is.
+    /// Largest relative residual of this rank's bodies after measure(); not-a-number if one is.
     double residual() const { return largest_residual; }
 
-    /// dU . [(1 - alpha_f) r + alpha_f r0] of this rank's bodies after measure(), with mean forces:
-    /// the work of all forces but the means of this step [J].
+    /// With mean forces, after measure(): work dU . [(1 - alpha_f) r + alpha_f r0] on body k of
+    /// this rank by all forces but the mean forces of this step [J].
     double work(const std::size_t k) const { return work_of_balance[k]; }
 
-    /// Body of the largest residual.
     std::size_t worst_body() const { return worst; }
 
-    /// True if no residual of this rank's bodies is more than 1e-10 of its terms and of |K||dU|,
-    /// which cancels where an increment is large against the displacement that it ends with.
+    /// True if all residuals of this rank's bodies are at most 1e-10 of their terms plus |K||dU|:
+    /// |K||dU| cancels if the increment is large against the displacement after the step.
     bool is_cancellation() const { return may_be_cancellation; }
 
   private:
-    /// Largest entries of a body, of what the residual is a difference of.
+    /// Largest entries of the residual of a body and of its terms.
     struct Sizes
     {
       PerKind residual = {0., 0.}, increment = {0., 0.}, velocity = {0., 0.},
@@ -82,12 +80,12 @@ namespace taut
     const Constraints &constraints;
     const NonlinearBodies &nonlinear;
     std::vector<std::array<KindNorm, 3>> norms; ///< of M, C, K of each body
-    std::vector<PerKind> reference_force;       ///< largest of K U_ref of each body [N, N m]
-    std::vector<PerKind> contact_force;         ///< largest of one constraint on each body [N, N m]
-    BodyVectors impulses;                       ///< forces of this step only
-    std::vector<double> mean_A;                 ///< accelerations that M acts on, of one body
-    std::vector<double> inertia, damping;       ///< forces of a tile
-    std::vector<double> work_of_balance;        ///< of each body
+    std::vector<PerKind> reference_force;       ///< largest entry, of each body [N, N m]
+    std::vector<PerKind> contact_force;         ///< largest of a constraint, on each body [N, N m]
+    BodyVectors impulses;                       ///< forces in this step only
+    std::vector<double> mean_A;                 ///< mean acceleration of one body in the step
+    std::vector<double> inertia, damping;       ///< forces in the rows of a tile
+    std::vector<double> work_of_balance;        ///< of each body [J]
     double largest_residual = 0.;
     std::size_t worst = 0;
     bool may_be_cancellation = true;

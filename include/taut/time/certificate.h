@@ -6,37 +6,34 @@
 
 namespace taut
 {
-  /**
-   * How well an accepted step satisfies its own equations. Recomputed from M, C, K, the states and
-   * the definition of the step; the factors of A are not used. All numbers are relative: rounding
-   * level is 1e-16 to 1e-11, 1 is wrong.
-   */
+  /// The residuals of an accepted step. They are computed from M, C, K, the states and the
+  /// definition of the step, without the factors of A. Residuals are relative: rounding is 1e-16 to
+  /// 1e-11, and 1 is wrong.
   struct Certificate
   {
-    /// Largest residual of a constraint: |min(F_ii N_i, D_i)|, or |D_i| if bilateral, over the
-    /// terms of its gap.
+    /// Largest residual of a constraint over the terms of its gap: |min(F_ii N_i, D_i)|, or |D_i|
+    /// if bilateral.
     double complementarity = 0.;
     std::size_t worst_constraint = 0;
 
     /// Largest residual of the equation of motion of a body, over |P| + max_i |B_i N_i| + |K U_ref|
-    /// + |K||U| + |C||V| + |M||dU|/step^2; with mean forces |K||dU| besides.
+    /// + |K||U| + |C||V| + |M||dU|/step^2, with mean forces plus |K||dU|.
     double balance = 0.;
-    std::size_t worst_body = 0; ///< of this rank
+    std::size_t worst_body = 0; ///< on this rank
 
-    /// Largest gap of a bilateral rigid constraint that the scheme holds at velocity level only, so
-    /// that its position is free to drift [m, rad].
+    /// Largest gap of a bilateral rigid constraint with conditions on velocities only, whose
+    /// position may drift [m, rad].
     double drift = 0.;
 
-    /// Kinetic energy of all bodies at the end of the step, of schemes with mean forces and
-    /// conditions on gaps only [J].
+    /// Kinetic energy of all bodies at the end of the step; schemes with mean forces and conditions
+    /// on gaps only [J].
     double kinetic_energy = 0.;
 
-    /// Energy that the system gained in such a step and that neither loads nor moving constraints
-    /// gave [J].
+    /// Energy that the system gained in such a step, but not from loads or moving constraints [J].
     double energy_gain = 0.;
 
     unsigned int iterations = 0; ///< of the complementarity solver
-    bool fallback = false;       ///< the method that was not chosen finished the step
+    bool fallback = false;       ///< the solver's other method finished the step
 
     template <typename Archive>
     void serialize(Archive &archive, unsigned int)
@@ -45,7 +42,7 @@ namespace taut
       archive &kinetic_energy &energy_gain &iterations &fallback;
     }
 
-    /// The larger of both; not-a-number if one is.
+    /// The larger residual; not-a-number if one is.
     double max() const
     {
       return complementarity > balance || complementarity != complementarity ? complementarity

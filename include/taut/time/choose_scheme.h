@@ -13,7 +13,7 @@
 
 namespace taut
 {
-  /// A time integration scheme by name, values of its own entries by path, and why.
+  /// Name of a time integration scheme, values of its entries by path, and why it was chosen.
   struct SchemeChoice
   {
     std::string name;
@@ -22,22 +22,22 @@ namespace taut
   };
 
   /**
-   * The scheme that suits the constraints of a system. Where a step resolves all unilateral
-   * constraints, generalised-alpha with spectral radius 0.8; otherwise, and for bodies that are not
-   * linear, laws and constraints that turn, Moreau-Jean with conditions on gaps, then velocities,
-   * or on gaps alone where a mass matrix has no inverse. Throws an EntryError if a @p restitution
-   * [1] is asked for that no constraint could have.
+   * The scheme that suits the constraints of a system. Generalised-alpha with spectral radius 0.8
+   * suits a linear system if a step resolves all unilateral constraints. A system is not linear
+   * with nonlinear bodies, laws, or constraints that turn. All other systems take Moreau-Jean with
+   * conditions on gaps, then velocities, or on gaps alone where a mass matrix has no inverse.
+   * Throws an EntryError if no constraint can have the @p restitution [1].
    */
   SchemeChoice choose_scheme(const Structure &structure, const Constraints &constraints,
                              const ContactResolution &resolution, double restitution);
 
   /**
-   * Throws an EntryError if a scheme is known to fail on a constraint: on Time/Scheme if its forces
-   * ring (StepCoefficients::ringing) at a unilateral constraint that acts as rigid, on
-   * Time/Moreau-Jean/Conditions if gaps of a moving rigid constraint would drift, on Time/Mass
-   * redistribution where conditions on velocities without damping meet a node without mass, on
-   * Time/Step if the scheme is not stable for the largest frequency of the system. @p resolution is
-   * asked for if the forces of the scheme may ring.
+   * Throws an EntryError if a scheme is known to fail. The entry is Time/Scheme if its forces ring
+   * (StepCoefficients::ringing) at a unilateral constraint that acts as rigid, with nonlinear
+   * bodies, or with turning constraints. It is Time/Moreau-Jean/Conditions if gaps of a moving
+   * rigid constraint would drift, and Time/Mass redistribution if conditions on velocities without
+   * damping meet a massless node. It is Time/Step if the scheme is unstable at the largest
+   * frequency of the system. @p resolution is called only if the forces ring.
    */
   void check_scheme(const TimeIntegrator &integrator, const Structure &structure,
                     const Constraints &constraints,

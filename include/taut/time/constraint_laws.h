@@ -10,54 +10,46 @@
 namespace taut
 {
   /**
-   * The constraints whose springs follow a law N = f(u) that is not linear, in one step. What their
-   * multiplier L is as an increasing function of the compression u at the end of the step depends
-   * on the scheme,
+   * The constraints of one step whose springs follow a nonlinear law N = f(u). Their multiplier L
+   * is an increasing function of the compression u at the end of the step, by the scheme:
    *
-   *     L = phi(u) = a f(u) + b f_mean(u_0, u) + d (u - u_d),
+   *     L = phi(u) = a f(u) + b f_mean(u_0, u) + d (u - u_d).
    *
-   * with the mean of f between the compressions before and after, so that the step stores what the
-   * force works, and the damper beside the spring. Condition is 0 <= L _|_ g + phi^-1(L) >= 0, g
-   * the gap without the spring.
+   * f_mean is the mean of f between the compressions before and after the step: with it the spring
+   * stores the work of its force. The last term is the damper. The condition is
+   * 0 <= L _|_ g + phi^-1(L) >= 0 with g the gap without the spring.
    *
-   * Newton's method: with phi linearised at u_j the law is a compliance S = 1 / phi'(u_j), an entry
-   * of the diagonal of F, and a shift u_j - S phi(u_j) of the gap; the complementarity problem is
-   * solved exactly (N. H. Josephy, 1979), and the next u_j is -g, or where phi vanishes if the
-   * constraint is open. All this is the optimality condition of a convex energy. Where the
-   * energy may have grown on the way to a solution, it is made least along the way, which needs no
-   * products with F: its derivative there is the change of the gaps times L - phi.
+   * Newton's method linearises phi at u_j. The law then is a compliance S = 1 / phi'(u_j) on the
+   * diagonal of F, and a shift u_j - S phi(u_j) of the gap. The complementarity problem is solved
+   * exactly (N. H. Josephy, 1979). The next u_j is -g, or for an open constraint the zero of phi.
+   *
+   * This is the optimality condition of a convex energy. If it may have grown, a line search
+   * minimises it without products with F: its derivative is the change of the gaps times L - phi.
    */
   class ConstraintLaws
   {
   public:
-    /// Kept by reference.
+    /// The argument is kept by reference.
     explicit ConstraintLaws(const Constraints &constraints);
 
     bool empty() const { return rows.empty(); }
 
-    /// Begins a step, or statics, from compression @p u [m, rad]: the constraint follows its law at
-    /// the end of it, with a damper @p damping (u - @p undamped) [N/m; m].
+    /// Begins a step, or statics, from compression @p u [m, rad]. The constraint follows its law at
+    /// the end of the step, with a damper @p damping (u - @p undamped) [N/m; m].
     void begin_at_end(std::size_t i, double u, double damping = 0., double undamped = 0.);
 
-    /**
-     * The same where theta L is a mean over the step, 2 (1 - theta) f_mean + (2 theta - 1) f(u):
-     * that of the energy at theta = 1/2, and beyond it what takes more. The damper acts on the
-     * change of u.
-     */
+    /// Begins a step where theta L is the mean 2 (1 - theta) f_mean + (2 theta - 1) f(u). It
+    /// conserves energy at theta = 1/2 and dissipates beyond. The damper acts on changes of u.
     void begin_mean(std::size_t i, double u, double theta, double damping);
 
-    /**
-     * The same at theta = 1/2 for a conserving constraint: f_mean is the quotient of what a spring
-     * that only resists compression stores, (W(u) - W(u_0)) / (u - u_0) with W = 0 for u < 0, so
-     * that @p u is minus the gap where the constraint is open. The damper acts on compressions.
-     */
+    /// Begins a step at theta = 1/2 for a conserving constraint. f_mean is (W(u) - W(u_0)) / (u -
+    /// u_0) with the energy W of a spring under compression, and W = 0 for u < 0. Hence @p u is
+    /// minus the gap where the constraint is open. The damper acts on compressions.
     void begin_conserving(std::size_t i, double u, double damping);
 
-    /**
-     * Solves @p problem, whose free gaps are g without multipliers where a constraint has a law,
-     * and leaves there the shifts of the law. @p S and @p shift become those of the last
-     * linearisation; errors are those of @p check. The result is kept until the next call.
-     */
+    /// Solves @p problem, whose free gaps of constraints with a law are g without multipliers; adds
+    /// the shifts of the laws to these. @p S and @p shift become those of the last linearisation.
+    /// Errors come from @p check. The result is valid until the next call.
     const MixedComplementaritySolution &solve(MixedComplementarityProblem &problem,
                                               StepEquations &system, const StepCheck &check,
                                               Certificate &certificate, std::vector<double> &S,
@@ -66,11 +58,11 @@ namespace taut
     /// Whether the spring of a constraint follows a law in this step.
     bool has(const std::size_t i) const { return row_of[i] < rows.size(); }
 
-    /// What compression @p u and multiplier @p L lack of the law, as a gap: (L - phi(u)) / phi'(u).
-    /// 0 for a constraint without a law.
+    /// Residual of the law at compression @p u and multiplier @p L, as a gap:
+    /// (L - phi(u)) / phi'(u). 0 for a constraint without a law.
     double lack(std::size_t i, double u, double L) const;
 
-    /// phi^-1(L) beside @p u, as exact as L is: @p u may be the small difference of large motions.
+    /// phi^-1(L) near @p u, as exact as L: @p u may be the small difference of large motions.
     double polished(std::size_t i, double u, double L) const;
 
   private:
@@ -80,8 +72,8 @@ namespace taut
       std::size_t index;
       const ForceLaw *law;
       double u0 = 0., at_end = 1., of_mean = 0., damping = 0., undamped = 0.;
-      bool conserving = false; ///< u and u0 below zero count as open
-      double open = 0.;        ///< where phi vanishes; minus infinity: nowhere
+      bool conserving = false; ///< u and u0 below zero mean open
+      double open = 0.;        ///< zero of phi; minus infinity: none
 
       double force(double u) const;
       double slope(double u) const;
@@ -111,7 +103,7 @@ namespace taut
     const Constraints &constraints;
     std::vector<std::shared_ptr<const ForceLaw>> linear; ///< laws of conserving constraints
     std::vector<Row> rows;
-    std::vector<std::size_t> row_of; ///< of each constraint, rows.size() of one without a law
+    std::vector<std::size_t> row_of; ///< row of each constraint; rows.size(): no law
   };
 } // namespace taut
 

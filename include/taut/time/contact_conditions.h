@@ -12,58 +12,55 @@
 namespace taut
 {
   /**
-   * What a scheme asks of the constraints in a step: the complementarity problem, and what its
-   * multipliers mean.
+   * The conditions of a scheme on the constraints in a step: the complementarity problem, and the
+   * meaning of its multipliers.
    *
-   * A constraint with conditions on gaps asks for 0 <= D at the end of the step. With conditions on
-   * velocities (Moreau 1988, Jean 1999) the rigid constraints ask for 0 <= D' + e D'_0 instead, if
-   * they were closed or if D_0 + step D'_0 / 2 <= 0, and take no part otherwise. Times (1 -
-   * alpha_f) step, that is B^T dU plus something known: the same F.
+   * A condition on a gap is 0 <= D at the end of the step. A condition on a velocity (Moreau 1988,
+   * Jean 1999) is 0 <= D' + e D'_0 for a rigid constraint that was closed or has D_0 + step
+   * D'_0 / 2 <= 0; other rigid constraints take no part. Times (1 - alpha_f) step it is B^T dU plus
+   * known terms, so that F is the same.
    *
-   * With either the force of a rigid constraint may be a mean over the step: it acts in this step
-   * only and with all its weight. Bilateral constraints of such schemes ask for D' = 0: D = 0 would
-   * let their velocities alternate for ever at theta = 1/2. A scheme with a velocity projection
-   * asks for gaps of all constraints, and its elastic unilateral constraints have mean forces, too.
-   * Rows on DoFs without mass and damping keep forces at the ends of steps there, where they hold
-   * these DoFs in equilibrium.
+   * With either condition the force of a rigid constraint may be a mean over the step, which acts
+   * in this step only and with full weight. Bilateral constraints with mean forces have the
+   * condition D' = 0: under D = 0 their velocities alternate for ever at theta = 1/2. A scheme with
+   * a velocity projection has conditions on gaps of all constraints, and mean forces of elastic
+   * unilateral ones, too. On DoFs without mass and damping, forces remain those at the end of the
+   * step, where they hold these DoFs in equilibrium.
    */
   class ContactConditions
   {
   public:
-    /// The arguments but @p start are kept by reference; @p constraints are where they are at the
-    /// start.
+    /// All but @p start are kept by reference; @p constraints are at their initial places.
     ContactConditions(const Structure &structure, const Constraints &constraints,
                       const TurningConstraints &turning, const Reference &reference,
                       const State &start);
 
-    /// For steps with these coefficients from now on [s].
+    /// Sets the coefficients and the length [s] of the steps to come.
     void prepare(const StepCoefficients &c, double step);
 
-    /// Before each step: whether it is the first one of all.
+    /// Before each step: whether it is the first step of the run.
     void begin_step(const bool first) { is_first = first; }
 
-    /// Sets the problem of the step from the state before it. The constraints are at its end, @p P
-    /// is P^, @p lift the given motions.
+    /// Sets the problem of the step from the state before it. The constraints are in their places
+    /// at the end of the step, @p P is P^, @p lift the prescribed motion.
     void set_problem(const State &before, const StepEquations &system, const BodyVectors &P,
                      const BodyVectors &lift);
 
-    /**
-     * Solves it for multipliers L with A dU = P^ + B L. state.multiplier becomes the force at the
-     * end of the step, or its mean over the step. Errors are those of @p check, iterations go into
-     * @p certificate.
-     */
+    /// Solves the problem for multipliers L with A dU = P^ + B L. state.multiplier becomes the
+    /// force at the end of the step, or the mean force over the step. Errors come from @p check,
+    /// iterations go into @p certificate.
     void find_multipliers(StepEquations &system, const StepCheck &check, Certificate &certificate,
                           State &state);
 
     /// L and the amplitudes of rigid body modes.
     const MixedComplementaritySolution &applied() const { return solved; }
 
-    /// The part of L that the balance of forces at the end of the step has, and the rest of it.
+    /// The part of L in the balance of forces at the end of the step, and the remaining part.
     const std::vector<double> &in_balance() const { return balanced; }
     const std::vector<double> &impulsive() const { return c.mean_force ? impulses : none; }
 
-    /// Forces of moving constraints with a mean force, which the step counts half in their previous
-    /// place: minus their part in the new place. Empty without such constraints [N, N m].
+    /// Mean forces of moving constraints act half in their previous place. Returns minus their part
+    /// in the new place; empty without such constraints [N, N m].
     const std::vector<double> &forces_at_previous_place(const State &before);
 
     /// True if the force of the constraint is a mean over the step.
@@ -73,37 +70,30 @@ namespace taut
     GapTracker &gaps() { return gap_tracker; }
     const LinkSprings &springs() const { return link_springs; }
 
-    /// Of schemes with mean forces.
+    /// Rates, for schemes with mean forces.
     const GapRates &rates() const { return gap_rates; }
     GapRates &rates() { return gap_rates; }
 
-    /**
-     * True of a rigid constraint that turns and was closed before the step, unless that is the
-     * first one, from velocities that open or close it. Its rate after the step, which ends in @p
-     * state, is of second order, and impulses that make it zero would take energy in each step.
-     */
+    /// True for a rigid turning constraint that was closed before the step, except in the first
+    /// step if initial velocities open or close it. Its rate after the step, in @p state, is of
+    /// second order; impulses against it would take energy in each step.
     bool remains_in_contact(std::size_t i, const State &state) const;
 
-    /// Gaps, rates and springs of the state, whose displacements are at the end of the step
-    /// already.
+    /// Updates gaps, rates and springs of the state, whose displacements are those after the step.
     void update(State &state);
 
-    /**
-     * After update(), with schemes without mean forces: what the constraints answer to forces @p
-     * left that the balance of the bodies lacks, so that their conditions hold again. False if no
-     * answer is found. Called by all ranks together.
-     */
+    /// After update(), with schemes without mean forces: solves for the correction of the
+    /// constraints under the residual forces @p left of the bodies. False if there is no solution.
+    /// Called by all ranks together.
     bool correct(const State &state, StepEquations &system, const BodyVectors &left);
 
-    /// The answer: changes of multipliers [N, N m] and amplitudes.
+    /// Corrections of multipliers [N, N m] and amplitudes.
     const MixedComplementaritySolution &corrections() const { return correction; }
 
-    /// Adds these changes, and the motions @p dU that they are a part of, to gaps, springs and
-    /// multipliers.
+    /// Adds the corrections, and the motions @p dU of the bodies, to gaps, springs and multipliers.
     void add_correction(const BodyVectors &dU, State &state);
 
-    /// Largest residual of a constraint, with D or D' recomputed from the displacements; and its
-    /// index.
+    /// Largest residual of a constraint with D or D' recomputed from displacements, and its index.
     double residual(const State &state, const ComplementarityOperator &F, std::size_t &worst);
 
     /// Largest gap of a bilateral rigid constraint with conditions on velocities [m, rad].
@@ -125,7 +115,7 @@ namespace taut
     const Constraints &constraints;
     StepCoefficients c;
     double step = 0.;
-    bool is_first = false; ///< step of all
+    bool is_first = false; ///< whether this is the first step of the run
 
     const TurningConstraints &turning;
     GapTracker gap_tracker;
@@ -139,7 +129,7 @@ namespace taut
     std::vector<double> balanced, impulses, previous_place;
     const std::vector<double> none; ///< empty
 
-    /// The solution with gaps from the displacements, its residuals and what these are relative to.
+    /// The solution with gaps from the displacements, its residuals and their scales.
     struct Residual
     {
       MixedComplementaritySolution at;

@@ -18,26 +18,24 @@
 namespace taut
 {
   /**
-   * What a run's contacts did, where the certificate of each step sees nothing: it proves that a
-   * step's equations are solved, not that the scheme suits the contacts.
+   * Measures of the contacts of a run that show whether the scheme suits them. The certificate of a
+   * step shows only that its equations are solved.
    *
-   * Contact energy: what a constraint gave or took beside what its spring stores and its damper
-   * takes, see LinkEnergies, over the energy of the bodies that it is connected with. Where rigid
-   * constraints have mean forces and conditions on gaps, what a group of connected bodies gained
-   * that nothing explains (State::energy_gains) counts, too.
+   * Contact energy: the energy that a constraint gave or took beyond its spring and damper, see
+   * LinkEnergies, over the energy of its group of connected bodies. If rigid constraints have mean
+   * forces and conditions on gaps, unexplained gains of the group (State::energy_gains) count, too.
    *
-   * Momentum: what a body lacks after a contact whose energy is not right, over the largest impulse
-   * of a constraint of its group.
+   * Momentum: the momentum error of a body after a contact with a wrong energy, over the largest
+   * impulse of a constraint of its group.
    *
-   * Energy of large motions: the gains of energy that nothing explains of all steps, of a group
-   * with a body that is not linear, over the same.
+   * Energy of large motions: the sum of unexplained energy gains of a group with a nonlinear body
+   * or a turning constraint, over the energy of the group.
    *
-   * Gap: the largest penetration, or gap of a constraint that presses, of rigid unilateral
-   * constraints.
+   * Gap: the largest penetration, or gap of a pressing constraint, of rigid unilateral constraints.
    *
-   * Resolution: largest force of a unilateral constraint over the largest of its means across the
+   * Resolution: the largest force of a unilateral constraint over its largest mean across the
    * shortest time that its element resolves, max(step, 2 / omega_max). Far above one, the force is
-   * an impulse over a step, and its size says how short the step is.
+   * an impulse over a step, and its size depends on the step.
    */
   class ContactMeasures
   {
@@ -46,18 +44,18 @@ namespace taut
     ContactMeasures(const Structure &structure, const Constraints &constraints,
                     const Reference &reference, const State &start);
 
-    /// Whether the scheme was chosen by its constraints, and by whose step: what to do about a
-    /// wrong contact depends on it.
+    /// Whether the scheme was chosen automatically and whether steps are adaptive: the advice of
+    /// warnings depends on both.
     void set_scheme(const bool automatic, const bool adaptive)
     {
       is_automatic = automatic;
       is_adaptive = adaptive;
     }
 
-    /// An accepted step, made with these coefficients. Called by all ranks together.
+    /// Records an accepted step with its coefficients. Called by all ranks together.
     void record(const State &state, const StepCoefficients &c, const Certificate &certificate);
 
-    /// For checkpoints: what was measured so far.
+    /// Measures so far, for checkpoints.
     void save(OutputArchive &archive);
     void load(InputArchive &archive);
 
@@ -67,55 +65,54 @@ namespace taut
     /// Largest impulse of a constraint from closing to opening [N s, N m s].
     double largest_impulse(std::size_t i) const { return forces[i].largest_impulse; }
 
-    /// Results of the run so far.
     struct Summary
     {
       double contact_energy = 0.;                ///< given and taken by the worst constraint [J]
-      double taken = 0.;                         ///< of that what it took [J]
-      double scale = 0.;                         ///< of its group, see LinkEnergies [J]
+      double taken = 0.;                         ///< part of it that the constraint took [J]
+      double scale = 0.;                         ///< energy of its group, see LinkEnergies [J]
       double relative_energy = 0.;               ///< contact energy over the scale [1]
-      double contact_time = 0., step = 0.;       ///< its shortest contact, and its step [s]
-      double motion_energy = 0.;                 ///< of large motions [J]
+      double contact_time = 0., step = 0.;       ///< its shortest contact, and the step then [s]
+      double motion_energy = 0.;                 ///< gained in large motions [J]
       double relative_motion_energy = 0.;        ///< over the scale [1]
-      std::size_t energy_constraint = 0;         ///< the worst one
+      std::size_t energy_constraint = 0;         ///< the worst constraint
       double energy_begin = 0., energy_end = 0.; ///< of its largest contact [s]
-      double relative_momentum = 0.; ///< of such an energy, over the largest impulse of a group [1]
+      double relative_momentum = 0.;             ///< error over the largest impulse of a group [1]
       std::size_t momentum_constraint = 0;
       double gap = 0.; ///< [m, rad]
       std::size_t gap_constraint = 0;
-      bool gap_drifts = false; ///< more than a step of motion
+      bool gap_drifts = false; ///< more than the motion of a step
       double resolution = 1.;  ///< [1]
       std::size_t resolution_row = 0;
-      double peak = 0., mean_peak = 0., mean_time = 0.; ///< of that constraint [N, N m; s]
+      double peak = 0., mean_peak = 0., mean_time = 0.; ///< of this constraint [N, N m; s]
     };
     Summary summary() const;
 
-    /// Part of the scale from which energy given or taken is a warning, and an error.
+    /// Parts of the scale above which contact energy is a warning, and an error.
     static constexpr double suspicious_energy = 1e-2, wrong_energy = .1;
 
-    /// Part of the largest impulse from which the momentum of such an energy is a warning.
+    /// Part of the largest impulse above which a momentum error is a warning.
     static constexpr double suspicious_momentum = MotionDifference::impulse_bound;
 
-    /// Resolution above which it is said.
+    /// Resolution above which the report mentions it.
     static constexpr double unresolved = 3.;
 
-    /// Of the measures beyond their bounds.
+    /// Warnings for the measures beyond their bounds.
     std::vector<Warning> warnings() const;
 
     /// One line for the log, and one for each warning.
     std::string report() const;
 
-    /// The message of a run with an energy beyond wrong_energy; empty if it has none.
+    /// Message for a run with an energy beyond wrong_energy; empty: no error.
     std::string error() const;
 
-    /// Path in the parameter file of what error() is about; empty: all of it.
+    /// Path in the parameter file that error() is about; empty: the whole file.
     std::string error_origin() const;
 
   private:
-    /// Force of a constraint in time.
+    /// History of the force of a constraint.
     struct Force
     {
-      double window = 0.; ///< [s]; 0: each step for itself
+      double window = 0.; ///< [s]; 0: one step
       std::deque<std::pair<double, double>>
           impulses; ///< time and impulse until then, in the window
       double impulse = 0., mean = 0., peak = 0., mean_peak = 0.;
@@ -140,10 +137,10 @@ namespace taut
     const Reference &reference;
     std::vector<Force> forces;
     LinkEnergies energies;
-    std::vector<char> moves_far;                     ///< groups with a body that is not linear
+    std::vector<char> moves_far;                     ///< groups with large motions
     std::vector<double> contact_gains, motion_gains; ///< of the groups [J]
-    std::vector<double> rest_of_step;                ///< rounding in a step of the latter [J]
-    std::vector<std::size_t> first_one_sided;        ///< constraint of each group
+    std::vector<double> rest_of_step;                ///< rounding of motion_gains in a step [J]
+    std::vector<std::size_t> first_one_sided;        ///< first unilateral constraint of each group
     bool is_automatic = false, is_adaptive = false;
     Summary found;
     long n_steps = 0;

@@ -11,8 +11,8 @@
 
 namespace taut
 {
-  /// Energy that groups of connected bodies gain in a step from nowhere [J]: what neither loads nor
-  /// moving constraints gave. All functions are called by all ranks together.
+  /// Energy that groups of connected bodies gain in a step beyond the work of loads and moving
+  /// constraints [J]. All functions are called by all ranks together.
   class EnergyGains
   {
   public:
@@ -21,24 +21,21 @@ namespace taut
                 NonlinearBodies &nonlinear, const ContactConditions &conditions,
                 const TurningConstraints &turning);
 
-    /// Kinetic energies of the groups at the start, into the state.
+    /// Stores the kinetic energies of the groups at the start in the state.
     void start(State &state);
 
     /**
-     * With mean forces. Of each group the change of kinetic energy, minus the work of all forces
-     * but those of fixed constraints with a mean force, plus what the springs of these take: not
-     * positive but for rounding. Where supports move it would be the work of their forces, too, and
-     * is not measured. The energies of bodies that are not linear are their own, so that a mean
-     * force that is not theirs shows. @p balance is that of the step.
+     * With mean forces: the change of the kinetic energy of each group, minus the work of all
+     * forces but those of fixed constraints with mean forces, plus the change of their spring
+     * energy. The gain is not positive, except for rounding. It is not measured if supports move,
+     * as it would need the work of their forces. Nonlinear bodies count with their own energy, so
+     * that a wrong mean force shows. @p balance is that of the step.
      */
     void measure(const BalanceCertificate &balance, State &state, Certificate &certificate);
 
-    /**
-     * Backward Euler with forces at the ends of steps: kinetic energy falls by the work of inertia
-     * and by that of the change of velocity with itself, and the energies of bodies rise by more
-     * than the work of their forces at the end where they are not convex. The sum of both gains
-     * comes from nowhere.
-     */
+    /// Gains with backward Euler and forces at the ends of steps. A body with a non-convex energy
+    /// gains more than the work of its forces at the end of the step. The scheme dissipates the
+    /// kinetic energy of the change of velocity. The gain of a group is the difference.
     void measure_at_ends(State &state, Certificate &certificate);
 
   private:
@@ -52,7 +49,7 @@ namespace taut
     const ContactConditions &conditions;
     const TurningConstraints &turning;
     const ConnectedBodies groups;
-    bool supports_move = false; ///< of a body of some rank
+    bool supports_move = false; ///< of any rank
     std::vector<double> sums, product;
   };
 } // namespace taut

@@ -12,11 +12,10 @@
 namespace taut
 {
   /**
-   * Rates D' of the gaps through the steps of schemes with mean forces [m/s, rad/s]. The rate of a
-   * moving constraint has what the motion of its place adds to B^T V: with a velocity projection at
-   * the end of the step, v (dB/dx)^T U + r', otherwise as a mean over the step,
-   * ((B - B_0)^T U_0 + D0 - D0_0) / step. All functions that take a state are called by all ranks
-   * together.
+   * Rates D' of the gaps in schemes with mean forces [m/s, rad/s]. For a moving constraint, the
+   * motion of its place adds to B^T V. With a velocity projection this is v (dB/dx)^T U + r' at the
+   * end of the step, otherwise the mean ((B - B_0)^T U_0 + D0 - D0_0) / step over the step. All
+   * functions with a state are called by all ranks together.
    */
   class GapRates
   {
@@ -25,24 +24,24 @@ namespace taut
     GapRates(const Structure &structure, const Constraints &constraints,
              const Reference &reference);
 
-    /// For steps with these coefficients from now on [s].
+    /// Sets the coefficients and the length [s] of the steps to come.
     void prepare(const StepCoefficients &c, double step);
 
-    /// Begins a step: B^T V of the state before it.
+    /// Begins a step with B^T V of the state before it.
     void begin(const State &before);
 
-    /// What the motion of its place adds to a gap in the step [m].
+    /// Sets the change of a gap in the step by the motion of its place [m].
     void set_convection(const std::size_t i, const double way) { convection[i] = way; }
     double of_convection(const std::size_t i) const { return convection[i]; }
 
-    /// After the step, whose end @p state has: the rates of the state, and those before.
+    /// After the step with the end @p state: sets its rates and those before the step.
     void accept(State &state);
 
-    /// After a change of the velocities of @p state, with a velocity projection: its rates anew.
+    /// After a velocity projection, which changes velocities of @p state: sets its rates again.
     void update(State &state);
 
-    /// B^T V of begin(), accept() or update(), whichever was last, and the sums of the sizes of its
-    /// terms; D' at the start of the step.
+    /// B^T V after the last begin(), accept() or update(), the sum of the sizes of its terms, and
+    /// D' at the start of the step.
     const std::vector<double> &velocities() const { return velocity; }
     const std::vector<double> &velocity_sizes() const { return velocity_size; }
     const std::vector<double> &before_step() const { return rates_before; }
@@ -57,7 +56,7 @@ namespace taut
     bool is_projected = false;
     double step = 0.;
     std::vector<double> velocity, velocity_size, convection, rates_before;
-    std::vector<double> rate_of_place; ///< D' besides B^T V, with a velocity projection
+    std::vector<double> rate_of_place; ///< D' minus B^T V, with a velocity projection
   };
 } // namespace taut
 

@@ -12,56 +12,55 @@
 namespace taut
 {
   /**
-   * Geometric gaps of the constraints through the steps, and what they round with.
+   * Geometric gaps of the constraints through the steps, and their rounding scales.
    *
-   * Gaps of fixed constraints are carried as increments: a gap rounds at eps times its size, and
-   * F^-1 = O(1/step^2) makes force noise of that. Gaps of moving constraints are those of the
-   * displacements at their places. All functions that take vectors of bodies are called by all
-   * ranks together; units are m, or rad of rotational constraints.
+   * A gap of a fixed constraint is summed from increments: a gap rounds at eps times its size, and
+   * F^-1 = O(1/step^2) turns this into noise of the force. A gap of a moving constraint comes from
+   * the displacements at its place. Functions with vectors of bodies are called by all ranks
+   * together. Units are m, or rad for rotational constraints.
    */
   class GapTracker
   {
   public:
-    /// The arguments but @p start are kept by reference; @p constraints are where they are at the
-    /// start.
+    /// All but @p start are kept by reference; @p constraints are at their initial places.
     GapTracker(const Structure &structure, const Constraints &constraints,
                const TurningConstraints &turning, const Reference &reference, const State &start);
 
-    /// Begins a step: how the constraints would move without multipliers, under P^ = @p P and the
-    /// given motions @p lift, and where the moving ones are.
+    /// Begins a step: motion of the constraints without multipliers, under P^ = @p P and the
+    /// prescribed motion @p lift, and the places of moving constraints.
     void predict(const State &before, const StepEquations &system, const BodyVectors &P,
                  const BodyVectors &lift);
 
-    /// The gap of a constraint at the end of the step without its motion, after predict().
+    /// Gap at the end of the step without the motion of the constraint, after predict().
     double free_gap(std::size_t i, const State &before) const;
 
-    /// B^T dU of the step: without multipliers after predict(), with them after measure().
+    /// B^T dU of the step, after predict() without multipliers, after measure() with multipliers.
     const std::vector<double> &increments() const { return motion; }
 
-    /// What the gap of a step rounds with, whose terms besides those of the bodies have the size
-    /// @p other.
+    /// Scale of the rounding of a gap in this step. @p other is the size of its terms that are not
+    /// motions of the bodies.
     double set_scale(std::size_t i, const State &before, double other);
 
-    /// The scale that set_scale() found last, without the least scale of constraints at rest.
+    /// The last result of set_scale(), without the minimum for constraints at rest.
     double scale(const std::size_t i) const { return scale_of_step[i]; }
 
     /// Sizes of the terms of B^T U at the end of the step.
     const std::vector<double> &term_sizes() const { return terms_size; }
 
-    /// After the step: B^T dU and B^T U of the new state.
+    /// After the step: computes B^T dU and B^T U of the new state.
     void measure(const State &state);
 
-    /// Then: the gap of a constraint at the end of the step.
+    /// After measure(): gap at the end of the step.
     double new_gap(std::size_t i, const State &state);
 
-    /// A correction of the bodies by @p dU moves the gaps of @p state.
+    /// Adds a correction @p dU of the bodies to the gaps of @p state.
     void correct(const BodyVectors &dU, State &state);
 
-    /// Largest distance of a carried gap from that of the displacements, over the terms of the gap,
-    /// and its constraint.
+    /// Largest difference between a tracked gap and the gap from displacements, over the terms of
+    /// the gap, and its constraint.
     double largest_stray(const State &state, std::size_t &worst);
 
-    /// What is kept from step to step beside the state: sizes of gaps and of their terms so far.
+    /// The data that persist between steps beside the state: largest sizes of gaps and their terms.
     struct Sizes
     {
       std::vector<double> scale, terms;
@@ -89,16 +88,16 @@ namespace taut
     const TurningConstraints &turning;
     const Reference &reference;
     bool supports_move = false;         ///< of a body of this rank
-    std::vector<double> reference_gap;  ///< of the fixed constraints
-    std::vector<double> gap_correction; ///< of the moving ones: gap of the start minus the one of
-                                        ///< its displacements, as rounding would be a force
+    std::vector<double> reference_gap;  ///< of fixed constraints
+    std::vector<double> gap_correction; ///< of moving constraints: first gap minus that from
+                                        ///< displacements, as rounding would be a force
     std::vector<double> motion;         ///< B^T dU
-    std::vector<double> motion_size;    ///< what it rounds with
-    std::vector<double> position;       ///< B^T U, with the reference's of a moving constraint
-    std::vector<double> terms_size;     ///< sum of the sizes of the terms of it
-    std::vector<double> scale_of_step;  ///< of each gap, as the last guess has it
-    std::vector<double> largest_scale;  ///< so far: what came to rest rounds with it
-    std::vector<double> gap_terms;      ///< largest terms of the gaps of the fixed constraints
+    std::vector<double> motion_size;    ///< rounding scale of motion
+    std::vector<double> position;       ///< B^T U; with U_ref for a moving constraint
+    std::vector<double> terms_size;     ///< sum of the sizes of the terms of position
+    std::vector<double> scale_of_step;  ///< of each gap, with the last guess
+    std::vector<double> largest_scale;  ///< largest scale so far: gaps at rest round with it
+    std::vector<double> gap_terms;      ///< largest terms of the gaps of fixed constraints
   };
 } // namespace taut
 

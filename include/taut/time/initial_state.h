@@ -10,28 +10,27 @@
 
 namespace taut
 {
-  /// Where a run starts, what its motions are measured from, and how well the equilibrium was
-  /// solved.
+  /// The start of a run, the reference of its motions, and the certificate of the equilibrium.
   struct InitialState
   {
     Reference reference;
     State state;
     Certificate certificate;
-    std::vector<char> linearised; ///< for each body of all ranks whether it was, there
-    std::size_t n_kept = 0;       ///< constraints that turn no more but keep the direction there
+    std::vector<char> linearised; ///< for each body of all ranks: was linearised here
+    std::size_t n_kept = 0;       ///< turning constraints that keep their direction from here on
   };
 
   /**
-   * The start of a run at t = 0. An equilibrium is the reference itself, so that U = 0; otherwise
-   * the reference is the undeformed system. Given displacements and velocities are those of
+   * The start of a run at t = 0. An equilibrium is the reference itself, with U = 0; otherwise the
+   * undeformed system is the reference. Given displacements and velocities come from
    * Substructure::initial_state(); prescribed DoFs start without velocity.
    *
-   * Bodies that are to be linearised move by large amounts until the reference is found. Then
-   * linear ones take their place in @p structure, see SlenderBody::linearised(). At an equilibrium
-   * constraints that turn are linearised with them, if all of them have their ends on such bodies
-   * or stand and none pushes: see Constraints::keep_directions(). Throws what static_equilibrium()
-   * throws, and an EntryError if a rigid unilateral constraint starts with a penetration. Called by
-   * all ranks together.
+   * Bodies to be linearised move by large amounts until the reference is found. Then linear bodies
+   * replace them in @p structure, see SlenderBody::linearised(). At an equilibrium this also
+   * linearises the turning constraints if none pushes and all their ends are on such bodies or
+   * fixed, see Constraints::keep_directions(). Throws the errors of static_equilibrium(), and an
+   * EntryError if a rigid unilateral constraint starts with a penetration. Called by all ranks
+   * together.
    */
   InitialState find_initial_state(Structure &structure, Constraints &constraints,
                                   const SolverParameters &parameters, Start start);

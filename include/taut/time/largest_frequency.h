@@ -8,10 +8,10 @@
 namespace taut
 {
   /**
-   * The largest natural frequency of the bodies with their elastic constraints closed, where these
-   * are, and without the rigid ones, which can only lower it [rad/s]. DoFs without mass are held.
-   * From below, by power iteration: short of it by a few hundredths at most. Called by all ranks
-   * together; 0 without bodies that have mass and stiffness.
+   * The largest natural frequency of the bodies with their elastic constraints closed in their
+   * present places [rad/s]. Rigid constraints, which can only lower it, are left out; massless DoFs
+   * are held. Power iteration gives a lower bound, short by a few hundredths at most. 0 without
+   * bodies that have mass and stiffness. Called by all ranks together.
    */
   double largest_frequency(const Structure &structure, const Constraints &constraints,
                            const SolverParameters &parameters);

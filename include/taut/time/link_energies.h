@@ -13,17 +13,17 @@
 namespace taut
 {
   /**
-   * An account of the energy of each unilateral constraint: what it gave the bodies and took from
-   * them beside what its spring stores and its damper takes, over the energy of the bodies that it
-   * is connected with. Use it to see whether steps resolve contacts.
+   * An account of the energy that each unilateral constraint gave and took beyond its spring and
+   * damper. Its scale is the energy of the group of connected bodies. Use it to check whether steps
+   * resolve contacts.
    *
-   * In a step an elastic constraint gives L = (work on the bodies) + (change of its spring's
-   * energy) + (work of its damper). L is summed from closing to opening, as what closing takes and
-   * opening gives may cancel; each contact then counts with its size. A rigid constraint may take
-   * energy, in an impact, and only what it gives counts.
+   * In a step an elastic constraint gives L = (work on the bodies) + (change of the spring's
+   * energy) + (work of the damper). L is summed from closing to opening, where gains and losses may
+   * cancel, and each contact counts with its absolute sum. A rigid constraint may take energy in an
+   * impact, so that only the given energy counts.
    *
-   * A body that lost the energy |L| of an impact at the speed v lacks a momentum of up to 2 |L| /
-   * v: all of it, m v, where it lost all of m v^2 / 2.
+   * A body that loses the energy |L| in an impact at the speed v loses a momentum of up to
+   * 2|L| / v: for all of m v^2 / 2 this is m v.
    */
   class LinkEnergies
   {
@@ -32,21 +32,21 @@ namespace taut
     LinkEnergies(const Structure &structure, const Constraints &constraints,
                  const Reference &reference, const State &start);
 
-    /// An accepted step, made with these coefficients.
+    /// Records an accepted step with its coefficients.
     void record(const State &state, const StepCoefficients &c);
 
-    /// Measures the energies that others are compared with. Called by all ranks together.
+    /// Measures the energies of the scale. Called by all ranks together.
     void measure_scale(const State &state);
 
-    /// What a constraint did so far.
+    /// Energies of a constraint so far.
     struct Account
     {
       double given = 0., taken = 0.; ///< sums over its contacts [J]
-      double begin = 0., end = 0.;   ///< of the contact that counts most [s]
-      double largest = 0.;           ///< what this one gave or took [J]
-      double momentum = 0.;          ///< largest that energies of a contact had [N s, N m s]
-      double shortest = std::numeric_limits<double>::infinity(); ///< contact so far [s]
-      double step = 0.;                                          ///< that it ended with [s]
+      double begin = 0., end = 0.;   ///< times of the contact with most energy [s]
+      double largest = 0.;           ///< energy given or taken in it [J]
+      double momentum = 0.;          ///< largest momentum error of a contact [N s, N m s]
+      double shortest = std::numeric_limits<double>::infinity(); ///< shortest contact so far [s]
+      double step = 0.;                                          ///< last step of a contact [s]
 
       template <typename Archive>
       void serialize(Archive &archive, unsigned int)
@@ -55,21 +55,21 @@ namespace taut
       }
     };
 
-    /// Of a constraint, with its contact that is not over.
+    /// Account of a constraint, including the contact under way.
     Account account(std::size_t i) const;
 
-    /// Largest kinetic, strain and spring energies so far of a group, what its loads give in a
-    /// step, and rounding [J].
+    /// Largest kinetic, strain and spring energies of a group so far, plus the energy of its loads
+    /// in a step and rounding [J].
     double scale(std::size_t group) const;
     const ConnectedBodies &groups() const { return connected; }
 
-    /// What rounding may give or take at rest [J].
+    /// Energy that rounding may give or take at rest [J].
     double rest(const std::size_t group) const { return energies[group].rest; }
 
-    /// Part of the terms of a gap that its carried value may be off by.
+    /// Part of the terms of a gap by which its tracked value may be wrong.
     static constexpr double rounding_of_gaps = 1e-12;
 
-    /// What the gap of a constraint rounds with [m, rad].
+    /// Rounding of the gap of a constraint [m, rad].
     double noise(const std::size_t i) const { return rows[i].noise; }
 
     void save(OutputArchive &archive);
@@ -79,7 +79,7 @@ namespace taut
     struct Row
     {
       Account account;
-      double closing = 0., begin = 0., end = 0.; ///< of the contact that goes on
+      double closing = 0., begin = 0., end = 0.; ///< of the contact under way
       double rate = 0.,
              fastest = 0.; ///< of the gap: in the last step, in this contact [m/s, rad/s]
       double multiplier = 0., gap = 0., u = 0., noise = 0.; ///< at the end of the last step

@@ -9,12 +9,12 @@
 namespace taut
 {
   /**
-   * Looks inside a step for jumps and short pulses of loads and given motions, which the ends of
-   * the step do not show. Use it before an adaptive step.
+   * Looks inside a step for jumps and short pulses of loads and prescribed motions, which values at
+   * the ends of the step miss. Use it before an adaptive step.
    *
-   * Values are taken sixteen times a reference step, and four times a step at least. Their integral
-   * by trapezoids is compared with that by Simpson's rule from the ends and the middle: both agree
-   * to fourth order where the values are smooth.
+   * There are sixteen samples in a reference step, and at least four in a step. Their integral by
+   * the trapezoidal rule is compared with that by Simpson's rule from the ends and the middle. For
+   * smooth values both agree to fourth order.
    */
   class LoadSampling
   {
@@ -22,14 +22,12 @@ namespace taut
     /// @p structure is kept by reference.
     explicit LoadSampling(const Structure &structure);
 
-    /**
-     * True if both integrals over @p length [s] from @p t [s] agree within @p tolerance of the
-     * largest value so far times @p reference_step [s]. Called by all ranks together.
-     */
+    /// True if both integrals over @p length [s] from @p t [s] agree within @p tolerance times the
+    /// largest value so far times @p reference_step [s]. Called by all ranks together.
     bool is_resolved(double t, double length, double reference_step, double tolerance);
 
   private:
-    /// Integrals of the values of one body or given motion.
+    /// Integrals of the values of one body or prescribed motion.
     struct Sums
     {
       std::vector<double> trapezoids, simpson;
@@ -40,7 +38,7 @@ namespace taut
                     double &largest);
 
     const Structure &structure;
-    std::vector<std::size_t> varying;  ///< bodies with loads that vary
+    std::vector<std::size_t> varying;  ///< bodies with varying loads
     std::vector<double> largest_loads; ///< largest load of each body so far [N]
     std::vector<double> largest_motions;
     bool is_constant = true; ///< on all ranks

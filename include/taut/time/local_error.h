@@ -12,16 +12,15 @@
 namespace taut
 {
   /**
-   * Largest local error of a step over the largest displacement so far, from the third derivative
-   * that the accelerations before and after show: dU - step V0 - step^2 (A0/3 + A/6)
-   * (O. C. Zienkiewicz, Y. M. Xie, Earthquake Engineering and Structural Dynamics 20 (1991)).
+   * Largest local error of a step over the largest displacement so far. The third derivative comes
+   * from the accelerations before and after the step: dU - step V0 - step^2 (A0/3 + A/6) (O. C.
+   * Zienkiewicz, Y. M. Xie, Earthquake Engineering and Structural Dynamics 20 (1991)).
    *
-   * The accelerations of schemes with mean forces are means, and dU = step V0 + step^2 A/2: its
-   * error is step^3/12 of that derivative, step^2 (A - A0) / (6 (1 + last step / step)). What
-   * impulses change of the velocities besides, dV, counts as step dV. Of a body of elements the
-   * error is the root of its mean square by mass, sqrt(e . M e / m), whether it is cut in parts or
-   * not. Of masses and rigid bodies the largest counts, displacements and slopes each for
-   * themselves.
+   * Schemes with mean forces have mean accelerations and dU = step V0 + step^2 A/2. Their error is
+   * step^3/12 of that derivative, step^2 (A - A0) / (6 (1 + last step / step)). Further changes dV
+   * of velocities by impulses count as step dV. A body of elements, cut or not, has the root mean
+   * square error by mass, sqrt(e . M e / m). Masses and rigid bodies have the largest error, for
+   * displacements and slopes separately.
    */
   class LocalError
   {
@@ -30,12 +29,12 @@ namespace taut
     LocalError(const Structure &structure, const Constraints &constraints,
                const Reference &reference);
 
-    /// Of the step with coefficients @p c that ended with @p state, after one of length
-    /// @p step_before [s] that ended with accelerations @p old_A. Called by all ranks together.
+    /// Local error of the step with coefficients @p c to @p state, after a step of @p step_before
+    /// [s] with final accelerations @p old_A. Called by all ranks together.
     double measure(const State &state, const StepCoefficients &c, double step_before,
                    const BodyVectors &old_A);
 
-    /// Largest displacements so far: what is kept from step to step [m, rad].
+    /// Largest displacements so far, which persist between steps [m, rad].
     PerKind largest_motions = {0., 0.};
 
   private:
@@ -52,8 +51,8 @@ namespace taut
 
     const Structure &structure;
     const Reference &reference;
-    const ConnectedBodies wholes;      ///< what cuts have parted
-    std::vector<double> mass_of_whole; ///< of the elements of each of them [kg]
+    const ConnectedBodies wholes;      ///< groups of parts of one body
+    std::vector<double> mass_of_whole; ///< mass of the elements of each group [kg]
     std::vector<double> motion, impulse, product;
   };
 } // namespace taut

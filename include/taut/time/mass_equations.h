@@ -12,8 +12,8 @@
 
 namespace taut
 {
-  /// The mass matrices M of the bodies, factored, and f = B^T M^-1 B of the constraints: what
-  /// impulses change velocities by. All functions are called by all ranks together.
+  /// The factored mass matrices M of the bodies, and f = B^T M^-1 B of the constraints: the change
+  /// of velocities by impulses. All functions are called by all ranks together.
   class MassEquations
   {
   public:
@@ -21,17 +21,16 @@ namespace taut
     MassEquations(const Structure &structure, const Constraints &constraints,
                   const SolverParameters &parameters, const Reference &reference);
 
-    /// Whether f was set up.
     bool is_set_up() const { return set_up; }
 
-    /// Sets f up with @p softening on its diagonal; the matrices are factored at the first call.
+    /// Sets f up with @p softening on its diagonal. The first call factors the mass matrices.
     void setup(ProjectionCompliance &softening);
 
-    /// The same at a state: masses of bodies with constraints inside depend on it, and sliding
-    /// constraints are in their places.
+    /// Updates f for a state: the mass of a body with internal constraints depends on the state,
+    /// and sliding constraints are in their places.
     void update(const State &state, ProjectionCompliance &softening);
 
-    /// Impulses P become M^-1 P.
+    /// Replaces impulses P by M^-1 P.
     void solve(BodyVectors &P) const { solvers.solve(P); }
 
     SchurComplement &interface() { return *schur; }
@@ -42,8 +41,8 @@ namespace taut
     const Structure &structure;
     const Reference &reference;
     FactoredStructure solvers;
-    std::vector<std::size_t> with_constraints; ///< bodies of this rank, see ConstrainedBody
-    bool some_with_constraints;                ///< of some rank
+    std::vector<std::size_t> with_constraints; ///< bodies of this rank that are a ConstrainedBody
+    bool some_with_constraints;                ///< on any rank
     std::unique_ptr<SchurComplement> schur;
     bool set_up = false;
   };

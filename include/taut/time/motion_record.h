@@ -13,54 +13,54 @@
 
 namespace taut
 {
-  /// How far two motions are apart, relative to the largest values of the second one, in the group
-  /// of connected bodies where they are apart most.
+  /// The difference of two motions, relative to the largest values of the second motion, in the
+  /// group of connected bodies with the largest difference.
   struct MotionDifference
   {
     double place = 0., impulse = 0., energy = 0.; ///< [1]
 
-    /// Within these a motion is as good as the other one.
+    /// Bounds within which two motions are equally good.
     static constexpr double place_bound = .02, impulse_bound = .02, energy_bound = .05;
 
-    /// The largest of the three over its bound; not-a-number if one is.
+    /// The largest ratio of the three to its bound; not-a-number if one is.
     double over_bounds() const;
 
-    std::size_t body = 0;    ///< of Structure::all_bodies(), whose place differs most
-    double time = 0.;        ///< of that place [s]
-    std::size_t row = -1;    ///< constraint whose impulse differs most; -1: none does
-    bool is_place() const;   ///< the place exceeds its bound by more than the others do
-    bool is_impulse() const; ///< the impulse does
+    std::size_t body = 0;    ///< of Structure::all_bodies(), with the largest difference of places
+    double time = 0.;        ///< of this difference [s]
+    std::size_t row = -1;    ///< constraint with the largest difference of impulses; -1: none
+    bool is_place() const;   ///< the place exceeds its bound most
+    bool is_impulse() const; ///< the impulse exceeds its bound most
   };
 
   /**
-   * What a motion is compared by with the same motion in other steps: places and energies of groups
-   * of connected bodies at equal intervals of time, and impulses of constraints since the start at
-   * the ends of steps, as contacts are shorter than such an interval. Use it where the steps of two
-   * runs differ, see StepAccuracy.
+   * The data that compare a motion with the same motion in other steps. Use it where the steps of
+   * two runs differ, see StepAccuracy. Places and energies of groups of connected bodies are
+   * recorded at equal intervals of time. Impulses of constraints since the start are recorded at
+   * the ends of steps, as contacts are shorter than such an interval.
    */
   class MotionRecord
   {
   public:
-    /// At @p n multiples of @p interval [s] after @p start. The arguments but @p start are kept by
-    /// reference.
+    /// Records @p n multiples of @p interval [s] after @p start. The arguments but @p start are
+    /// kept by reference.
     MotionRecord(const Structure &structure, const Constraints &constraints,
                  const ConnectedBodies &groups, const Reference &reference, const State &start,
                  double interval, std::size_t n);
 
-    /// An accepted step. Places between its ends are those of the cubic with its velocities.
+    /// Records an accepted step. Places inside it are those of the cubic with its end velocities.
     void record(const State &state);
 
     std::size_t n_samples() const { return places.size(); }
 
     /**
-     * How far this motion is from another one, sample by sample. Impulses and energies jump at an
-     * impact, and the bound of the places lets it be early or late by what the fastest place takes
-     * for so much motion: they may be anything that the other motion has within this time, or
-     * within an interval. Called by all ranks together.
+     * Difference of this motion from another one, sample by sample. Impulses and energies jump at
+     * an impact. The bound of the places allows an impact to be early or late by the time in which
+     * the fastest place moves that far. Impulses and energies may hence have any value of the other
+     * motion within this time, or within an interval. Called by all ranks together.
      */
     MotionDifference difference(const MotionRecord &other) const;
 
-    /// What all ranks have. Called by all ranks together.
+    /// Stores the data of all ranks. Called by all ranks together.
     void save(OutputArchive &archive);
     void load(InputArchive &archive);
 
@@ -68,7 +68,7 @@ namespace taut
     using Energies = std::vector<std::array<double, 2>>; ///< of groups: kinetic, potential [J]
     struct Sizes;
 
-    /// Of each body its places, sample by sample [m].
+    /// Places of each body, sample by sample [m].
     using PlacesOfBodies = std::map<std::size_t, std::vector<double>>;
     PlacesOfBodies places_of_bodies() const;
     void add_impulses(const State &state);
@@ -92,7 +92,7 @@ namespace taut
     const double begin, interval; ///< [s]
     const std::size_t n;
 
-    /// The DoFs that are displacements of a place, and the group of each.
+    /// A DoF that is a displacement, and its group.
     struct Place
     {
       std::size_t body;
@@ -103,13 +103,13 @@ namespace taut
     std::vector<double> start_of_dofs; ///< [m]
     BodyVectors start_load;            ///< K U_ref - P at the start [N, N m]
 
-    std::vector<double> speed;                 ///< of the groups, largest so far [m/s]
-    std::vector<double> impulse, multiplier;   ///< so far, and at the end of the last step
+    std::vector<double> speed;                 ///< largest speed of each group so far [m/s]
+    std::vector<double> impulse, multiplier;   ///< impulse so far; multiplier of the last step
     std::vector<std::vector<double>> places;   ///< of each sample [m]
-    std::vector<Energies> energies;            ///< the start first; shares of this rank
-    std::vector<double> times;                 ///< ends of steps that have impulses [s]
-    std::vector<std::vector<double>> impulses; ///< at these [N s]
-    long stride = 1, n_steps = 0;              ///< each so many ends are kept; steps so far
+    std::vector<Energies> energies;            ///< the start first; parts of this rank
+    std::vector<double> times;                 ///< ends of steps with recorded impulses [s]
+    std::vector<std::vector<double>> impulses; ///< impulses at these times [N s]
+    long stride = 1, n_steps = 0;              ///< one of so many ends is kept; steps so far
     std::vector<double> work;
   };
 } // namespace taut

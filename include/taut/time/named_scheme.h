@@ -11,16 +11,12 @@
 
 namespace taut
 {
-  /**
-   * make_integrator() for names and entries that a program gives. Throws UserError, with the
-   * nearest name that there is, for a scheme or an entry that is not known, and for a value that
-   * does not fit.
-   */
+  /// make_integrator() for names and entries in a program. Throws UserError with the nearest known
+  /// name for an unknown scheme or entry, and for an unsuitable value.
   std::unique_ptr<TimeIntegrator>
   make_named_scheme(const std::string &name, const std::map<std::string, std::string> &entries);
 
-  /// Throws UserError for a name that no solver has, or a tolerance that a parameter file could not
-  /// have.
+  /// Throws UserError for an unknown solver, or a tolerance that a parameter file cannot have.
   void check_solver_names(const SolverParameters &parameters);
 } // namespace taut
 

@@ -7,21 +7,20 @@
 
 namespace taut
 {
-  /// When the iterations of Newton's method have come to their end, judged by the relative change
-  /// of the unknowns in each.
+  /// Decides when Newton iterations end, by the relative change of the unknowns in each iteration.
   class NewtonConvergence
   {
   public:
     struct Limits
     {
-      double converged; ///< change that ends the iterations
+      double converged; ///< change below which iterations have converged
 
-      /// Changes below this end them, too, after so many iterations that did not halve the change
-      /// before: rounding keeps them up.
+      /// Changes below `stagnated` also end the iterations after `most_stagnant` iterations that
+      /// did not halve the previous change: rounding sustains them.
       double stagnated;
       int most_stagnant;
 
-      /// So many iterations that do not halve the least change so far are in vain.
+      /// So many iterations that do not halve the least change so far are a failure.
       int most_in_vain = std::numeric_limits<int>::max();
     };
 
@@ -34,7 +33,7 @@ namespace taut
       failed
     };
 
-    /// Takes the change of one more iteration.
+    /// Adds the change of the next iteration.
     Verdict add(const double change)
     {
       n_stagnant = change >= .5 * last ? n_stagnant + 1 : 0;

@@ -9,35 +9,35 @@
 namespace taut
 {
   /**
-   * How elastic unilateral constraints take part in a projection of velocities: with a compliance
-   * f_ii (S / (alpha F_ii))^2 on the diagonal of f = B^T M^-1 B, which fades from rigid to none
-   * with the compliance S of the spring over the flexibility F_ii of the bodies in a step.
+   * The compliance of elastic unilateral constraints in a velocity projection: f_ii (S / (alpha
+   * F_ii))^2 on the diagonal of f = B^T M^-1 B. It fades the constraint out from rigid to absent as
+   * the compliance S of the spring grows over the flexibility F_ii of the bodies in a step.
    * Conserving springs take no part. All functions but access are called by all ranks together.
    */
   class ProjectionCompliance
   {
   public:
-    /// Kept by reference.
+    /// The argument is kept by reference.
     explicit ProjectionCompliance(const Constraints &constraints);
 
-    /// For steps whose forces count @p theta in their balance. @p S are the compliances of the
-    /// springs in a step, @p F has them on its diagonal.
+    /// For steps with weight @p theta of forces in the balance. @p S are the compliances of the
+    /// springs in a step, which @p F has on its diagonal.
     void prepare(double theta, const std::vector<double> &S, ComplementarityOperator &F);
 
-    /// Before a projection: springs that follow a law, and sliding constraints in their places.
-    /// @p f, if it is set up, gets the compliances.
+    /// Before a projection: updates springs with laws and sliding constraints, and the compliances
+    /// in @p f if given.
     void follow(const std::vector<double> &S, ComplementarityOperator &F, SchurComplement *f);
 
     /// Sets f up with the compliances.
     void setup(SchurComplement &f);
 
-    /// f with the sliding constraints in their places.
+    /// Updates f to the places of the sliding constraints.
     void update_moving(SchurComplement &f);
 
-    /// False of a constraint that is too soft to take part, or conserving.
+    /// False for a constraint that is conserving or too soft.
     bool takes_part(std::size_t i) const;
 
-    /// The compliance of a constraint [1/kg, 1/(kg m^2)]; 0 of a rigid one.
+    /// Compliance of a constraint [1/kg, 1/(kg m^2)]; 0 for a rigid one.
     double operator[](const std::size_t i) const { return softening[i]; }
 
   private:
@@ -51,9 +51,9 @@ namespace taut
     double theta = 1.;
     std::vector<std::size_t> elastic, moving_elastic; ///< unilateral constraints
     bool has_laws = false;
-    std::vector<double> flexibility, of_mass; ///< F_ii and f_ii of the elastic constraints
+    std::vector<double> flexibility, of_mass; ///< F_ii and f_ii of elastic constraints
     std::vector<double> relative;             ///< (S / (alpha F_ii))^2 of each constraint
-    std::vector<double> softening;            ///< f_ii times that
+    std::vector<double> softening;            ///< f_ii times relative
   };
 } // namespace taut
 

@@ -9,18 +9,16 @@
 
 namespace taut
 {
-  /**
-   * The state that motions are measured from: a static equilibrium, or the undeformed structure.
-   * Small motions then are not drowned in large coordinates.
-   */
+  /// The reference of motions: a static equilibrium, or the undeformed structure. It keeps small
+  /// motions from drowning in large coordinates.
   struct Reference
   {
     BodyVectors displacement;       ///< U_ref [m, rad]
     BodyVectors force;              ///< K U_ref [N, N m]
     std::vector<double> multiplier; ///< N [N, N m]
 
-    /// Gap of each constraint, where the closed ones are exact and not rounded as B^T U_ref is;
-    /// empty: as the displacements say [m, rad].
+    /// Gap of each constraint, exact for closed constraints and without the rounding of B^T U_ref;
+    /// empty: gaps come from the displacements [m, rad].
     std::vector<double> gap;
   };
 
@@ -36,32 +34,30 @@ namespace taut
     BodyVectors dU;    ///< increment of the last step [m, rad]
     BodyVectors V_old; ///< velocity before the last step [m/s, rad/s]
     BodyVectors KU;    ///< K U [N, N m]
-    /// P + B N - C V - K (U_ref + U), without forces that are means [N, N m].
+    /// P + B N - C V - K (U_ref + U), without mean forces [N, N m].
     BodyVectors balance;
 
-    std::vector<double> multiplier; ///< N, or its mean over the step [N, N m]
-    std::vector<double> gap;        ///< D, what complementarity is about [m, rad]
-    std::vector<double>
-        geometric_gap; ///< B^T (U_ref + U) + gap at U = 0; negative: a compressed link [m, rad]
+    std::vector<double> multiplier;    ///< N, or its mean over the step [N, N m]
+    std::vector<double> gap;           ///< D of the complementarity conditions [m, rad]
+    std::vector<double> geometric_gap; ///< B^T (U_ref + U) + gap at U = 0; negative: the spring is
+                                       ///< compressed [m, rad]
 
-    std::vector<double> gap_rate; ///< D', of schemes with mean forces only [m/s, rad/s]
+    std::vector<double> gap_rate; ///< D', only with mean forces [m/s, rad/s]
 
-    /// Of each group of connected bodies, with mean forces and conditions on gaps only: kinetic
-    /// energy, and what the group gained in the step that neither loads nor moving constraints gave
-    /// [J].
+    /// With mean forces and conditions on gaps only: kinetic energy of each group of connected
+    /// bodies, and its gain in the step beyond loads and moving constraints [J].
     std::vector<double> kinetic_energies, energy_gains;
 
-    /// Of schemes with mean forces, otherwise empty: not 0 for each constraint whose multiplier is
-    /// a mean over the last step, and the work of its forces on the bodies, without the part that
-    /// those of a moving constraint do in its old place [J].
+    /// With mean forces, otherwise empty: not 0 for a constraint whose multiplier is a mean over
+    /// the last step. Then the work of its forces on the bodies, without the forces of a moving
+    /// constraint in its old place [J].
     std::vector<char> is_mean;
     std::vector<double> constraint_work;
 
-    /// The part of that work that the impulses of a velocity projection did [J].
+    /// Work of the impulses of a velocity projection, a part of that work [J].
     double impulse_work = 0.;
 
-    /// Compression of each link's spring and its rates, as one more body with the same time
-    /// integration [m, rad].
+    /// Compression of each link's spring and its rates, integrated in time as a body [m, rad].
     struct LinkSpring
     {
       double u = 0., v = 0., a = 0., du = 0.;
@@ -74,7 +70,7 @@ namespace taut
     };
     std::vector<LinkSpring> link_springs;
 
-    /// Everything but the vectors of the bodies, the same on all ranks.
+    /// All but the vectors of the bodies; equal on all ranks.
     template <typename Archive>
     void serialize(Archive &archive, unsigned int)
     {
@@ -87,7 +83,7 @@ namespace taut
     std::array<BodyVectors *, 7> of_bodies() { return {&U, &V, &A, &dU, &V_old, &KU, &balance}; }
   };
 
-  /// U_ref + U of body k: its displacement from the undeformed body [m, rad].
+  /// U_ref + U of body k, its displacement from the undeformed body [m, rad].
   inline std::vector<double> displacement(const Reference &reference, const State &state,
                                           const std::size_t k)
   {

@@ -13,7 +13,7 @@
 
 namespace taut
 {
-  /// A run from its start to its end: what makes it again with other steps. References are kept.
+  /// A run from start to end, with all that another run in other steps needs. References are kept.
   struct RunInSteps
   {
     const Structure &structure;
@@ -23,24 +23,23 @@ namespace taut
     const StepParameters &control;
     double step;                       ///< [s]
     long n_steps;                      ///< of this length
-    std::vector<double> longest_steps; ///< of closed constraints, see StepControl [s]
+    std::vector<double> longest_steps; ///< for closed constraints, see StepControl [s]
     const Reference &reference;
     const State &start;
     bool at_rest;             ///< the start is an equilibrium
-    bool at_any_cost = false; ///< other runs are made whatever they cost
+    bool at_any_cost = false; ///< allows other runs at any cost
   };
 
   /**
-   * Whether the steps of a run are short enough. Use it at the end of a run whose cost allows to
-   * make it again.
+   * Estimates the error of a run by its steps. Use it at the end of a run that is cheap enough to
+   * repeat.
    *
-   * The run is compared with one of 4.24 times the step, which costs a quarter: where both agree
-   * well within the bounds of MotionDifference, the run has a third of their difference as its
-   * error, or less. Otherwise it is compared with a step that is shorter by this factor, and close
-   * to the bounds with one that is shorter by its square (L. F. Richardson's extrapolation, 1911,
-   * with an order from one to two). Adaptive steps are compared with a ninth of the tolerance and
-   * 1/4.24 of Step. Where shorter steps cost too much, the longer ones say about how large the
-   * error is.
+   * First the run is compared with one of 4.24 times the step, which costs a quarter. If both agree
+   * well within the bounds of MotionDifference, the error of the run is at most a third of their
+   * difference. Otherwise the other run has a step that is shorter by this factor, and near the
+   * bounds by its square (L. F. Richardson's extrapolation, 1911, with an order from one to two).
+   * Adaptive steps are compared with a ninth of the tolerance and 1/4.24 of Step. If shorter steps
+   * cost too much, the longer steps give a rough error.
    */
   class StepAccuracy
   {
@@ -50,18 +49,17 @@ namespace taut
     /// Whether there is another run that takes less than about half a second.
     static bool is_affordable(const RunInSteps &run);
 
-    /// An accepted step of the run itself.
+    /// Records an accepted step of the run itself.
     void record(const State &state) { own.record(state); }
 
-    /// Makes the other runs. @p stop is asked after each of their steps; true gives up. Called by
-    /// all ranks together.
+    /// Makes the other runs. After each step @p stop may end them. Called by all ranks together.
     void measure(const std::function<bool()> &stop);
 
-    /// The errors of the run, relative to its largest values; empty: they are not known.
+    /// Errors of the run, relative to its largest values; empty: unknown.
     const std::optional<MotionDifference> &error() const { return found; }
 
-    /// If an error is beyond its bound: what is off by how much, and the step or tolerance that the
-    /// run needs.
+    /// For an error beyond its bound: its place and size, and the step or tolerance that the run
+    /// needs.
     std::vector<Warning> warnings() const;
 
     /// One line for the log, and the warning if there is one.
@@ -79,14 +77,14 @@ namespace taut
     const RunInSteps run;
     const ConnectedBodies groups;
     const std::vector<std::vector<double>> courses; ///< of moving constraints at the start
-    const double work;                              ///< of the run: products of DoFs and steps
+    const double work;                              ///< of the run: DoFs times steps
     const std::size_t n_samples;
-    const double interval; ///< of samples [s]
+    const double interval; ///< between samples [s]
     MotionRecord own;
     std::optional<MotionDifference> found;
     bool too_long = false;
-    double order = 1.;  ///< in the step
-    std::string reason; ///< why the error is not known
+    double order = 1.;  ///< of the error in the step
+    std::string reason; ///< why the error is unknown
   };
 } // namespace taut
 

@@ -11,31 +11,31 @@
 
 namespace taut
 {
-  /// What a step must satisfy, in time or at rest, and how it says that it does not: each function
-  /// throws an EntryError that says when, what and what to do.
+  /// The tests that a step must pass, in time or at rest. Each function throws an EntryError with
+  /// the time, the failure and a remedy.
   class StepCheck
   {
   public:
-    /// The arguments are kept by reference; @p tolerance is that of the certificate.
+    /// The arguments are kept by reference; @p tolerance is the bound of the certificate.
     StepCheck(const Structure &structure, const Constraints &constraints, const double tolerance)
         : structure(structure), constraints(constraints), tolerance(tolerance)
     {
     }
 
-    /// The end of the step [s]; none: an equilibrium at rest.
+    /// Sets the end of the step [s]; none: an equilibrium at rest.
     void set_time(const std::optional<double> &end) { time = end; }
 
-    /// Calls @p work, which solves for multipliers, and names the constraints if it cannot.
+    /// Calls @p work, which solves for multipliers, and names the constraints on failure.
     void solve(const std::function<void()> &work) const;
 
-    /// That the constraints hold.
+    /// Checks that the constraints hold.
     void check_constraints(const Certificate &certificate) const;
 
-    /// That the equations of motion hold. Called by all ranks together; @p own_balance is that of
-    /// the bodies of this rank.
+    /// Checks that the equations of motion hold. @p own_balance is the residual of this rank's
+    /// bodies. Called by all ranks together.
     void check_balance(const Certificate &certificate, double own_balance) const;
 
-    /// "at t = 0.1 s: ", or "static equilibrium: ".
+    /// "at t = 0.1 s: " or "static equilibrium: ".
     std::string when() const;
 
   private:

@@ -8,23 +8,23 @@
 
 namespace taut
 {
-  /// Times and coefficients of the steps. Steps of one length count from where the first of them
-  /// began, so that their times do not drift.
+  /// Times and coefficients of the steps. Times of equal steps are multiples counted from their
+  /// first start, so that they do not drift.
   class StepClock
   {
   public:
-    /// The scheme is kept by reference. Steps of length @p step [s] begin at @p start [s]. Of a
-    /// start that is not at rest the first step is backward Euler, unless the scheme needs no
-    /// initial acceleration either.
+    /// The scheme is kept by reference. Steps of length @p step [s] begin at @p start [s]. If the
+    /// start is not at rest the first step is backward Euler, unless the scheme needs no initial
+    /// acceleration.
     StepClock(const TimeIntegrator &integrator, double step, double start, bool at_rest);
 
     /// Length of the steps to come [s].
     double step() const { return length; }
 
-    /// The scheme with its parameters, for messages.
+    /// Scheme with its parameters, for messages.
     std::string scheme() const { return integrator.description(); }
 
-    /// Of a step to come after one of length @p last_step [s]; 0: none.
+    /// Coefficients of the next step after a step of length @p last_step [s]; 0: no step before.
     StepCoefficients coefficients(double last_step) const;
 
     /// Begins a step after one of length @p last_step [s]; returns its end [s].
@@ -36,7 +36,7 @@ namespace taut
     /// Changes the length of the steps from @p time on [s].
     void set_step(double length, double time);
 
-    /// Takes the last step back, which began at @p time [s].
+    /// Takes back the last step, which began at @p time [s].
     void take_back(double time);
 
     long n_steps() const { return n_all; }
@@ -51,7 +51,7 @@ namespace taut
     const TimeIntegrator &integrator;
     double length, before = 0.;
     bool first_is_backward_euler;
-    double segment_start; ///< time since which steps have this length
+    double segment_start; ///< start of the first step of this length
     long n_in_segment = 0, n_all = 0;
   };
 } // namespace taut

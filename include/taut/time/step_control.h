@@ -14,22 +14,22 @@ namespace dealii
 
 namespace taut
 {
-  /// How long steps are.
+  /// Parameters for the length of steps.
   struct StepParameters
   {
     std::string control = "fixed";                 ///< or "adaptive"
-    double tolerance = 1e-4;                       ///< of TimeStepper::local_error() [1]
-    unsigned int n_halvings = 10, n_doublings = 4; ///< bounds of the step, from Step
-    double largest = 0.;                           ///< longest step; 0: by the doublings [s]
+    double tolerance = 1e-4;                       ///< bound of TimeStepper::local_error() [1]
+    unsigned int n_halvings = 10, n_doublings = 4; ///< bounds of the length, from Step
+    double largest = 0.;                           ///< longest step; 0: from the doublings [s]
 
     /// Declares the members in the current subsection.
     void declare_parameters(dealii::ParameterHandler &prm);
     bool adaptive() const { return control == "adaptive"; }
 
-    /// How often a Step [s] may be doubled.
+    /// Maximum number of doublings of a Step [s].
     unsigned int most_doublings(double step) const;
 
-    /// The longest step that a Step [s] becomes [s].
+    /// Longest step from a Step [s].
     double longest(double step) const
     {
       return adaptive() ? std::ldexp(step, static_cast<int>(most_doublings(step))) : step;
@@ -37,36 +37,37 @@ namespace taut
   };
 
   /**
-   * Steps of a length times a power of two, so that matrices are factored anew only at a change and
-   * times are multiples of the shortest step. An adaptive step is repeated with a shorter one if
-   * its local error is above the tolerance, down to the shortest one, which counts as it is. An
-   * impact is such an error, as it is a jump of the velocities: it ends up in a step in which the
-   * bodies move by the tolerance. So does a jump of a load or of a given motion, which is looked
-   * for inside of each step beforehand. After two steps with a tenth of the tolerance the length
-   * doubles, at a multiple of the new one.
+   * Controls the length of steps, which is Step times a power of two. Matrices are hence factored
+   * only at a change of length, and times are multiples of the shortest step.
    *
-   * Fixed steps, too, are made in parts where a body that is not linear has no answer to the whole,
-   * and while a constraint with a damper is closed whose contacts they do not resolve.
+   * An adaptive step with a local error above the tolerance is repeated with a shorter one, down to
+   * the shortest step, which always counts. An impact, a jump of velocities, is such an error: it
+   * ends up in a step in which the bodies move by the tolerance. So does a jump of a load or a
+   * prescribed motion, which is searched before each step. After two steps with a tenth of the
+   * tolerance the length doubles, at a multiple of the new length.
+   *
+   * A fixed step, too, is divided if a nonlinear body has no solution for it. So is a step while a
+   * constraint with a damper is closed whose contacts the step does not resolve.
    */
   class StepControl
   {
   public:
-    /// From t = 0 to @p n_steps times @p step [s]. @p may_halve: bodies are not linear. @p
-    /// longest_steps: of each constraint the longest step while it is closed [s]; empty: any.
+    /// From t = 0 to @p n_steps times @p step [s]. @p may_halve: some bodies are not linear.
+    /// @p longest_steps: for each constraint the longest step while it is closed [s]; empty: any.
     StepControl(const StepParameters &parameters, double step, long n_steps, bool may_halve = false,
                 std::vector<double> longest_steps = {});
 
     bool is_finished() const { return position == end; }
 
-    /// True at multiples of the step that was given.
+    /// True at multiples of the given step.
     bool is_at_step() const { return position % (1L << n_levels) == 0; }
 
-    /// One step that counts.
+    /// Advances by one accepted step.
     void advance(TimeStepper &stepper);
 
     long n_repeated() const { return repeated; }
 
-    /// Where it is, for a checkpoint.
+    /// Stores the position, for a checkpoint.
     template <typename Archive>
     void serialize(Archive &archive, unsigned int)
     {
@@ -85,12 +86,12 @@ namespace taut
 
     const StepParameters parameters;
     const std::vector<double> longest_steps;
-    const unsigned int n_levels; ///< how often a step may be halved
+    const unsigned int n_levels; ///< number of possible halvings of a step
     const double step, shortest; ///< [s]
     const long end;              ///< in shortest steps
     long position = 0, repeated = 0;
     unsigned int level, n_calm = 0;
-    State before; ///< the step
+    State before; ///< state before the step
   };
 } // namespace taut
 

@@ -11,52 +11,47 @@
 
 namespace taut
 {
-  /**
-   * What a step inherits: of each body of this rank the right-hand side P^ before the multipliers,
-   * and the state at the end of the step once its increments are known. Vectors that are not needed
-   * at the same time share their storage; each has a name of its own here.
-   */
+  /// The history of a step: the right-hand side P^ of each body of this rank without multipliers,
+  /// and the state at the end of the step for known increments. Vectors with separate lifetimes
+  /// share storage under different names.
   class StepHistory
   {
   public:
-    /// The structure and the reference are kept by reference.
+    /// The arguments are kept by reference.
     StepHistory(const Structure &structure, const Reference &reference);
 
-    /// External forces at a time [s], minus the forces of the reference.
+    /// Sets the external forces at a time [s], minus the forces of the reference.
     void set_external_forces(double time);
 
-    /**
-     * P^_k = P - K U + kappa r - C v* - M a*, with the balance r of the step before, v* the part of
-     * the velocity that is known and a* that of the mean acceleration, see StepCoefficients; and
-     * what moving supports prescribe. Into loads().
-     */
+    /// Sets loads() to P^_k = P - K U + kappa r - C v* - M a* plus prescribed motions. r is the
+    /// balance of the step before, v* the known part of the velocity, and a* the known part of the
+    /// mean acceleration, see StepCoefficients.
     void set_loads(const StepCoefficients &c, const StepEquations &equations, State &state);
 
     /// P^ after set_loads().
     BodyVectors &loads() { return shared; }
 
-    /// dU, which StepEquations::find_increments() makes of loads().
+    /// dU, after StepEquations::find_increments() replaced loads().
     BodyVectors &increments() { return shared; }
 
-    /// Increments of the DoFs that moving supports prescribe; the others are zero [m, rad].
+    /// Increments of prescribed DoFs; zero for other DoFs [m, rad].
     const BodyVectors &lift() const { return prescribed; }
 
-    /// Puts them into @p dU.
+    /// Sets the prescribed increments in @p dU.
     void impose_lift(BodyVectors &dU) const;
 
-    /// Hands the increments over to the state, and takes what the step began with in exchange.
+    /// Exchanges the increments with the vectors of the state at the start of the step.
     void exchange(State &state);
 
-    /// After exchange(): displacement, velocity and acceleration of rows begin to end - 1 of body
-    /// k.
+    /// After exchange(): sets displacement, velocity, acceleration of body k in rows begin to
+    /// end - 1.
     void accept(const StepCoefficients &c, std::size_t k, std::size_t begin, std::size_t end,
                 State &state) const;
 
-    /// What the balance at the end of the step lacks of each body, into loads(): the right-hand
-    /// side of a refinement.
+    /// Sets loads() for a refinement: the residual of the balance at the end of the step.
     void set_lacking(const StepCoefficients &c, const StepEquations &equations, State &state);
 
-    /// Adds a correction, which is in increments(), to the state.
+    /// Adds the correction in increments() to the state.
     void add_correction(const StepCoefficients &c, State &state);
 
     const StepForces &forces() const { return step_forces; }

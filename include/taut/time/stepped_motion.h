@@ -17,54 +17,54 @@
 
 namespace taut
 {
-  /// How a system moves through time; the defaults suit most.
+  /// Options of a motion; the defaults suit most systems.
   struct StepperOptions
   {
     double step = 1e-3;        ///< [s]
     StepParameters steps = {}; ///< fixed, or adaptive
 
-    /// Until when "automatic" looks at the ways of moving constraints; 0: at their start only [s].
+    /// Time until which "automatic" follows moving constraints; 0: at the start only [s].
     double end = 0.;
     Start start = Start::equilibrium;
 
-    /// "automatic" chooses by the constraints that act as rigid; otherwise the name of a registered
+    /// "automatic" chooses by the constraints that act as rigid. Otherwise the name of a registered
     /// scheme, with values of its entries by path ("Moreau-Jean/Theta"), which "automatic" sets
     /// itself.
     std::string scheme = "automatic";
     std::map<std::string, std::string> scheme_entries = {};
-    double restitution = 0.; ///< Newton's, with "automatic" alone, 0 to 1 [1]
+    double restitution = 0.; ///< Newton's, only with "automatic", 0 to 1 [1]
     bool allow_unsuitable_scheme = false;
 
     SolverParameters solver = {};
   };
 
   /**
-   * The motion of bodies under constraints. Use it for bodies that belong to someone else, as those
-   * of a scene; a program with a System takes a Stepper.
+   * The motion of bodies under constraints. Use it for bodies with another owner, as those of a
+   * scene; a program with a System uses a Stepper.
    *
-   * Three calls prepare it, so that what one has found can be said before the next one fails: the
-   * constructor finds the start, choose_scheme() the scheme, and prepare() makes everything that
-   * steps need. All ranks call each function together.
+   * Three calls prepare the motion, so that results can be reported before the next call fails: the
+   * constructor finds the start, choose_scheme() the scheme, and prepare() sets up all parts for
+   * steps. All ranks call each function together.
    */
   class SteppedMotion
   {
   public:
-    /// @p structure and @p constraints are kept by reference; throws what find_initial_state()
-    /// throws.
+    /// @p structure and @p constraints are kept by reference. Throws the errors of
+    /// find_initial_state().
     SteppedMotion(Structure &structure, Constraints &constraints, const StepperOptions &options);
 
-    /// Throws UserError for a restitution that no constraint could have.
+    /// Throws UserError for a restitution that no constraint can have.
     void choose_scheme();
 
-    /// For @p n_steps of the length StepperOptions::step. Throws UserError for a scheme that is
-    /// known to fail on a constraint, and for bodies that nothing holds.
+    /// For @p n_steps of length StepperOptions::step. Throws UserError for a scheme that is known
+    /// to fail on a constraint, and for bodies without support.
     void prepare(long n_steps = std::numeric_limits<long>::max());
 
-    /// One step that counts. Throws UserError, naming time and constraint, if its certificate
-    /// misses the contact tolerance.
+    /// Advances by one accepted step. Throws UserError with time and constraint if its certificate
+    /// exceeds the contact tolerance.
     void advance();
 
-    /// Also of a motion that was not prepared: it stays at its start.
+    /// True also for an unprepared motion, which stays at its start.
     bool is_finished() const { return !control || control->is_finished(); }
 
     /// True at multiples of StepperOptions::step.
@@ -74,37 +74,37 @@ namespace taut
     const InitialState &start() const { return initial; }
     const Reference &reference() const { return initial.reference; }
 
-    /// After the last step, or at the start.
+    /// State after the last step, or at the start.
     const State &state() const { return stepper ? stepper->state() : initial.state; }
     const Certificate &certificate() const
     {
       return has_moved() ? stepper->certificate() : initial.certificate;
     }
 
-    /// The scheme of the last step; without one, none.
+    /// Coefficients of the last step; default values before the first step.
     const StepCoefficients &coefficients() const { return last; }
     bool has_moved() const { return stepper && stepper->n_steps_done() > 0; }
 
-    /// What the contacts did so far.
+    /// Measures of the contacts so far.
     const ContactMeasures &measures() const { return contact_measures; }
 
     const Structure &bodies() const { return structure; }
     const Constraints &links() const { return constraints; }
 
-    /// Name and entries of the scheme, why it was chosen (empty: it was named), and all in words.
+    /// Name and entries of the scheme, the reason (empty: the user named it), and all in words.
     const SchemeChoice &choice() const { return chosen; }
     std::string scheme() const;
     std::string scheme_and_reason() const;
 
-    /// The parts of a motion that was prepared.
+    /// Parts of a prepared motion.
     const TimeStepper &time_stepper() const { return *stepper; }
     RunInSteps run_in_steps(long n_steps);
 
-    /// For checkpoints, as TimeStepper does it: @p state has the vectors of the bodies.
+    /// For checkpoints, as in TimeStepper: @p state has the vectors of the bodies.
     void save(OutputArchive &archive);
     void load(InputArchive &archive, State state);
 
-    /// Substructure::load() of a body of this rank.
+    /// Calls Substructure::load() of a body of this rank.
     void load_body(const std::size_t k, InputArchive &archive) { structure.load(k, archive); }
 
   private:

@@ -11,68 +11,65 @@
 namespace taut
 {
   /**
-   * Moves a system step by step, without a parameter file and without files of results:
+   * Moves a system step by step, without a parameter file or files of results:
    *
    *     Stepper stepper(system, options);
    *     while (stepper.time() < 1.)
    *       stepper.advance();
    *
-   * All ranks of the system make it and call each function together.
+   * All ranks of the system construct it and call each function together.
    */
   class Stepper
   {
   public:
-    /// @p system is kept by reference. Finds the start, linearises there the bodies that ask for it
-    /// (see SlenderBody::linearised()) and chooses the scheme. Throws UserError for options that
-    /// are not possible, if there is no equilibrium, or if a scheme is known to fail on a
-    /// constraint.
+    /// @p system is kept by reference. Finds the start, linearises bodies on request there (see
+    /// SlenderBody::linearised()) and chooses the scheme. Throws UserError for impossible options,
+    /// without an equilibrium, or if a scheme is known to fail on a constraint.
     explicit Stepper(const System &system, const StepperOptions &options = StepperOptions());
 
-    /// One step. Throws UserError, naming time and constraint, if its certificate misses the
-    /// contact tolerance.
+    /// Advances by one step. Throws UserError with time and constraint if its certificate exceeds
+    /// the contact tolerance.
     void advance();
 
     double time() const { return motion.state().time; }
     const State &state() const { return motion.state(); }
     const Reference &reference() const { return motion.reference(); }
 
-    /// Of the last step; of the equilibrium before the first one.
+    /// Certificate of the last step, or of the equilibrium before the first step.
     const Certificate &certificate() const { return motion.certificate(); }
 
-    /// What the contacts did so far.
+    /// Measures of the contacts so far.
     const ContactMeasures &measures() const { return motion.measures(); }
 
-    // Of all functions below, a body or a constraint that the system did not have when the Stepper
-    // was made, and a form that is not on its bodies, is a UserError.
+    // Functions below throw UserError for a body or constraint that the system did not have when
+    // the Stepper was made, and for forms on other bodies.
 
-    /// Multiplier of a constraint [N], and its gap between the bodies, negative where the spring of
-    /// the constraint is compressed [m].
+    /// Multiplier of a constraint [N]; gap of its bodies, negative if its spring is compressed [m].
     double multiplier(std::size_t constraint) const;
     double gap(std::size_t constraint) const;
 
-    /// From the undeformed system [m], and its rate [m/s].
+    /// Displacement from the undeformed system [m], and its rate [m/s].
     double displacement(const Displacement &form) const;
     double velocity(const Displacement &form) const;
 
-    /// Displacement of a body from the undeformed system, one entry a DoF [m, rad]; empty on ranks
-    /// that do not have it.
+    /// Displacement of a body from the undeformed system by DoFs [m, rad]; empty on other ranks.
     std::vector<double> displacement(std::size_t body) const;
 
-    /// Solves of Newton's method so far, for bodies that are not linear; otherwise 0.
+    /// Newton iterations so far, for nonlinear bodies; otherwise 0.
     long n_newton_iterations() const { return motion.time_stepper().n_newton_iterations(); }
 
     /// Name of the scheme with its parameters, and why it was chosen.
     std::string scheme() const { return motion.scheme_and_reason(); }
 
-    /// Without the system, for observers: see ObservedRun (simulation/observed_run.h).
+    /// The motion without the system, for observers: see ObservedRun (simulation/observed_run.h).
     SteppedMotion &stepped() { return motion; }
 
   private:
     std::size_t row(std::size_t constraint) const;
 
     const System &system;
-    const std::size_t n_constraints; ///< of the system when this was made
-    Structure structure; ///< its bodies, those linear that linearised() takes the place of
+    const std::size_t n_constraints; ///< of the system at construction
+    Structure structure;             ///< bodies of the system, or their linearised() ones
     Constraints constraints;
     SteppedMotion motion;
   };

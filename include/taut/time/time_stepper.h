@@ -36,71 +36,63 @@ namespace taut
    *     certifies them                               BalanceCertificate, ContactConditions
    *     projects the velocities, with some schemes   VelocityProjection.
    *
-   * Where a body is not linear or a constraint turns, NewtonSearch does the second to the fourth
-   * line again and again.
+   * With nonlinear bodies or turning constraints, NewtonSearch iterates lines two to four.
    */
   class TimeStepper
   {
   public:
-    /**
-     * @p structure and @p constraints are kept by reference. @p at_rest says that the start is an
-     * equilibrium, so that accelerations are zero; otherwise the first step is backward Euler,
-     * unless the scheme needs no initial acceleration either.
-     */
+    /// @p structure and @p constraints are kept by reference. @p at_rest: the start is an
+    /// equilibrium with zero accelerations. Otherwise the first step is backward Euler, unless the
+    /// scheme needs no initial acceleration.
     TimeStepper(const Structure &structure, Constraints &constraints,
                 const SolverParameters &parameters, const TimeIntegrator &integrator, double step,
                 Reference reference, State start, bool at_rest);
 
-    /// One step. Throws UserError, naming time and constraint, if the certificate misses the
-    /// contact tolerance.
+    /// Advances by one step. Throws UserError with time and constraint if the certificate exceeds
+    /// the contact tolerance.
     void advance();
 
     /// Length of the steps to come [s].
     void set_step(const double length) { clock.set_step(length, current.time); }
 
-    /**
-     * Stores all that later steps read beside the vectors of the bodies, the same on all ranks;
-     * then begins anew with factors, F and search, whose rounding depends on the steps before. So
-     * does load(): a run that stores and one that goes on from there have the same bits. Called by
-     * all ranks together.
-     */
+    /// Stores all data of later steps but the vectors of the bodies, equal on all ranks. Then, like
+    /// load(), resets factors, F and search, whose rounding depends on earlier steps: a run that
+    /// stores and a run that continues from there have the same bits. Called by all ranks together.
     void save(OutputArchive &archive);
 
     /// @p state has the vectors of the bodies.
     void load(InputArchive &archive, State state);
 
-    /// Back to a state of before, as if nothing had happened since.
+    /// Returns to an earlier state, as if nothing had happened since.
     void restore(const State &before);
 
-    /// Of the last step, see LocalError. Called by all ranks together.
+    /// Local error of the last step, see LocalError. Called by all ranks together.
     double local_error()
     {
       return errors.measure(current, coefficients, clock.step_before(), history.forces().old_A);
     }
 
-    /// True if the next step, of @p length [s], misses nothing of loads and given motions; see
+    /// True if the next step, of @p length [s], resolves loads and prescribed motions, see
     /// LoadSampling. Called by all ranks together.
     bool resolves_loads(double length, double reference_step, double tolerance)
     {
       return loads.is_resolved(current.time, length, reference_step, tolerance);
     }
 
-    /**
-     * Throws an EntryError if a moving elastic constraint acts as rigid where it is now, in a
-     * scheme whose forces then ring; see ContactResolution. Called by all ranks together, after a
-     * step.
-     */
+    /// Throws an EntryError if a moving elastic constraint acts as rigid in its present place and
+    /// the forces of the scheme then ring, see ContactResolution. Called by all ranks together
+    /// after a step.
     void check_moving_contacts();
 
     const State &state() const { return current; }
     const Reference &reference() const { return reference_state; }
     const Certificate &certificate() const { return last; }
 
-    /// Of the last step.
+    /// Coefficients of the last step.
     const StepCoefficients &scheme() const { return coefficients; }
     long n_steps_done() const { return clock.n_steps(); }
 
-    /// Solves of Newton's method so far; 0 if all bodies are linear and no constraint turns.
+    /// Newton iterations so far; 0 if all bodies are linear and no constraint turns.
     long n_newton_iterations() const { return newton.n_iterations(); }
     bool is_linear() const { return newton.is_linear(); }
 
@@ -139,7 +131,7 @@ namespace taut
     StepClock clock;
     StepCoefficients coefficients; ///< of the last step
 
-    /// What restore() goes back to beside the state.
+    /// Data of restore() beside the state.
     struct Sizes
     {
       PerKind motion;
@@ -150,7 +142,7 @@ namespace taut
     Sizes before_step;
 
     std::unique_ptr<StepEquations> system;
-    InterfaceStatistics earlier_systems; ///< of the equations before reset_caches()
+    InterfaceStatistics earlier_systems; ///< statistics before reset_caches()
     NewtonSearch newton;
     ContactConditions conditions;
     StepHistory history;
@@ -159,7 +151,7 @@ namespace taut
     EnergyGains energy_gains;
     BalanceCertificate balance;
     StepCheck check;
-    std::unique_ptr<VelocityProjection> projection; ///< of schemes with one
+    std::unique_ptr<VelocityProjection> projection; ///< for schemes with a velocity projection
   };
 } // namespace taut
 

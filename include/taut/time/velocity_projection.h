@@ -16,18 +16,19 @@
 namespace taut
 {
   /**
-   * The second part of a step whose first part has put conditions on gaps, with impulses p:
-   * impulses P after which the gaps do not close either,
+   * The velocity projection at the end of a step, after the solution with conditions on gaps and
+   * impulses p. New impulses P keep the gaps from closing further,
    *
    *     V = V* + M^-1 B (P - p),    0 <= P _|_ D' >= 0 on the unilateral constraints with p > 0,
    *                                 D' = 0 on all rigid bilateral constraints.
    *
-   * U stays. An elastic constraint with p > 0 is softened, so that its compliance S fades from
-   * rigid to none: 0 <= P _|_ D' + f_ii (theta S / (alpha F_ii))^2 (P - p) >= 0 with F = B^T A^-1 B
-   * and f = B^T M^-1 B. S of a law is that at the end of the step. With
-   * Newton's restitution e the condition is D' + e min(0, D'_0), and P goes only so far from the
-   * solution without it that the contacts do not give energy. DoFs without mass and damping have no
-   * velocity of their own: theirs is the mean over the step.
+   * U stays. An elastic constraint with p > 0 is softened, so that it fades from rigid to absent
+   * with its compliance S: 0 <= P _|_ D' + f_ii (theta S / (alpha F_ii))^2 (P - p) >= 0 with
+   * F = B^T A^-1 B and f = B^T M^-1 B. S of a law is its value at the end of the step.
+   *
+   * With Newton's restitution e the condition is D' + e min(0, D'_0). P then departs from the
+   * solution without restitution only so far that contacts give no energy. DoFs without mass and
+   * damping have no independent velocity and take the mean over the step.
    */
   class VelocityProjection
   {
@@ -36,12 +37,11 @@ namespace taut
     VelocityProjection(const Structure &structure, const Constraints &constraints,
                        const SolverParameters &parameters, const Reference &reference);
 
-    /// For steps with these coefficients from now on. @p F is the matrix of their first part, with
-    /// S on its diagonal.
+    /// For steps with these coefficients. @p F is the matrix of their first part, including S.
     void prepare(const StepCoefficients &c, double step, const std::vector<double> &S,
                  ComplementarityOperator &F);
 
-    /// Largest residual of a rate in a step, recomputed from the velocities, and its constraint.
+    /// Largest residual of a rate after a step, from the velocities, and its constraint.
     struct Residual
     {
       double largest = 0.;
@@ -49,23 +49,23 @@ namespace taut
     };
 
     /**
-     * Changes V, D' and multipliers of a state after the first part of a step, and takes the change
-     * of velocities' share of C V off its balance; @p rates are those of the conditions. @p F as in
-     * prepare(), with the sliding constraints in their places. Throws what ComplementaritySolver
-     * does. Called by all ranks together.
+     * Changes V, D' and multipliers of a state after the first part of a step, and subtracts C
+     * times the change of V from its balance. @p rates belong to the conditions. @p F is the matrix
+     * of prepare() with the sliding constraints in their places. Throws the errors of
+     * ComplementaritySolver. Called by all ranks together.
      */
     Residual project(const ContactConditions &conditions, GapRates &rates, State &state,
                      ComplementarityOperator &F);
 
-    /// Of each body: DoFs without mass and damping, where the step ends in equilibrium.
+    /// DoFs without mass and damping of each body, which end the step in equilibrium.
     const std::vector<std::vector<unsigned int>> &quasi_static_dofs() const { return quasi_static; }
 
-    /// Largest size of each constraint's rate so far, what came to rest rounds with it: of another
-    /// projection of the same constraints [m/s, rad/s].
+    /// Largest size of each rate so far, the rounding scale of constraints at rest; set from
+    /// another projection of the same constraints [m/s, rad/s].
     const std::vector<double> &largest_rates() const { return largest_scale; }
     void set_largest_rates(const std::vector<double> &sizes) { largest_scale = sizes; }
 
-    /// Work of the impulses P - p on the bodies in the last step, of each constraint [J].
+    /// Work of the impulses P - p of each constraint on the bodies in the last step [J].
     const std::vector<double> &work() const { return work_of_rows; }
 
   private:
@@ -87,12 +87,12 @@ namespace taut
     StepCoefficients c;
     double step = 0.;
     std::vector<std::vector<unsigned int>> quasi_static; ///< DoFs of each body
-    bool some_quasi_static;                              ///< of some rank
-    std::vector<char> takes_part, has_no_mass; ///< constraints; the latter act on DoFs without mass
+    bool some_quasi_static;                              ///< on any rank
+    std::vector<char> takes_part, has_no_mass; ///< constraints; has_no_mass: on DoFs without mass
     MixedComplementarityProblem problem;
     std::vector<double> p, q, change; ///< impulses, P - p, f (P - p)
     std::vector<double> rate, work_of_rows, work_vector;
-    std::vector<double> largest_scale; ///< of each constraint's rate so far
+    std::vector<double> largest_scale; ///< largest scale of each rate so far
     BodyVectors dV;
   };
 } // namespace taut
