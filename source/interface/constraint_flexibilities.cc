@@ -59,6 +59,7 @@ namespace taut
     return true;
   }
 
+  /// After factoring: of body k.
   void RowFlexibilities::find_coupling(const std::size_t k)
   {
     std::vector<unsigned int> root(solvers.structure()[k].n_dofs());
@@ -85,6 +86,7 @@ namespace taut
       group_of[k].push_back(number[find(i)]);
   }
 
+  /// Of the constraints of body k, after they or its factor have changed.
   void RowFlexibilities::compute(const std::size_t k)
   {
     parts[k].clear();
@@ -116,32 +118,76 @@ namespace taut
     }
   }
 
-  void RowFlexibilities::add_to_diagonal(std::vector<double> &diagonal) const
+  void RowFlexibilities::setup(const std::vector<double> &S)
   {
-    for (const std::vector<Part> &of_body : parts)
-      for (const Part &part : of_body)
-        diagonal[part.constraint] += part.flexibility;
-  }
-
-  void RowFlexibilities::add_to_local_diagonal(std::vector<double> &diagonal) const
-  {
+    compliance = S;
     for (std::size_t k = 0; k < parts.size(); ++k)
     {
-      const std::vector<double> own = diagonal_of(k);
-      for (const BodyConstraints::Entry &entry : constraints[k])
-        diagonal[entry.constraint] += local_flexibility(entry.form, own);
+      find_coupling(k);
+      compute(k);
+    }
+    sum_up();
+  }
+
+  void RowFlexibilities::update(const std::set<std::size_t> &bodies)
+  {
+    for (const std::size_t k : bodies)
+      compute(k);
+    sum_up();
+  }
+
+  /// What the bodies give to the diagonals, on all ranks.
+  void RowFlexibilities::sum_up()
+  {
+    of_bodies.assign(is_cut.size(), 0.);
+    for (const std::vector<Part> &of_body : parts)
+      for (const Part &part : of_body)
+        of_bodies[part.constraint] += part.flexibility;
+    solvers.structure().communicator().sum(of_bodies);
+    local_of_bodies = of_bodies;
+    if (solvers.is_generalised_inverse())
+    {
+      local_of_bodies.assign(is_cut.size(), 0.);
+      for (std::size_t k = 0; k < parts.size(); ++k)
+      {
+        const std::vector<double> own = diagonal_of(k);
+        for (const BodyConstraints::Entry &entry : constraints[k])
+          local_of_bodies[entry.constraint] += local_flexibility(entry.form, own);
+      }
+      solvers.structure().communicator().sum(local_of_bodies);
+    }
+    set_compliance(compliance);
+  }
+
+  void RowFlexibilities::set_compliance(const std::vector<double> &S)
+  {
+    compliance = S;
+    entries.resize(is_cut.size());
+    scales.assign(is_cut.size(), 1.);
+    for (std::size_t i = 0; i < is_cut.size(); ++i)
+    {
+      entries[i] = of_bodies[i] + compliance[i];
+      const double local = local_of_bodies[i] + compliance[i],
+                   size = local > 0. ? local : entries[i];
+      if (size > 0.)
+        scales[i] = 1. / std::sqrt(size);
     }
   }
 
-  void RowFlexibilities::add_bound(const std::vector<double> &x, std::vector<double> &y) const
+  void RowFlexibilities::bound(const std::vector<double> &x, std::vector<double> &y) const
   {
+    share.assign(x.size(), 0.);
     for (std::size_t k = 0; k < parts.size(); ++k)
     {
       sums.assign(n_groups[k], 0.);
       for (const Part &part : parts[k])
         sums[part.group] += std::sqrt(part.flexibility) * std::fabs(x[part.constraint]);
       for (const Part &part : parts[k])
-        y[part.constraint] += std::sqrt(part.flexibility) * sums[part.group];
+        share[part.constraint] += std::sqrt(part.flexibility) * sums[part.group];
     }
+    solvers.structure().communicator().sum(share);
+    y.resize(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i)
+      y[i] = share[i] + compliance[i] * std::fabs(x[i]);
   }
 } // namespace taut

@@ -5,16 +5,20 @@
 #include <taut/interface/body_constraints.h>
 #include <taut/substructure/factored_structure.h>
 
+#include <set>
 #include <vector>
 
 namespace taut
 {
   /**
-   * The motion of each constraint under its own unit force, B_ik^T A_k^-1 B_ik, for each body and
-   * each group of coupled DoFs. Deflection and rotation of a mass, for example, may share no entry
-   * of A_k. These flexibilities bound unknown entries of F. A body with many cuts has exact values
-   * for a sample only, each by one system with A_k. The other cuts are estimated by the largest
-   * ratio to the flexibility of diag(A_k).
+   * The sizes of the rows of F where no entry of it is known: the diagonal, a scale, and a bound of
+   * products. Use it with an F that is applied only.
+   *
+   * They come from what each constraint moves under its own unit force, B_ik^T A_k^-1 B_ik, by body
+   * and by DoFs of a body that nothing couples: a deflection and a rotation of a mass may share no
+   * entry of A_k. Of a body with many cuts those of the cuts are estimated from some of them, by
+   * the largest ratio to what the diagonal of A_k alone would give: each exact one is a system with
+   * A_k.
    */
   class RowFlexibilities
   {
@@ -24,21 +28,24 @@ namespace taut
     RowFlexibilities(const FactoredStructure &solvers, const BodyConstraints &constraints,
                      std::vector<char> is_cut);
 
-    /// Finds the coupled DoFs of body k, after factoring.
-    void find_coupling(std::size_t k);
+    /// After factoring, with compliances @p S. Called by all ranks together, as are the next ones.
+    void setup(const std::vector<double> &S);
 
-    /// Computes the constraints of body k, after a change of these or of its factor.
-    void compute(std::size_t k);
+    /// After the constraints of some bodies of this rank have changed.
+    void update(const std::set<std::size_t> &bodies);
 
-    /// Adds the part of this rank in the diagonal of B^T A^-1 B.
-    void add_to_diagonal(std::vector<double> &diagonal) const;
+    void set_compliance(const std::vector<double> &S);
 
-    /// Adds the part of this rank in the diagonal of B^T diag(A)^-1 B.
-    void add_to_local_diagonal(std::vector<double> &diagonal) const;
+    /// A bound of sum_j |F_ij| |x_j|, from |F_ij| <= sqrt(f_i f_j) over what both constraints act
+    /// on.
+    void bound(const std::vector<double> &x, std::vector<double> &y) const;
 
-    /// Adds the part of this rank in a bound of sum_j |(B^T A^-1 B)_ij| |x_j|, from
-    /// |F_ij| <= sqrt(f_i f_j) for each group of DoFs.
-    void add_bound(const std::vector<double> &x, std::vector<double> &y) const;
+    /// F_ii.
+    const std::vector<double> &diagonal() const { return entries; }
+
+    /// F_ii^-1/2; in statics with B^T diag(A)^-1 B, as the diagonal of F depends there on how a
+    /// generalised inverse holds the bodies.
+    const std::vector<double> &scale() const { return scales; }
 
   private:
     struct Part
@@ -48,6 +55,9 @@ namespace taut
       double flexibility;
     };
 
+    void find_coupling(std::size_t k);
+    void compute(std::size_t k);
+    void sum_up();
     std::vector<double> diagonal_of(std::size_t k) const;
     bool estimates(std::size_t k, std::vector<const BodyConstraints::Entry *> &samples) const;
 
@@ -57,7 +67,9 @@ namespace taut
     std::vector<std::vector<Part>> parts;            ///< of each body
     std::vector<std::vector<unsigned int>> group_of; ///< group of each DoF; empty: one group
     std::vector<unsigned int> n_groups;
-    mutable std::vector<double> sums;
+    std::vector<double> compliance, entries, scales;
+    std::vector<double> of_bodies, local_of_bodies; ///< without compliances
+    mutable std::vector<double> sums, share;
   };
 } // namespace taut
 

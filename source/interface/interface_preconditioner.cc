@@ -2,10 +2,6 @@
 #include "interface_preconditioner.h"
 
 #include <taut/base/exceptions.h>
-#include <taut/base/gather_entries.h>
-
-#include <algorithm>
-#include <numeric>
 
 namespace taut
 {
@@ -25,10 +21,9 @@ namespace taut
   InterfacePreconditioner::InterfacePreconditioner(const std::string &name,
                                                    const FactoredStructure &solvers,
                                                    const BodyConstraints &body_constraints)
-      : solvers(solvers), body_constraints(body_constraints), is_diagonal(name == "diagonal"),
-        is_dirichlet(name == "Dirichlet"), blocks(body_constraints.size())
+      : is_diagonal(name == "diagonal"), T(name == "Dirichlet", solvers, body_constraints)
   {
-    if (!is_diagonal && !is_dirichlet && name != "lumped")
+    if (!is_diagonal && name != "lumped" && name != "Dirichlet")
       throw UserError("unknown preconditioner '" + name +
                       "'; known are: diagonal, lumped, Dirichlet. Correct the name");
   }
@@ -44,59 +39,12 @@ namespace taut
     own = other;
     if (is_diagonal)
       return;
-    solvers.structure().communicator().agree(
-        [&]
-        {
-          for (std::size_t k = 0; k < body_constraints.size(); ++k)
-            if (is_changed[k])
-              compute_block(k, active);
-        });
-    gather_blocks(active);
+    T.setup(active, is_changed);
     add_springs(active, diagonal, compliance);
     set_scaling();
   }
 
-  /// Gathers T without springs, and B, over all ranks.
-  void InterfacePreconditioner::gather_blocks(const std::vector<char> &active)
-  {
-    const Communicator &processes = solvers.structure().communicator();
-    std::size_t n_own = 0;
-    for (const Block &block : blocks)
-      n_own += block.dofs.size();
-    const std::vector<std::size_t> sizes = processes.gather(n_own);
-    std::size_t first =
-        std::accumulate(sizes.begin(), sizes.begin() + processes.rank(), std::size_t(0));
-    n_dofs = std::accumulate(sizes.begin(), sizes.end(), std::size_t(0));
-
-    T = {};
-    B = {};
-    substitute = {};
-    for (std::size_t k = 0; k < blocks.size(); ++k)
-    {
-      Block &block = blocks[k];
-      block.first = first;
-      SymmetricEntries &to = block.interior ? substitute : T;
-      for (std::size_t e = 0; e < block.entries.size(); ++e)
-        to.add(first + block.entries.row[e], first + block.entries.column[e],
-               block.entries.value[e]);
-      for (const BodyConstraints::Entry &entry : body_constraints[k])
-        for (std::size_t e = 0; active[entry.constraint] && e < entry.form.index.size(); ++e)
-        {
-          const auto at =
-              std::lower_bound(block.dofs.begin(), block.dofs.end(), entry.form.index[e]);
-          if (at != block.dofs.end() && *at == entry.form.index[e])
-            B.add(entry.constraint, first + (at - block.dofs.begin()), entry.form.value[e]);
-        }
-      first += block.dofs.size();
-    }
-    gather(processes, T);
-    gather(processes, substitute);
-    gather(processes, B);
-    B.compress();
-    has_substitute = substitute.size() > 0;
-  }
-
-  /// Adds the elastic rows as springs between DoFs, and factors T with them.
+  /// The elastic rows as springs between the DoFs, and the factor of T with them.
   void InterfacePreconditioner::add_springs(const std::vector<char> &active,
                                             const std::vector<double> &diagonal,
                                             const std::vector<double> &compliance)
@@ -109,45 +57,30 @@ namespace taut
         stiffness[i] = 1. / compliance[i];
         has_springs = true;
       }
-    for (std::size_t first = 0, end = 0; first < B.size(); first = end)
-    {
-      const int i = B.row[first];
-      while (end < B.size() && B.row[end] == i)
-        ++end;
-      for (std::size_t e = first; stiffness[i] > 0. && e < end; ++e)
-        for (std::size_t f = first; f <= e; ++f)
-          T.add(B.column[e], B.column[f], stiffness[i] * B.value[e] * B.value[f]);
-    }
-    T.compress();
+    T.add_springs(stiffness);
     if (!has_springs)
       return;
-    SymmetricEntries shifted = T;
-    for (std::size_t e = 0; e < substitute.size(); ++e)
-      shifted.add(substitute.row[e], substitute.column[e], substitute.value[e]);
-    shifted.compress();
-    std::vector<char> has_diagonal(n_dofs, 0);
+    SymmetricEntries shifted = T.entries();
+    std::vector<char> has_diagonal(T.n_dofs(), 0);
     for (std::size_t e = 0; e < shifted.size(); ++e)
       if (shifted.row[e] == shifted.column[e] && shifted.value[e] > 0.)
       {
         shifted.value[e] *= 1. + null_space_shift;
         has_diagonal[shifted.row[e]] = 1;
       }
-    for (std::size_t p = 0; p < n_dofs; ++p)
+    for (std::size_t p = 0; p < T.n_dofs(); ++p)
       if (!has_diagonal[p])
         shifted.add(p, p, 1.);
-    inverse_T.factor(n_dofs, shifted, 0.);
+    inverse_T.factor(T.n_dofs(), shifted, 0.);
   }
 
   /// Computes D^-1 B_r, and Q from rows with a common DoF.
   void InterfacePreconditioner::set_scaling()
   {
-    std::vector<double> D(n_dofs, 0.);
-    for (const SymmetricEntries *matrix : {&T, &substitute})
-      for (std::size_t e = 0; e < matrix->size(); ++e)
-        if (matrix->row[e] == matrix->column[e])
-          D[matrix->row[e]] += matrix->value[e];
+    const MatrixEntries &B = T.constraints();
+    const std::vector<double> D = T.diagonal();
     scaled_B = B;
-    std::vector<std::vector<std::size_t>> at_dof(n_dofs);
+    std::vector<std::vector<std::size_t>> at_dof(D.size());
     for (std::size_t e = 0; e < B.size(); ++e)
     {
       const double d = D[B.column[e]];
@@ -185,38 +118,10 @@ namespace taut
         r[i] *= other[i];
       return;
     }
-    scaled = r;
-    Q.solve(scaled);
+    jump = r;
+    Q.solve(jump);
     for (std::size_t i = 0; i < r.size(); ++i)
-      r[i] = is_rigid[i] ? scaled[i] : other[i] * r[i];
-  }
-
-  /// f = (T + sum of the applied Schur complements) u.
-  void InterfacePreconditioner::multiply(const std::vector<double> &u, std::vector<double> &f) const
-  {
-    f.assign(n_dofs, 0.);
-    if (has_substitute)
-    {
-      for (std::size_t k = 0; k < blocks.size(); ++k)
-      {
-        const Block &block = blocks[k];
-        if (!block.interior)
-          continue;
-        const std::size_t n = block.dofs.size();
-        whole.assign(solvers.structure()[k].n_dofs(), 0.);
-        for (std::size_t p = 0; p < n; ++p)
-          whole[block.dofs[p]] = u[block.first + p];
-        solvers.multiply(k, whole, image);
-        for (std::size_t p = 0; p < n; ++p)
-          f[block.first + p] = image[block.dofs[p]];
-        block.interior->solve(image);
-        solvers.multiply(k, image, whole);
-        for (std::size_t p = 0; p < n; ++p)
-          f[block.first + p] -= whole[block.dofs[p]];
-      }
-      solvers.structure().communicator().sum(f);
-    }
-    T.vmult_add(u, f);
+      r[i] = is_rigid[i] ? jump[i] : other[i] * r[i];
   }
 
   void InterfacePreconditioner::apply(const std::vector<double> &r, std::vector<double> &z) const
@@ -227,8 +132,9 @@ namespace taut
     if (is_diagonal)
       return;
 
-    // Solves T u = B_c S_c^-1 r_c for the motion with the elastic rows.
-    force.assign(n_dofs, 0.);
+    const MatrixEntries &B = T.constraints();
+    // T u = B_c S_c^-1 r_c, the motion that the elastic rows leave.
+    force.assign(T.n_dofs(), 0.);
     for (std::size_t e = 0; e < B.size(); ++e)
       force[B.column[e]] += B.value[e] * stiffness[B.row[e]] * r[B.row[e]];
     if (has_springs)
@@ -239,10 +145,10 @@ namespace taut
     for (std::size_t e = 0; e < B.size(); ++e)
       jump[B.row[e]] -= B.value[e] * force[B.column[e]];
     Q.solve(jump);
-    motion.assign(n_dofs, 0.);
+    motion.assign(T.n_dofs(), 0.);
     for (std::size_t e = 0; e < B.size(); ++e)
       motion[B.column[e]] += scaled_B.value[e] * jump[B.row[e]];
-    multiply(motion, force);
+    T.multiply(motion, force);
     jump.assign(r.size(), 0.);
     for (std::size_t e = 0; e < B.size(); ++e)
       jump[B.row[e]] += scaled_B.value[e] * force[B.column[e]];
@@ -253,8 +159,8 @@ namespace taut
     if (!has_springs)
       return;
 
-    // Applies the elastic rows with the motion of the rigid rows.
-    force.assign(n_dofs, 0.);
+    // And the elastic ones, with what the rigid ones move.
+    force.assign(T.n_dofs(), 0.);
     for (std::size_t e = 0; e < B.size(); ++e)
     {
       const int i = B.row[e];

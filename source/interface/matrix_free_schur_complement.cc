@@ -85,7 +85,7 @@ namespace taut
     if (parameters.coarse_space != "rigid body modes" && parameters.coarse_space != "none")
       throw UserError("unknown coarse space '" + parameters.coarse_space +
                       "'; known are: rigid body modes, none. Correct the name");
-    F.set_scale(scale);
+    F.set_scale(scale());
   }
 
   void MatrixFreeSchurComplement::set_tolerance(const double wanted)
@@ -103,12 +103,7 @@ namespace taut
     is_changed.assign(body_constraints.size(), 1);
     is_stale = true;
     body_constraints.update();
-    for (std::size_t k = 0; k < body_constraints.size(); ++k)
-    {
-      flexibilities.find_coupling(k);
-      flexibilities.compute(k);
-    }
-    compute_diagonal();
+    flexibilities.setup(S);
   }
 
   void MatrixFreeSchurComplement::update_moving()
@@ -127,49 +122,16 @@ namespace taut
     body_constraints.update();
     mark();
     for (const std::size_t k : touched)
-    {
       is_changed[k] = 1;
-      flexibilities.compute(k);
-    }
-    compute_diagonal();
-  }
-
-  void MatrixFreeSchurComplement::compute_diagonal()
-  {
-    of_bodies.assign(constraints.size(), 0.);
-    flexibilities.add_to_diagonal(of_bodies);
-    solvers.structure().communicator().sum(of_bodies);
-    local_of_bodies = of_bodies;
-    if (solvers.is_generalised_inverse())
-    {
-      // The diagonal of F depends on the supports of a generalised inverse, the local one does not.
-      local_of_bodies.assign(constraints.size(), 0.);
-      flexibilities.add_to_local_diagonal(local_of_bodies);
-      solvers.structure().communicator().sum(local_of_bodies);
-    }
-    add_compliance();
+    flexibilities.update(touched);
   }
 
   void MatrixFreeSchurComplement::set_compliance(const std::vector<double> &S)
   {
     compliance = S;
     F.set_compliance(S);
+    flexibilities.set_compliance(S);
     is_stale = true;
-    add_compliance();
-  }
-
-  void MatrixFreeSchurComplement::add_compliance()
-  {
-    diagonal_entries.resize(constraints.size());
-    scale.assign(constraints.size(), 1.);
-    for (std::size_t i = 0; i < constraints.size(); ++i)
-    {
-      diagonal_entries[i] = of_bodies[i] + compliance[i];
-      const double local = local_of_bodies[i] + compliance[i],
-                   size = local > 0. ? local : diagonal_entries[i];
-      if (size > 0.)
-        scale[i] = 1. / std::sqrt(size);
-    }
   }
 
   void MatrixFreeSchurComplement::contact_free_predictor(const BodyVectors &P,
@@ -204,18 +166,7 @@ namespace taut
     F.apply(x.data(), y.data());
   }
 
-  void MatrixFreeSchurComplement::apply_absolute(const std::vector<double> &x,
-                                                 std::vector<double> &y) const
-  {
-    share.assign(x.size(), 0.);
-    flexibilities.add_bound(x, share);
-    solvers.structure().communicator().sum(share);
-    y.resize(x.size());
-    for (std::size_t i = 0; i < x.size(); ++i)
-      y[i] = share[i] + compliance[i] * std::fabs(x[i]);
-  }
-
-  /// Prepares preconditioner and coarse space for a set, where it has changed.
+  /// Preconditioner and coarse space for a set, as far as it is new.
   void MatrixFreeSchurComplement::prepare(const std::vector<std::size_t> &set, const double shift)
   {
     std::vector<char> wanted(constraints.size(), 0);
@@ -227,8 +178,8 @@ namespace taut
         for (const BodyConstraints::Entry &entry : body_constraints[k])
           if (!active.empty() && active[entry.constraint] != wanted[entry.constraint])
             is_changed[k] = 1;
-      is_stale = true; // until both are prepared
-      preconditioner.setup(wanted, is_changed, compliance, diagonal_entries);
+      is_stale = true; // until both are ready
+      preconditioner.setup(wanted, is_changed, compliance, flexibilities.diagonal());
       if (coarse_space)
         coarse_space->setup(wanted, is_changed, compliance);
       active = wanted;
@@ -236,23 +187,21 @@ namespace taut
       std::fill(is_changed.begin(), is_changed.end(), 0);
     }
     F.restrict_to(wanted);
-    F.set_shift(shift, diagonal_entries);
+    F.set_shift(shift, flexibilities.diagonal());
   }
 
   void MatrixFreeSchurComplement::divide_by_scale(std::vector<double> &x) const
   {
     for (std::size_t i = 0; i < x.size(); ++i)
-      x[i] = active[i] ? x[i] / scale[i] : 0.;
+      x[i] = active[i] ? x[i] / scale()[i] : 0.;
   }
 
   /// Applies the preconditioner, balanced by the coarse space.
   void MatrixFreeSchurComplement::scaled_precondition(const std::vector<double> &r,
                                                       std::vector<double> &z)
   {
-    constraint_work.assign(r.size(), 0.);
-    for (std::size_t i = 0; i < r.size(); ++i)
-      if (active[i])
-        constraint_work[i] = r[i] / scale[i];
+    constraint_work = r;
+    divide_by_scale(constraint_work);
     if (coarse_space)
     {
       coarse_space->solve(constraint_work, coarse_part, coarse_motion);
@@ -267,7 +216,7 @@ namespace taut
         z[i] += coarse_part[i];
     }
     for (std::size_t i = 0; i < r.size(); ++i)
-      z[i] = active[i] ? z[i] / scale[i] : r[i];
+      z[i] = active[i] ? z[i] / scale()[i] : r[i];
   }
 
   bool MatrixFreeSchurComplement::solve(const std::vector<std::size_t> &set,
@@ -277,15 +226,15 @@ namespace taut
     x.assign(constraints.size(), 0.);
     std::vector<double> b(constraints.size(), 0.);
     for (const std::size_t i : set)
-      b[i] = scale[i] * rhs[i];
+      b[i] = scale()[i] * rhs[i];
     if (largest(b) == 0.)
       return true;
     prepare(set, shift);
     const bool is_solved = refine(nullptr, b, x);
     for (const std::size_t i : set)
-      x[i] *= scale[i];
+      x[i] *= scale()[i];
     F.unrestrict();
-    F.set_shift(0., diagonal_entries);
+    F.set_shift(0., flexibilities.diagonal());
     return is_solved;
   }
 
@@ -297,7 +246,7 @@ namespace taut
                                                         std::vector<double> &alpha)
   {
     prepare(set, shift);
-    const NaturalCoarseProblem coarse_problem(null_space, scale, active,
+    const NaturalCoarseProblem coarse_problem(null_space, scale(), active,
                                               [this](std::vector<double> &x)
                                               {
                                                 divide_by_scale(x);
@@ -310,7 +259,7 @@ namespace taut
     {
       std::vector<double> b(constraints.size(), 0.), image;
       for (const std::size_t i : set)
-        b[i] = scale[i] * rhs[i];
+        b[i] = scale()[i] * rhs[i];
       coarse_problem.balance(load, x);
       is_solved = refine(&coarse_problem, b, x);
       F.scaled_apply(x, image);
@@ -318,10 +267,10 @@ namespace taut
         image[i] = b[i] - image[i];
       alpha = coarse_problem.amplitudes(image);
       for (const std::size_t i : set)
-        x[i] *= scale[i];
+        x[i] *= scale()[i];
     }
     F.unrestrict();
-    F.set_shift(0., diagonal_entries);
+    F.set_shift(0., flexibilities.diagonal());
     return is_solved;
   }
 

@@ -15,9 +15,11 @@
 
 namespace taut
 {
-  /// F applied through the factors of the bodies, with preconditioned conjugate gradients for its
-  /// systems; see SchurComplement. F_ii^-1/2, or a local value in statics, scales the rows: forces
-  /// and moments, stiff and soft constraints then have one norm.
+  /**
+   * F applied through the factors of the bodies, its systems solved by preconditioned conjugate
+   * gradients; see SchurComplement. Rows are scaled by RowFlexibilities::scale(): forces and
+   * moments, stiff and soft constraints then have one norm.
+   */
   class MatrixFreeSchurComplement : public SchurComplement, private ComplementarityOperator
   {
   public:
@@ -38,9 +40,12 @@ namespace taut
     class Inverse;
 
     std::size_t size() const override { return constraints.size(); }
-    double diagonal(std::size_t i) const override { return diagonal_entries[i]; }
+    double diagonal(std::size_t i) const override { return flexibilities.diagonal()[i]; }
     void apply(const std::vector<double> &x, std::vector<double> &y) const override;
-    void apply_absolute(const std::vector<double> &x, std::vector<double> &y) const override;
+    void apply_absolute(const std::vector<double> &x, std::vector<double> &y) const override
+    {
+      flexibilities.bound(x, y);
+    }
     bool solve(const std::vector<std::size_t> &set, const std::vector<double> &rhs, double shift,
                std::vector<double> &x) override;
 
@@ -56,8 +61,7 @@ namespace taut
     bool is_iterative() const override { return true; }
     void set_tolerance(double wanted) override;
 
-    void compute_diagonal();
-    void add_compliance();
+    const std::vector<double> &scale() const { return flexibilities.scale(); }
     void prepare(const std::vector<std::size_t> &set, double shift);
     void divide_by_scale(std::vector<double> &x) const;
     void scaled_precondition(const std::vector<double> &r, std::vector<double> &z);
@@ -71,18 +75,14 @@ namespace taut
     ContactSchurOperator F;
     InterfacePreconditioner preconditioner;
     RowFlexibilities flexibilities;
-    std::unique_ptr<CoarseSpace> coarse_space; ///< null: none, or statics
-    std::vector<double> compliance, diagonal_entries;
-    /// Diagonal without compliances; local: with diag(A) in statics.
-    std::vector<double> of_bodies, local_of_bodies;
-    std::vector<double> scale;    ///< F_ii^-1/2; in statics from the local diagonal
-    std::vector<char> active;     ///< constraints of the present preparation
-    std::vector<char> is_changed; ///< bodies without a present preparation
-    bool is_stale = true;         ///< after a change of matrix, compliance or B
-    double tolerance;             ///< relative residual that ends a solve
+    std::unique_ptr<CoarseSpace> coarse_space; ///< null: none, or in statics
+    std::vector<double> compliance;
+    std::vector<char> active;     ///< constraints that everything is prepared for
+    std::vector<char> is_changed; ///< bodies that it is not prepared for
+    bool is_stale = true;         ///< a matrix, compliance or moving constraint has changed
+    double tolerance;             ///< relative residual at which a solve ends
     InterfaceStatistics counts;
     std::vector<double> constraint_work, coarse_part, coarse_motion;
-    mutable std::vector<double> share;
     mutable BodyVectors work;
   };
 } // namespace taut

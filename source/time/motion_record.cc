@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "distance_to_range.h"
+
 #include <taut/base/archive.h>
 #include <taut/base/dot.h>
 #include <taut/substructure/constrained_body.h>
@@ -9,8 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <utility>
+#include <tuple>
 
 namespace taut
 {
@@ -26,10 +27,6 @@ namespace taut
     /// error of the better run.
     constexpr double part_of_lateness = .5;
 
-    /// Number of stored ends of steps with impulses; longer runs store every second end, fourth
-    /// end, and so on. Even, so that the last end is stored.
-    constexpr std::size_t most_ends = 16000;
-
     /// Part of a step by which its end may miss a sample.
     constexpr double rounding_of_times = 1e-6;
 
@@ -37,11 +34,6 @@ namespace taut
     double worse(const double a, const double b)
     {
       return a > b || a != a ? a : b;
-    }
-
-    double ratio(const double a, const double b)
-    {
-      return a == 0. ? 0. : a / b;
     }
   } // namespace
 
@@ -64,8 +56,7 @@ namespace taut
                              const ConnectedBodies &groups, const Reference &reference,
                              const State &start, const double interval, const std::size_t n)
       : structure(structure), constraints(constraints), groups(groups), reference(reference),
-        begin(start.time), interval(interval), n(n), impulse(constraints.size(), 0.),
-        multiplier(start.multiplier)
+        begin(start.time), interval(interval), n(n), impulses(start)
   {
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
@@ -85,8 +76,6 @@ namespace taut
         start_load[k][i] -= work[i];
     }
     energies.push_back(energies_of(start));
-    times.push_back(begin);
-    impulses.push_back(impulse);
     speed.assign(groups.n_groups(), 0.);
   }
 
@@ -96,37 +85,7 @@ namespace taut
       speed[g] = std::max(speed[g], std::fabs(state.dU[k][i]) / state.last_step);
   }
 
-  void MotionRecord::add_impulses(const State &state)
-  {
-    for (std::size_t i = 0; i < impulse.size(); ++i)
-    {
-      const bool is_mean = !state.is_mean.empty() && state.is_mean[i];
-      const double N = state.multiplier[i];
-      impulse[i] += (is_mean ? N : .5 * (N + multiplier[i])) * state.last_step;
-      multiplier[i] = N;
-    }
-    if (++n_steps % stride != 0)
-      return;
-    times.push_back(state.time);
-    impulses.push_back(impulse);
-    if (times.size() > most_ends)
-      keep_every_second_end();
-  }
-
-  void MotionRecord::keep_every_second_end()
-  {
-    const std::size_t n_kept = (times.size() + 1) / 2;
-    for (std::size_t k = 1; k < n_kept; ++k)
-    {
-      times[k] = times[2 * k];
-      impulses[k] = std::move(impulses[2 * k]);
-    }
-    times.resize(n_kept);
-    impulses.resize(n_kept);
-    stride *= 2;
-  }
-
-  /// Adds places at a part of the last step.
+  /// Places at a part of the last step.
   void MotionRecord::add_places(const State &state, const double part)
   {
     const double left = 1. - part, h = state.last_step;
@@ -170,7 +129,7 @@ namespace taut
 
   void MotionRecord::record(const State &state)
   {
-    add_impulses(state);
+    impulses.record(state);
     add_speeds(state);
     const double early = rounding_of_times * state.last_step;
     if (places.size() == n || time_of(places.size()) > state.time + early)
@@ -257,73 +216,6 @@ namespace taut
     result.time = all.max(is_here ? time : 0.);
   }
 
-  namespace
-  {
-    /// Distance of @p x from the range of @p value from @p first to @p last.
-    template <typename Value>
-    double distance(const double x, const std::size_t first, const std::size_t last,
-                    const Value &value)
-    {
-      double least = value(first), most = least;
-      for (std::size_t j = first + 1; j <= last && (x < least || x > most); ++j)
-      {
-        least = std::min(least, value(j));
-        most = std::max(most, value(j));
-      }
-      return x >= least && x <= most ? 0. : std::max(x - most, least - x);
-    }
-  } // namespace
-
-  /// Impulses of this motion at given times, by linear interpolation.
-  std::vector<std::vector<double>> MotionRecord::impulses_at(const std::vector<double> &at) const
-  {
-    std::vector<std::vector<double>> result;
-    std::size_t next = 1;
-    for (const double t : at)
-    {
-      while (next + 1 < times.size() && times[next] < t)
-        ++next;
-      std::vector<double> &values = result.emplace_back(impulses[next - 1]);
-      const double part = std::min(1., (t - times[next - 1]) / (times[next] - times[next - 1]));
-      for (std::size_t i = 0; i < values.size(); ++i)
-        values[i] += part * (impulses[next][i] - values[i]);
-    }
-    return result;
-  }
-
-  void MotionRecord::compare_impulses(const MotionRecord &other, const Sizes &size,
-                                      MotionDifference &result) const
-  {
-    if (other.times.size() < 2)
-      return;
-    const std::vector<std::vector<double>> others = other.impulses_at(times);
-    std::vector<double> largest = size.impulse;
-    for (const std::vector<double> &sample : others)
-      for (std::size_t i = 0; i < sample.size(); ++i)
-      {
-        double &of_group = largest[groups.of_constraint(i)];
-        of_group = std::max(of_group, std::fabs(sample[i]));
-      }
-    const double rounding = rounding_of_times * interval;
-    for (std::size_t k = 0; k < times.size() && times[k] <= other.times.back() + rounding; ++k)
-      for (std::size_t i = 0; i < impulse.size(); ++i)
-      {
-        const std::size_t g = groups.of_constraint(i);
-        std::size_t first = k > 0 ? k - 1 : 0, last = std::min(k + 1, times.size() - 1);
-        while (first > 0 && times[k] - times[first] < size.late[g])
-          --first;
-        while (last + 1 < times.size() && times[last] - times[k] < size.late[g])
-          ++last;
-        const double d = ratio(distance(impulses[k][i], first, last,
-                                        [&](const std::size_t j) { return others[j][i]; }),
-                               largest[g]);
-        if (!(d > result.impulse) && d == d)
-          continue;
-        result.impulse = d;
-        result.row = i;
-      }
-  }
-
   void MotionRecord::compare_energies(const Sizes &other, MotionDifference &result) const
   {
     const Sizes own = sizes();
@@ -339,8 +231,9 @@ namespace taut
       const std::size_t w = static_cast<std::size_t>(std::min<double>(window, n_both));
       for (std::size_t s = 0; s < n_both && other.place[g] > 0.; ++s)
         result.energy =
-            worse(ratio(distance(change(own, s, g), s > w ? s - w : 0, std::min(s + w, n_both - 1),
-                                 [&](const std::size_t j) { return change(other, j, g); }),
+            worse(ratio(distance_to_range(change(own, s, g), s > w ? s - w : 0,
+                                          std::min(s + w, n_both - 1),
+                                          [&](const std::size_t j) { return change(other, j, g); }),
                         other.energy[g]),
                   result.energy);
     }
@@ -351,7 +244,8 @@ namespace taut
     const Sizes size = other.sizes();
     MotionDifference result;
     compare_places(other, size, result);
-    compare_impulses(other, size, result);
+    std::tie(result.impulse, result.row) = impulses.difference(
+        other.impulses, groups, size.impulse, size.late, rounding_of_times * interval);
     compare_energies(size, result);
     return result;
   }
@@ -386,16 +280,16 @@ namespace taut
     for (const double v : speed)
       fastest.push_back(all.max(v));
     const std::size_t n_stored = places.size();
-    archive << n_stored << of_all << sums << fastest << impulse << multiplier << times << impulses
-            << stride << n_steps;
+    archive << n_stored << of_all << sums << fastest;
+    impulses.store(archive);
   }
 
   void MotionRecord::load(InputArchive &archive)
   {
     std::size_t n_stored = 0;
     PlacesOfBodies of_all;
-    archive >> n_stored >> of_all >> energies >> speed >> impulse >> multiplier >> times >>
-        impulses >> stride >> n_steps;
+    archive >> n_stored >> of_all >> energies >> speed;
+    impulses.store(archive);
     places.assign(n_stored, std::vector<double>(dofs.size()));
     std::map<std::size_t, std::size_t> next; // sample of each body
     for (std::vector<double> &sample : places)

@@ -4,6 +4,7 @@
 
 #include <taut/base/archive_forward.h>
 #include <taut/interface/connected_bodies.h>
+#include <taut/time/impulse_record.h>
 #include <taut/time/state.h>
 
 #include <array>
@@ -71,18 +72,13 @@ namespace taut
     /// Places of each body, sample by sample [m].
     using PlacesOfBodies = std::map<std::size_t, std::vector<double>>;
     PlacesOfBodies places_of_bodies() const;
-    void add_impulses(const State &state);
-    void keep_every_second_end();
     void add_speeds(const State &state);
-    std::vector<std::vector<double>> impulses_at(const std::vector<double> &at) const;
     void add_places(const State &state, double part);
     Energies energies_of(const State &state);
     double time_of(const std::size_t sample) const { return begin + (sample + 1.) * interval; }
     Sizes sizes() const;
     void compare_places(const MotionRecord &other, const Sizes &size,
                         MotionDifference &result) const;
-    void compare_impulses(const MotionRecord &other, const Sizes &size,
-                          MotionDifference &result) const;
     void compare_energies(const Sizes &other, MotionDifference &result) const;
 
     const Structure &structure;
@@ -103,13 +99,10 @@ namespace taut
     std::vector<double> start_of_dofs; ///< [m]
     BodyVectors start_load;            ///< K U_ref - P at the start [N, N m]
 
-    std::vector<double> speed;                 ///< largest speed of each group so far [m/s]
-    std::vector<double> impulse, multiplier;   ///< impulse so far; multiplier of the last step
-    std::vector<std::vector<double>> places;   ///< of each sample [m]
-    std::vector<Energies> energies;            ///< the start first; parts of this rank
-    std::vector<double> times;                 ///< ends of steps with recorded impulses [s]
-    std::vector<std::vector<double>> impulses; ///< impulses at these times [N s]
-    long stride = 1, n_steps = 0;              ///< one of so many ends is kept; steps so far
+    std::vector<double> speed; ///< of the groups, largest so far [m/s]
+    ImpulseRecord impulses;
+    std::vector<std::vector<double>> places; ///< of each sample [m]
+    std::vector<Energies> energies;          ///< the start first; shares of this rank
     std::vector<double> work;
   };
 } // namespace taut

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Blocks of the preconditioner: A_k or its Schur complement on the DoFs of constraints.
-#include "interface_preconditioner.h"
+#include "interface_stiffness.h"
+
+#include <taut/base/gather_entries.h>
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace taut
@@ -30,10 +32,63 @@ namespace taut
     }
   } // namespace
 
-  /// DoFs of active constraints that are not prescribed.
+  InterfaceStiffness::InterfaceStiffness(const bool condenses, const FactoredStructure &solvers,
+                                         const BodyConstraints &body_constraints)
+      : condenses(condenses), solvers(solvers), body_constraints(body_constraints),
+        blocks(body_constraints.size())
+  {
+  }
+
+  void InterfaceStiffness::setup(const std::vector<char> &active,
+                                 const std::vector<char> &is_changed)
+  {
+    const Communicator &processes = solvers.structure().communicator();
+    processes.agree(
+        [&]
+        {
+          for (std::size_t k = 0; k < body_constraints.size(); ++k)
+            if (is_changed[k])
+              compute_block(k, active);
+        });
+    std::size_t n_own = 0;
+    for (const Block &block : blocks)
+      n_own += block.dofs.size();
+    const std::vector<std::size_t> sizes = processes.gather(n_own);
+    std::size_t first =
+        std::accumulate(sizes.begin(), sizes.begin() + processes.rank(), std::size_t(0));
+    n_constrained = std::accumulate(sizes.begin(), sizes.end(), std::size_t(0));
+
+    T = {};
+    B = {};
+    substitute = {};
+    for (std::size_t k = 0; k < blocks.size(); ++k)
+    {
+      Block &block = blocks[k];
+      block.first = first;
+      SymmetricEntries &to = block.interior ? substitute : T;
+      for (std::size_t e = 0; e < block.entries.size(); ++e)
+        to.add(first + block.entries.row[e], first + block.entries.column[e],
+               block.entries.value[e]);
+      for (const BodyConstraints::Entry &entry : body_constraints[k])
+        for (std::size_t e = 0; active[entry.constraint] && e < entry.form.index.size(); ++e)
+        {
+          const auto at =
+              std::lower_bound(block.dofs.begin(), block.dofs.end(), entry.form.index[e]);
+          if (at != block.dofs.end() && *at == entry.form.index[e])
+            B.add(entry.constraint, first + (at - block.dofs.begin()), entry.form.value[e]);
+        }
+      first += block.dofs.size();
+    }
+    gather(processes, T);
+    gather(processes, substitute);
+    gather(processes, B);
+    B.compress();
+  }
+
+  /// The DoFs of active constraints that may move.
   std::vector<unsigned int>
-  InterfacePreconditioner::constrained_together(const std::size_t k,
-                                                const std::vector<char> &active) const
+  InterfaceStiffness::constrained_together(const std::size_t k,
+                                           const std::vector<char> &active) const
   {
     const std::vector<unsigned int> held = solvers.structure()[k].constrained_dofs();
     std::vector<unsigned int> dofs;
@@ -47,7 +102,8 @@ namespace taut
     return dofs;
   }
 
-  void InterfacePreconditioner::set_entries(const std::size_t k, Block &block) const
+  /// A_k on b.
+  void InterfaceStiffness::set_entries(const std::size_t k, Block &block) const
   {
     const auto position = positions(block.dofs, solvers.structure()[k].n_dofs());
     solvers.visit(k,
@@ -58,10 +114,10 @@ namespace taut
                   });
   }
 
-  void InterfacePreconditioner::compute_block(const std::size_t k, const std::vector<char> &active)
+  void InterfaceStiffness::compute_block(const std::size_t k, const std::vector<char> &active)
   {
     Block block;
-    if (is_dirichlet && solvers.structure()[k].stiffness().block_size() == 0)
+    if (condenses && solvers.structure()[k].stiffness().block_size() == 0)
     {
       block.dofs = constrained_together(k, std::vector<char>(active.size(), 1));
       if (block.dofs.size() > most_formed)
@@ -81,7 +137,7 @@ namespace taut
     for (std::size_t e = 0; e < block.entries.size(); ++e)
       if (block.entries.row[e] == block.entries.column[e])
         diagonal[block.entries.row[e]] += block.entries.value[e];
-    if (is_dirichlet && !block.dofs.empty())
+    if (condenses && !block.dofs.empty())
       condense(k, block);
     block.entries.compress();
     for (std::size_t e = 0; e < block.entries.size(); ++e)
@@ -94,8 +150,8 @@ namespace taut
     blocks[k] = std::move(block);
   }
 
-  /// Subtracts A_bi A_ii^-1 A_ib by columns, which are local to their DoFs.
-  void InterfacePreconditioner::condense(const std::size_t k, Block &block) const
+  /// Subtracts A_bi A_ii^-1 A_ib, column by column: each lives near its DoF.
+  void InterfaceStiffness::condense(const std::size_t k, Block &block) const
   {
     const std::size_t n = block.dofs.size();
     const auto position = positions(block.dofs, solvers.structure()[k].n_dofs());
@@ -147,5 +203,65 @@ namespace taut
         }
       }
     }
+  }
+
+  void InterfaceStiffness::add_springs(const std::vector<double> &s)
+  {
+    for (std::size_t first = 0, end = 0; first < B.size(); first = end)
+    {
+      const int i = B.row[first];
+      while (end < B.size() && B.row[end] == i)
+        ++end;
+      for (std::size_t e = first; s[i] > 0. && e < end; ++e)
+        for (std::size_t f = first; f <= e; ++f)
+          T.add(B.column[e], B.column[f], s[i] * B.value[e] * B.value[f]);
+    }
+    T.compress();
+  }
+
+  SymmetricEntries InterfaceStiffness::entries() const
+  {
+    SymmetricEntries result = T;
+    for (std::size_t e = 0; e < substitute.size(); ++e)
+      result.add(substitute.row[e], substitute.column[e], substitute.value[e]);
+    result.compress();
+    return result;
+  }
+
+  std::vector<double> InterfaceStiffness::diagonal() const
+  {
+    std::vector<double> D(n_constrained, 0.);
+    for (const SymmetricEntries *matrix : {&T, &substitute})
+      for (std::size_t e = 0; e < matrix->size(); ++e)
+        if (matrix->row[e] == matrix->column[e])
+          D[matrix->row[e]] += matrix->value[e];
+    return D;
+  }
+
+  void InterfaceStiffness::multiply(const std::vector<double> &u, std::vector<double> &f) const
+  {
+    f.assign(n_constrained, 0.);
+    if (substitute.size() > 0)
+    {
+      for (std::size_t k = 0; k < blocks.size(); ++k)
+      {
+        const Block &block = blocks[k];
+        if (!block.interior)
+          continue;
+        const std::size_t n = block.dofs.size();
+        whole.assign(solvers.structure()[k].n_dofs(), 0.);
+        for (std::size_t p = 0; p < n; ++p)
+          whole[block.dofs[p]] = u[block.first + p];
+        solvers.multiply(k, whole, image);
+        for (std::size_t p = 0; p < n; ++p)
+          f[block.first + p] = image[block.dofs[p]];
+        block.interior->solve(image);
+        solvers.multiply(k, image, whole);
+        for (std::size_t p = 0; p < n; ++p)
+          f[block.first + p] -= whole[block.dofs[p]];
+      }
+      solvers.structure().communicator().sum(f);
+    }
+    T.vmult_add(u, f);
   }
 } // namespace taut

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_interface_stiffness_h
+#define taut_interface_stiffness_h
+
+#include <taut/base/sparse_cholesky.h>
+#include <taut/interface/body_constraints.h>
+#include <taut/substructure/factored_structure.h>
+
+#include <memory>
+#include <vector>
+
+namespace taut
+{
+  /**
+   * The matrix T = sum_k T_k over the DoFs b that active constraints act on, of all bodies of all
+   * ranks, and the constraints B on these. T_k is A_k on b, or its Schur complement there. Use it
+   * where a preconditioner needs stiffnesses at the constraints in place of the bodies.
+   *
+   * The Schur complement of a body with many such DoFs is not formed, but applied with a factor of
+   * the rest of the body. It is that of the DoFs of all constraints, active or not, so that the
+   * factor stays as long as A_k does; where entries are needed, A_k on b stands for it.
+   */
+  class InterfaceStiffness
+  {
+  public:
+    /// The references are kept. @p condenses: T_k are Schur complements.
+    InterfaceStiffness(bool condenses, const FactoredStructure &solvers,
+                       const BodyConstraints &body_constraints);
+
+    /// All A_k are new.
+    void reset() { blocks = std::vector<Block>(blocks.size()); }
+
+    /// See InterfacePreconditioner::setup(). Called by all ranks together.
+    void setup(const std::vector<char> &active, const std::vector<char> &is_changed);
+
+    /// After setup(): adds springs B_i^T s_i B_i between the DoFs, none where s_i is 0.
+    void add_springs(const std::vector<double> &s);
+
+    /// The same on all ranks: DoFs of all lists b, and the constraints in order of their rows.
+    std::size_t n_dofs() const { return n_constrained; }
+    const MatrixEntries &constraints() const { return B; }
+
+    /// T with entries for all bodies, and its diagonal.
+    SymmetricEntries entries() const;
+    std::vector<double> diagonal() const;
+
+    /// f = T u. Called by all ranks together.
+    void multiply(const std::vector<double> &u, std::vector<double> &f) const;
+
+  private:
+    /// T_k, by position in the list of DoFs b.
+    struct Block
+    {
+      std::vector<unsigned int> dofs;
+      SymmetricEntries entries;
+      std::size_t first = 0; ///< position of its first DoF among those of all bodies
+
+      /// Of the other DoFs, if the Schur complement is applied and not formed.
+      std::unique_ptr<LocalSolver> interior;
+    };
+
+    void compute_block(std::size_t k, const std::vector<char> &active);
+    std::vector<unsigned int> constrained_together(std::size_t k,
+                                                   const std::vector<char> &active) const;
+    void set_entries(std::size_t k, Block &block) const;
+    void condense(std::size_t k, Block &block) const;
+
+    const bool condenses;
+    const FactoredStructure &solvers;
+    const BodyConstraints &body_constraints;
+    std::vector<Block> blocks;
+    std::size_t n_constrained = 0;
+    SymmetricEntries T;          ///< of blocks that are formed, and of springs
+    SymmetricEntries substitute; ///< A_k on b for those that are not
+    MatrixEntries B;             ///< row of F, DoF
+    mutable std::vector<double> whole, image;
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_distance_to_range_h
+#define taut_distance_to_range_h
+
+#include <algorithm>
+#include <cstddef>
+
+namespace taut
+{
+  /// a / b; 0 if a is.
+  inline double ratio(const double a, const double b)
+  {
+    return a == 0. ? 0. : a / b;
+  }
+
+  /// How far @p x is from the range of @p value from @p first to @p last.
+  template <typename Value>
+  double distance_to_range(const double x, const std::size_t first, const std::size_t last,
+                           const Value &value)
+  {
+    double least = value(first), most = least;
+    for (std::size_t j = first + 1; j <= last && (x < least || x > most); ++j)
+    {
+      least = std::min(least, value(j));
+      most = std::max(most, value(j));
+    }
+    return x >= least && x <= most ? 0. : std::max(x - most, least - x);
+  }
+} // namespace taut
+
+#endif
