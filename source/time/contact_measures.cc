@@ -115,8 +115,7 @@ namespace taut
     return highest;
   }
 
-  void ContactMeasures::record(const State &state, const StepCoefficients &c,
-                               const Certificate &certificate)
+  void ContactMeasures::record(const State &state, const StepCoefficients &c)
   {
     ++n_steps;
     for (std::size_t i = 0; i < constraints.size(); ++i)
@@ -130,7 +129,6 @@ namespace taut
     add_gains(state, c);
     if (n_steps < steps_between_scales || n_steps % steps_between_scales == 0)
       energies.measure_scale(state);
-    (void)certificate;
   }
 
   /// Without a unilateral constraint, no contact can have caused a gain.

@@ -86,7 +86,7 @@ namespace taut
     if (!options.allow_unsuitable_scheme)
       stepper->check_moving_contacts();
     last = stepper->scheme();
-    contact_measures.record(stepper->state(), last, stepper->certificate());
+    contact_measures.record(stepper->state(), last);
   }
 
   void SteppedMotion::save(OutputArchive &archive)

@@ -5,7 +5,6 @@
 #include <taut/base/archive_forward.h>
 #include <taut/base/warning.h>
 #include <taut/interface/constraints.h>
-#include <taut/time/certificate.h>
 #include <taut/time/integrator.h>
 #include <taut/time/link_energies.h>
 #include <taut/time/motion_record.h>
@@ -53,7 +52,7 @@ namespace taut
     }
 
     /// Records an accepted step with its coefficients. Called by all ranks together.
-    void record(const State &state, const StepCoefficients &c, const Certificate &certificate);
+    void record(const State &state, const StepCoefficients &c);
 
     /// Measures so far, for checkpoints.
     void save(OutputArchive &archive);
