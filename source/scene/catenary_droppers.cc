@@ -98,11 +98,11 @@ namespace taut
         link.damping = damping;
         if (lengths.empty())
         {
-          link.find_length = true;
-          link.prescribed_displacement = pre_sag.empty() ? 0. : -pre_sag[i];
-          link.axial_stiffness = axial_stiffness;
-          link.mass_per_length = mass_per_length;
-          link.find_direction = scene.wires[contact_wire].has_lateral;
+          link.form.find_length = true;
+          link.form.prescribed_displacement = pre_sag.empty() ? 0. : -pre_sag[i];
+          link.form.axial_stiffness = axial_stiffness;
+          link.form.mass_per_length = mass_per_length;
+          link.form.find_direction = scene.wires[contact_wire].has_lateral;
         }
         else
         {
