@@ -31,7 +31,7 @@ namespace taut
       for (std::size_t i = 0; i < scene.links.size(); ++i)
       {
         const Link &link = scene.links[i];
-        if (!link.unilateral() || !link.rigid() || link.axial_stiffness != 0.)
+        if (!link.unilateral() || !link.rigid() || link.form.axial_stiffness != 0.)
           continue;
         if (link.kind != LinkKind::stop || link.turns || !is_on_wire(link))
           return {};

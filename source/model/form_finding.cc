@@ -43,9 +43,9 @@ namespace taut
     /// Half of the mass of a dropper on each of its ends.
     void add_mass(const Link &link, Scene &scene)
     {
-      if (link.mass_per_length == 0.)
+      if (link.form.mass_per_length == 0.)
         return;
-      const double half = .5 * link.mass_per_length * link.length;
+      const double half = .5 * link.form.mass_per_length * link.length;
       for (const Attachment *end : {&link.from, &link.to})
         if (end->kind == Attachment::Kind::wire)
           scene.point_masses.push_back(
@@ -107,7 +107,7 @@ namespace taut
         hold.kind = LinkKind::joint;
         hold.to = dropper.to;
         hold.direction = dropper.direction;
-        hold.gap = dropper.prescribed_displacement;
+        hold.gap = dropper.form.prescribed_displacement;
         scene.links.push_back(hold);
       }
       const SceneBodies structure(scene);
@@ -179,7 +179,7 @@ namespace taut
         scene.loads.push_back(force(droppers[i], droppers[i].from, tension[i]));
         scene.loads.push_back(force(droppers[i], droppers[i].to, -tension[i]));
         directions.push_back(droppers[i].direction);
-        finds_directions |= droppers[i].find_direction;
+        finds_directions |= droppers[i].form.find_direction;
       }
       DropperForm form{tension, distances(scene, droppers, between, directions, parameters),
                        std::vector<double>(droppers.size(), 0.)};
@@ -194,7 +194,7 @@ namespace taut
         return form;
 
       for (std::size_t i = 0; i < droppers.size(); ++i)
-        if (droppers[i].find_direction)
+        if (droppers[i].form.find_direction)
         {
           directions[i] = sideways(scene, droppers[i]);
           if (tension[i] == 0.)
@@ -211,7 +211,7 @@ namespace taut
       const std::vector<double> extent =
           distances(scene, droppers, between, directions, parameters);
       for (std::size_t i = 0; i < droppers.size(); ++i)
-        if (droppers[i].find_direction)
+        if (droppers[i].form.find_direction)
         {
           const double length = std::hypot(form.length[i], extent[i]);
           form.tension[i] *= length / form.length[i];
@@ -228,9 +228,9 @@ namespace taut
       const double c = std::sqrt(1. - extent * extent / (length * length)), s = extent / length;
       const Coordinates along = link.direction, across = sideways(scene, link), zero;
       link.direction = add_scaled(add_scaled(zero, c, along), s, across);
-      link.sideways = add_scaled(add_scaled(zero, -s, along), c, across);
-      link.sideways_stiffness = tension / length;
-      link.sideways_gap = dot(between, link.sideways);
+      link.sideways.direction = add_scaled(add_scaled(zero, -s, along), c, across);
+      link.sideways.stiffness = tension / length;
+      link.sideways.gap = dot(between, link.sideways.direction);
     }
 
     /// Tensions and lengths of the droppers between the parts of a scene without them.
@@ -246,7 +246,7 @@ namespace taut
         double change = 0.;
         for (std::size_t i = 0; i < droppers.size(); ++i)
         {
-          if (droppers[i].mass_per_length > 0.)
+          if (droppers[i].form.mass_per_length > 0.)
             change =
                 std::max(change, std::fabs(form.length[i] - droppers[i].length) / form.length[i]);
           droppers[i].length = form.length[i];
@@ -302,7 +302,7 @@ namespace taut
     std::vector<Link> droppers;
     std::vector<Attachment> ends;
     for (const Link &link : scene.links)
-      if (link.find_length)
+      if (link.form.find_length)
       {
         droppers.push_back(link);
         ends.insert(ends.end(), {link.from, link.to});
@@ -323,7 +323,7 @@ namespace taut
     {
       Scene base = part.scene;
       base.links.erase(std::remove_if(base.links.begin(), base.links.end(),
-                                      [](const Link &link) { return link.find_length; }),
+                                      [](const Link &link) { return link.form.find_length; }),
                        base.links.end());
       return find_form(base, droppers, between, parameters);
     };
@@ -333,13 +333,13 @@ namespace taut
 
     std::size_t i = 0;
     for (Link &link : scene.links)
-      if (link.find_length)
+      if (link.form.find_length)
       {
-        link.find_length = false;
+        link.form.find_length = false;
         link.length = form.length[i];
-        if (link.axial_stiffness > 0.)
-          link.stiffness = link.axial_stiffness / form.length[i];
-        if (link.find_direction)
+        if (link.form.axial_stiffness > 0.)
+          link.stiffness = link.form.axial_stiffness / form.length[i];
+        if (link.form.find_direction)
           set_direction(scene, form.tension[i], form.length[i], form.sideways[i], between[i], link);
         // D = -n . (u_to - u_from) + gap + N / stiffness = 0 under the tension
         link.gap =

@@ -292,13 +292,13 @@ namespace taut
       constraints.push_back(std::move(constraint));
     }
     for (const Link &link : scene.links)
-      if (link.sideways_stiffness > 0.)
+      if (link.sideways.stiffness > 0.)
       {
         ConstraintData constraint{link.name + " sideways", link.origin};
-        constraint.spring.stiffness = link.sideways_stiffness;
-        constraint.gap = link.sideways_gap;
-        bodies.motion(link.to, false, link.sideways, 1., constraint.terms);
-        bodies.motion(link.from, false, link.sideways, -1., constraint.terms);
+        constraint.spring.stiffness = link.sideways.stiffness;
+        constraint.gap = link.sideways.gap;
+        bodies.motion(link.to, false, link.sideways.direction, 1., constraint.terms);
+        bodies.motion(link.from, false, link.sideways.direction, -1., constraint.terms);
         constraints.push_back(std::move(constraint));
       }
     for (ConstraintData &constraint : surface_constraints(scene, bodies))

@@ -2,6 +2,7 @@
 #include "catenary.h"
 
 #include <taut/base/exceptions.h>
+#include <taut/base/patterns.h>
 #include <taut/scene/entries.h>
 #include <taut/scene/named_items.h>
 
@@ -14,20 +15,7 @@
 
 namespace taut
 {
-  namespace
-  {
-    using namespace dealii::Patterns;
-
-    const Double not_negative()
-    {
-      return Double(0., Double::max_double_value);
-    }
-    const Anything any_text()
-    {
-      return Anything();
-    }
-
-  } // namespace
+  using namespace dealii::Patterns;
 
   void Catenary::declare_names(dealii::ParameterHandler &prm)
   {
@@ -63,7 +51,7 @@ namespace taut
     prm.add_parameter("Wind", wind,
                       "Load along z, a formula in t and in s (= x); lengths of droppers are found "
                       "without it [N/m]",
-                      any_text());
+                      Anything());
     prm.leave_subsection();
   }
 
@@ -80,11 +68,11 @@ namespace taut
     prm.add_parameter("Start", start, "x at t = 0 [m]", Double());
     prm.add_parameter("Speed", speed, "[km/h]", Double());
     prm.add_parameter("Contact stiffness", contact_stiffness,
-                      "Between head and contact wire; a number or 'rigid' [N/m]", any_text());
+                      "Between head and contact wire; a number or 'rigid' [N/m]", Anything());
     prm.add_parameter("Contact damping", contact_damping, "Beside the stiffness [N s/m]",
                       not_negative());
     prm.add_parameter("Height profile", profile,
-                      "Irregularity of the contact wire, a formula in s (= x) [m]", any_text());
+                      "Irregularity of the contact wire, a formula in s (= x) [m]", Anything());
   }
 
   void Catenary::declare_parameters(dealii::ParameterHandler &prm)
@@ -104,7 +92,7 @@ namespace taut
     prm.enter_subsection("Supports");
     prm.add_parameter("Messenger stiffness", messenger_support_stiffness,
                       "Of the messenger's supports at the inner masts; a number or 'rigid' [N/m]",
-                      any_text());
+                      Anything());
     prm.add_parameter("Arm mass", arm_mass,
                       "Point mass on the contact wire at each inner mast; its weight is carried by "
                       "the arm [kg]",
@@ -113,28 +101,7 @@ namespace taut
     prm.add_parameter("Arm damping", arm_damping, "Vertical [N s/m]", not_negative());
     prm.leave_subsection();
 
-    prm.enter_subsection("Droppers");
-    prm.add_parameter("Positions", dropper_positions, "In each span, from its first mast [m]",
-                      List(not_negative(), 0));
-    prm.add_parameter("Stiffness", dropper_stiffness,
-                      "In tension; none in compression; a number or 'rigid' [N/m]", any_text());
-    prm.add_parameter("Axial stiffness", dropper_axial_stiffness,
-                      "EA; if not 0, the stiffness is EA / length [N]", not_negative());
-    prm.add_parameter("Damping", dropper_damping, "[N s/m]", not_negative());
-    prm.add_parameter("Mass per length", dropper_mass_per_length,
-                      "Half of a dropper's mass goes to each wire [kg/m]", not_negative());
-    prm.add_parameter("Messenger clamp mass", messenger_clamp_mass, "[kg]", not_negative());
-    prm.add_parameter("Contact clamp mass", contact_clamp_mass, "[kg]", not_negative());
-    prm.add_parameter(
-        "Pre-sag", pre_sag,
-        "Depth of the contact wire below its supports at each dropper of a span in the "
-        "static state; empty: level [m]",
-        List(Double(), 0));
-    prm.add_parameter("Lengths", dropper_lengths,
-                      "Unstressed length of each dropper of a span; empty: found from the pre-sag "
-                      "[m]",
-                      List(not_negative(), 0));
-    prm.leave_subsection();
+    droppers.declare(prm);
 
     prm.add_parameter("Uplift positions", uplift_positions,
                       "x where the contact wire's motion is recorded; empty: all inner masts [m]",
@@ -229,62 +196,6 @@ namespace taut
     }
   }
 
-  void Catenary::add_droppers(Scene &scene) const
-  {
-    const auto require = [&](const std::vector<double> &list, const std::string &name)
-    {
-      if (!list.empty() && list.size() != dropper_positions.size())
-        throw EntryError("Catenary/Droppers/" + name, std::to_string(list.size()) + " values for " +
-                                                          std::to_string(dropper_positions.size()) +
-                                                          " Positions");
-    };
-    require(pre_sag, "Pre-sag");
-    require(dropper_lengths, "Lengths");
-    if (dropper_axial_stiffness > 0. && !dropper_lengths.empty())
-      throw EntryError("Catenary/Droppers/Axial stiffness", "with given Lengths use Stiffness");
-
-    std::vector<double> clamps;
-    for (unsigned int span = 0; span < n_spans; ++span)
-      for (std::size_t i = 0; i < dropper_positions.size(); ++i)
-      {
-        Link link;
-        link.kind = LinkKind::dropper;
-        link.origin = "Catenary/Droppers";
-        const double x = span * span_length + dropper_positions[i];
-        // All names have the same number of digits: 1.11 and 11.1 are one name to programs that
-        // drop the point.
-        std::string index = std::to_string(i + 1);
-        index.insert(0, std::to_string(dropper_positions.size()).size() - index.size(), '0');
-        link.name = "dropper " + std::to_string(span + 1) + "." + index;
-        link.from = {Attachment::Kind::wire, messenger_wire, x};
-        link.to = {Attachment::Kind::wire, contact_wire, x};
-        link.direction = {0., -1.};
-        link.stiffness = parse_stiffness(dropper_stiffness, "Catenary/Droppers/Stiffness");
-        link.damping = dropper_damping;
-        if (dropper_lengths.empty())
-        {
-          link.find_length = true;
-          link.prescribed_displacement = pre_sag.empty() ? 0. : -pre_sag[i];
-          link.axial_stiffness = dropper_axial_stiffness;
-          link.mass_per_length = dropper_mass_per_length;
-          link.find_direction = is_in_space();
-        }
-        else
-        {
-          link.length = link.unstressed_length = dropper_lengths[i];
-          link.gap = dropper_lengths[i] - encumbrance;
-        }
-        scene.links.push_back(link);
-        clamps.push_back(x);
-      }
-    if (messenger_clamp_mass > 0. && !clamps.empty())
-      scene.point_masses.push_back({"messenger clamp", "Catenary/Droppers", messenger_wire, clamps,
-                                    messenger_clamp_mass, true});
-    if (contact_clamp_mass > 0. && !clamps.empty())
-      scene.point_masses.push_back(
-          {"contact clamp", "Catenary/Droppers", contact_wire, clamps, contact_clamp_mass, true});
-  }
-
   void Catenary::add_pantograph(const std::string &name, const PantographItem &item,
                                 Scene &scene) const
   {
@@ -341,11 +252,10 @@ namespace taut
   {
     check_line();
     check_pantographs();
-    check_space();
     add_wires(scene);
     if (is_in_space())
       add_lateral(scene);
-    add_droppers(scene);
+    droppers.add(messenger_wire, contact_wire, n_spans, span_length, scene);
     for (std::size_t i = 0; i < pantographs.size(); ++i)
       add_pantograph(pantographs[i], pantograph_items[i], scene);
   }

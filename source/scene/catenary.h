@@ -2,6 +2,8 @@
 #ifndef taut_catenary_h
 #define taut_catenary_h
 
+#include "catenary_droppers.h"
+
 #include <taut/scene/scene_generator.h>
 
 #include <string>
@@ -53,10 +55,8 @@ namespace taut
 
     bool is_in_space() const;
     void check_line() const;
-    void check_space() const;
     void check_pantographs() const;
     void add_wires(Scene &scene) const;
-    void add_droppers(Scene &scene) const;
     void add_lateral(Scene &scene) const;
     void hold_aside(std::size_t wire, const WireItem &item, const std::string &name,
                     Scene &scene) const;
@@ -69,11 +69,7 @@ namespace taut
         messenger{"beam", 1.07, 16000., 131.7, .5, .0125, 1e-4, 2};
     std::string messenger_support_stiffness = "rigid";
     double arm_mass = 1., arm_stiffness = 0., arm_damping = 0.;
-    std::vector<double> dropper_positions = {5., 10.5, 17., 23.5, 30., 36.5, 43., 49.5, 55.};
-    std::string dropper_stiffness = "100000";
-    double dropper_damping = 0., dropper_axial_stiffness = 0., dropper_mass_per_length = 0.;
-    double messenger_clamp_mass = 0., contact_clamp_mass = 0.;
-    std::vector<double> pre_sag, dropper_lengths;
+    CatenaryDroppers droppers;
     std::vector<double> uplift_positions;
     std::vector<std::string> pantographs = {"pantograph"};
     std::vector<PantographItem> pantograph_items;

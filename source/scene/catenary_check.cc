@@ -37,32 +37,10 @@ namespace taut
                                                           " m is outside wire 'contact', 0 to " +
                                                           to_text(length) + " m");
 
-    std::vector<double> sorted = dropper_positions;
-    std::sort(sorted.begin(), sorted.end());
-    const double same = std::min(same_place(contact.wire("contact", 0., length)),
-                                 same_place(messenger.wire("messenger", 0., length)));
-    for (std::size_t i = 0; i < sorted.size(); ++i)
-    {
-      if (!(sorted[i] > 0. && sorted[i] < span_length))
-        throw EntryError("Catenary/Droppers/Positions", to_text(sorted[i]) +
-                                                            " m is not inside its span of " +
-                                                            to_text(span_length) + " m");
-      if (i > 0 && sorted[i] - sorted[i - 1] <= same)
-        throw EntryError("Catenary/Droppers/Positions",
-                         "two droppers hang at " + to_text(sorted[i]) +
-                             " m; remove one, or give one the stiffness of both");
-    }
-  }
-
-  void Catenary::check_space() const
-  {
-    if (!is_in_space())
-      return;
-    if (!dropper_lengths.empty())
-      throw EntryError("Catenary/Droppers/Lengths",
-                       "they are for a line in the plane. With Stagger, Wind or Lateral component "
-                       "the directions of the droppers are found with their lengths; give the "
-                       "Pre-sag instead");
+    droppers.check(span_length,
+                   std::min(same_place(contact.wire("contact", 0., length)),
+                            same_place(messenger.wire("messenger", 0., length))),
+                   is_in_space());
   }
 
   void Catenary::check_pantographs() const

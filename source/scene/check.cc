@@ -290,11 +290,11 @@ namespace taut
                " it; add motions or components, or change it");
         if (link.damping > 0. && link.rigid())
           fail(link, "Damping", what, "a rigid link has none; give it a finite Stiffness");
-        if (link.find_length &&
+        if (link.form.find_length &&
             (link.kind != LinkKind::dropper || link.from.kind == Attachment::Kind::ground ||
              link.to.kind == Attachment::Kind::ground))
           fail(link, "Find length", what, "it is for a dropper between two bodies");
-        if (link.find_length && link.mass_per_length > 0. &&
+        if (link.form.find_length && link.form.mass_per_length > 0. &&
             (link.from.kind == Attachment::Kind::body || link.to.kind == Attachment::Kind::body))
           fail(link, "Mass per length", what,
                "half of its mass would go to a body, which brings its own; set it to 0");

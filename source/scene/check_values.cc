@@ -171,13 +171,13 @@ namespace taut
         of.not_negative(link.unstressed_length, "Length");
         of.finite(link.speed, "Speed");
         of.constant(link.profile, "Height profile");
-        of.finite(link.prescribed_displacement, "Prescribed displacement");
-        of.not_negative(link.axial_stiffness, "Axial stiffness");
-        of.not_negative(link.mass_per_length, "Mass per length");
+        of.finite(link.form.prescribed_displacement, "Prescribed displacement");
+        of.not_negative(link.form.axial_stiffness, "Axial stiffness");
+        of.not_negative(link.form.mass_per_length, "Mass per length");
         of.not_negative(link.length, "length");
-        of.finite(link.sideways, "sideways");
-        of.not_negative(link.sideways_stiffness, "sideways stiffness");
-        of.finite(link.sideways_gap, "sideways gap");
+        of.finite(link.sideways.direction, "sideways");
+        of.not_negative(link.sideways.stiffness, "sideways stiffness");
+        of.finite(link.sideways.gap, "sideways gap");
       }
     }
 

@@ -1,31 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
 #include <taut/base/nearest_name.h>
+#include <taut/base/text.h>
 #include <taut/scene/entries.h>
 
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 namespace taut
 {
   namespace
   {
-    std::string trim(const std::string &text)
-    {
-      const std::size_t first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
-      return first == std::string::npos ? "" : text.substr(first, last - first + 1);
-    }
-
-    std::vector<std::string> split(const std::string &text, const char separator)
-    {
-      std::vector<std::string> parts;
-      std::istringstream in(text);
-      for (std::string part; std::getline(in, part, separator);)
-        parts.push_back(trim(part));
-      return parts;
-    }
-
     double parse_number(const std::string &text, const std::string &entry)
     {
       std::size_t used = 0;
@@ -42,10 +27,6 @@ namespace taut
         throw EntryError(entry, "'" + text + "' is not a finite number");
       return value;
     }
-  } // namespace
-
-  namespace
-  {
     /// Attachments at points of a body or of the ground, "0.1, 0.2; 0.3, 0.2".
     std::vector<Attachment> on_body(Attachment attachment, const std::string &points,
                                     const std::string &entry, const bool is_cable)

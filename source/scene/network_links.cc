@@ -151,10 +151,10 @@ namespace taut
       link.straight = item.straight;
       link.profile =
           Expression(item.profile, title + "/Height profile", Expression::Variables::position);
-      link.find_length = item.find_length;
-      link.prescribed_displacement = item.prescribed_displacement;
-      link.axial_stiffness = item.axial_stiffness;
-      link.mass_per_length = item.mass_per_length;
+      link.form.find_length = item.find_length;
+      link.form.prescribed_displacement = item.prescribed_displacement;
+      link.form.axial_stiffness = item.axial_stiffness;
+      link.form.mass_per_length = item.mass_per_length;
       return link;
     }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "network.h"
 
+#include <taut/base/patterns.h>
+
 #include <deal.II/base/parameter_handler.h>
 
 namespace taut
@@ -9,10 +11,6 @@ namespace taut
   {
     using namespace dealii::Patterns;
 
-    const Double not_negative()
-    {
-      return Double(0., Double::max_double_value);
-    }
     const Double any_number()
     {
       return Double();

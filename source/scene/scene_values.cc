@@ -78,9 +78,10 @@ namespace taut
       {
         all(l.name, l.origin, l.kind, l.from, l.to, l.rotational, l.direction, l.stiffness,
             l.law ? l.law->description() : std::string(), l.damping, l.gap, l.turns,
-            l.unstressed_length, l.speed, l.straight, l.profile, l.find_length,
-            l.prescribed_displacement, l.axial_stiffness, l.mass_per_length, l.length,
-            l.find_direction, l.sideways, l.sideways_stiffness, l.sideways_gap, l.contact_mass);
+            l.unstressed_length, l.speed, l.straight, l.profile, l.form.find_length,
+            l.form.prescribed_displacement, l.form.axial_stiffness, l.form.mass_per_length,
+            l.length, l.form.find_direction, l.sideways.direction, l.sideways.stiffness,
+            l.sideways.gap, l.contact_mass);
       }
       void write(const Load &l)
       {

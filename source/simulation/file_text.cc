@@ -9,7 +9,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 namespace taut
 {
@@ -39,22 +38,6 @@ namespace taut
       return n;
     }
   } // namespace
-
-  std::string trim(const std::string &text)
-  {
-    const std::size_t first = text.find_first_not_of(" \t\r"),
-                      last = text.find_last_not_of(" \t\r");
-    return first == std::string::npos ? "" : text.substr(first, last - first + 1);
-  }
-
-  std::vector<std::string> split(const std::string &text, const char separator)
-  {
-    std::vector<std::string> parts;
-    std::istringstream in(text);
-    for (std::string part; std::getline(in, part, separator);)
-      parts.push_back(trim(part));
-    return parts;
-  }
 
   void check_text(const std::string &text, const std::string &place)
   {

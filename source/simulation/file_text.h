@@ -2,20 +2,16 @@
 #ifndef taut_file_text_h
 #define taut_file_text_h
 
+#include <taut/base/text.h>
+
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace taut
 {
-  /// Removes spaces, tabs and carriage returns at both ends.
-  std::string trim(const std::string &text);
-
-  /// Parts between separators, without spaces around them.
-  std::vector<std::string> split(const std::string &text, char separator);
-
-  /// Throws UserError that begins with @p place unless @p text is UTF-8 without control characters,
-  /// for messages, tables and JSON.
+  /// Names and values go into messages, tables and JSON: throws UserError that begins with
+  /// @p place unless @p text is UTF-8 without control characters.
   void check_text(const std::string &text, const std::string &place);
 
   /// Why a file cannot be read (@p reason is errno), with the nearest name if there is no such

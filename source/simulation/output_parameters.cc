@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/patterns.h>
 #include <taut/simulation/parameters.h>
 
 #include <deal.II/base/parameter_handler.h>
 
 namespace taut
 {
-  namespace
-  {
-    using namespace dealii::Patterns;
-
-    const Double not_negative()
-    {
-      return Double(0., Double::max_double_value);
-    }
-  } // namespace
+  using namespace dealii::Patterns;
 
   void OutputParameters::ProbeItem::declare(dealii::ParameterHandler &prm)
   {

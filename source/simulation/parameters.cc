@@ -25,12 +25,7 @@ namespace taut
   {
     using namespace dealii::Patterns;
 
-    const Double not_negative()
-    {
-      return Double(0., Double::max_double_value);
-    }
-
-    /// Checks that a list is empty or has a lower and an upper bound.
+    /// A list of a lower and an upper bound, or nothing.
     void check_pair(const std::vector<double> &pair, const std::string &entry)
     {
       if (pair.empty())
@@ -84,43 +79,6 @@ namespace taut
 
   Parameters::Parameters() = default;
   Parameters::~Parameters() = default;
-
-  void TimeParameters::declare_parameters(dealii::ParameterHandler &prm)
-  {
-    prm.add_parameter("Scheme", scheme,
-                      "Time integration. 'automatic' follows from the links of the scene, their "
-                      "bodies and the step; the log says what and why. " +
-                          Registry<TimeIntegrator>::instance().descriptions(),
-                      Selection("automatic|" + Registry<TimeIntegrator>::instance().names()));
-    prm.add_parameter("Step", step, "[s]", not_negative());
-    prm.add_parameter("End", end_time, "0: the start only, e.g. a static equilibrium [s]",
-                      not_negative());
-    step_parameters.declare_parameters(prm);
-    prm.add_parameter(
-        "Check steps", check_steps,
-        "At the end of a run, whether its steps are short enough: it is made again with 4.24 times "
-        "the step, and unless both agree well within 2 % of places and impulses and 5 % of "
-        "energies, with shorter ones. The log has the error, and a warning "
-        "the step that is needed. 'automatic': where the Scheme is 'automatic', too, and these "
-        "runs take less than about half a second",
-        Selection("automatic|yes|no"));
-    prm.add_parameter("Allow unsuitable scheme", allow_unsuitable_scheme,
-                      "Run a scheme although it is known to fail with the links of the scene");
-    prm.add_parameter(
-        "Allow energy gain", allow_energy_gain,
-        "Let a run succeed whose unilateral links, where they can only take energy, or large "
-        "motions gave more than a tenth of the energy that moves");
-    prm.add_parameter(
-        "Mass redistribution", mass_redistribution,
-        "Whether the node of a wire at a rigid stop or dropper gives its mass to its "
-        "neighbours; impacts then take no energy and their force stays bounded as the step falls, "
-        "with any scheme. 'mass': the total mass stays, the force overshoots least. 'inertia': "
-        "the centre of mass and the moment of inertia stay as well. 'automatic': 'mass' at the "
-        "stops "
-        "of bars and strings where the Scheme is 'automatic', too, and this the best choice; "
-        "otherwise 'no'",
-        Selection("automatic|no|mass|inertia"));
-  }
 
   void Parameters::declare(dealii::ParameterHandler &prm)
   {

@@ -107,6 +107,51 @@ namespace taut
     }
   } // namespace
 
+  void BoundaryEntries::declare(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter("Fixed boundaries", fixed, "Ids of parts of the boundary that do not move");
+    prm.add_parameter("Symmetry boundaries", symmetric,
+                      "Ids of parts of the boundary whose faces are across the axes, and do not "
+                      "move along their normals");
+    prm.add_parameter("Displacement", displacement,
+                      "Given motion of parts of the boundary: 'id: formula, formula; id: ...', one "
+                      "formula of x, y, z, t a component [m]; a component without one is free, as "
+                      "in '3: , -1e-3*t'");
+    prm.add_parameter("Traction", traction,
+                      "Force per area on parts of the boundary: 'id: formula, formula; id: ...' "
+                      "[Pa]");
+    prm.add_parameter("Pressure", pressure,
+                      "On parts of the boundary, against their normal: 'id: formula; id: ...' "
+                      "[Pa]");
+  }
+
+  std::vector<BoundaryCondition> BoundaryEntries::conditions(const unsigned int dimension,
+                                                             const std::string &origin) const
+  {
+    using Kind = BoundaryCondition::Kind;
+    std::vector<BoundaryCondition> result;
+    const auto add =
+        [&](const Kind kind, const std::vector<unsigned int> &ids, const std::string &entry)
+    {
+      if (ids.empty())
+        return;
+      result.emplace_back();
+      result.back().kind = kind;
+      result.back().boundaries = {ids.begin(), ids.end()};
+      result.back().origin = origin + entry;
+    };
+    add(Kind::displacement, fixed, "Fixed boundaries");
+    for (const auto &[id, text] : by_id(displacement, origin + "Displacement"))
+      result.push_back(
+          vector_condition(Kind::displacement, id, text, dimension, origin + "Displacement"));
+    add(Kind::symmetry, symmetric, "Symmetry boundaries");
+    for (const auto &[id, text] : by_id(traction, origin + "Traction"))
+      result.push_back(vector_condition(Kind::traction, id, text, dimension, origin + "Traction"));
+    for (const auto &[id, text] : by_id(pressure, origin + "Pressure"))
+      result.push_back(vector_condition(Kind::pressure, id, text, 1, origin + "Pressure"));
+    return result;
+  }
+
   void SolidEntries::declare(dealii::ParameterHandler &prm)
   {
     prm.add_parameter("Dimension", dimension, "2: in the plane, 3: in space",
@@ -144,20 +189,7 @@ namespace taut
                       Patterns::Double(0.));
     prm.add_parameter("Stiffness damping", stiffness_damping, "b in C = a M + b K [s]",
                       Patterns::Double(0.));
-    prm.add_parameter("Fixed boundaries", fixed, "Ids of parts of the boundary that do not move");
-    prm.add_parameter("Symmetry boundaries", symmetric,
-                      "Ids of parts of the boundary whose faces are across the axes, and do not "
-                      "move along their normals");
-    prm.add_parameter("Displacement", displacement,
-                      "Given motion of parts of the boundary: 'id: formula, formula; id: ...', one "
-                      "formula of x, y, z, t a component [m]; a component without one is free, as "
-                      "in '3: , -1e-3*t'");
-    prm.add_parameter("Traction", traction,
-                      "Force per area on parts of the boundary: 'id: formula, formula; id: ...' "
-                      "[Pa]");
-    prm.add_parameter("Pressure", pressure,
-                      "On parts of the boundary, against their normal: 'id: formula; id: ...' "
-                      "[Pa]");
+    boundaries.declare(prm);
     prm.add_parameter("Largest turn", largest_turn,
                       "A run ends when a part of the boundary turns by more: the equations are "
                       "those of small turns. It is warned of from 0.1 rad on [rad]",
@@ -172,32 +204,6 @@ namespace taut
   {
     for (const auto &cell : mesh.dof_handler().active_cell_iterators())
       options.material(cell->material_id());
-  }
-
-  std::vector<BoundaryCondition> SolidEntries::conditions(const std::string &origin) const
-  {
-    using Kind = BoundaryCondition::Kind;
-    std::vector<BoundaryCondition> result;
-    const auto add =
-        [&](const Kind kind, const std::vector<unsigned int> &ids, const std::string &entry)
-    {
-      if (ids.empty())
-        return;
-      result.emplace_back();
-      result.back().kind = kind;
-      result.back().boundaries = {ids.begin(), ids.end()};
-      result.back().origin = origin + entry;
-    };
-    add(Kind::displacement, fixed, "Fixed boundaries");
-    for (const auto &[id, text] : by_id(displacement, origin + "Displacement"))
-      result.push_back(
-          vector_condition(Kind::displacement, id, text, dimension, origin + "Displacement"));
-    add(Kind::symmetry, symmetric, "Symmetry boundaries");
-    for (const auto &[id, text] : by_id(traction, origin + "Traction"))
-      result.push_back(vector_condition(Kind::traction, id, text, dimension, origin + "Traction"));
-    for (const auto &[id, text] : by_id(pressure, origin + "Pressure"))
-      result.push_back(vector_condition(Kind::pressure, id, text, 1, origin + "Pressure"));
-    return result;
   }
 
   template <int dim>
@@ -241,7 +247,7 @@ namespace taut
     o.mass_damping = mass_damping;
     o.stiffness_damping = stiffness_damping;
     o.gravity = setting.gravity;
-    o.conditions = conditions(origin);
+    o.conditions = boundaries.conditions(dimension, origin);
     if (!initial_velocity.empty() && initial_velocity.size() != dim)
       throw EntryError(origin + "Initial velocity",
                        "it has " + std::to_string(initial_velocity.size()) +

@@ -43,6 +43,22 @@ namespace taut
     std::vector<double> shift;
   };
 
+  /// What acts on the boundary of a solid in a parameter file, and what holds it.
+  class BoundaryEntries
+  {
+  public:
+    void declare(dealii::ParameterHandler &prm);
+
+    /// Of a solid in so many dimensions. Throws EntryError for entries that are no conditions,
+    /// below @p origin.
+    std::vector<BoundaryCondition> conditions(unsigned int dimension,
+                                              const std::string &origin) const;
+
+  private:
+    std::vector<unsigned int> fixed, symmetric;
+    std::string displacement, traction, pressure;
+  };
+
   /// A solid in a parameter file.
   struct SolidEntries
   {
@@ -62,13 +78,12 @@ namespace taut
     template <int dim>
     static void check_materials(const typename ElasticSolid<dim>::Options &options,
                                 const SolidMesh<dim> &mesh);
-    std::vector<BoundaryCondition> conditions(const std::string &origin) const;
 
     double youngs_modulus = 0., poissons_ratio = .3, density = 0., mass_damping = 0.,
            stiffness_damping = 0.;
     std::string materials, plane_state = "strain", mass_matrix = "consistent", mass_kept = "total";
-    std::vector<unsigned int> fixed, symmetric, without_mass;
-    std::string displacement, traction, pressure;
+    std::vector<unsigned int> without_mass;
+    BoundaryEntries boundaries;
     std::vector<double> initial_velocity;
   };
 } // namespace taut

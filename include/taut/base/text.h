@@ -7,6 +7,7 @@
 #include <iomanip>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace taut
 {
@@ -24,6 +25,24 @@ namespace taut
     std::ostringstream out;
     (out << ... << parts);
     return out.str();
+  }
+
+  /// Without spaces, tabs and carriage returns around it.
+  inline std::string trim(const std::string &text)
+  {
+    const std::size_t first = text.find_first_not_of(" \t\r"),
+                      last = text.find_last_not_of(" \t\r");
+    return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+  }
+
+  /// Parts between separators, without spaces around them.
+  inline std::vector<std::string> split(const std::string &text, const char separator)
+  {
+    std::vector<std::string> parts;
+    std::istringstream in(text);
+    for (std::string part; std::getline(in, part, separator);)
+      parts.push_back(trim(part));
+    return parts;
   }
 } // namespace taut
 

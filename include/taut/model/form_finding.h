@@ -17,14 +17,14 @@ namespace taut
   Scene without_sliding_contacts(Scene scene);
 
   /**
-   * Form finding: finds the lengths of the droppers with Link::find_length. In static equilibrium
-   * without_sliding_contacts() their `to` ends then have the prescribed displacement. There are two
-   * stages: the prescribed heights as bilateral constraints give the tensions; the `from` bodies
-   * under these tensions give the lengths. The stages repeat until the lengths converge, if
-   * stiffness and weight depend on the lengths. Where the direction is found, too, each dropper is
-   * in line with its tension in the static state. A dropper that turns out of this line is pulled
-   * back by tension over length [N/m], taut or slack (the geometric stiffness, the force density of
-   * H.-J. Schek, Comput. Methods Appl. Mech. Engrg. 3 (1974)).
+   * Form finding: finds the lengths of the droppers with FormFinding::find_length. In static
+   * equilibrium without_sliding_contacts() their `to` ends then have the prescribed displacement.
+   * There are two stages: the prescribed heights as bilateral constraints give the tensions; the
+   * `from` bodies under these tensions give the lengths. The stages repeat until the lengths
+   * converge, if stiffness and weight depend on the lengths. Where the direction is found, too,
+   * each dropper is in line with its tension in the static state. A dropper that turns out of this
+   * line is pulled back by tension over length [N/m], taut or slack (the geometric stiffness, the
+   * force density of H.-J. Schek, Comput. Methods Appl. Mech. Engrg. 3 (1974)).
    *
    * Returns the scene with gap, length, stiffness and direction of these links, and with half of
    * the mass of each link on each of its ends. The form comes from @p shared if it is known there.

@@ -213,6 +213,29 @@ namespace taut
     keeps_inertia
   };
 
+  /// What form finding determines of a dropper in the static state, and from what.
+  struct FormFinding
+  {
+    /// The length follows from the prescribed height of the `to` end.
+    bool find_length = false;
+    double prescribed_displacement = 0.; ///< of the `to` end, along -n [m]
+    double axial_stiffness = 0.;         ///< EA [N]; if not 0, stiffness = EA / length
+    double mass_per_length = 0.;         ///< [kg/m]; half of the mass goes to each end
+
+    /// The direction from end to end, too, for a dropper between wires without axial motion;
+    /// `direction` of the link is the direction in which the height is prescribed.
+    bool find_direction = false;
+  };
+
+  /// Pulls the ends of a dropper back into line: along the unit vector across the dropper and its
+  /// wires, with the static tension over the length.
+  struct SidewaysSpring
+  {
+    Coordinates direction = {};
+    double stiffness = 0.; ///< [N/m]; 0: there is none
+    double gap = 0.;       ///< direction . (to - from) of the undeformed ends [m]
+  };
+
   /**
    * A link, that is a constraint between two attachments. With the unit direction n and the
    * displacements u, the gap is
@@ -257,24 +280,9 @@ namespace taut
     Expression
         profile; ///< height r(s) of the wire under a sliding contact [m]: adds to the gap along n
 
-    /// Form finding: the length of the dropper follows from the prescribed height of its `to` end
-    /// in the static state.
-    bool find_length = false;
-    double prescribed_displacement = 0.; ///< of the `to` end, along -n [m]
-    double axial_stiffness = 0.;         ///< EA [N]; if not 0, stiffness = EA / length
-    double mass_per_length = 0.;         ///< [kg/m]; half of the mass goes to each end
-    double length = 0.;                  ///< geometric length in the static state, once known [m]
-
-    /// Form finding of the direction, too, for a dropper between wires without axial motion: the
-    /// direction from end to end in the static state. `direction` is the direction in which the
-    /// height is prescribed.
-    bool find_direction = false;
-    /// For a dropper with `find_direction`, once known: the unit vector across the dropper and its
-    /// wires, and the stiffness that pulls the ends back into line, the static tension over the
-    /// length.
-    Coordinates sideways = {};
-    double sideways_stiffness = 0.; ///< [N/m]
-    double sideways_gap = 0.;       ///< sideways . (to - from) of the undeformed ends [m]
+    FormFinding form;
+    double length = 0.;      ///< geometric length in the static state, once known [m]
+    SidewaysSpring sideways; ///< of a dropper whose direction was found
 
     /// Mass redistribution at the DoFs of wires that a fixed rigid unilateral link acts on.
     ContactMass contact_mass = ContactMass::stays;
