@@ -11,10 +11,6 @@ namespace taut
   {
     using namespace dealii::Patterns;
 
-    const Double any_number()
-    {
-      return Double();
-    }
     const List coordinates()
     {
       return List(Double(), 2, 3);
@@ -208,14 +204,14 @@ namespace taut
     prm.add_parameter("Gap", gap,
                       "Of the undeformed bodies: distance to contact of a stop, slack of a "
                       "dropper; negative: prestressed [m, rad]",
-                      any_number());
+                      Double());
   }
 
   void Network::LinkItem::declare_sliding(dealii::ParameterHandler &prm)
   {
     prm.add_parameter("Speed", speed,
                       "Of a sliding contact along its wire or its unstressed cable [m/s]",
-                      any_number());
+                      Double());
     prm.add_parameter("Straight", straight,
                       "Of a sliding contact on a cable: its Speed is that in space, along the line "
                       "from From to To of the cable and across Direction, and it touches what of "
@@ -230,7 +226,7 @@ namespace taut
                       "A dropper as long as its To end needs to stand at the prescribed "
                       "displacement in the static state without sliding contacts");
     prm.add_parameter("Prescribed displacement", prescribed_displacement,
-                      "Of the To end towards From, if the length is found [m]", any_number());
+                      "Of the To end towards From, if the length is found [m]", Double());
     prm.add_parameter("Axial stiffness", axial_stiffness,
                       "EA; if not 0, the stiffness of a found dropper is EA / length [N]",
                       not_negative());
@@ -259,6 +255,6 @@ namespace taut
     prm.add_parameter(
         "Magnitude", magnitude,
         "A formula in t and, on a wire or a cable, in the position s there [N, N/m, N m]");
-    prm.add_parameter("Speed", speed, "Of a moving load [m/s]", any_number());
+    prm.add_parameter("Speed", speed, "Of a moving load [m/s]", Double());
   }
 } // namespace taut
