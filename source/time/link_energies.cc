@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/archive.h>
-#include <taut/base/instruction_set.h>
+#include <taut/base/dot.h>
 #include <taut/time/link_energies.h>
 #include <taut/time/matrix_norms.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numeric>
 
 namespace taut
 {
@@ -15,26 +13,6 @@ namespace taut
   {
     /// Part of the energy of the reference that is rounding in a long run at rest.
     constexpr double rounding_of_energy = 1e-8;
-
-    /// Scalar product in independent partial sums.
-    double product(const std::vector<double> &x, const std::vector<double> &y)
-    {
-      constexpr std::size_t lanes = 16;
-      std::array<double, lanes> sums = {};
-      vectorised(
-          [&sums, a = x.data(), b = y.data(), n = x.size()]
-          {
-            std::array<double, lanes> s = {};
-            for (std::size_t i = 0; i + lanes <= n; i += lanes)
-#pragma omp simd
-              for (std::size_t l = 0; l < lanes; ++l)
-                s[l] += a[i + l] * b[i + l];
-            for (std::size_t i = n - n % lanes; i < n; ++i)
-              s[i % lanes] += a[i] * b[i];
-            sums = s;
-          });
-      return std::accumulate(sums.begin(), sums.end(), 0.);
-    }
   } // namespace
 
   LinkEnergies::LinkEnergies(const Structure &structure, const Constraints &constraints,
@@ -64,7 +42,7 @@ namespace taut
     std::vector<double> sums(energies.size(), 0.);
     for (std::size_t k = 0; k < structure.size(); ++k)
       sums[connected.of_body(k)] +=
-          .5 * std::fabs(product(reference.displacement[k], reference.force[k]));
+          .5 * std::fabs(dot_in_lanes(reference.displacement[k], reference.force[k]));
     structure.communicator().sum(sums);
     for (std::size_t i = 0; i < rows.size(); ++i)
       sums[connected.of_constraint(i)] +=
@@ -183,8 +161,8 @@ namespace taut
       const Substructure &body = structure[k];
       work.assign(body.n_dofs(), 0.);
       body.mass().vmult_add(.5, state.V[k].data(), work.data());
-      sums[connected.of_body(k)] += product(work, state.V[k]);
-      sums[n + connected.of_body(k)] += .5 * product(state.U[k], state.KU[k]);
+      sums[connected.of_body(k)] += dot_in_lanes(work, state.V[k]);
+      sums[n + connected.of_body(k)] += .5 * dot_in_lanes(state.U[k], state.KU[k]);
       sums[2 * n + connected.of_body(k)] += energy_of_loads(k, state);
     }
     structure.communicator().sum(sums);

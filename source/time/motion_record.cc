@@ -4,6 +4,7 @@
 #include <taut/base/archive.h>
 #include <taut/base/dot.h>
 #include <taut/substructure/constrained_body.h>
+#include <taut/time/matrix_norms.h>
 #include <taut/time/motion_record.h>
 
 #include <boost/serialization/array.hpp>
@@ -64,12 +65,15 @@ namespace taut
       std::vector<unsigned int> inner; // multipliers of internal constraints
       if (dynamic_cast<const ConstrainedBody *>(&body))
         inner = body.dofs_without_mass();
+      const std::size_t first = dofs.size();
       for (unsigned int i = 0; i < body.n_dofs(); ++i)
         if (body.kind(i) == 0 && std::find(inner.begin(), inner.end(), i) == inner.end())
         {
           dofs.push_back({k, i, groups.of_body(k)});
           start_of_dofs.push_back(start.U[k][i]);
         }
+      if (dofs.size() > first)
+        bodies.push_back({k, first, dofs.size(), !inner.empty()});
       body.external_force(start.time, work);
       start_load.push_back(reference.force[k]);
       for (std::size_t i = 0; i < work.size(); ++i)
@@ -81,23 +85,36 @@ namespace taut
 
   void MotionRecord::add_speeds(const State &state)
   {
-    for (const auto &[k, i, g] : dofs)
-      speed[g] = std::max(speed[g], std::fabs(state.dU[k][i]) / state.last_step);
+    for (const auto &[k, first, end, has_inner] : bodies)
+    {
+      const std::vector<double> &dU = state.dU[k];
+      double motion = 0.;
+      if (has_inner)
+        for (std::size_t j = first; j < end; ++j)
+          motion = std::max(motion, std::fabs(dU[dofs[j].dof]));
+      else
+        motion = largest(structure[k], dU)[0];
+      double &fastest = speed[dofs[first].group];
+      fastest = std::max(fastest, motion / state.last_step);
+    }
   }
 
   /// Places at a part of the last step.
   void MotionRecord::add_places(const State &state, const double part)
   {
     const double left = 1. - part, h = state.last_step;
-    std::vector<double> &sample = places.emplace_back();
-    sample.reserve(dofs.size());
-    for (std::size_t j = 0; j < dofs.size(); ++j)
+    std::vector<double> &sample = places.emplace_back(dofs.size());
+    for (const auto &[k, first, end, has_inner] : bodies)
     {
-      const auto &[k, i, group] = dofs[j];
-      // The Hermite cubic about the end of the step.
-      sample.push_back(state.U[k][i] - start_of_dofs[j] -
-                       left * left * (1. + 2. * part) * state.dU[k][i] +
-                       part * left * h * (left * state.V_old[k][i] - part * state.V[k][i]));
+      const double *const U = state.U[k].data(), *const dU = state.dU[k].data(),
+                          *const V = state.V[k].data(), *const V_old = state.V_old[k].data();
+      for (std::size_t j = first; j < end; ++j)
+      {
+        const unsigned int i = dofs[j].dof;
+        // The Hermite cubic about the end of the step.
+        sample[j] = U[i] - start_of_dofs[j] - left * left * (1. + 2. * part) * dU[i] +
+                    part * left * h * (left * V_old[i] - part * V[i]);
+      }
     }
   }
 
@@ -111,10 +128,10 @@ namespace taut
       std::array<double, 2> &energy = result[groups.of_body(k)];
       work.assign(body.n_dofs(), 0.);
       body.mass().vmult_add(.5, state.V[k].data(), work.data());
-      energy[0] += dot(state.V[k], work);
-      energy[1] += dot(state.U[k], start_load[k]);
+      energy[0] += dot_in_lanes(state.V[k], work);
+      energy[1] += dot_in_lanes(state.U[k], start_load[k]);
       if (body.is_linear())
-        energy[1] += .5 * dot(state.U[k], state.KU[k]);
+        energy[1] += .5 * dot_in_lanes(state.U[k], state.KU[k]);
       else
         energy[1] += body.strain_energy(displacement(reference, state, k)) -
                      dot(state.U[k], reference.force[k]);

@@ -15,6 +15,9 @@ namespace taut
       sum += x[i] * y[i];
     return sum;
   }
+
+  /// The same in independent partial sums, for long vectors.
+  double dot_in_lanes(const std::vector<double> &x, const std::vector<double> &y);
 } // namespace taut
 
 #endif

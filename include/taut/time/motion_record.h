@@ -95,7 +95,15 @@ namespace taut
       unsigned int dof;
       std::size_t group;
     };
-    std::vector<Place> dofs;
+    std::vector<Place> dofs; ///< body after body
+
+    /// A body and its range in the list of DoFs.
+    struct Body
+    {
+      std::size_t number, first, end;
+      bool has_inner; ///< some of its DoFs are multipliers of internal constraints
+    };
+    std::vector<Body> bodies;
     std::vector<double> start_of_dofs; ///< [m]
     BodyVectors start_load;            ///< K U_ref - P at the start [N, N m]
 
