@@ -352,15 +352,21 @@ namespace taut
 
   void Constraints::add_force(const std::size_t i, const double N, BodyVectors &P) const
   {
-    for (std::size_t e = begin[i]; e < begin[i + 1]; ++e)
-      P[entries[e].body][entries[e].dof] += N * entries[e].value;
+    const Entry *const end = entries.data() + begin[i + 1];
+    for (const Entry *e = entries.data() + begin[i]; e != end; ++e)
+      P[e->body][e->dof] += N * e->value;
   }
 
   void Constraints::add_forces(const std::vector<double> &N, BodyVectors &P) const
   {
+    const Entry *e = entries.data();
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      if (N[i] != 0.)
-        add_force(i, N[i], P);
+    {
+      const Entry *const end = entries.data() + begin[i + 1];
+      for (const double force = N[i]; force != 0. && e != end; ++e)
+        P[e->body][e->dof] += force * e->value;
+      e = end;
+    }
   }
 
   void Constraints::largest_forces(const std::vector<double> &N,

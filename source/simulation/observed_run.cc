@@ -65,7 +65,8 @@ namespace taut
   }
 
   /// An exception of one rank is thrown on all.
-  void ObservedRun::each(const std::function<void(Observer &)> &call) const
+  template <typename Call>
+  void ObservedRun::each(const Call &call) const
   {
     for (Observer *observer : observers)
       processes().agree([&] { call(*observer); });

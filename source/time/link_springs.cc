@@ -25,10 +25,13 @@ namespace taut
   double LinkSprings::begin(const std::size_t i, const State &before)
   {
     const ConstraintData &constraint = constraints[i];
-    const State::LinkSpring &spring = before.link_springs[i];
-    const double damping = constraint.spring.damping, theta = 1. - c.alpha_f,
-                 known = c.v_V * spring.v + c.v_A * spring.a + c.v_dU * spring.du;
+    const double damping = constraint.spring.damping;
     history[i] = 0.;
+    if (!is_mean(i) && !laws.has(i) && !(damping > 0.))
+      return 0.;
+    const State::LinkSpring &spring = before.link_springs[i];
+    const double theta = 1. - c.alpha_f,
+                 known = c.v_V * spring.v + c.v_A * spring.a + c.v_dU * spring.du;
     if (is_mean(i) && constraint.spring.conserving)
       laws.begin_conserving(i, spring.u > 0. ? spring.u : -before.geometric_gap[i],
                             2. * damping / step);
@@ -42,7 +45,7 @@ namespace taut
       history[i] = -((1. - theta) * constraint.spring.stiffness - rate) /
                    (theta * constraint.spring.stiffness + rate) * spring.u;
     }
-    else if (damping > 0.)
+    else
       history[i] = S[i] * damping * (c.velocity * spring.u - known);
     return history[i];
   }

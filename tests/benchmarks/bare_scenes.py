@@ -71,7 +71,7 @@ def instructions(program, text, settings, end):
         scene = pathlib.Path(folder) / "scene.prm"
         scene.write_text(text)
         settings = ["Output/Interval=1e9", "Output/Link interval=1e9", "Output/Field interval=0",
-                    "Statistics/Window=", f"Output/Folder={folder}/results", f"Time/End={end}"] + settings
+                    "Statistics/Window=", "Time/Check steps=no", f"Output/Folder={folder}/results", f"Time/End={end}"] + settings
         out = pathlib.Path(folder) / "callgrind"
         run = subprocess.run(["valgrind", "--tool=callgrind", f"--callgrind-out-file={out}",
                               "--toggle-collect=taut::ObservedRun::advance*", str(program), str(scene)] +

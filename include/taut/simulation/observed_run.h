@@ -102,7 +102,8 @@ namespace taut
     using Clock = std::chrono::steady_clock;
 
     const Communicator &processes() const { return bodies.communicator(); }
-    void each(const std::function<void(Observer &)> &call) const;
+    template <typename Call>
+    void each(const Call &call) const;
     void show(const State &state);
     void update_probes(const State &state);
     StepView view(const State &state) const;
