@@ -12,13 +12,13 @@
 namespace taut
 {
   /**
-   * The matrix T = sum_k T_k over the DoFs b that active constraints act on, of all bodies of all
-   * ranks, and the constraints B on these. T_k is A_k on b, or its Schur complement there. Use it
-   * where a preconditioner needs stiffnesses at the constraints in place of the bodies.
+   * The stiffness T = sum_k T_k of all bodies at the DoFs b of active constraints, and the forms B
+   * of the constraints on these DoFs. Use it where a preconditioner needs stiffnesses at the
+   * constraints in place of the bodies. T_k is A_k on b, or its Schur complement there.
    *
    * The Schur complement of a body with many such DoFs is not formed, but applied with a factor of
-   * the rest of the body. It is that of the DoFs of all constraints, active or not, so that the
-   * factor stays as long as A_k does; where entries are needed, A_k on b stands for it.
+   * the rest of the body. It takes the DoFs of all constraints, active or not, so that the factor
+   * stays as long as A_k does. Where entries are needed, A_k on b stands for it.
    */
   class InterfaceStiffness
   {
@@ -36,7 +36,8 @@ namespace taut
     /// After setup(): adds springs B_i^T s_i B_i between the DoFs, none where s_i is 0.
     void add_springs(const std::vector<double> &s);
 
-    /// The same on all ranks: DoFs of all lists b, and the constraints in order of their rows.
+    /// Number of DoFs in all lists b, and the forms B in order of their rows; the same on all
+    /// ranks.
     std::size_t n_dofs() const { return n_constrained; }
     const MatrixEntries &constraints() const { return B; }
 
@@ -53,9 +54,9 @@ namespace taut
     {
       std::vector<unsigned int> dofs;
       SymmetricEntries entries;
-      std::size_t first = 0; ///< position of its first DoF among those of all bodies
+      std::size_t first = 0; ///< position of its first DoF in the lists of all bodies
 
-      /// Of the other DoFs, if the Schur complement is applied and not formed.
+      /// Solver of the other DoFs, if the Schur complement is applied and not formed.
       std::unique_ptr<LocalSolver> interior;
     };
 
@@ -70,8 +71,8 @@ namespace taut
     const BodyConstraints &body_constraints;
     std::vector<Block> blocks;
     std::size_t n_constrained = 0;
-    SymmetricEntries T;          ///< of blocks that are formed, and of springs
-    SymmetricEntries substitute; ///< A_k on b for those that are not
+    SymmetricEntries T;          ///< formed blocks and springs
+    SymmetricEntries substitute; ///< A_k on b of blocks that are not formed
     MatrixEntries B;             ///< row of F, DoF
     mutable std::vector<double> whole, image;
   };

@@ -21,11 +21,11 @@ namespace taut
   public:
     void declare(dealii::ParameterHandler &prm);
 
-    /// Throws EntryError for entries that are impossible in spans of this length [m]. Droppers that
-    /// are not more than @p same [m] apart hang at one place.
+    /// Throws EntryError for entries that are impossible in spans of this length [m]. Droppers up
+    /// to @p same [m] apart hang at one place.
     void check(double span_length, double same, bool is_in_space) const;
 
-    /// Between two wires of the scene, one above the other, which must be complete.
+    /// Adds the droppers between two complete wires of the scene, one above the other.
     void add(std::size_t messenger_wire, std::size_t contact_wire, unsigned int n_spans,
              double span_length, Scene &scene) const;
 

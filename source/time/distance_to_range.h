@@ -7,13 +7,13 @@
 
 namespace taut
 {
-  /// a / b; 0 if a is.
+  /// a / b; 0 if a is 0.
   inline double ratio(const double a, const double b)
   {
     return a == 0. ? 0. : a / b;
   }
 
-  /// How far @p x is from the range of @p value from @p first to @p last.
+  /// Distance of @p x from the range of the values @p first to @p last; 0 inside.
   template <typename Value>
   double distance_to_range(const double x, const std::size_t first, const std::size_t last,
                            const Value &value)

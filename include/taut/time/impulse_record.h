@@ -11,22 +11,22 @@
 
 namespace taut
 {
-  /// Impulses of constraints since the start at the ends of steps, of many steps at every second
-  /// end, or fourth, and so on. Use it where contacts of runs in other steps are compared: they are
-  /// shorter than an interval between samples.
+  /// Impulses of constraints since the start, at the ends of steps. Use it to compare contacts of
+  /// runs in other steps: a contact may be shorter than an interval between samples. A long run
+  /// keeps every second end, fourth end, and so on.
   class ImpulseRecord
   {
   public:
     explicit ImpulseRecord(const State &start);
 
-    /// An accepted step.
+    /// Records an accepted step.
     void record(const State &state);
 
     /**
-     * How far these impulses are from others, until these end but for @p rounding [s]: the largest
-     * difference, relative to the largest of the other impulses in a group or to @p largest [N s]
-     * of the group if this is more, and its constraint, -1 if nothing differs. Impulses may be
-     * early or late by @p late [s] of the group, or by one end.
+     * The largest difference from the other impulses, and its constraint; -1: nothing differs. The
+     * difference is relative to the largest other impulse of the group, or to @p largest [N s] of
+     * the group if that is more. An impulse may be early or late by @p late [s] of the group, or by
+     * one end of a step. The comparison ends with the other run, but for @p rounding [s].
      */
     std::pair<double, std::size_t>
     difference(const ImpulseRecord &other, const ConnectedBodies &groups,
@@ -43,10 +43,10 @@ namespace taut
     void keep_every_second_end();
     std::vector<std::vector<double>> at(const std::vector<double> &instants) const;
 
-    std::vector<double> impulse, multiplier;   ///< so far, and at the end of the last step
-    std::vector<double> times;                 ///< ends of steps that have impulses [s]
-    std::vector<std::vector<double>> impulses; ///< at these [N s]
-    long stride = 1, n_steps = 0;              ///< each so many ends are kept; steps so far
+    std::vector<double> impulse, multiplier;   ///< impulse so far; multiplier of the last step
+    std::vector<double> times;                 ///< ends of steps with recorded impulses [s]
+    std::vector<std::vector<double>> impulses; ///< impulses at these times [N s]
+    long stride = 1, n_steps = 0;              ///< one of so many ends is kept; steps so far
   };
 } // namespace taut
 
