@@ -87,7 +87,10 @@ namespace taut
   {
     CableData other = data;
     other.section.axial_stiffness = EA;
-    return std::unique_ptr<Substructure>(new Cable(other, found));
+    std::unique_ptr<Cable> result(new Cable(other, found));
+    result->constant_force = constant_force;
+    result->time_loads = time_loads;
+    return result;
   }
 
   bool Cable::is_slack(const std::vector<double> &U, Slack &slack) const

@@ -17,31 +17,10 @@ namespace taut
     {
       throw EntryError(origin.empty() ? "Geometry" : origin + "/Geometry", reason);
     }
-
-    /// The time-dependent loads of another body.
-    class LoadsOf : public TimeLoad
-    {
-    public:
-      LoadsOf(std::shared_ptr<const Substructure> of,
-              const std::vector<std::unique_ptr<TimeLoad>> &loads)
-          : owner(std::move(of)), loads(loads)
-      {
-      }
-      void add(const double t, std::vector<double> &P) const override
-      {
-        for (const auto &load : loads)
-          load->add(t, P);
-      }
-
-    private:
-      std::shared_ptr<const Substructure> owner;
-      const std::vector<std::unique_ptr<TimeLoad>> &loads;
-    };
   } // namespace
 
   /// A cable that is linearised, with the tangent at a displacement.
-  Cable::Cable(const Cable &nonlinear, const std::shared_ptr<const Substructure> &self,
-               const std::vector<double> &U)
+  Cable::Cable(const Cable &nonlinear, const std::vector<double> &U)
       : Substructure(nonlinear.name(), nonlinear.origin()), data(nonlinear.data),
         element(nonlinear.element), found(nonlinear.found), linear_at(U),
         frames(std::make_unique<EndFrames>())
@@ -55,17 +34,15 @@ namespace taut
     energy_there = nonlinear.strain_energy(U);
     assemble();
     constant_force = nonlinear.constant_force;
-    if (nonlinear.external_force_varies())
-      time_loads.push_back(std::make_unique<LoadsOf>(self, nonlinear.time_loads));
+    time_loads = nonlinear.time_loads;
     finish();
   }
 
-  std::shared_ptr<Substructure> Cable::linearised(const std::shared_ptr<const Substructure> &self,
-                                                  const std::vector<double> &U) const
+  std::shared_ptr<Substructure> Cable::linearised(const std::vector<double> &U) const
   {
     if (!is_to_be_linearised())
       return nullptr;
-    return std::shared_ptr<Substructure>(new Cable(*this, self, U));
+    return std::shared_ptr<Substructure>(new Cable(*this, U));
   }
 
   /// The displacement from the state at which the cable is linearised.

@@ -3,6 +3,7 @@
 #include <taut/substructure/slender_body.h>
 #include <taut/substructure/structure.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace taut
@@ -40,8 +41,7 @@ namespace taut
           for (std::size_t k = 0; k < substructures.size(); ++k)
           {
             const auto *const slender = dynamic_cast<const SlenderBody *>(substructures[k].get());
-            std::shared_ptr<Substructure> linear =
-                slender ? slender->linearised(substructures[k], U[k]) : nullptr;
+            std::shared_ptr<Substructure> linear = slender ? slender->linearised(U[k]) : nullptr;
             if (!linear)
               continue;
             substructures[k] = std::move(linear);
@@ -50,6 +50,24 @@ namespace taut
         });
     processes.sum(replaced);
     return std::vector<char>(replaced.begin(), replaced.end());
+  }
+
+  double Structure::largest_axial_stiffness() const
+  {
+    double largest = 0.;
+    for (const auto &body : substructures)
+      if (const auto *const slender = dynamic_cast<const SlenderBody *>(body.get()))
+        if (!body->is_linear())
+          largest = std::max(largest, slender->axial_stiffness());
+    return largest;
+  }
+
+  void Structure::limit_axial_stiffness(const double EA)
+  {
+    for (auto &body : substructures)
+      if (const auto *const slender = dynamic_cast<const SlenderBody *>(body.get()))
+        if (!body->is_linear() && slender->axial_stiffness() > EA)
+          body = slender->with_axial_stiffness(EA);
   }
 
   std::size_t Structure::n_dofs() const

@@ -155,14 +155,14 @@ namespace taut
   }
 
   bool ContactConditions::correct(const State &state, StepEquations &system,
-                                  const BodyVectors &left)
+                                  const BodyVectors &left, const BodyVectors &on_modes)
   {
     MixedComplementarityProblem remainder;
     remainder.cones = problem.cones;
     system.interface().contact_free_predictor(left, remainder.free_gap, remainder.gap_scale);
     sum_together(structure.communicator(), {&remainder.free_gap, &remainder.gap_scale});
     if (system.has_modes())
-      system.set_modes(left, remainder);
+      system.set_modes(on_modes, remainder);
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       remainder.free_gap[i] += state.gap[i];
@@ -185,5 +185,12 @@ namespace taut
     }
     for (std::size_t k = 0; k < solved.mode_amplitude.size(); ++k)
       solved.mode_amplitude[k] += correction.mode_amplitude[k];
+  }
+
+  void ContactConditions::restore(const MixedComplementaritySolution &earlier, const State &state)
+  {
+    solved = earlier;
+    balanced = solved.multiplier;
+    gap_tracker.measure(state);
   }
 } // namespace taut

@@ -71,6 +71,37 @@ namespace taut
           rest * std::sqrt(std::max(0., sum * (F.diagonal(i) - link_springs.compliance()[i])));
   }
 
+  /// Adds, at rest, motions of what each DoF is tied to, sum_j |K_ij| |U_j| / K_ii: slopes of a
+  /// beam that moves without bending are only rounding. An entry of F is a sum over the bodies,
+  /// whose terms may cancel, as slopes on both sides of a cut in a straight wire do.
+  void ContactConditions::add_elastic_terms(const State &state, const FactoredStructure &bodies)
+  {
+    BodyVectors terms = structure.zero();
+    std::vector<double> diagonal;
+    for (std::size_t k = 0; k < terms.size(); ++k)
+    {
+      const std::vector<double> &U = state.U[k];
+      diagonal.assign(U.size(), 0.);
+      bodies.stiffness(k).visit(
+          [&](const unsigned int i, const unsigned int j, const double value)
+          {
+            terms[k][i] += std::fabs(value * U[j]);
+            if (i == j)
+              diagonal[i] = value;
+            else
+              terms[k][j] += std::fabs(value * U[i]);
+          });
+      for (std::size_t i = 0; i < U.size(); ++i)
+        terms[k][i] = diagonal[i] > 0. ? terms[k][i] / diagonal[i] : std::fabs(U[i]);
+    }
+    std::vector<double> size(constraints.size());
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      size[i] = magnitude(constraints[i].terms, terms);
+    structure.communicator().sum(size);
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      problem.gap_scale[i] += size[i];
+  }
+
   void ContactConditions::measure_residual(const ComplementarityOperator &F)
   {
     gap_terms(problem, F, solved.multiplier, recomputed.at.mode_amplitude, recomputed.terms);
@@ -78,17 +109,21 @@ namespace taut
     taut::residual(problem, recomputed.at, recomputed.terms, recomputed.weights, recomputed.found);
   }
 
-  double ContactConditions::residual(const State &state, const ComplementarityOperator &F,
-                                     std::size_t &worst)
+  double ContactConditions::residual(const State &state, StepEquations &system, std::size_t &worst)
   {
     if (constraints.size() == 0)
       return 0.;
+    const ComplementarityOperator &F = system.interface().matrix();
     set_recomputed_gaps(state);
-    add_decayed_columns(F);
+    if (!c.is_at_rest())
+      add_decayed_columns(F);
     measure_residual(F);
     if (!(recomputed.found.max <= conspicuous))
     {
-      add_inertial_terms(state, F);
+      if (c.is_at_rest())
+        add_elastic_terms(state, system.bodies());
+      else
+        add_inertial_terms(state, F);
       measure_residual(F);
     }
     double max = recomputed.found.max;

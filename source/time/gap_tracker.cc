@@ -133,8 +133,8 @@ namespace taut
     return max;
   }
 
-  /// Adds sizes of terms: a displacement rounds with the largest one of its body.
-  void GapTracker::add_body_terms(const BodyVectors &U)
+  /// Sizes of the terms of B^T U, if a displacement rounds with the largest one of its body.
+  std::vector<double> GapTracker::body_terms(const BodyVectors &U) const
   {
     std::vector<PerKind> size;
     for (std::size_t k = 0; k < structure.size(); ++k)
@@ -145,7 +145,22 @@ namespace taut
         for (std::size_t j = 0; j < form.index.size(); ++j)
           terms[i] += std::fabs(form.value[j]) * size[k][structure[k].kind(form.index[j])];
     structure.communicator().sum(terms);
+    return terms;
+  }
+
+  void GapTracker::add_body_terms(const BodyVectors &U)
+  {
+    const std::vector<double> terms = body_terms(U);
     for (std::size_t i = 0; i < constraints.size(); ++i)
       gap_terms[i] = std::max(gap_terms[i], std::fabs(constraints[i].gap) + terms[i]);
+  }
+
+  void GapTracker::count_motions(const BodyVectors &U)
+  {
+    const std::vector<double> terms = body_terms(U), moved = constraints.motions(U);
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      largest_scale[i] =
+          std::max(largest_scale[i],
+                   terms[i] + (std::fabs(constraints[i].gap) + std::fabs(moved[i])) / rest);
   }
 } // namespace taut

@@ -200,14 +200,10 @@ namespace taut
   InitialState find_initial_state(Structure &structure, Constraints &constraints,
                                   const SolverParameters &parameters, const Start start)
   {
-    InitialState result;
-    State &state = result.state;
     check_bodies(structure);
     constraints.update(0.);
-    state.U = state.V = state.A = state.dU = state.V_old = state.KU = state.balance =
-        structure.zero();
-    state.multiplier.assign(constraints.size(), 0.);
-    state.link_springs.resize(constraints.size());
+    InitialState result;
+    State &state = result.state = state_at_rest(structure, constraints.size());
     result.reference.displacement = result.reference.force = structure.zero();
     if (start == Start::equilibrium)
     {

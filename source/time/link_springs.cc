@@ -37,6 +37,8 @@ namespace taut
                             2. * damping / step);
     else if (laws.has(i) && is_mean(i))
       laws.begin_mean(i, spring.u, theta, damping / (theta * step));
+    else if (laws.has(i) && c.is_at_rest())
+      laws.begin_at_end(i, spring.u);
     else if (laws.has(i))
       laws.begin_at_end(i, spring.u, c.velocity * damping, spring.u - known / c.velocity);
     else if (is_mean(i))

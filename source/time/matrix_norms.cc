@@ -107,6 +107,18 @@ namespace taut
       }
   }
 
+  double largest_on_diagonal(const SymmetricMatrix &matrix)
+  {
+    double largest = 0.;
+    matrix.visit(
+        [&](const unsigned int i, const unsigned int j, const double value)
+        {
+          if (i == j)
+            largest = std::max(largest, value);
+        });
+    return largest;
+  }
+
   std::vector<double> total_masses(const Structure &structure)
   {
     std::vector<double> result;

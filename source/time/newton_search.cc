@@ -30,7 +30,8 @@ namespace taut
 
   NewtonSearch::NewtonSearch(const Structure &structure, Constraints &constraints,
                              const Reference &reference)
-      : structure(structure), nonlinear(structure, reference), turning(constraints, reference),
+      : structure(structure), constraint_set(constraints), nonlinear(structure, reference),
+        turning(constraints, reference),
         bodies_are_linear(!structure.communicator().any(!nonlinear.indices().empty()))
   {
     check_masses(constraints);
@@ -67,6 +68,14 @@ namespace taut
     nonlinear.begin(state, c, length);
   }
 
+  void NewtonSearch::follow(const State &state)
+  {
+    if (turning.empty())
+      return;
+    turning.follow(state);
+    turn();
+  }
+
   void NewtonSearch::linearise(StepEquations &equations) const
   {
     if (bodies_are_linear)
@@ -76,17 +85,18 @@ namespace taut
   }
 
   /// Largest change of the increments over all ranks.
-  double NewtonSearch::set_guess(const Step &step)
+  double NewtonSearch::set_guess(Step &step, const State &state)
   {
     double change = 0.;
-    BodyVectors &dU = step.history.increments();
-    step.history.impose_lift(dU);
+    BodyVectors &dU = step.history().increments();
+    step.history().impose_lift(dU);
     structure.communicator().agree(
         [&]
         {
           for (const std::size_t k : nonlinear.indices())
           {
-            const double own = nonlinear.set_guess(k, dU[k], step.equations.bodies().stiffness(k));
+            const double own =
+                nonlinear.set_guess(k, dU[k], step.equations().bodies().stiffness(k));
             if (!(own <= change) && !std::isnan(change))
               change = own;
           }
@@ -95,51 +105,51 @@ namespace taut
         std::isnan(change) ? std::numeric_limits<double>::infinity() : change);
     if (turning.empty())
       return of_bodies;
-    return std::max(of_bodies,
-                    turning.set_guess(dU, step.state, step.conditions.applied().multiplier,
-                                      step.conditions.springs().histories()));
+    return std::max(of_bodies, turning.set_guess(dU, state, step.conditions().applied().multiplier,
+                                                 step.conditions().springs().histories()));
   }
 
-  void NewtonSearch::find_increments(const Step &step)
+  void NewtonSearch::find_increments(Step &step, State &state, Certificate &certificate)
   {
-    if (iterate(step))
+    if (iterate(step, state, certificate))
       return;
     if (tangents_are_kept)
     {
       tangents_are_kept = false;
-      if (iterate(step))
+      if (iterate(step, state, certificate))
         return;
     }
-    throw UserError(to_text("at t = ", step.state.time,
+    throw UserError(to_text("at t = ", state.time,
                             " s: Newton's method does not converge in a step of ", length,
                             " s. Take a smaller step"));
   }
 
   /// Iterates from dU = 0; new tangents are those at the last guess.
-  bool NewtonSearch::iterate(const Step &step)
+  bool NewtonSearch::iterate(Step &step, State &state, Certificate &certificate)
   {
-    const std::vector<double> multiplier = step.state.multiplier;
-    nonlinear.begin(step.state, c, length);
+    const std::vector<double> multiplier = state.multiplier;
+    nonlinear.begin(state, c, length);
     turning.begin(c);
+    turn();
     if (!tangents_are_kept)
-      linearise(step.equations);
+      linearise(step.equations());
     else if (!turning.empty())
-      step.equations.interface().update_moving();
-    step.set_loads();
-    const BodyVectors loads = step.history.loads();
+      step.equations().interface().update_moving();
+    step.set_loads(state);
+    const BodyVectors loads = step.history().loads();
     NewtonConvergence convergence(limits);
     double before = std::numeric_limits<double>::infinity();
     for (int iteration = 1; iteration <= most_iterations; ++iteration)
     {
-      BodyVectors &P = step.history.loads();
+      BodyVectors &P = step.history().loads();
       P = loads;
       for (const std::size_t k : nonlinear.indices())
         for (std::size_t i = 0; i < P[k].size(); ++i)
           P[k][i] += nonlinear.remainder(k)[i];
-      step.state.multiplier = multiplier;
-      step.find_increments();
+      state.multiplier = multiplier;
+      step.find_increments(state, certificate);
       ++iterations;
-      const double change = set_guess(step);
+      const double change = set_guess(step, state);
       const NewtonConvergence::Verdict verdict = convergence.add(change);
       if (verdict == NewtonConvergence::Verdict::converged)
       {
@@ -148,16 +158,16 @@ namespace taut
       }
       if (verdict == NewtonConvergence::Verdict::failed)
         return false;
-      turning.turn();
+      turn();
       if (iteration > 1 && is_slow(change, before))
       {
         tangents_are_kept = false;
-        linearise(step.equations);
+        linearise(step.equations());
         for (const std::size_t k : nonlinear.indices())
-          nonlinear.set_tangent(k, step.equations.bodies().stiffness(k));
+          nonlinear.set_tangent(k, step.equations().bodies().stiffness(k));
       }
       else if (!turning.empty())
-        step.equations.interface().update_moving();
+        step.equations().interface().update_moving();
       before = change;
     }
     return false;

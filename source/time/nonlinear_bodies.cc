@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "cache_tiles.h"
-#include "softer_bodies.h"
 
 #include <taut/time/matrix_norms.h>
 #include <taut/time/nonlinear_bodies.h>
@@ -14,6 +13,10 @@ namespace taut
   {
     /// Weight of a relative force beside a relative displacement.
     constexpr double weight_of_force = 100.;
+
+    /// Part of the largest stiffness over mass that is added as mass where a tangent is not
+    /// definite, and by how much it grows from attempt to attempt.
+    constexpr double first_shift = 1e-10, growth_of_shift = 30.;
   } // namespace
 
   PerKind significant_part(const Substructure &body, const PerKind &largest_force)
@@ -67,7 +70,10 @@ namespace taut
     std::unique_ptr<SymmetricMatrix> K = c.mean_force
                                              ? body.mean_tangent(own.U0, U, c.velocity, attempt > 0)
                                              : body.tangent(U, c.velocity, attempt > 0);
-    add_some_mass(attempt, body.mass(), *K);
+    if (attempt > 1)
+      K->add(first_shift * std::pow(growth_of_shift, attempt - 2) * largest_on_diagonal(*K) /
+                 largest_on_diagonal(body.mass()),
+             body.mass());
     return K;
   }
 

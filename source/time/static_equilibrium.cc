@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "indifferent_bodies.h"
 #include "static_step.h"
 #include "turning_at_rest.h"
 
@@ -21,7 +22,7 @@ namespace taut
   namespace
   {
     /// Of the change of the displacements, relative to themselves.
-    constexpr NewtonConvergence::Limits limits = {1e-12, 1e-7, 1, 250};
+    constexpr NewtonConvergence::Limits limits = {1e-12, 1e-7, 1, 500};
 
     /// Displacements count as this part of the longest link that turns at least: where a structure
     /// is at rest as it is made, they are nothing but rounding.
@@ -48,9 +49,9 @@ namespace taut
     {
     public:
       NonlinearEquilibrium(const Structure &structure, const Constraints &constraints,
-                           const SolverParameters &parameters, const double t, SofterBodies &bodies)
+                           const SolverParameters &parameters, const double t)
           : structure(structure), constraints(constraints), parameters(parameters), time(t),
-            soft(bodies), load(sum_of_loads()), turning(structure, constraints, load),
+            soft(structure), load(sum_of_loads()), turning(structure, constraints, load),
             motion_of_body(structure.all_bodies().size(), 0.)
       {
       }
@@ -74,11 +75,12 @@ namespace taut
       /// The displacements with softer bodies; false if there are none, or no such displacements.
       bool find_start(BodyVectors &start)
       {
-        const double EA = structure.communicator().max(soft.largest_axial_stiffness());
+        const double EA = structure.communicator().max(structure.largest_axial_stiffness());
         bool is_found = false;
         // One that is not found is left out: the next one may be within reach.
         for (const double limit : SlenderBody::softer_axial_stiffnesses(EA, load))
         {
+          soft = structure;
           structure.communicator().agree([&] { soft.limit_axial_stiffness(limit); });
           StaticState state;
           if (iterate(false, near, start, state) || iterate(true, near, start, state))
@@ -87,7 +89,7 @@ namespace taut
             is_found = true;
           }
         }
-        soft.limit_axial_stiffness(std::numeric_limits<double>::infinity());
+        soft = structure;
         return is_found;
       }
 
@@ -139,7 +141,7 @@ namespace taut
           std::optional<StaticStep> next;
           try
           {
-            next.emplace(structure, turning.constraints(), parameters, time, soft, U);
+            next.emplace(soft, turning.constraints(), parameters, time, U);
           }
           catch (const BodyNotHeld &)
           {
@@ -161,7 +163,7 @@ namespace taut
           {
             if (!stays(step, state))
               return false;
-            step.certify(state);
+            state.certificate = step.certify();
             turning.finish(state);
             return is_stable(state);
           }
@@ -183,8 +185,8 @@ namespace taut
         bool touches = false;
         for (std::size_t i = 0; i < constraints.size(); ++i)
           touches = touches || (constraints[i].cone.may_open() && state.multiplier[i] > 0.);
-        return (touches || !processes.any(!soft.are_in_tension(state.displacement))) &&
-               !processes.any(!soft.are_indifferent(state.displacement));
+        return (touches || !processes.any(!are_in_tension(structure, state.displacement))) &&
+               !processes.any(!are_indifferent(structure, state.displacement));
       }
 
       /// False if links that push give way to the side.
@@ -193,8 +195,7 @@ namespace taut
         const std::vector<TurningAtRest::Across> springs = turning.begin_check(state);
         if (springs.empty())
           return true;
-        StaticStep step(structure, turning.constraints(), parameters, time, soft,
-                        state.displacement);
+        StaticStep step(structure, turning.constraints(), parameters, time, state.displacement);
         step.solve();
         const std::size_t unstable = turning.first_that_gives_way(step, springs);
         if (unstable == springs.size())
@@ -234,7 +235,7 @@ namespace taut
             {
               for (std::size_t k = 0; k < structure.size(); ++k)
               {
-                soft.force(k, to[k], product);
+                soft[k].internal_force(to[k], {}, product);
                 add_largest(largest(structure[k], product), force);
               }
             });
@@ -296,8 +297,8 @@ namespace taut
               for (std::size_t k = 0; k < structure.size(); ++k)
               {
                 structure[k].external_force(time, P);
-                sum +=
-                    soft.energy(k, U[k]) - std::inner_product(P.begin(), P.end(), U[k].begin(), 0.);
+                sum += soft[k].strain_energy(U[k]) -
+                       std::inner_product(P.begin(), P.end(), U[k].begin(), 0.);
               }
             });
         structure.communicator().sum(&sum, 1);
@@ -336,7 +337,7 @@ namespace taut
       const Constraints &constraints;
       const SolverParameters &parameters;
       const double time;
-      SofterBodies &soft;
+      Structure soft;    ///< slender bodies as soft as a search begins with
       const double load; ///< sum of the sizes of all [N]
       TurningAtRest turning;
       double change = 0.;
@@ -348,16 +349,14 @@ namespace taut
   StaticState static_equilibrium(const Structure &structure, const Constraints &constraints,
                                  const SolverParameters &parameters, const double t)
   {
-    SofterBodies bodies(structure);
-    if (constraints.turning_rows().empty() &&
-        !structure.communicator().any(!bodies.nonlinear_bodies().empty()))
-    {
-      const BodyVectors undeformed = structure.zero();
-      StaticStep step(structure, constraints, parameters, t, bodies, undeformed);
-      StaticState state = step.solve();
-      step.certify(state);
-      return state;
-    }
-    return NonlinearEquilibrium(structure, constraints, parameters, t, bodies).find();
+    bool is_linear = true;
+    for (std::size_t k = 0; k < structure.size(); ++k)
+      is_linear = is_linear && structure[k].is_linear();
+    if (!constraints.turning_rows().empty() || structure.communicator().any(!is_linear))
+      return NonlinearEquilibrium(structure, constraints, parameters, t).find();
+    StaticStep step(structure, constraints, parameters, t, structure.zero());
+    StaticState state = step.solve();
+    state.certificate = step.certify();
+    return state;
   }
 } // namespace taut

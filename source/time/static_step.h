@@ -2,29 +2,29 @@
 #ifndef taut_static_step_h
 #define taut_static_step_h
 
-#include "softer_bodies.h"
-
-#include <taut/time/constraint_laws.h>
 #include <taut/time/static_equilibrium.h>
-#include <taut/time/step_check.h>
-#include <taut/time/step_equations.h>
+#include <taut/time/step.h>
 
 #include <vector>
 
 namespace taut
 {
-  /// The step from a state U, at first the undeformed one, to f(U) + K dU = P + B N.
+  /// The step at rest from a state U, at first the undeformed one, to f(U) + K dU = P + B N. No
+  /// constraint turns in it.
   class StaticStep
   {
   public:
+    /// All but @p U, a displacement from the undeformed bodies [m, rad], are kept by reference; t
+    /// in s.
     StaticStep(const Structure &structure, const Constraints &constraints,
-               const SolverParameters &parameters, double t, const SofterBodies &bodies,
-               const BodyVectors &from);
+               const SolverParameters &parameters, double t, const BodyVectors &U);
     StaticState solve();
-    void certify(StaticState &state);
+
+    /// After solve(): the certificate of its result.
+    Certificate certify();
 
     /// True if all tangents are those of the bodies and positive definite.
-    bool has_own_tangents() const { return system.has_own_tangents(); }
+    bool has_own_tangents() const { return step.equations().has_own_tangents(); }
 
     /**
      * After solve(): the displacements along springs of the constraints, given by their @p rows,
@@ -35,36 +35,22 @@ namespace taut
     bool flexibility(const std::vector<std::size_t> &rows,
                      std::vector<std::vector<double>> &result);
 
-    const FactoredStructure &bodies() const { return system.bodies(); }
+    const FactoredStructure &bodies() const { return step.equations().bodies(); }
 
   private:
-    void set_loads();
-    void set_problem();
-    void find_multipliers();
+    void find_increments();
     void fail_not_held(const BodyNotHeld &e) const;
-    StaticState displaced(const MixedComplementaritySolution &by) const;
-    double find_remainder(const StaticState &state, MixedComplementarityProblem &remainder) const;
-    void refine(StaticState &state);
-
-    /// Of each constraint, the sum of the sizes of the motions that its gap is made of [m, rad].
-    std::vector<double> motion_terms(const BodyVectors &U) const;
-    BodyVectors terms_of(const BodyVectors &U) const;
-    ComplementarityResidual residual_of_gaps(const StaticState &state);
+    double relative_remainder() const;
+    void refine();
 
     const Structure &structure;
     const Constraints &constraints;
-    const SofterBodies &soft;
-    const BodyVectors &from;
-    const Communicator &processes;
-    const double time;
-    StepCheck check;
-    StepEquations system;
-    ConstraintLaws laws;
-    std::vector<double> compliance, shift; ///< of springs; of linearised laws
-    BodyVectors P, lift;
-    std::vector<double> work;
-    MixedComplementarityProblem problem;
-    MixedComplementaritySolution solution;
+    const Reference undeformed;
+    State state;
+    NonlinearBodies nonlinear;
+    const TurningConstraints none;
+    Step step;
+    BodyVectors P; ///< P^ of the step
     Certificate certificate;
   };
 } // namespace taut

@@ -26,7 +26,7 @@ namespace taut
     current = before;
     newton.follow(current);
     errors.largest_motions = before_step.motion;
-    conditions.gaps().set_sizes(before_step.of_gaps);
+    step.conditions().gaps().set_sizes(before_step.of_gaps);
     constraints.set_courses(before_step.courses);
     if (projection && !before_step.rates.empty())
       projection->set_largest_rates(before_step.rates);
@@ -37,8 +37,8 @@ namespace taut
   {
     if (coefficients.mean_force || !coefficients.rings())
       return;
-    const std::vector<double> &S = conditions.springs().compliance();
-    ComplementarityOperator &F = system->interface().matrix();
+    const std::vector<double> &S = step.conditions().springs().compliance();
+    ComplementarityOperator &F = step.equations().interface().matrix();
     for (const std::size_t i : constraints.sliding_rows())
       if (constraints[i].cone.may_open() && S[i] > 0. && F.diagonal(i) > 2. * S[i] &&
           flexibilities_of_whole_bodies(constraints, {i}, F)[i] > 2. * S[i])

@@ -7,7 +7,7 @@ namespace taut
   template <typename Archive>
   void TimeStepper::store(Archive &archive)
   {
-    archive &current &last &coefficients &conditions.gaps();
+    archive &current &last &coefficients &step.conditions().gaps();
     archive &clock;
     for (double &size : errors.largest_motions)
       archive &size;
@@ -38,18 +38,11 @@ namespace taut
 
   void TimeStepper::reset_caches(const std::vector<double> &largest_rates)
   {
-    earlier_systems = interface_statistics();
-    system = std::make_unique<StepEquations>(structure, constraints, parameters);
-    newton.attach(*system);
+    step.reset();
+    newton.attach(step.equations());
     projection.reset();
     prepare(coefficients);
     if (projection && !largest_rates.empty())
       projection->set_largest_rates(largest_rates);
-  }
-
-  InterfaceStatistics TimeStepper::interface_statistics() const
-  {
-    InterfaceStatistics result = earlier_systems;
-    return result += system->interface().statistics();
   }
 } // namespace taut

@@ -10,33 +10,27 @@ namespace taut
       constraints.update(t);
       return constraints;
     }
-
-    /// Balance above which a step is refined, and most repetitions: normal steps are below 1e-11.
-    constexpr double refined_balance = 1e-10;
-    constexpr int most_refinements = 3;
   } // namespace
 
   TimeStepper::TimeStepper(const Structure &structure, Constraints &constraints,
                            const SolverParameters &parameters, const TimeIntegrator &integrator,
-                           const double step, Reference reference, State start, const bool at_rest)
+                           const double length, Reference reference, State start,
+                           const bool at_rest)
       : structure(structure), constraints(at_time(constraints, start.time)), parameters(parameters),
         reference_state(std::move(reference)), current(std::move(start)),
-        clock(integrator, step, current.time, at_rest),
-        system(std::make_unique<StepEquations>(structure, constraints, this->parameters)),
+        clock(integrator, length, current.time, at_rest),
         newton(structure, constraints, reference_state),
-        conditions(structure, constraints, newton.constraints(), reference_state, current),
-        history(structure, reference_state), loads(structure),
-        errors(structure, constraints, reference_state),
-        energy_gains(structure, constraints, newton.bodies(), conditions, newton.constraints()),
-        balance(structure, constraints, reference_state, newton.bodies()),
-        check(structure, constraints, this->parameters.contact_tolerance)
+        step(structure, constraints, this->parameters, reference_state, newton.bodies(),
+             newton.constraints(), current),
+        loads(structure), errors(structure, constraints, reference_state),
+        energy_gains(structure, constraints, newton.bodies(), step.conditions(),
+                     newton.constraints())
   {
     newton.follow(current);
-    history.set_external_forces(current.time);
     energy_gains.start(current);
-    newton.attach(*system);
+    newton.attach(step.equations());
     prepare(clock.coefficients(0.));
-    if (integrator.coefficients(step).starts_itself())
+    if (integrator.coefficients(length).starts_itself())
     {
       structure.communicator().agree([&] { start_balance(); });
       current.gap_rate = constraints.motions(current.V);
@@ -51,12 +45,12 @@ namespace taut
       const Substructure &body = structure[k];
       std::vector<double> &r = current.balance[k];
       for (std::size_t i = 0; i < r.size(); ++i)
-        r[i] = history.forces().P[k][i] - current.KU[k][i];
+        r[i] = step.history().forces().P[k][i] - current.KU[k][i];
       body.damping().vmult_add(-1., current.V[k].data(), r.data());
     }
     std::vector<double> N = current.multiplier;
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      if (conditions.mean_force(i) && !(projection && constraints.slides(i)))
+      if (step.conditions().mean_force(i) && !(projection && constraints.slides(i)))
         N[i] = 0.;
     constraints.add_forces(N, current.balance);
     hold_quasi_static_dofs();
@@ -76,15 +70,14 @@ namespace taut
   {
     coefficients = {};
     newton.prepare(c, clock.step(), current);
-    conditions.prepare(c, clock.step());
-    system->prepare(c, conditions.springs().compliance());
+    step.prepare(c, clock.step());
     if (c.velocity_projection)
     {
       if (!projection)
         projection = std::make_unique<VelocityProjection>(structure, constraints, parameters,
                                                           reference_state);
-      projection->prepare(c, clock.step(), conditions.springs().compliance(),
-                          system->interface().matrix());
+      projection->prepare(c, clock.step(), step.conditions().springs().compliance(),
+                          step.equations().interface().matrix());
     }
     coefficients = c;
   }
@@ -92,7 +85,7 @@ namespace taut
   void TimeStepper::advance()
   {
     last = {};
-    before_step = {errors.largest_motions, conditions.gaps().sizes(), constraints.courses(),
+    before_step = {errors.largest_motions, step.conditions().gaps().sizes(), constraints.courses(),
                    projection ? projection->largest_rates() : std::vector<double>()};
     const double end = clock.advance(current.last_step);
     if (const StepCoefficients c = clock.coefficients(current.last_step); c != coefficients)
@@ -104,11 +97,11 @@ namespace taut
   /// Sets the time at the end of the step, and the places of the constraints there.
   void TimeStepper::begin_step(const double end)
   {
-    conditions.begin_step(current.last_step == 0.);
+    step.conditions().begin_step(current.last_step == 0.);
     const double start = current.time;
     current.time = end;
     current.last_step = clock.step();
-    check.set_time(current.time);
+    step.check().set_time(current.time);
     attempt(
         [&] {
           constraints.follow(reference_state.displacement, current.U, current.V, start,
@@ -116,7 +109,7 @@ namespace taut
         });
     constraints.update(current.time);
     if (newton.constraints().empty())
-      system->interface().update_moving();
+      step.equations().interface().update_moving();
   }
 
   /// Finds the new state and its certificate.
@@ -124,50 +117,18 @@ namespace taut
   {
     if (is_linear())
     {
-      set_loads();
-      find_increments();
+      step.set_loads(current);
+      step.find_increments(current, last);
     }
     else
-      newton.find_increments({current, *system, history, conditions, [this] { set_loads(); },
-                              [this] { find_increments(); }});
-    accept_increments();
-    certify();
+      newton.find_increments(step, current, last);
+    step.accept(current, last);
+    step.certify(current, last);
     structure.communicator().agree([&] { newton.bodies().set_own_force(current); });
     face_new_directions();
     if (coefficients.velocity_projection)
       project_velocities();
     measure_energy();
-  }
-
-  void TimeStepper::set_loads()
-  {
-    structure.communicator().agree([&] { history.set_loads(coefficients, *system, current); });
-    if (const std::vector<double> &old = conditions.forces_at_previous_place(current); !old.empty())
-      constraints.add_forces(old, history.loads());
-  }
-
-  /// Finds N of the step, and dU from P^.
-  void TimeStepper::find_increments()
-  {
-    conditions.set_problem(current, *system, history.loads(), history.lift());
-    if (constraints.size() > 0 || system->has_modes())
-    {
-      const Certificate before = last;
-      conditions.find_multipliers(*system, check, last, current);
-      last.iterations += before.iterations;
-      last.fallback = last.fallback || before.fallback;
-    }
-    system->find_increments(conditions.applied().multiplier, conditions.applied().mode_amplitude,
-                            history.increments());
-  }
-
-  /// Sets new displacements, velocities, accelerations, balance and gaps.
-  void TimeStepper::accept_increments()
-  {
-    history.exchange(current);
-    measure_balance([this](const std::size_t k, const std::size_t begin, const std::size_t end)
-                    { history.accept(coefficients, k, begin, end, current); });
-    conditions.update(current);
   }
 
   /// Gives turning constraints the directions of the new state.
@@ -177,14 +138,14 @@ namespace taut
       return;
     newton.follow(current);
     if (coefficients.velocity_projection)
-      conditions.rates().update(current);
+      step.conditions().rates().update(current);
   }
 
   void TimeStepper::measure_energy()
   {
     if (coefficients.mean_force && !coefficients.velocity_level &&
         (constraints.size() > 0 || !is_linear()))
-      energy_gains.measure(balance, current, last);
+      energy_gains.measure(step.balance(), current, last);
     else if (!is_linear() && coefficients.is_backward_euler())
       energy_gains.measure_at_ends(current, last);
   }
@@ -193,18 +154,19 @@ namespace taut
   void TimeStepper::project_velocities()
   {
     VelocityProjection::Residual of_rates;
-    check.solve(
+    ContactConditions &conditions = step.conditions();
+    step.check().solve(
         [&]
         {
           of_rates = projection->project(conditions, conditions.rates(), current,
-                                         system->interface().matrix());
+                                         step.equations().interface().matrix());
         });
     if (!(of_rates.largest <= last.complementarity))
     {
       last.complementarity = of_rates.largest;
       last.worst_constraint = of_rates.worst;
     }
-    check.check_constraints(last);
+    step.check().check_constraints(last);
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       current.constraint_work[i] += projection->work()[i];
@@ -215,41 +177,5 @@ namespace taut
       if (conditions.mean_force(i))
         constraints.add_force(i, current.multiplier[i], current.balance);
     hold_quasi_static_dofs();
-  }
-
-  void TimeStepper::measure_balance(const BalanceCertificate::SetRows &set_rows)
-  {
-    structure.communicator().agree(
-        [&]
-        {
-          balance.measure(coefficients, history.forces(), conditions.in_balance(),
-                          conditions.impulsive(), current, set_rows);
-        });
-    last.balance = structure.communicator().max(balance.residual());
-  }
-
-  void TimeStepper::certify()
-  {
-    for (int refinements = 0; last.balance > refined_balance && refinements < most_refinements &&
-                              !coefficients.mean_force && is_cancellation() && refine();
-         ++refinements)
-      measure_balance();
-    last.worst_body = balance.worst_body();
-    certify_rows();
-    check.check_balance(last, balance.residual());
-  }
-
-  /// True if this holds on all ranks.
-  bool TimeStepper::is_cancellation() const
-  {
-    return !structure.communicator().any(!balance.is_cancellation());
-  }
-
-  void TimeStepper::certify_rows()
-  {
-    last.complementarity =
-        conditions.residual(current, system->interface().matrix(), last.worst_constraint);
-    last.drift = conditions.drift(current);
-    check.check_constraints(last);
   }
 } // namespace taut

@@ -26,7 +26,7 @@ namespace taut
     }
   } // namespace
 
-  TurningConstraints::TurningConstraints(Constraints &constraints, const Reference &reference)
+  TurningConstraints::TurningConstraints(const Constraints &constraints, const Reference &reference)
       : constraints(constraints), reference(reference)
   {
   }
@@ -53,7 +53,6 @@ namespace taut
     next.clear();
     for (const std::size_t i : constraints.turning_rows())
       next.push_back(constraints.turning(i).at(start[next.size()]));
-    turn();
   }
 
   void TurningConstraints::begin(const StepCoefficients &c)

@@ -113,8 +113,7 @@ namespace taut
     }
 
     /// Replaces a cable with CableGeometry::linearised.
-    std::shared_ptr<Substructure> linearised(const std::shared_ptr<const Substructure> &self,
-                                             const std::vector<double> &U) const override;
+    std::shared_ptr<Substructure> linearised(const std::vector<double> &U) const override;
 
     bool is_to_be_linearised() const override
     {
@@ -162,8 +161,7 @@ namespace taut
 
   private:
     Cable(const CableData &data, const CableShape &found);
-    Cable(const Cable &nonlinear, const std::shared_ptr<const Substructure> &self,
-          const std::vector<double> &U);
+    Cable(const Cable &nonlinear, const std::vector<double> &U);
     void check() const;
     bool hangs_freely() const;
     void find();

@@ -24,8 +24,8 @@ namespace taut
     /// EA [N]
     virtual double axial_stiffness() const = 0;
 
-    /// A copy of the body with this EA, with the same DoFs and without loads. A search that begins
-    /// far from the equilibrium begins with softer bodies.
+    /// A copy of the body with this EA, with the same DoFs and loads. A search that begins far from
+    /// the equilibrium begins with softer bodies.
     virtual std::unique_ptr<Substructure> with_axial_stiffness(double EA) const = 0;
 
     /// The axial stiffnesses below @p EA that such a search goes through under a load [N]: the
@@ -33,13 +33,12 @@ namespace taut
     static std::vector<double> softer_axial_stiffnesses(double EA, double load);
 
     /**
-     * The linear body that replaces this body, which @p self owns, once the displacement U [m, rad]
-     * at the start of a run is known. It has the same DoFs, supports and loads, the internal force
+     * The linear body that replaces this body once the displacement U [m, rad] at the start of a
+     * run is known. It has the same DoFs, supports and loads, the internal force
      * of this body at U, and the tangent at U as K. nullptr: the body is not replaced. Throws
      * EntryError if the body has no small motions about U.
      */
-    virtual std::shared_ptr<Substructure> linearised(const std::shared_ptr<const Substructure> &,
-                                                     const std::vector<double> &) const
+    virtual std::shared_ptr<Substructure> linearised(const std::vector<double> &) const
     {
       return nullptr;
     }

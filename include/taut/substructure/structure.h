@@ -63,6 +63,14 @@ namespace taut
     /// ranks together; all ranks throw what one rank throws.
     std::vector<char> linearise(const BodyVectors &U);
 
+    /// The largest EA of the slender bodies of this rank that are not linear; 0: there are none
+    /// [N].
+    double largest_axial_stiffness() const;
+
+    /// Replaces slender bodies of this rank that are not linear and have a larger EA by copies with
+    /// @p EA [N], see SlenderBody::with_axial_stiffness().
+    void limit_axial_stiffness(double EA);
+
     /// Substructure::load() of a substructure of this rank.
     void load(std::size_t k, InputArchive &archive) { substructures[k]->load(archive); }
 

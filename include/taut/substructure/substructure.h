@@ -217,11 +217,11 @@ namespace taut
     /// extreme numbers of a scene.
     void finish();
 
-    std::unique_ptr<SymmetricMatrix> M, C, K;          ///< of one size and kind
-    std::vector<unsigned char> kinds = {0};            ///< see kind_pattern()
-    std::vector<double> constant_force;                ///< one entry a DoF [N, N m]
-    std::vector<std::unique_ptr<TimeLoad>> time_loads; ///< added to constant_force
-    std::vector<ConstrainedDof> constrained;           ///< each DoF once
+    std::unique_ptr<SymmetricMatrix> M, C, K;                ///< of one size and kind
+    std::vector<unsigned char> kinds = {0};                  ///< see kind_pattern()
+    std::vector<double> constant_force;                      ///< one entry a DoF [N, N m]
+    std::vector<std::shared_ptr<const TimeLoad>> time_loads; ///< added to constant_force
+    std::vector<ConstrainedDof> constrained;                 ///< each DoF once
 
   private:
     void check_sizes() const;

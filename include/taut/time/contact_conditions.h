@@ -52,6 +52,9 @@ namespace taut
     void find_multipliers(StepEquations &system, const StepCheck &check, Certificate &certificate,
                           State &state);
 
+    /// The problem of the step, after set_problem().
+    const MixedComplementarityProblem &problem_of_step() const { return problem; }
+
     /// L and the amplitudes of rigid body modes.
     const MixedComplementaritySolution &applied() const { return solved; }
 
@@ -83,9 +86,10 @@ namespace taut
     void update(State &state);
 
     /// After update(), with schemes without mean forces: solves for the correction of the
-    /// constraints under the residual forces @p left of the bodies. False if there is no solution.
-    /// Called by all ranks together.
-    bool correct(const State &state, StepEquations &system, const BodyVectors &left);
+    /// constraints under the residual forces @p left of the bodies, and @p on_modes of their rigid
+    /// body modes. False if there is no solution. Called by all ranks together.
+    bool correct(const State &state, StepEquations &system, const BodyVectors &left,
+                 const BodyVectors &on_modes);
 
     /// Corrections of multipliers [N, N m] and amplitudes.
     const MixedComplementaritySolution &corrections() const { return correction; }
@@ -93,8 +97,11 @@ namespace taut
     /// Adds the corrections, and the motions @p dU of the bodies, to gaps, springs and multipliers.
     void add_correction(const BodyVectors &dU, State &state);
 
+    /// Takes corrections back: returns to an earlier applied() and its state.
+    void restore(const MixedComplementaritySolution &earlier, const State &state);
+
     /// Largest residual of a constraint with D or D' recomputed from displacements, and its index.
-    double residual(const State &state, const ComplementarityOperator &F, std::size_t &worst);
+    double residual(const State &state, StepEquations &system, std::size_t &worst);
 
     /// Largest gap of a bilateral rigid constraint with conditions on velocities [m, rad].
     double drift(const State &state) const;
@@ -109,6 +116,7 @@ namespace taut
     void set_recomputed_gaps(const State &state);
     void add_decayed_columns(const ComplementarityOperator &F);
     void add_inertial_terms(const State &state, const ComplementarityOperator &F);
+    void add_elastic_terms(const State &state, const FactoredStructure &bodies);
     void measure_residual(const ComplementarityOperator &F);
 
     const Structure &structure;

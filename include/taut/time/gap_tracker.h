@@ -26,6 +26,10 @@ namespace taut
     GapTracker(const Structure &structure, const Constraints &constraints,
                const TurningConstraints &turning, const Reference &reference, const State &start);
 
+    /// Gaps from now on round with all motions @p U that brought the bodies here, whatever their
+    /// directions.
+    void count_motions(const BodyVectors &U);
+
     /// Begins a step: motion of the constraints without multipliers, under P^ = @p P and the
     /// prescribed motion @p lift, and the places of moving constraints.
     void predict(const State &before, const StepEquations &system, const BodyVectors &P,
@@ -81,6 +85,7 @@ namespace taut
   private:
     double gap_of_place(std::size_t i) const;
     double stray(const State &state, std::size_t &worst);
+    std::vector<double> body_terms(const BodyVectors &U) const;
     void add_body_terms(const BodyVectors &U);
 
     const Structure &structure;

@@ -44,6 +44,9 @@ namespace taut
   /// of @p x beyond its DoFs are ignored.
   PerKind largest(const Substructure &body, const std::vector<double> &x);
 
+  /// The largest entry on the diagonal; 0 if none is positive.
+  double largest_on_diagonal(const SymmetricMatrix &matrix);
+
   /// Larger motions and forces are no result of a sensible scene. Sums and squares of smaller
   /// numbers are finite.
   constexpr double largest_number = 1e100;

@@ -2,13 +2,9 @@
 #ifndef taut_newton_search_h
 #define taut_newton_search_h
 
-#include <taut/time/contact_conditions.h>
 #include <taut/time/nonlinear_bodies.h>
-#include <taut/time/step_history.h>
+#include <taut/time/step.h>
 #include <taut/time/turning_constraints.h>
-
-#include <functional>
-#include <vector>
 
 namespace taut
 {
@@ -35,22 +31,11 @@ namespace taut
     void prepare(const StepCoefficients &c, double step, const State &state);
 
     /// Takes the directions of the constraints from a state.
-    void follow(const State &state) { turning.follow(state); }
+    void follow(const State &state);
 
-    /// What a search works on: the state before the step, which gets its multipliers, P^ of the
-    /// step into StepHistory::loads(), and what makes increments of P^.
-    struct Step
-    {
-      State &state;
-      StepEquations &equations;
-      StepHistory &history;
-      const ContactConditions &conditions;
-      std::function<void()> set_loads, find_increments;
-    };
-
-    /// Finds the increments, with the tangent of a step before while that pays. Throws UserError if
-    /// the iterations do not converge.
-    void find_increments(const Step &step);
+    /// Finds the increments of a step from @p state, with the tangent of a step before while that
+    /// pays; the state gets the multipliers. Throws UserError if the iterations do not converge.
+    void find_increments(Step &step, State &state, Certificate &certificate);
 
     NonlinearBodies &bodies() { return nonlinear; }
     const TurningConstraints &constraints() const { return turning; }
@@ -60,11 +45,13 @@ namespace taut
 
   private:
     void check_masses(const Constraints &constraints) const;
-    bool iterate(const Step &step);
+    bool iterate(Step &step, State &state, Certificate &certificate);
     void linearise(StepEquations &equations) const;
-    double set_guess(const Step &step);
+    double set_guess(Step &step, const State &state);
+    void turn() { constraint_set.turn(turning.directions()); }
 
     const Structure &structure;
+    Constraints &constraint_set;
     NonlinearBodies nonlinear;
     TurningConstraints turning;
     bool bodies_are_linear;         ///< of all ranks

@@ -83,6 +83,19 @@ namespace taut
     std::array<BodyVectors *, 7> of_bodies() { return {&U, &V, &A, &dU, &V_old, &KU, &balance}; }
   };
 
+  /// The bodies of this rank at U = 0 and at rest at t = 0, with @p n_constraints constraints
+  /// without forces.
+  inline State state_at_rest(const Structure &structure, const std::size_t n_constraints)
+  {
+    State state;
+    for (BodyVectors *v : state.of_bodies())
+      *v = structure.zero();
+    for (std::vector<double> *v : {&state.multiplier, &state.gap, &state.geometric_gap})
+      v->assign(n_constraints, 0.);
+    state.link_springs.resize(n_constraints);
+    return state;
+  }
+
   /// U_ref + U of body k, its displacement from the undeformed body [m, rad].
   inline std::vector<double> displacement(const Reference &reference, const State &state,
                                           const std::size_t k)

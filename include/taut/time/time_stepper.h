@@ -3,9 +3,7 @@
 #define taut_time_stepper_h
 
 #include <taut/base/archive_forward.h>
-#include <taut/time/balance_certificate.h>
 #include <taut/time/certificate.h>
-#include <taut/time/contact_conditions.h>
 #include <taut/time/energy_gains.h>
 #include <taut/time/integrator.h>
 #include <taut/time/load_sampling.h>
@@ -14,10 +12,8 @@
 #include <taut/time/newton_search.h>
 #include <taut/time/solver_parameters.h>
 #include <taut/time/state.h>
-#include <taut/time/step_check.h>
+#include <taut/time/step.h>
 #include <taut/time/step_clock.h>
-#include <taut/time/step_equations.h>
-#include <taut/time/step_history.h>
 #include <taut/time/velocity_projection.h>
 
 #include <memory>
@@ -29,14 +25,11 @@ namespace taut
    * Advances the bodies and the multipliers by steps. A step
    *
    *     places the constraints that slide            Constraints::follow(), update()
-   *     finds the right-hand sides P^_k              StepHistory
-   *     finds the multipliers N                      ContactConditions, StepEquations
-   *     finds the increments, A_k dU_k = P^_k + B_k N
-   *     accepts them                                 StepHistory, ContactConditions::update()
-   *     certifies them                               BalanceCertificate, ContactConditions
+   *     finds multipliers and increments, accepts
+   *     and certifies them                           Step
    *     projects the velocities, with some schemes   VelocityProjection.
    *
-   * With nonlinear bodies or turning constraints, NewtonSearch iterates lines two to four.
+   * With nonlinear bodies or turning constraints, NewtonSearch iterates to the increments.
    */
   class TimeStepper
   {
@@ -45,7 +38,7 @@ namespace taut
     /// equilibrium with zero accelerations. Otherwise the first step is backward Euler, unless the
     /// scheme needs no initial acceleration.
     TimeStepper(const Structure &structure, Constraints &constraints,
-                const SolverParameters &parameters, const TimeIntegrator &integrator, double step,
+                const SolverParameters &parameters, const TimeIntegrator &integrator, double length,
                 Reference reference, State start, bool at_rest);
 
     /// Advances by one step. Throws UserError with time and constraint if the certificate exceeds
@@ -69,7 +62,8 @@ namespace taut
     /// Local error of the last step, see LocalError. Called by all ranks together.
     double local_error()
     {
-      return errors.measure(current, coefficients, clock.step_before(), history.forces().old_A);
+      return errors.measure(current, coefficients, clock.step_before(),
+                            step.history().forces().old_A);
     }
 
     /// True if the next step, of @p length [s], resolves loads and prescribed motions, see
@@ -97,8 +91,8 @@ namespace taut
     bool is_linear() const { return newton.is_linear(); }
 
     /// Form and size of the interface operator, for the log.
-    std::string interface_description() const { return system->interface().description(); }
-    InterfaceStatistics interface_statistics() const;
+    std::string interface_description() const { return step.equations().interface().description(); }
+    InterfaceStatistics interface_statistics() const { return step.interface_statistics(); }
 
   private:
     void prepare(StepCoefficients c);
@@ -108,19 +102,11 @@ namespace taut
     void begin_step(double end);
     void attempt(const std::function<void()> &work);
     void solve();
-    void set_loads();
-    void find_increments();
-    void accept_increments();
     void face_new_directions();
     void project_velocities();
     void measure_energy();
-    void measure_balance(const BalanceCertificate::SetRows &set_rows = {});
-    bool is_cancellation() const;
     void start_balance();
     void hold_quasi_static_dofs();
-    void certify();
-    bool refine();
-    void certify_rows();
 
     const Structure &structure;
     Constraints &constraints;
@@ -141,16 +127,11 @@ namespace taut
     };
     Sizes before_step;
 
-    std::unique_ptr<StepEquations> system;
-    InterfaceStatistics earlier_systems; ///< statistics before reset_caches()
     NewtonSearch newton;
-    ContactConditions conditions;
-    StepHistory history;
+    Step step;
     LoadSampling loads;
     LocalError errors;
     EnergyGains energy_gains;
-    BalanceCertificate balance;
-    StepCheck check;
     std::unique_ptr<VelocityProjection> projection; ///< for schemes with a velocity projection
   };
 } // namespace taut

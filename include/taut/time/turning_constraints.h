@@ -28,7 +28,7 @@ namespace taut
   {
   public:
     /// The arguments are kept by reference.
-    TurningConstraints(Constraints &constraints, const Reference &reference);
+    TurningConstraints(const Constraints &constraints, const Reference &reference);
 
     bool empty() const { return constraints.turning_rows().empty(); }
 
@@ -36,7 +36,7 @@ namespace taut
     /// at the ends of steps.
     void prepare(const StepCoefficients &c) const;
 
-    /// Directions at a state.
+    /// Sets the directions at a state.
     void follow(const State &state);
 
     /// Begins a step from the state that follow() knows; the first guess is no motion.
@@ -52,8 +52,8 @@ namespace taut
     double set_guess(const BodyVectors &dU, const State &before, const std::vector<double> &N,
                      const std::vector<double> &history);
 
-    /// Directions at the guess: B_i anew.
-    void turn() { constraints.turn(next); }
+    /// Directions of the last guess, or at the state of follow(), for Constraints::turn().
+    const std::vector<Coordinates> &directions() const { return next; }
 
     /// What the gap of the form B_i differs by from that of the state before, at dU = 0 [m].
     double offset(const std::size_t i) const { return offsets[constraints.turning_index(i)]; }
@@ -72,7 +72,7 @@ namespace taut
     void face_start();
     void check_turn(std::size_t i, const State &before) const;
 
-    Constraints &constraints;
+    const Constraints &constraints;
     const Reference &reference;
     bool is_mean = false;
     std::vector<Coordinates> start; ///< Delta_0

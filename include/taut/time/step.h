@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_step_h
+#define taut_step_h
+
+#include <taut/time/balance_certificate.h>
+#include <taut/time/certificate.h>
+#include <taut/time/contact_conditions.h>
+#include <taut/time/step_check.h>
+#include <taut/time/step_equations.h>
+#include <taut/time/step_history.h>
+
+#include <memory>
+
+namespace taut
+{
+  /**
+   * One step of all bodies and constraints, in time or at rest:
+   *
+   *     set_loads()        P^_k                               StepHistory
+   *     find_increments()  N, and A_k dU_k = P^_k + B_k N     ContactConditions, StepEquations
+   *     accept()           U, V, A, r, and gaps               StepHistory, ContactConditions
+   *     certify()          residuals of both, once more       BalanceCertificate, ContactConditions
+   *                        with the residual if it is large
+   *
+   * TimeStepper takes steps in time, with the weights of a scheme. StaticStep takes steps of a
+   * search of an equilibrium, with A = K. All functions with a state are called by all ranks
+   * together.
+   */
+  class Step
+  {
+  public:
+    /// All but @p start are kept by reference. @p bodies and @p turning are empty, or follow the
+    /// guesses of Newton's method.
+    Step(const Structure &structure, const Constraints &constraints,
+         const SolverParameters &parameters, const Reference &reference,
+         const NonlinearBodies &bodies, const TurningConstraints &turning, const State &start);
+
+    /// For steps with these coefficients and this length [s]: factors A, and sets F up.
+    void prepare(const StepCoefficients &c, double length);
+
+    /// Discards factors, F and searches; prepare() makes them anew.
+    void reset();
+
+    /// Sets history().loads() to P^ of a step from the state @p before to its time.
+    void set_loads(State &before);
+
+    /// Finds N, and history().increments() from P^. Counts iterations in @p certificate.
+    void find_increments(State &state, Certificate &certificate);
+
+    /// Sets displacements, velocities, accelerations and gaps at the end of the step.
+    void accept(State &state);
+
+    /// The same, and K U, the balance r, and its residual.
+    void accept(State &state, Certificate &certificate);
+
+    /// Sets K U and the balance of a state, and its residual in @p certificate.
+    void measure_balance(State &state, Certificate &certificate);
+
+    /// Solves for the forces in history().loads() beside those of the step, and for what closed
+    /// constraints lack, and adds the answer to the state. @p on_modes are the same forces for the
+    /// rigid body modes of bodies that only constraints hold. False, without changes, if the
+    /// constraints have no solution.
+    bool correct(State &state, const BodyVectors &on_modes);
+
+    /// Certifies an accepted step whose balance is measured; repeats a step that lost digits.
+    /// Throws UserError if the certificate exceeds the contact tolerance.
+    void certify(State &state, Certificate &certificate);
+
+    StepEquations &equations() { return *own_equations; }
+    const StepEquations &equations() const { return *own_equations; }
+    ContactConditions &conditions() { return own_conditions; }
+    const ContactConditions &conditions() const { return own_conditions; }
+    StepHistory &history() { return own_history; }
+    const BalanceCertificate &balance() const { return own_balance; }
+    StepCheck &check() { return own_check; }
+
+    /// Counts of the interface operator over all steps.
+    InterfaceStatistics interface_statistics() const;
+
+  private:
+    void measure(State &state, Certificate &certificate, const BalanceCertificate::SetRows &rows);
+    bool refine(State &state);
+
+    const Structure &structure;
+    const Constraints &constraints;
+    const SolverParameters &parameters;
+    StepCoefficients c;
+    std::unique_ptr<StepEquations> own_equations;
+    InterfaceStatistics earlier; ///< statistics of equations before reset()
+    ContactConditions own_conditions;
+    StepHistory own_history;
+    BalanceCertificate own_balance;
+    StepCheck own_check;
+  };
+} // namespace taut
+
+#endif

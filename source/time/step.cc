@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/time/step.h>
+
+namespace taut
+{
+  namespace
+  {
+    /// Balance above which a step is refined, and most repetitions: normal steps are below 1e-11.
+    constexpr double refined_balance = 1e-10;
+    constexpr int most_refinements = 3;
+  } // namespace
+
+  Step::Step(const Structure &structure, const Constraints &constraints,
+             const SolverParameters &parameters, const Reference &reference,
+             const NonlinearBodies &bodies, const TurningConstraints &turning, const State &start)
+      : structure(structure), constraints(constraints), parameters(parameters),
+        own_equations(std::make_unique<StepEquations>(structure, constraints, parameters)),
+        own_conditions(structure, constraints, turning, reference, start),
+        own_history(structure, reference), own_balance(structure, constraints, reference, bodies),
+        own_check(structure, constraints, parameters.contact_tolerance)
+  {
+    structure.communicator().agree([&] { own_history.set_external_forces(start.time); });
+  }
+
+  void Step::prepare(const StepCoefficients &coefficients, const double length)
+  {
+    c = coefficients;
+    own_conditions.prepare(c, length);
+    own_equations->prepare(c, own_conditions.springs().compliance());
+  }
+
+  void Step::reset()
+  {
+    earlier = interface_statistics();
+    own_equations = std::make_unique<StepEquations>(structure, constraints, parameters);
+  }
+
+  InterfaceStatistics Step::interface_statistics() const
+  {
+    InterfaceStatistics result = earlier;
+    return result += own_equations->interface().statistics();
+  }
+
+  void Step::set_loads(State &before)
+  {
+    structure.communicator().agree([&] { own_history.set_loads(c, *own_equations, before); });
+    const std::vector<double> &old = own_conditions.forces_at_previous_place(before);
+    if (!old.empty())
+      constraints.add_forces(old, own_history.loads());
+  }
+
+  void Step::find_increments(State &state, Certificate &certificate)
+  {
+    own_conditions.set_problem(state, *own_equations, own_history.loads(), own_history.lift());
+    if (constraints.size() > 0 || own_equations->has_modes())
+    {
+      const Certificate before = certificate;
+      own_conditions.find_multipliers(*own_equations, own_check, certificate, state);
+      certificate.iterations += before.iterations;
+      certificate.fallback = certificate.fallback || before.fallback;
+    }
+    own_equations->find_increments(own_conditions.applied().multiplier,
+                                   own_conditions.applied().mode_amplitude,
+                                   own_history.increments());
+  }
+
+  void Step::accept(State &state)
+  {
+    own_history.exchange(state);
+    for (std::size_t k = 0; k < structure.size(); ++k)
+      own_history.accept(c, k, 0, state.U[k].size(), state);
+    own_conditions.update(state);
+  }
+
+  void Step::accept(State &state, Certificate &certificate)
+  {
+    own_history.exchange(state);
+    measure(state, certificate,
+            [&](const std::size_t k, const std::size_t begin, const std::size_t end)
+            { own_history.accept(c, k, begin, end, state); });
+    own_conditions.update(state);
+  }
+
+  void Step::measure_balance(State &state, Certificate &certificate)
+  {
+    measure(state, certificate, {});
+  }
+
+  void Step::measure(State &state, Certificate &certificate,
+                     const BalanceCertificate::SetRows &rows)
+  {
+    structure.communicator().agree(
+        [&]
+        {
+          own_balance.measure(c, own_history.forces(), own_conditions.in_balance(),
+                              own_conditions.impulsive(), state, rows);
+        });
+    certificate.balance = structure.communicator().max(own_balance.residual());
+  }
+
+  bool Step::correct(State &state, const BodyVectors &on_modes)
+  {
+    if (!own_conditions.correct(state, *own_equations, own_history.loads(), on_modes))
+      return false;
+    own_equations->find_increments(own_conditions.corrections().multiplier,
+                                   own_conditions.corrections().mode_amplitude,
+                                   own_history.increments());
+    own_history.add_correction(c, state);
+    own_conditions.add_correction(own_history.increments(), state);
+    return true;
+  }
+
+  /// Iterative refinement: a large increment against the final displacement loses digits by
+  /// cancellation. False if digits were not lost so, on any rank, or the constraints have no
+  /// solution. An equilibrium is refined by its search.
+  bool Step::refine(State &state)
+  {
+    if (c.mean_force || c.is_at_rest() ||
+        structure.communicator().any(!own_balance.is_cancellation()))
+      return false;
+    own_history.set_lacking(c, *own_equations, state);
+    return correct(state, own_history.loads());
+  }
+
+  void Step::certify(State &state, Certificate &certificate)
+  {
+    for (int refinements = 0;
+         certificate.balance > refined_balance && refinements < most_refinements && refine(state);
+         ++refinements)
+      measure_balance(state, certificate);
+    certificate.worst_body = own_balance.worst_body();
+    certificate.complementarity =
+        own_conditions.residual(state, *own_equations, certificate.worst_constraint);
+    certificate.drift = own_conditions.drift(state);
+    own_check.check_constraints(certificate);
+    own_check.check_balance(certificate, own_balance.residual());
+  }
+} // namespace taut
