@@ -199,6 +199,25 @@ namespace taut
           x[p.row[e]] -= lower[e] * from;
   }
 
+  void PatternedCholesky::solve_lower(std::vector<double> &x,
+                                      std::vector<unsigned int> &places) const
+  {
+    const EliminationPattern &p = *eliminated;
+    const auto first = std::min_element(places.begin(), places.end());
+    unsigned int k = first == places.end() ? static_cast<unsigned int>(p.size()) : *first;
+    places.clear();
+    // A scan is faster than to follow the paths and to sort what they reach.
+    for (; k < p.size(); ++k)
+    {
+      const double from = x[k];
+      if (from == 0.)
+        continue;
+      places.push_back(k);
+      for (std::size_t e = p.column_begin[k]; e < p.column_begin[k + 1]; ++e)
+        x[p.row[e]] -= lower[e] * from;
+    }
+  }
+
   void PatternedCholesky::solve_upper(std::vector<double> &x) const
   {
     const EliminationPattern &p = *eliminated;

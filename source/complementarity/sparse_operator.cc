@@ -197,15 +197,17 @@ namespace taut
   {
     const BorderRow &row = border[b];
     std::vector<double> &response = used.response[b];
-    std::fill(response.begin(), response.end(), 0.);
+    std::vector<unsigned int> &places = used.reached[b];
+    for (const unsigned int k : places)
+      response[k] = 0.;
+    places.clear();
     for (const unsigned int j : row.inside)
       if (active[j])
-        response[pattern->position[j]] = row.entries[j];
-    used.interior.solve_lower(response);
-    used.reached[b].clear();
-    for (std::size_t k = 0; k < n_interior; ++k)
-      if (response[k] != 0.)
-        used.reached[b].push_back(static_cast<unsigned int>(k));
+      {
+        places.push_back(pattern->position[j]);
+        response[places.back()] = row.entries[j];
+      }
+    used.interior.solve_lower(response, places);
     used.is_current[b] = 1;
     for (std::size_t q = 0; q < border.size(); ++q)
       if (used.is_current[q])
@@ -259,18 +261,22 @@ namespace taut
     Factor &used = is_definite ? factor : shifted_factor;
     if (!is_definite)
       prepare(used, set, shift);
+    work.assign(n_interior, 0.);
+    rhs_border.assign(border.size(), 0.);
     for (const std::size_t i : wanted)
       result[i] = condensed(used, i);
   }
 
-  /// F_ii - F_ia F_aa^-1 F_ai of the current set.
+  /// F_ii - F_ia F_aa^-1 F_ai of the current set; `work` is 0 before and after.
   double SparseOperator::condensed(Factor &used, const std::size_t i)
   {
-    work.assign(n_interior, 0.);
+    places.clear();
     const auto place = [&](const std::size_t j, const double entry)
     {
-      if (active[j])
-        work[pattern->position[j]] = entry;
+      if (!active[j])
+        return;
+      places.push_back(pattern->position[j]);
+      work[places.back()] = entry;
     };
     if (i < n_interior)
     {
@@ -281,15 +287,16 @@ namespace taut
     else
       for (const unsigned int j : border[i - n_interior].inside)
         place(j, border[i - n_interior].entries[j]);
-    used.interior.solve_lower(work);
+    used.interior.solve_lower(work, places);
     double result = diagonal(i);
-    const std::vector<double> &inverse = used.interior.inverse_pivots();
-    for (std::size_t k = 0; k < n_interior; ++k)
-      result -= work[k] * inverse[k] * work[k];
-    rhs_border.assign(border.size(), 0.);
     for (const std::size_t b : active_border)
       rhs_border[b] = border[b].entries[i] - used.share(b, work);
-    if (used.schur.solve(active_border, rhs_border, 0., x_border))
+    for (const unsigned int k : places)
+    {
+      result -= work[k] * used.interior.inverse_pivots()[k] * work[k];
+      work[k] = 0.;
+    }
+    if (!active_border.empty() && used.schur.solve(active_border, rhs_border, 0., x_border))
       for (const std::size_t b : active_border)
         result -= rhs_border[b] * x_border[b];
     return result;

@@ -78,6 +78,9 @@ namespace taut
     /// x = L^-1 x, of numbers by place.
     void solve_lower(std::vector<double> &x) const;
 
+    /// The same if x is 0 but at the @p places, which become all where it is not, ascending.
+    void solve_lower(std::vector<double> &x, std::vector<unsigned int> &places) const;
+
     /// x = L^-T x, of numbers by place.
     void solve_upper(std::vector<double> &x) const;
 

@@ -104,6 +104,7 @@ namespace taut
     std::vector<char> active;
     std::vector<std::size_t> active_border;
     std::vector<double> work, rhs_border, x_border; ///< by place; by row of the border
+    std::vector<unsigned int> places;               ///< of entries of `work`
   };
 } // namespace taut
 
