@@ -63,6 +63,25 @@ namespace taut
       cholmod_finish(&common);
     }
 
+    /// A matrix of @p n rows, of the caller.
+    cholmod_sparse *compressed(const std::size_t n, const SymmetricEntries &entries)
+    {
+      cholmod_triplet triplet{};
+      triplet.nrow = triplet.ncol = n;
+      triplet.nzmax = triplet.nnz = entries.size();
+      triplet.i = const_cast<int *>(entries.row.data()); // CHOLMOD reads them only
+      triplet.j = const_cast<int *>(entries.column.data());
+      triplet.x = const_cast<double *>(entries.value.data());
+      triplet.stype = -1; // lower triangle
+      triplet.itype = CHOLMOD_INT;
+      triplet.xtype = CHOLMOD_REAL;
+      triplet.dtype = CHOLMOD_DOUBLE;
+      cholmod_sparse *result = cholmod_triplet_to_sparse(&triplet, entries.size(), &common);
+      if (!result)
+        throw std::bad_alloc();
+      return result;
+    }
+
     /// True if @p other has the pattern of the last matrix.
     bool has_pattern_of(const cholmod_sparse &other) const
     {
@@ -236,19 +255,7 @@ namespace taut
       if (entries.row[k] == entries.column[k])
         w.diagonal[entries.row[k]] += entries.value[k];
 
-    cholmod_triplet triplet{};
-    triplet.nrow = triplet.ncol = n;
-    triplet.nzmax = triplet.nnz = entries.size();
-    triplet.i = const_cast<int *>(entries.row.data()); // CHOLMOD reads them only
-    triplet.j = const_cast<int *>(entries.column.data());
-    triplet.x = const_cast<double *>(entries.value.data());
-    triplet.stype = -1; // lower triangle
-    triplet.itype = CHOLMOD_INT;
-    triplet.xtype = CHOLMOD_REAL;
-    triplet.dtype = CHOLMOD_DOUBLE;
-    cholmod_sparse *matrix = cholmod_triplet_to_sparse(&triplet, entries.size(), &w.common);
-    if (!matrix)
-      throw std::bad_alloc();
+    cholmod_sparse *matrix = w.compressed(n, entries);
     if (!w.factors || !w.has_pattern_of(*matrix))
     {
       cholmod_free_factor(&w.factors, &w.common);
@@ -333,6 +340,20 @@ namespace taut
     if (!work->factors)
       return 0;
     return work->factors->is_super ? work->factors->xsize : work->factors->nzmax;
+  }
+
+  std::vector<unsigned int> fill_reducing_order(const std::size_t n,
+                                                const SymmetricEntries &positions)
+  {
+    if (n == 0)
+      return {};
+    SparseCholesky::Workspace w(CholeskyMethod::simplicial);
+    w.matrix = w.compressed(n, positions);
+    w.factors = cholmod_analyze(w.matrix, &w.common);
+    if (!w.factors)
+      throw std::bad_alloc();
+    const auto *order = static_cast<const int *>(w.factors->Perm);
+    return std::vector<unsigned int>(order, order + n);
   }
 
   std::size_t SparseCholesky::memory_consumption() const

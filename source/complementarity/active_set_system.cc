@@ -72,9 +72,11 @@ namespace taut
     for (unsigned int correction = 0; correction <= options.max_corrections; ++correction)
     {
       matrix.set_tolerance(part * tolerance / std::max(now.gap, tolerance));
-      const MixedComplementaritySolution before =
-          is_solved ? solution : MixedComplementaritySolution();
-      const std::vector<double> terms_before = is_solved ? terms : std::vector<double>();
+      if (is_solved)
+      {
+        before = solution;
+        terms_before = terms;
+      }
       if (!correct(problem, matrix, set, solution))
       {
         if (!is_solved)
@@ -186,12 +188,12 @@ namespace taut
                                                 const std::vector<std::size_t> &set,
                                                 MixedComplementaritySolution &solution)
   {
-    std::vector<double> load(problem.n_null_space()), amplitude;
+    unbalance.resize(problem.n_null_space());
     for (std::size_t k = 0; k < problem.n_null_space(); ++k)
-      load[k] = -problem.null_space_load[k] - problem.null_space[k].dot(solution.multiplier);
+      unbalance[k] = -problem.null_space_load[k] - problem.null_space[k].dot(solution.multiplier);
     const auto solve = [&]
     {
-      return matrix.solve_with_null_space(set, rhs, problem.null_space, load, shift, step,
+      return matrix.solve_with_null_space(set, rhs, problem.null_space, unbalance, shift, step,
                                           amplitude);
     };
     if (!solve())
@@ -216,9 +218,11 @@ namespace taut
     const std::size_t n_null_space = problem.n_null_space();
     null_space_responses.resize(n_null_space);
     null_space_schur.reinit(n_null_space);
+    all_vectors.resize(n_null_space);
+    std::iota(all_vectors.begin(), all_vectors.end(), 0);
     for (std::size_t k = 0; k < n_null_space; ++k)
     {
-      std::vector<double> null_space_rhs(problem.size(), 0.);
+      null_space_rhs.assign(problem.size(), 0.);
       problem.null_space[k].add_to(1., null_space_rhs);
       matrix.solve(set, null_space_rhs, shift, null_space_responses[k]);
       for (std::size_t l = 0; l <= k; ++l)
@@ -236,16 +240,14 @@ namespace taut
                                            MixedComplementaritySolution &solution)
   {
     const std::size_t n_null_space = problem.n_null_space();
-    std::vector<std::size_t> all(n_null_space);
-    std::iota(all.begin(), all.end(), 0);
-    std::vector<double> unbalance = problem.null_space_load, amplitude;
+    unbalance = problem.null_space_load;
     for (std::size_t k = 0; k < n_null_space; ++k)
     {
       unbalance[k] +=
           problem.null_space[k].dot(solution.multiplier) + problem.null_space[k].dot(step);
       unbalance[k] -= problem.resistance(k) * solution.mode_amplitude[k];
     }
-    if (!null_space_schur.solve(all, unbalance, 0., amplitude))
+    if (!null_space_schur.solve(all_vectors, unbalance, 0., amplitude))
       return false;
     for (std::size_t k = 0; k < n_null_space; ++k)
     {

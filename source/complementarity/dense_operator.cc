@@ -95,4 +95,24 @@ namespace taut
     used.solve(rhs, x);
     return true;
   }
+
+  void DenseOperator::condensed_diagonal(const std::vector<std::size_t> &wanted,
+                                         const std::vector<std::size_t> &set, const double shift,
+                                         std::vector<double> &result)
+  {
+    std::vector<double> column(n), x;
+    result.assign(n, 0.);
+    for (const std::size_t i : wanted)
+    {
+      result[i] = diagonal(i);
+      if (set.empty())
+        continue;
+      for (std::size_t j = 0; j < n; ++j)
+        column[j] = (*this)(i, j);
+      if (!solve(set, column, 0., x))
+        solve(set, column, shift, x);
+      for (const std::size_t b : set)
+        result[i] -= column[b] * x[b];
+    }
+  }
 } // namespace taut

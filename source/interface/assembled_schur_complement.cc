@@ -134,10 +134,11 @@ namespace taut
   {
     compliance = S;
     columns.setup();
-    SymmetricEntries entries;
-    std::vector<std::size_t> last_visit(constraints.fixed_rows().size(), constraints.size());
+    entries.row.clear();
+    entries.column.clear();
+    entries.value.clear();
+    last_visit.assign(constraints.fixed_rows().size(), constraints.size());
     for (const std::size_t i : constraints.fixed_rows())
-    {
       columns.visit_reached(i,
                             [&](const std::size_t j)
                             {
@@ -145,15 +146,13 @@ namespace taut
                                 entries.add(i, j, columns.entry(i, j));
                               last_visit[j] = i;
                             });
-    }
     gather(processes, entries);
-    entries.compress();
-    for (std::size_t e = 0; e < entries.size(); ++e)
-      if (entries.row[e] == entries.column[e])
-        of_bodies[entries.row[e]] = entries.value[e];
-    for (const std::size_t i : constraints.fixed_rows())
-      entries.add(i, i, S[i]);
     F.set_interior(entries);
+    for (const std::size_t i : constraints.fixed_rows())
+    {
+      of_bodies[i] = F.diagonal(i);
+      F.set_diagonal(i, of_bodies[i] + S[i]);
+    }
     update_moving();
   }
 
@@ -170,7 +169,7 @@ namespace taut
     const double *share = compute_moving().data();
     for (const std::size_t i : constraints.varying_rows())
     {
-      std::vector<double> border(share, share + constraints.size());
+      border.assign(share, share + constraints.size());
       of_bodies[i] = border[i];
       border[i] += compliance[i];
       F.set_border(i, border);

@@ -78,6 +78,11 @@ namespace taut
 
   private:
     SparseOperator F;
+
+    /// Of the fixed rows, in setup(); and a row of the border.
+    SymmetricEntries entries;
+    std::vector<std::size_t> last_visit;
+    std::vector<double> border;
   };
 } // namespace taut
 

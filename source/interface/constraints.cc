@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <tuple>
 
 namespace taut
@@ -161,7 +162,7 @@ namespace taut
       return sum;
     };
     for (const std::size_t i : sliding_rows())
-      place(i).follow(motion, start, end);
+      place(i).follow(std::ref(motion), start, end); // a reference allocates nothing
   }
 
   std::vector<std::vector<double>> Constraints::courses() const

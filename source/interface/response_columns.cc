@@ -81,24 +81,6 @@ namespace taut
     return sum;
   }
 
-  void ResponseColumns::visit_reached(const std::size_t i,
-                                      const std::function<void(std::size_t)> &visit) const
-  {
-    const Column &c = columns[i];
-    for (std::size_t p = 0; p < c.substructure.size(); ++p)
-    {
-      const std::size_t k = c.substructure[p];
-      const unsigned int begin = c.part[p].first,
-                         end = begin + static_cast<unsigned int>(c.part[p].value.size());
-      auto at = std::lower_bound(reach[k].begin(), reach[k].end(), begin,
-                                 [&](const Reach &r, const unsigned int dof)
-                                 { return r.first + widest[k] < dof; });
-      for (; at != reach[k].end() && at->first < end; ++at)
-        if (at->last >= begin && at->constraint <= i)
-          visit(at->constraint);
-    }
-  }
-
   void ResponseColumns::contact_free_predictor(const BodyVectors &P, std::vector<double> &d,
                                                std::vector<double> &terms_size) const
   {

@@ -5,7 +5,7 @@
 #include <taut/interface/constraints.h>
 #include <taut/substructure/factored_structure.h>
 
-#include <functional>
+#include <algorithm>
 #include <vector>
 
 namespace taut
@@ -29,7 +29,8 @@ namespace taut
 
     /// Calls @p visit(j), perhaps repeatedly, for each fixed constraint j <= i that the column of
     /// constraint i reaches.
-    void visit_reached(std::size_t i, const std::function<void(std::size_t)> &visit) const;
+    template <typename Visit>
+    void visit_reached(std::size_t i, const Visit &visit) const;
 
     /// Part of this rank in d = B^T A^-1 P.
     void contact_free_predictor(const BodyVectors &P, std::vector<double> &d,
@@ -59,6 +60,24 @@ namespace taut
         false; ///< contact_free_predictor() from the stored columns is cheaper than a solve
     mutable BodyVectors work;
   };
+
+  template <typename Visit>
+  void ResponseColumns::visit_reached(const std::size_t i, const Visit &visit) const
+  {
+    const Column &c = columns[i];
+    for (std::size_t p = 0; p < c.substructure.size(); ++p)
+    {
+      const std::size_t k = c.substructure[p];
+      const unsigned int begin = c.part[p].first,
+                         end = begin + static_cast<unsigned int>(c.part[p].value.size());
+      auto at = std::lower_bound(reach[k].begin(), reach[k].end(), begin,
+                                 [&](const Reach &r, const unsigned int dof)
+                                 { return r.first + widest[k] < dof; });
+      for (; at != reach[k].end() && at->first < end; ++at)
+        if (at->last >= begin && at->constraint <= i)
+          visit(at->constraint);
+    }
+  }
 } // namespace taut
 
 #endif

@@ -66,10 +66,14 @@ namespace taut
       }
       void setup(const std::vector<double> &S) override
       {
-        if (chosen)
-          earlier += chosen->statistics();
-        parameters.form = choice();
-        chosen = make_schur_complement(parameters, solvers, constraints);
+        const std::string form = choice();
+        if (!chosen || parameters.form != form || form == "matrix-free")
+        {
+          if (chosen)
+            earlier += chosen->statistics();
+          parameters.form = form;
+          chosen = make_schur_complement(parameters, solvers, constraints);
+        }
         chosen->setup(S);
       }
       void set_compliance(const std::vector<double> &S) override { chosen->set_compliance(S); }

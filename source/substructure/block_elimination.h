@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <deque>
 #include <utility>
 #include <vector>
 
@@ -186,6 +185,7 @@ namespace taut
     void reinit(const std::size_t n)
     {
       distinct.clear();
+      distinct.reserve(n); // so that they stay in their places
       of_node.resize(n);
     }
 
@@ -204,7 +204,7 @@ namespace taut
     const Elimination<AnyBlock> *const *data() const { return of_node.data(); }
 
   private:
-    std::deque<Elimination<AnyBlock>> distinct;
+    std::vector<Elimination<AnyBlock>> distinct;
     std::vector<const Elimination<AnyBlock> *> of_node;
   };
 } // namespace taut

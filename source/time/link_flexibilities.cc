@@ -86,20 +86,8 @@ namespace taut
     for (std::size_t i = 0; i < constraints.size(); ++i)
       if (constraints[i].cone.is_free() && constraints[i].spring.is_rigid() && F.diagonal(i) > 0.)
         bilateral.push_back(i);
-    std::vector<double> result(constraints.size(), 0.), unit(constraints.size(), 0.), column, x;
-    for (const std::size_t i : wanted)
-    {
-      result[i] = F.diagonal(i);
-      if (bilateral.empty())
-        continue;
-      unit[i] = 1.;
-      F.apply(unit, column);
-      unit[i] = 0.;
-      if (!F.solve(bilateral, column, 0., x))
-        F.solve(bilateral, column, shift_of_dependent_rows, x);
-      for (const std::size_t b : bilateral)
-        result[i] -= column[b] * x[b];
-    }
+    std::vector<double> result;
+    F.condensed_diagonal(wanted, bilateral, shift_of_dependent_rows, result);
     return result;
   }
 } // namespace taut

@@ -28,10 +28,11 @@ namespace taut
 
   void MassEquations::setup(ProjectionCompliance &softening)
   {
+    const bool masses_changed = !set_up || some_with_constraints;
     if (!set_up)
       structure.communicator().agree([&] { solvers.factor_mass(); });
     set_up = true;
-    softening.setup(*schur);
+    softening.setup(*schur, masses_changed);
   }
 
   /// Factors M of bodies with internal constraints at the displacements of the state.

@@ -96,10 +96,16 @@ namespace taut
     f.set_compliance(softening);
   }
 
-  void ProjectionCompliance::setup(SchurComplement &f)
+  void ProjectionCompliance::setup(SchurComplement &f, const bool masses_changed)
   {
     std::fill(softening.begin(), softening.end(), 0.);
-    f.setup(softening);
+    if (masses_changed)
+      f.setup(softening);
+    else
+    {
+      f.set_compliance(softening);
+      f.update_moving();
+    }
     if (elastic.empty())
       return;
     std::vector<std::size_t> softened;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 namespace taut
@@ -178,14 +179,14 @@ namespace taut
                                   const StepCheck &check, Certificate &certificate)
   {
     const MixedComplementaritySolution *solution = nullptr;
-    check.solve(
-        [&]
-        {
-          const ComplementarityResult &result = complementarity.solve(problem, schur->matrix());
-          certificate.iterations = result.iterations;
-          certificate.fallback = result.used_fallback;
-          solution = &result.solution;
-        });
+    const auto find = [&]
+    {
+      const ComplementarityResult &result = complementarity.solve(problem, schur->matrix());
+      certificate.iterations = result.iterations;
+      certificate.fallback = result.used_fallback;
+      solution = &result.solution;
+    };
+    check.solve(std::ref(find)); // a reference allocates nothing
     return *solution;
   }
 

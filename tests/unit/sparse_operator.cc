@@ -159,3 +159,45 @@ TEST(SparseOperator, tells_dependent_rows_inside_and_in_the_border)
   EXPECT_NEAR(x[2], .2, 1e-15);
   EXPECT_TRUE(F.solve({0, 1, 2, 3}, rhs, 1e-3, x));
 }
+
+TEST(SparseOperator, keeps_what_is_left_under_closed_rows_like_the_dense_one)
+{
+  Pair F;
+  std::vector<double> x, y, z;
+  const std::vector<std::size_t> wanted = {0, 7, 30, n - 2, n - 1};
+  for (const std::vector<std::size_t> &set :
+       {std::vector<std::size_t>{}, {1, 2, 8, 31, 40}, {3, 6, n - 3, n - 2}, {n - 1}})
+  {
+    F.sparse.condensed_diagonal(wanted, set, 1e-9, x);
+    F.dense.condensed_diagonal(wanted, set, 1e-9, y);
+    F.dense.ComplementarityOperator::condensed_diagonal(wanted, set, 1e-9, z);
+    EXPECT_EQ(y, z);
+    ASSERT_EQ(x.size(), n);
+    for (std::size_t i = 0; i < n; ++i)
+      EXPECT_NEAR(x[i], y[i], 1e-12) << i;
+  }
+}
+
+TEST(SparseOperator, takes_entries_in_other_places)
+{
+  // Fewer bands, the same again with other values, then more than ever before.
+  Pair F;
+  std::vector<std::size_t> set;
+  for (std::size_t i = 0; i < n; i += 1 + i % 3)
+    set.push_back(i);
+  for (const std::size_t width : {2, 2, 1, 6, 3})
+  {
+    taut::SymmetricEntries entries;
+    for (std::size_t i = 0; i < n - n_border; ++i)
+      for (std::size_t j = 0; j <= i; ++j)
+      {
+        const double value = i == j ? 15. : j + width < i ? 0. : F.number();
+        F.dense.set(i, j, value);
+        if (value != 0.)
+          entries.add(i, j, value);
+      }
+    F.sparse.set_interior(entries);
+    expect_same_products(F);
+    expect_same_solutions(F, set);
+  }
+}

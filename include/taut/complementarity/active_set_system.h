@@ -64,11 +64,17 @@ namespace taut
     double shift = 0.;
     std::vector<double> rhs, step;
 
+    /// The state before a correction, once the set is solved.
+    MixedComplementaritySolution before;
+    std::vector<double> terms_before;
+
     /// F_aa^-1 G_k^T for each null space vector, and G_a F_aa^-1 G_a^T + E, for the current set and
     /// shift if null_space_is_ready.
     bool null_space_is_ready = false;
     std::vector<std::vector<double>> null_space_responses;
     DenseOperator null_space_schur;
+    std::vector<std::size_t> all_vectors; ///< 0, 1, ... of the null space
+    std::vector<double> null_space_rhs, unbalance, amplitude;
   };
 } // namespace taut
 

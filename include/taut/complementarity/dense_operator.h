@@ -45,6 +45,11 @@ namespace taut
     bool solve(const std::vector<std::size_t> &set, const std::vector<double> &rhs, double shift,
                std::vector<double> &x) override;
 
+    /// Takes the columns from the entries.
+    void condensed_diagonal(const std::vector<std::size_t> &wanted,
+                            const std::vector<std::size_t> &set, double shift,
+                            std::vector<double> &result) override;
+
   private:
     std::size_t n = 0;
     std::vector<double> entries;    ///< n x n, row-major; only the lower triangle is used

@@ -44,6 +44,16 @@ namespace taut
                        double shift, std::vector<double> &x) = 0;
 
     /**
+     * F_ii - F_ia F_aa^-1 F_ai of the rows @p wanted with the ordered rows a of @p set, 0
+     * elsewhere: what row i moves under a unit multiplier while the rows of the set remain closed.
+     * Dependent rows of the set are solved with the @p shift. The default takes one product and one
+     * solve() for each wanted row.
+     */
+    virtual void condensed_diagonal(const std::vector<std::size_t> &wanted,
+                                    const std::vector<std::size_t> &set, double shift,
+                                    std::vector<double> &result);
+
+    /**
      * Solves
      *
      *     F_aa x_a + G_a^T alpha = rhs_a,    G_a x_a = load

@@ -28,8 +28,9 @@ namespace taut
     /// in @p f if given.
     void follow(const std::vector<double> &S, ComplementarityOperator &F, SchurComplement *f);
 
-    /// Sets f up with the compliances.
-    void setup(SchurComplement &f);
+    /// Sets f up with the compliances. With the masses of the call before, unless @p
+    /// masses_changed, its fixed rows stay.
+    void setup(SchurComplement &f, bool masses_changed);
 
     /// Updates f to the places of the sliding constraints.
     void update_moving(SchurComplement &f);
