@@ -272,7 +272,10 @@ namespace taut
   double Cable::strain_energy(const std::vector<double> &U) const
   {
     if (!is_linear())
-      return element.strain_energy(positions(U));
+    {
+      set_positions(U, work);
+      return element.strain_energy(work);
+    }
     if (!is_linearised())
       return Substructure::strain_energy(U);
     set_way(U);
@@ -291,11 +294,11 @@ namespace taut
     }
     if (is_linear())
       return Substructure::internal_force(U, V, f);
-    std::vector<double> velocity = V;
+    work_0 = V;
     if (!V.empty())
-      frames->turn(velocity);
+      frames->turn(work_0);
     set_positions(U, work);
-    element.internal_force(work, velocity, f);
+    element.internal_force(work, work_0, f);
     frames->turn(f);
   }
 
@@ -335,9 +338,9 @@ namespace taut
     if (is_linear())
       return Substructure::tangent(U, rate, definite);
     auto A = make_block_tridiagonal(CableElements::dofs_per_node, element.n_dofs());
-    const std::vector<double> q = positions(U);
-    element.add_tangent(q, definite, *A);
-    element.add_damping(q, rate, *A);
+    set_positions(U, work);
+    element.add_tangent(work, definite, *A);
+    element.add_damping(work, rate, *A);
     return frames->turn(std::move(A));
   }
 
@@ -348,12 +351,12 @@ namespace taut
     if (is_linear())
       return Substructure::mean_tangent(U0, U1, rate, definite);
     auto A = make_block_tridiagonal(CableElements::dofs_per_node, element.n_dofs());
-    const std::vector<double> q0 = positions(U0), q1 = positions(U1);
-    std::vector<double> q = q0;
-    for (std::size_t i = 0; i < q.size(); ++i)
-      q[i] = .5 * (q0[i] + q1[i]);
-    element.add_mean_tangent(q0, q1, definite, *A);
-    element.add_damping(q, rate, *A);
+    set_positions(U0, work_0);
+    set_positions(U1, work);
+    element.add_mean_tangent(work_0, work, definite, *A);
+    for (std::size_t i = 0; i < work.size(); ++i)
+      work[i] = .5 * (work_0[i] + work[i]);
+    element.add_damping(work, rate, *A);
     return frames->turn(std::move(A));
   }
 

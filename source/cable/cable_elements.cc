@@ -118,6 +118,8 @@ namespace taut
     const Shapes all = shapes(xi);
     const Shape &shape = slope ? all.slope : all.value;
     LinearForm result;
+    result.index.reserve(element_dofs);
+    result.value.reserve(element_dofs);
     for (unsigned int a = 0; a < 4; ++a)
       for (unsigned int c = 0; c < 3; ++c)
         if (const double value = shape[a] * direction[c]; value != 0.)

@@ -18,16 +18,14 @@ namespace taut
     mirrors[first_dof] = H;
   }
 
-  LinearForm EndFrames::turned(const unsigned int i) const
+  EndFrames::Turned EndFrames::turned(const unsigned int i) const
   {
-    LinearForm result;
     auto mirror = mirrors.upper_bound(i);
-    if (mirror != mirrors.begin() && i < (--mirror)->first + 3)
-      for (unsigned int r = 0; r < 3; ++r)
-        result.add(mirror->first + r, mirror->second[r][i - mirror->first]);
-    else
-      result.add(i, 1.);
-    return result;
+    if (mirror == mirrors.begin() || i >= (--mirror)->first + 3)
+      return {i, 1, {{1., 0., 0.}}};
+    const Mirror &H = mirror->second;
+    const unsigned int column = i - mirror->first;
+    return {mirror->first, 3, {{H[0][column], H[1][column], H[2][column]}}};
   }
 
   void EndFrames::turn(std::vector<double> &x) const
@@ -40,14 +38,21 @@ namespace taut
     }
   }
 
-  LinearForm EndFrames::turn(const LinearForm &form) const
+  LinearForm EndFrames::turn(LinearForm form) const
   {
+    if (empty())
+      return form;
+    std::size_t n = 0;
+    for (const unsigned int i : form.index)
+      n += turned(i).n;
     LinearForm result;
+    result.index.reserve(n);
+    result.value.reserve(n);
     for (std::size_t k = 0; k < form.index.size(); ++k)
     {
-      const LinearForm part = turned(form.index[k]);
-      for (std::size_t l = 0; l < part.index.size(); ++l)
-        result.add(part.index[l], form.value[k] * part.value[l]);
+      const Turned part = turned(form.index[k]);
+      for (unsigned int l = 0; l < part.n; ++l)
+        result.add(part.first + l, form.value[k] * part.value[l]);
     }
     return result;
   }
@@ -59,11 +64,11 @@ namespace taut
     auto B = make_block_tridiagonal(A->block_size(), A->size());
     const auto add = [&](const unsigned int i, const unsigned int j, const double value)
     {
-      const LinearForm rows = turned(i), columns = turned(j);
-      for (std::size_t k = 0; k < rows.index.size(); ++k)
-        for (std::size_t l = 0; l < columns.index.size(); ++l)
-          if (columns.index[l] <= rows.index[k])
-            B->add(rows.index[k], columns.index[l], value * rows.value[k] * columns.value[l]);
+      const Turned rows = turned(i), columns = turned(j);
+      for (unsigned int k = 0; k < rows.n; ++k)
+        for (unsigned int l = 0; l < columns.n; ++l)
+          if (columns.first + l <= rows.first + k)
+            B->add(rows.first + k, columns.first + l, value * rows.value[k] * columns.value[l]);
     };
     A->visit(
         [&](const unsigned int i, const unsigned int j, const double value)

@@ -29,14 +29,19 @@ namespace taut
 
     /// Transforms from x, y, z to these axes, or back.
     void turn(std::vector<double> &x) const;
-    LinearForm turn(const LinearForm &form) const;
+    LinearForm turn(LinearForm form) const;
     std::unique_ptr<SymmetricMatrix> turn(std::unique_ptr<SymmetricMatrix> A) const;
 
   private:
     using Mirror = std::array<std::array<double, 3>, 3>;
 
-    /// A unit vector of DoF i in the other axes.
-    LinearForm turned(unsigned int i) const;
+    /// A unit vector of a DoF in the other axes: n entries from DoF first on.
+    struct Turned
+    {
+      unsigned int first, n;
+      std::array<double, 3> value;
+    };
+    Turned turned(unsigned int i) const;
 
     std::map<unsigned int, Mirror> mirrors; ///< by the first DoF
   };

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "total_displacement.h"
+
 #include <taut/base/archive.h>
 #include <taut/base/dot.h>
 #include <taut/output/energy.h>
@@ -68,7 +70,8 @@ namespace taut
   void Energy::set_forces(const StepView &step)
   {
     const State &state = step.state;
-    std::vector<double> in_balance = state.multiplier, impulsive(step.constraints.size(), 0.);
+    in_balance = state.multiplier;
+    impulsive.assign(step.constraints.size(), 0.);
     for (std::size_t i = 0; i < step.constraints.size(); ++i)
       if (is_mean(step, i))
         std::swap(in_balance[i], impulsive[i]);
@@ -92,7 +95,6 @@ namespace taut
     if (reference_energy.empty())
       for (std::size_t k = 0; k < step.structure.size(); ++k)
         reference_energy.push_back(step.structure[k].strain_energy(step.reference.displacement[k]));
-    std::vector<double> product;
     for (std::size_t k = 0; k < step.structure.size(); ++k)
     {
       const Substructure &body = step.structure[k];
@@ -100,7 +102,7 @@ namespace taut
       product.assign(n, 0.);
       body.mass().vmult_add(1., state.V[k].data(), product.data());
       share.kinetic += .5 * dot(product, state.V[k]);
-      const std::vector<double> U = displacement(step.reference, state, k);
+      set_total_displacement(step, k, U);
       if (body.is_linear())
       {
         share.strain += reference_energy[k];
@@ -110,26 +112,24 @@ namespace taut
       else
         share.strain += body.strain_energy(U);
       if (!P0.empty())
-        add_work(step, k, U, share);
+        add_work(step, k, share);
     }
   }
 
   /// Adds energies given to a body of this rank and taken from it in the last step.
-  void Energy::add_work(const StepView &step, const std::size_t k, const std::vector<double> &U,
-                        Balance &share) const
+  void Energy::add_work(const StepView &step, const std::size_t k, Balance &share)
   {
     const State &state = step.state;
     const StepCoefficients &c = step.scheme;
     const Substructure &body = step.structure[k];
     const std::size_t n = body.n_dofs();
-    std::vector<double> product, a;
-    a.assign(n, 0.);
+    a.resize(n);
     for (std::size_t i = 0; i < n; ++i)
       a[i] = (1. - c.alpha_m) * state.A[k][i] + c.alpha_m * A0[k][i];
     product.assign(n, 0.);
     body.mass().vmult_add(1., a.data(), product.data());
     const std::vector<double> &dU = state.dU[k];
-    std::vector<double> damping = CV[k];
+    damping = CV[k];
     if (c.velocity_projection)
     {
       // The equation of motion holds for the velocities before their projection.
@@ -141,7 +141,7 @@ namespace taut
     if (!body.is_linear())
     {
       // Dissipation of the material.
-      std::vector<double> before = U, f;
+      before = U;
       for (std::size_t i = 0; i < n; ++i)
         before[i] -= dU[i];
       body.mean_internal_force(before, U, state.last_step, f);
@@ -227,9 +227,10 @@ namespace taut
     N0 = state.multiplier;
     gap0 = state.gap;
     springs0 = state.link_springs;
-    terms0.clear();
-    for (const std::size_t i : step.constraints.varying_rows())
-      terms0.push_back(step.constraints[i].terms);
+    const Constraints::Rows varying = step.constraints.varying_rows();
+    terms0.resize(varying.size());
+    for (std::size_t k = 0; k < terms0.size(); ++k)
+      terms0[k] = step.constraints[varying[k]].terms;
   }
 
   void Energy::record(const StepView &step)

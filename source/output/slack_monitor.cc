@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "total_displacement.h"
+
 #include <taut/base/archive.h>
 #include <taut/output/slack_monitor.h>
 #include <taut/substructure/slender_body.h>
@@ -26,8 +28,8 @@ namespace taut
     const auto is_slack = [&](const std::size_t k)
     {
       SlenderBody::Slack slack;
-      if (!dynamic_cast<const SlenderBody &>(structure[k])
-               .is_slack(displacement(step.reference, step.state, k), slack))
+      set_total_displacement(step, k, U);
+      if (!dynamic_cast<const SlenderBody &>(structure[k]).is_slack(U, slack))
         return false;
       double *const found = own.data() + n_entries * structure.number(k);
       found[is_found] = 1.;

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "compiled_formula.h"
+
 #include <taut/base/exceptions.h>
 #include <taut/base/text.h>
 #include <taut/scene/expression.h>
 
-#include <deal.II/base/function_parser.h>
-#include <deal.II/base/numbers.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <iostream>
+#include <iomanip>
 #include <regex>
 #include <sstream>
 
@@ -17,33 +16,6 @@ namespace taut
 {
   namespace
   {
-    /// The parser of deal.II writes the error to std::cerr only: "Message: <...>".
-    class CaughtErrorOutput
-    {
-    public:
-      CaughtErrorOutput() : before(std::cerr.rdbuf(text.rdbuf())) {}
-      ~CaughtErrorOutput() { std::cerr.rdbuf(before); }
-      CaughtErrorOutput(const CaughtErrorOutput &) = delete;
-      CaughtErrorOutput &operator=(const CaughtErrorOutput &) = delete;
-
-      std::string reason() const
-      {
-        const std::string mark = "Message:  <", all = text.str();
-        const std::size_t begin = all.find(mark);
-        if (begin == std::string::npos)
-          return "it is not one formula";
-        std::string line = all.substr(begin + mark.size());
-        line.erase(std::min(line.find('\n'), line.size()));
-        while (!line.empty() && (line.back() == '>' || line.back() == '.'))
-          line.pop_back();
-        return line;
-      }
-
-    private:
-      std::ostringstream text;
-      std::streambuf *before;
-    };
-
     bool mentions(const std::string &formula, const std::string &word)
     {
       return std::regex_search(formula, std::regex("\\b" + word + "\\b"));
@@ -88,40 +60,6 @@ namespace taut
     }
   } // namespace
 
-  struct Expression::Parser
-  {
-    virtual ~Parser() = default;
-    virtual double value(const Coordinates &x, double t) = 0;
-  };
-
-  namespace
-  {
-    /// A formula of dim coordinates and the time; deal.II keeps the time as a state of the
-    /// function.
-    template <int dim>
-    class ParserOf : public Expression::Parser
-    {
-    public:
-      ParserOf(const std::string &variables, const std::string &text)
-      {
-        function.initialize(variables, text, {{"pi", dealii::numbers::PI}}, true);
-        // The formula is compiled at the first evaluation. This one reports a mistake at its entry.
-        value({}, 0.);
-      }
-      double value(const Coordinates &x, const double t) override
-      {
-        dealii::Point<dim> point;
-        for (unsigned int d = 0; d < dim; ++d)
-          point[d] = x[d];
-        function.set_time(t);
-        return function.value(point);
-      }
-
-    private:
-      dealii::FunctionParser<dim> function;
-    };
-  } // namespace
-
   Expression::Expression() = default;
 
   Expression::Expression(const double value) : constant(value)
@@ -150,53 +88,47 @@ namespace taut
     const std::string wrong = objection(text, variables);
     if (!wrong.empty())
       throw bad(wrong);
-    if (variables == Variables::elongation)
-      of_one_number = "d";
-    const CaughtErrorOutput said;
+    names = variables == Variables::space        ? std::vector<std::string>{"x", "y", "z", "t"}
+            : variables == Variables::elongation ? std::vector<std::string>{"d", "t"}
+                                                 : std::vector<std::string>{"s", "t"};
     try
     {
-      if (variables == Variables::space)
-        parser = std::make_shared<ParserOf<3>>("x,y,z,t", text);
-      else
-        parser = std::make_shared<ParserOf<1>>(of_one_number + ",t", text);
-    }
-    catch (const dealii::ExceptionBase &)
-    {
-      throw bad(said.reason());
+      compiled = std::make_shared<CompiledFormula>(text, names);
     }
     catch (const std::exception &e)
     {
       throw bad(e.what());
     }
     time_dependent = mentions(text, "t");
+    constant = (*compiled)({});
+    varies = !std::isfinite(constant) || // an error when it is evaluated
+             std::any_of(names.begin(), names.end(),
+                         [&](const std::string &name) { return mentions(text, name); });
   }
 
-  double Expression::operator()(const double s, const double t) const
+  double Expression::evaluate(const Coordinates &x, const double t) const
   {
-    return evaluate({s, 0., 0.}, t, of_one_number);
-  }
-
-  double Expression::operator()(const Coordinates &x, const double t) const
-  {
-    return evaluate(x, t, "x, y, z");
-  }
-
-  double Expression::evaluate(const Coordinates &x, const double t,
-                              const std::string &variables) const
-  {
-    if (!parser)
-      return constant;
-    const double value = parser->value(x, t);
+    // A formula in s or d takes the first coordinate.
+    const CompiledFormula::Values values = names.size() == 2
+                                               ? CompiledFormula::Values{x.x, t}
+                                               : CompiledFormula::Values{x.x, x.y, x.z, t};
+    const double value = (*compiled)(values);
     if (!std::isfinite(value))
-    {
-      std::ostringstream out;
-      out << "'" << text << "' is not finite at " << variables << " = " << x.x;
-      if (variables != of_one_number)
-        out << ", " << x.y << ", " << x.z;
-      out << " m, t = " << t
-          << " s. Restrict the formula to where it is defined, e.g. with if(condition, a, b).";
-      throw EntryError(entry, out.str());
-    }
+      fail(values);
     return value;
+  }
+
+  void Expression::fail(const std::array<double, 4> &values) const
+  {
+    std::ostringstream out;
+    out << "'" << text << "' is not finite at ";
+    const std::size_t n = names.size() - 1;
+    for (std::size_t i = 0; i < n; ++i)
+      out << names[i] << (i + 1 < n ? ", " : " = ");
+    for (std::size_t i = 0; i < n; ++i)
+      out << values[i] << (i + 1 < n ? ", " : " m, t = ");
+    out << values[n]
+        << " s. Restrict the formula to where it is defined, e.g. with if(condition, a, b).";
+    throw EntryError(entry, out.str());
   }
 } // namespace taut

@@ -78,7 +78,6 @@ namespace taut
       const double s = load.target.position + load.speed * t;
       if (s < 0. || s > wire.wire_length || !wire.owns(s))
         return;
-      LinearForm shape;
       if (load.rotational)
         wire.slope_at(s, shape);
       else
@@ -90,6 +89,7 @@ namespace taut
     const WireComponent &wire;
     Load load;
     double factor;
+    mutable LinearForm shape; ///< kept for its memory
   };
 
   void WireComponent::add_loads(const Scene &scene, const std::size_t wire, const double gravity)

@@ -36,8 +36,11 @@ namespace taut
     const auto e = std::min<std::ptrdiff_t>(std::max<std::ptrdiff_t>(after - nodes.begin() - 1, 0),
                                             nodes.size() - 2);
     const double h = nodes[e + 1] - nodes[e], xi = (s - nodes[e]) / h;
+    const std::size_t n_entries = beam ? 4 : degree + 1;
     result.index.clear();
     result.value.clear();
+    result.index.reserve(n_entries);
+    result.value.reserve(n_entries);
     if (beam)
     {
       const HermiteShape shape = hermite_shape(h, xi);

@@ -17,6 +17,7 @@ arguments = parse(__doc__, "program", "mpiexec", "prm")
 VOLATILE = re.compile(r"real time|Results in|residual|Certificate|^\s*\d+ %|with output|without output")
 SHORT = {  # what makes a long scene short
     "bouncing_bar": ["Time/End=1.3"],
+    "real_line": ["Time/End=0.02"],
 }
 
 

@@ -60,8 +60,7 @@ namespace taut
 
     void begin_balance(const StepView &start);
     void add_bodies(const StepView &step, Balance &share);
-    void add_work(const StepView &step, std::size_t k, const std::vector<double> &U,
-                  Balance &share) const;
+    void add_work(const StepView &step, std::size_t k, Balance &share);
     void add_moving_rows(const StepView &step, Balance &share) const;
     void add_rows(const StepView &step);
     void keep(const StepView &step);
@@ -79,6 +78,10 @@ namespace taut
     std::vector<double> N0, gap0;
     std::vector<State::LinkSpring> springs0;
     std::vector<std::vector<Term>> terms0; ///< of varying constraints
+
+    /// Of one call, kept for their memory: forces of constraints; of one body its displacement U
+    /// after the step and before it, an acceleration or velocity, products and forces.
+    std::vector<double> in_balance, impulsive, U, before, a, product, damping, f;
   };
 } // namespace taut
 

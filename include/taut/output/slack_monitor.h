@@ -40,6 +40,7 @@ namespace taut
     std::vector<Structure::Body> bodies;
     std::vector<double> own; ///< data from this rank, zero for other bodies; n_entries each
     std::vector<std::size_t> watched; ///< bodies here that have not been slack so far
+    std::vector<double> U;            ///< of one body, kept for its memory
     bool is_new = true;
   };
 } // namespace taut

@@ -4,15 +4,20 @@
 
 #include <taut/base/coordinates.h>
 
+#include <array>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace taut
 {
+  class CompiledFormula;
+
   /**
    * A scalar function of the position s [m] along a wire, of a point x, y, z [m], or of an
    * elongation d [m], and of the time t [s], written as a formula in the syntax of deal.II's
-   * FunctionParser; pi is known. Copies share the parsed formula.
+   * FunctionParser; pi is known. The formula is compiled once, and copies share it. An evaluation
+   * allocates nothing; any thread may evaluate.
    */
   class Expression
   {
@@ -39,33 +44,39 @@ namespace taut
     explicit Expression(double constant);
 
     /// Value at s [m], t [s]. A value that is not finite is a UserError that names entry, s and t.
-    double operator()(double s, double t) const;
+    double operator()(const double s, const double t) const
+    {
+      return varies ? evaluate({s, 0., 0.}, t) : constant;
+    }
 
     /// Value at the point x [m], of a formula in space.
-    double operator()(const Coordinates &x, double t) const;
+    double operator()(const Coordinates &x, const double t) const
+    {
+      return varies ? evaluate(x, t) : constant;
+    }
 
     const std::string &formula() const { return text; }
 
     /// The value of a constant; 0 for other formulas.
-    double constant_part() const { return parser ? 0. : constant; }
+    double constant_part() const { return compiled ? 0. : constant; }
 
     /// True for a formula that is a number equal to zero.
-    bool is_zero() const { return !parser && constant == 0.; }
+    bool is_zero() const { return !compiled && constant == 0.; }
 
     /// True if the formula mentions t.
     bool depends_on_time() const { return time_dependent; }
 
-    struct Parser;
-
   private:
-    double evaluate(const Coordinates &x, double t, const std::string &variables) const;
+    double evaluate(const Coordinates &x, double t) const;
+    [[noreturn]] void fail(const std::array<double, 4> &values) const;
 
-    std::shared_ptr<Parser> parser;
+    std::shared_ptr<CompiledFormula> compiled; ///< null for a number
+    std::vector<std::string> names;            ///< of its variables, the last is t
     std::string text = "0";
     std::string entry;
-    double constant = 0.;
+    double constant = 0.; ///< value of a number, and of a formula without variables
+    bool varies = false;
     bool time_dependent = false;
-    std::string of_one_number = "s";
   };
 } // namespace taut
 

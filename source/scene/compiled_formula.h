@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_compiled_formula_h
+#define taut_compiled_formula_h
+
+#include <array>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace taut
+{
+  /// The reason why a text is no formula.
+  class FormulaError : public std::runtime_error
+  {
+  public:
+    using std::runtime_error::runtime_error;
+  };
+
+  /**
+   * A formula in the syntax of deal.II's FunctionParser, compiled once by muParser with its
+   * constants folded. Use it where a formula is evaluated in each step: an evaluation allocates
+   * nothing, and takes no lock on the thread that made the formula. Other threads compile the
+   * formula once more each, and wait for one another.
+   */
+  class CompiledFormula
+  {
+  public:
+    static constexpr std::size_t most_variables = 4;
+    using Values = std::array<double, most_variables>;
+
+    /// @p variables are the names of the first values. Throws FormulaError.
+    CompiledFormula(const std::string &text, const std::vector<std::string> &variables);
+    ~CompiledFormula();
+
+    /// Value of the formula; not finite where it is not defined.
+    double operator()(const Values &values);
+
+  private:
+    class Program;
+
+    double on_another_thread(const Values &values);
+
+    const std::string text;
+    const std::vector<std::string> variables;
+    const std::thread::id owner;
+    std::unique_ptr<Program> program; ///< of the owner
+    std::mutex mutex;                 ///< of the other threads
+    std::map<std::thread::id, std::unique_ptr<Program>> others;
+  };
+} // namespace taut
+
+#endif

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_allocations_counted_run_h
+#define taut_allocations_counted_run_h
+
+#include "allocation_hook.h"
+
+#include <string>
+#include <vector>
+
+namespace allocations
+{
+  /// Steps before those that are counted, and steps that are counted, at most.
+  struct Steps
+  {
+    long warm_up = 50;
+    long counted = 100;
+  };
+
+  /// What the counted steps of a scene allocate, with their observers but without tables, fields
+  /// and checkpoints.
+  struct CountedRun
+  {
+    std::vector<long> by_step;
+    std::vector<Site> sites; ///< if a number of callers is given
+    std::string ending;      ///< empty, or the error that ended the run
+
+    long total() const;
+    long largest() const;
+    long n_without() const; ///< steps without allocations
+  };
+
+  /// Names of the scenes of prm/ that move.
+  std::vector<std::string> moving_scenes();
+
+  /// Runs a scene of prm/ up to the last counted step. A short scene has a third of its steps as
+  /// warm-up. With @p n_callers the sites are told apart by so many functions.
+  CountedRun run_counted(const std::string &scene, const Steps &steps, std::size_t n_callers = 0,
+                         const std::vector<std::string> &overrides = {});
+} // namespace allocations
+
+#endif
