@@ -60,8 +60,7 @@ TEST(CableConditions, tension_of_a_linearised_cable_is_linear)
     data.geometry = taut::CableGeometry::linearised;
     data.element = element;
     const auto nonlinear = std::make_shared<Cable>(data);
-    const auto linear =
-        nonlinear->linearised(std::vector<double>(nonlinear->n_dofs(), 0.));
+    const auto linear = nonlinear->linearised(std::vector<double>(nonlinear->n_dofs(), 0.));
     const auto &cable = dynamic_cast<const Cable &>(*linear);
     const auto moved = [&](const Coordinates &slope)
     {
