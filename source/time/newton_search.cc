@@ -51,13 +51,6 @@ namespace taut
                              "'Mass matrix' that is not 'reduced'");
   }
 
-  void NewtonSearch::attach(StepEquations &equations) const
-  {
-    if (!nonlinear.indices().empty())
-      equations.set_nonlinear(nonlinear.indices(), [this](const std::size_t k, const int attempt)
-                              { return nonlinear.tangent(k, attempt); });
-  }
-
   void NewtonSearch::prepare(const StepCoefficients &coefficients, const double step,
                              const State &state)
   {

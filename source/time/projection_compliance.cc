@@ -12,6 +12,10 @@ namespace taut
   {
     /// Part of F_ii above which S fades the projection of elastic constraints out.
     constexpr double fading = .3;
+
+    /// Most coefficients whose flexibilities are kept: more than there are lengths of adaptive
+    /// steps.
+    constexpr std::size_t most_known = 16;
   } // namespace
 
   ProjectionCompliance::ProjectionCompliance(const Constraints &constraints)
@@ -21,10 +25,12 @@ namespace taut
       v->assign(constraints.size(), 0.);
   }
 
-  void ProjectionCompliance::prepare(const double weight, const std::vector<double> &S,
-                                     ComplementarityOperator &F)
+  void ProjectionCompliance::prepare(const StepCoefficients &c, const std::vector<double> &S,
+                                     ComplementarityOperator &F, const bool is_linear)
   {
-    theta = weight;
+    theta = 1. - c.alpha_f;
+    if (!is_linear || known.size() == most_known)
+      known.clear();
     elastic.clear();
     moving_elastic.clear();
     for (std::size_t i = 0; i < constraints.size(); ++i)
@@ -35,7 +41,15 @@ namespace taut
         if (constraints.slides(i))
           moving_elastic.push_back(i);
       }
-    find_flexibilities(elastic, S, F);
+    const auto before =
+        std::find_if(known.begin(), known.end(), [&](const Known &one) { return one.c == c; });
+    if (before != known.end())
+      flexibility = before->flexibility;
+    else
+    {
+      find_flexibilities(elastic, S, F);
+      known.push_back({c, flexibility});
+    }
     set_relative(S);
   }
 
@@ -100,7 +114,10 @@ namespace taut
   {
     std::fill(softening.begin(), softening.end(), 0.);
     if (masses_changed)
+    {
       f.setup(softening);
+      std::fill(of_mass.begin(), of_mass.end(), 0.);
+    }
     else
     {
       f.set_compliance(softening);
@@ -110,7 +127,7 @@ namespace taut
       return;
     std::vector<std::size_t> softened;
     for (std::size_t i = 0; i < constraints.size(); ++i)
-      if (relative[i] > 0.)
+      if (relative[i] > 0. && (constraints.slides(i) || of_mass[i] == 0.))
         softened.push_back(i);
     find_mass_flexibilities(softened, f);
     set(f);

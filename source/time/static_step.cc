@@ -75,10 +75,6 @@ namespace taut
         step(structure, constraints, parameters, undeformed, nonlinear, none, state)
   {
     nonlinear.begin(state, StepCoefficients(), 0.);
-    if (!nonlinear.indices().empty())
-      step.equations().set_nonlinear(nonlinear.indices(),
-                                     [this](const std::size_t k, const int attempt)
-                                     { return nonlinear.tangent(k, attempt); });
     step.prepare(StepCoefficients(), 0.);
     step.conditions().gaps().count_motions(U);
   }

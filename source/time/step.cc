@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/time/step.h>
 
+#include <algorithm>
+
 namespace taut
 {
   namespace
@@ -8,42 +10,89 @@ namespace taut
     /// Balance above which a step is refined, and most repetitions: normal steps are below 1e-11.
     constexpr double refined_balance = 1e-10;
     constexpr int most_refinements = 3;
+
+    /// Most coefficients whose factors are kept, and most DoFs of all of them together: a step that
+    /// is halved and doubled again goes between two to four lengths. Factors of solids take some kB
+    /// a DoF.
+    constexpr std::size_t most_coefficients = 8, most_kept_dofs = 50000;
   } // namespace
 
   Step::Step(const Structure &structure, const Constraints &constraints,
              const SolverParameters &parameters, const Reference &reference,
              const NonlinearBodies &bodies, const TurningConstraints &turning, const State &start)
-      : structure(structure), constraints(constraints), parameters(parameters),
-        own_equations(std::make_unique<StepEquations>(structure, constraints, parameters)),
-        own_conditions(structure, constraints, turning, reference, start),
+      : structure(structure), constraints(constraints), parameters(parameters), bodies(bodies),
+        turning(turning), own_conditions(structure, constraints, turning, reference, start),
         own_history(structure, reference), own_balance(structure, constraints, reference, bodies),
         own_check(structure, constraints, parameters.contact_tolerance)
   {
     structure.communicator().agree([&] { own_history.set_external_forces(start.time); });
+    kept.push_back(make_equations());
+  }
+
+  Step::Kept Step::make_equations() const
+  {
+    Kept result{{}, std::make_unique<StepEquations>(structure, constraints, parameters)};
+    if (!bodies.indices().empty())
+      result.equations->set_nonlinear(bodies.indices(),
+                                      [this](const std::size_t k, const int attempt)
+                                      { return bodies.tangent(k, attempt); });
+    return result;
+  }
+
+  /// Tangents and directions belong to a state, and are not kept.
+  std::size_t Step::most_kept() const
+  {
+    const Communicator &processes = structure.communicator();
+    if (!turning.empty() || processes.any(!bodies.indices().empty()))
+      return 1;
+    const double n_dofs = processes.max(static_cast<double>(structure.n_dofs()));
+    return std::clamp<std::size_t>(most_kept_dofs / std::max(1., n_dofs), 1, most_coefficients);
   }
 
   void Step::prepare(const StepCoefficients &coefficients, const double length)
   {
     c = coefficients;
     own_conditions.prepare(c, length);
-    own_equations->prepare(c, own_conditions.springs().compliance());
+    const std::vector<double> &S = own_conditions.springs().compliance();
+    const auto is_for = [&](const Kept &one) { return one.is_prepared && one.c == c; };
+    const std::size_t most = most_kept();
+    auto found = most > 1 ? std::find_if(kept.begin(), kept.end(), is_for) : kept.end();
+    const bool is_known = found != kept.end(), goes_on = most > 1 && kept.front().is_prepared;
+    if (!is_known && goes_on && kept.size() < most)
+      found = kept.insert(kept.end(), make_equations());
+    else if (!is_known)
+      found = kept.end() - 1;
+    std::rotate(kept.begin(), found, found + 1);
+    if (is_known)
+      equations().set_compliance(S);
+    else
+    {
+      kept.front().is_prepared = false;
+      equations().prepare(c, S);
+      kept.front() = {c, std::move(kept.front().equations), true};
+    }
+    if (goes_on)
+      equations().start_from(own_conditions.applied().closed);
   }
 
   void Step::reset()
   {
     earlier = interface_statistics();
-    own_equations = std::make_unique<StepEquations>(structure, constraints, parameters);
+    kept.clear();
+    kept.push_back(make_equations());
   }
 
   InterfaceStatistics Step::interface_statistics() const
   {
     InterfaceStatistics result = earlier;
-    return result += own_equations->interface().statistics();
+    for (const Kept &one : kept)
+      result += one.equations->interface().statistics();
+    return result;
   }
 
   void Step::set_loads(State &before)
   {
-    structure.communicator().agree([&] { own_history.set_loads(c, *own_equations, before); });
+    structure.communicator().agree([&] { own_history.set_loads(c, equations(), before); });
     const std::vector<double> &old = own_conditions.forces_at_previous_place(before);
     if (!old.empty())
       constraints.add_forces(old, own_history.loads());
@@ -51,17 +100,16 @@ namespace taut
 
   void Step::find_increments(State &state, Certificate &certificate)
   {
-    own_conditions.set_problem(state, *own_equations, own_history.loads(), own_history.lift());
-    if (constraints.size() > 0 || own_equations->has_modes())
+    own_conditions.set_problem(state, equations(), own_history.loads(), own_history.lift());
+    if (constraints.size() > 0 || equations().has_modes())
     {
       const Certificate before = certificate;
-      own_conditions.find_multipliers(*own_equations, own_check, certificate, state);
+      own_conditions.find_multipliers(equations(), own_check, certificate, state);
       certificate.iterations += before.iterations;
       certificate.fallback = certificate.fallback || before.fallback;
     }
-    own_equations->find_increments(own_conditions.applied().multiplier,
-                                   own_conditions.applied().mode_amplitude,
-                                   own_history.increments());
+    equations().find_increments(own_conditions.applied().multiplier,
+                                own_conditions.applied().mode_amplitude, own_history.increments());
   }
 
   void Step::accept(State &state)
@@ -100,11 +148,11 @@ namespace taut
 
   bool Step::correct(State &state, const BodyVectors &on_modes)
   {
-    if (!own_conditions.correct(state, *own_equations, own_history.loads(), on_modes))
+    if (!own_conditions.correct(state, equations(), own_history.loads(), on_modes))
       return false;
-    own_equations->find_increments(own_conditions.corrections().multiplier,
-                                   own_conditions.corrections().mode_amplitude,
-                                   own_history.increments());
+    equations().find_increments(own_conditions.corrections().multiplier,
+                                own_conditions.corrections().mode_amplitude,
+                                own_history.increments());
     own_history.add_correction(c, state);
     own_conditions.add_correction(own_history.increments(), state);
     return true;
@@ -118,7 +166,7 @@ namespace taut
     if (c.mean_force || c.is_at_rest() ||
         structure.communicator().any(!own_balance.is_cancellation()))
       return false;
-    own_history.set_lacking(c, *own_equations, state);
+    own_history.set_lacking(c, equations(), state);
     return correct(state, own_history.loads());
   }
 
@@ -130,7 +178,7 @@ namespace taut
       measure_balance(state, certificate);
     certificate.worst_body = own_balance.worst_body();
     certificate.complementarity =
-        own_conditions.residual(state, *own_equations, certificate.worst_constraint);
+        own_conditions.residual(state, equations(), certificate.worst_constraint);
     certificate.drift = own_conditions.drift(state);
     own_check.check_constraints(certificate);
     own_check.check_balance(certificate, own_balance.residual());

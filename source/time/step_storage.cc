@@ -39,7 +39,6 @@ namespace taut
   void TimeStepper::reset_caches(const std::vector<double> &largest_rates)
   {
     step.reset();
-    newton.attach(step.equations());
     projection.reset();
     prepare(coefficients);
     if (projection && !largest_rates.empty())

@@ -28,7 +28,6 @@ namespace taut
   {
     newton.follow(current);
     energy_gains.start(current);
-    newton.attach(step.equations());
     prepare(clock.coefficients(0.));
     if (integrator.coefficients(length).starts_itself())
     {
@@ -77,7 +76,7 @@ namespace taut
         projection = std::make_unique<VelocityProjection>(structure, constraints, parameters,
                                                           reference_state);
       projection->prepare(c, clock.step(), step.conditions().springs().compliance(),
-                          step.equations().interface().matrix());
+                          step.equations().interface().matrix(), is_linear());
     }
     coefficients = c;
   }

@@ -47,11 +47,12 @@ namespace taut
   }
 
   void VelocityProjection::prepare(const StepCoefficients &coefficients, const double tau,
-                                   const std::vector<double> &S, ComplementarityOperator &F)
+                                   const std::vector<double> &S, ComplementarityOperator &F,
+                                   const bool is_linear)
   {
     c = coefficients;
     step = tau;
-    softening.prepare(1. - c.alpha_f, S, F);
+    softening.prepare(c, S, F, is_linear);
     if (masses.is_set_up())
       masses.setup(softening);
   }

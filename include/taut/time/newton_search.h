@@ -23,9 +23,6 @@ namespace taut
     /// search for.
     bool is_linear() const { return bodies_are_linear && turning.empty(); }
 
-    /// Gives the equations the tangents of the bodies.
-    void attach(StepEquations &equations) const;
-
     /// For steps of length @p step [s] with these coefficients, from @p state on. Throws EntryError
     /// for a scheme that does not suit constraints that turn.
     void prepare(const StepCoefficients &c, double step, const State &state);

@@ -3,6 +3,7 @@
 #define taut_projection_compliance_h
 
 #include <taut/interface/schur_complement.h>
+#include <taut/time/integrator.h>
 
 #include <vector>
 
@@ -20,9 +21,10 @@ namespace taut
     /// The argument is kept by reference.
     explicit ProjectionCompliance(const Constraints &constraints);
 
-    /// For steps with weight @p theta of forces in the balance. @p S are the compliances of the
-    /// springs in a step, which @p F has on its diagonal.
-    void prepare(double theta, const std::vector<double> &S, ComplementarityOperator &F);
+    /// For steps with these coefficients. @p S are the compliances of the springs in a step, which
+    /// @p F has on its diagonal. @p is_linear: F is the same whenever these coefficients return.
+    void prepare(const StepCoefficients &c, const std::vector<double> &S,
+                 ComplementarityOperator &F, bool is_linear);
 
     /// Before a projection: updates springs with laws and sliding constraints, and the compliances
     /// in @p f if given.
@@ -49,7 +51,15 @@ namespace taut
     void set(SchurComplement &f);
 
     const Constraints &constraints;
-    double theta = 1.;
+    double theta = 1.; ///< weight of forces in the balance
+
+    /// F_ii of constraints that do not slide, for coefficients of an earlier call.
+    struct Known
+    {
+      StepCoefficients c;
+      std::vector<double> flexibility;
+    };
+    std::vector<Known> known;
     std::vector<std::size_t> elastic, moving_elastic; ///< unilateral constraints
     bool has_laws = false;
     std::vector<double> flexibility, of_mass; ///< F_ii and f_ii of elastic constraints

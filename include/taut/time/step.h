@@ -10,6 +10,7 @@
 #include <taut/time/step_history.h>
 
 #include <memory>
+#include <vector>
 
 namespace taut
 {
@@ -35,7 +36,8 @@ namespace taut
          const SolverParameters &parameters, const Reference &reference,
          const NonlinearBodies &bodies, const TurningConstraints &turning, const State &start);
 
-    /// For steps with these coefficients and this length [s]: factors A, and sets F up.
+    /// For steps with these coefficients and this length [s]: factors A, and sets F up. A linear
+    /// system keeps both for the coefficients of the last calls, see most_kept() in the source.
     void prepare(const StepCoefficients &c, double length);
 
     /// Discards factors, F and searches; prepare() makes them anew.
@@ -66,8 +68,8 @@ namespace taut
     /// Throws UserError if the certificate exceeds the contact tolerance.
     void certify(State &state, Certificate &certificate);
 
-    StepEquations &equations() { return *own_equations; }
-    const StepEquations &equations() const { return *own_equations; }
+    StepEquations &equations() { return *kept.front().equations; }
+    const StepEquations &equations() const { return *kept.front().equations; }
     ContactConditions &conditions() { return own_conditions; }
     const ContactConditions &conditions() const { return own_conditions; }
     StepHistory &history() { return own_history; }
@@ -78,14 +80,26 @@ namespace taut
     InterfaceStatistics interface_statistics() const;
 
   private:
+    /// Equations with the coefficients that they are prepared for.
+    struct Kept
+    {
+      StepCoefficients c;
+      std::unique_ptr<StepEquations> equations;
+      bool is_prepared = false;
+    };
+
+    Kept make_equations() const;
+    std::size_t most_kept() const;
     void measure(State &state, Certificate &certificate, const BalanceCertificate::SetRows &rows);
     bool refine(State &state);
 
     const Structure &structure;
     const Constraints &constraints;
     const SolverParameters &parameters;
+    const NonlinearBodies &bodies;
+    const TurningConstraints &turning;
     StepCoefficients c;
-    std::unique_ptr<StepEquations> own_equations;
+    std::vector<Kept> kept;      ///< the last ones first
     InterfaceStatistics earlier; ///< statistics of equations before reset()
     ContactConditions own_conditions;
     StepHistory own_history;

@@ -52,6 +52,9 @@ namespace taut
     /// Sets other compliances, which change only the diagonal of F.
     void set_compliance(const std::vector<double> &S);
 
+    /// Starts the next search for multipliers from these closed rows.
+    void start_from(const std::vector<char> &closed) { complementarity.start_from(closed); }
+
     const FactoredStructure &bodies() const { return solvers; }
     SchurComplement &interface() { return *schur; }
     const SchurComplement &interface() const { return *schur; }

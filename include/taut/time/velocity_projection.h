@@ -37,9 +37,10 @@ namespace taut
     VelocityProjection(const Structure &structure, const Constraints &constraints,
                        const SolverParameters &parameters, const Reference &reference);
 
-    /// For steps with these coefficients. @p F is the matrix of their first part, including S.
+    /// For steps with these coefficients. @p F is the matrix of their first part, including S, see
+    /// ProjectionCompliance::prepare().
     void prepare(const StepCoefficients &c, double step, const std::vector<double> &S,
-                 ComplementarityOperator &F);
+                 ComplementarityOperator &F, bool is_linear);
 
     /// Largest residual of a rate after a step, from the velocities, and its constraint.
     struct Residual
