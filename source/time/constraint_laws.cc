@@ -119,13 +119,11 @@ namespace taut
     row.open = 0.;
     if (u > 0.)
     {
-      // The mean falls as 1 / (u_0 - u), the force of the damper stays.
-      double low = -u;
-      while (damping > 0. && row.force(low) > 0.)
-        low *= 4.;
-      row.open = damping > 0.
-                     ? increasing_root([&](const double at) { return row.force(at); }, low, u)
-                     : -std::numeric_limits<double>::infinity();
+      // Below 0 the mean is W(u_0) / (u_0 - u), and the force of the damper stays.
+      row.open = damping > 0. ? u - row.of_mean * row.law->energy(u) / (damping * u)
+                              : -std::numeric_limits<double>::infinity();
+      if (row.open > 0.)
+        row.open = increasing_root([&](const double at) { return row.force(at); }, 0., u);
     }
     rows[row_of[i]] = row;
   }
