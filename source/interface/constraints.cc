@@ -168,9 +168,15 @@ namespace taut
   std::vector<std::vector<double>> Constraints::courses() const
   {
     std::vector<std::vector<double>> result;
-    for (const std::size_t i : sliding_rows())
-      result.push_back(place(i).course());
+    copy_courses(result);
     return result;
+  }
+
+  void Constraints::copy_courses(std::vector<std::vector<double>> &to) const
+  {
+    to.resize(size() - first_sliding);
+    for (const std::size_t i : sliding_rows())
+      to[i - first_sliding] = place(i).course();
   }
 
   void Constraints::set_courses(const std::vector<std::vector<double>> &courses)

@@ -136,12 +136,12 @@ namespace taut
     return (L - row.force(u)) / row.slope(u);
   }
 
-  std::vector<double> ConstraintLaws::compressions(const std::vector<double> &gap) const
+  void ConstraintLaws::set_compressions(const std::vector<double> &gap,
+                                        std::vector<double> &result) const
   {
-    std::vector<double> result;
+    result.clear();
     for (const Row &row : rows)
       result.push_back(std::max(-gap[row.index], row.open));
-    return result;
   }
 
   double ConstraintLaws::polished(const std::size_t i, const double u, const double L) const
@@ -174,9 +174,10 @@ namespace taut
   /// by orders of magnitude, also the residual force.
   ConstraintLaws::Error ConstraintLaws::error(const Point &at,
                                               const MixedComplementarityProblem &problem,
-                                              const ComplementarityOperator &F) const
+                                              const ComplementarityOperator &F)
   {
-    const std::vector<double> u = compressions(at.gap);
+    std::vector<double> &u = in_error;
+    set_compressions(at.gap, u);
     Error result;
     double &largest = result.gap;
     for (std::size_t r = 0; r < rows.size(); ++r)
@@ -234,12 +235,13 @@ namespace taut
                         const StepCheck &check, Certificate &certificate, std::vector<double> &S,
                         std::vector<double> &shift)
   {
-    const std::vector<double> gap = problem.free_gap, scale = problem.gap_scale;
-    std::vector<double> u;
+    std::vector<double> &gap = free_gap, &u = compression;
+    gap = problem.free_gap;
+    scale = problem.gap_scale;
+    u.clear();
     // For a conserving constraint, start where slopes only fall.
     for (const Row &row : rows)
       u.push_back(std::max(row.conserving ? -gap[row.index] : row.u0, row.open));
-    Point last, now;
     const MixedComplementaritySolution *solution = nullptr;
     Error before = {std::numeric_limits<double>::infinity(),
                     std::numeric_limits<double>::infinity()};
@@ -269,7 +271,7 @@ namespace taut
         shorten(last, now, S);
       before = error(now, problem, F);
       std::swap(last, now);
-      u = compressions(last.gap);
+      set_compressions(last.gap, u);
     }
     // An open constraint has its law at rest. The certificate measures the residuals of the others.
     for (const Row &row : rows)

@@ -2,6 +2,7 @@
 #include <taut/time/energy_gains.h>
 
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 namespace taut
@@ -39,12 +40,12 @@ namespace taut
 
   void EnergyGains::add_surplus(const double theta, const State &state, double *const of_groups)
   {
-    structure.communicator().agree(
-        [&]
-        {
-          for (const std::size_t k : nonlinear.indices())
-            of_groups[groups.of_body(k)] += nonlinear.energy_surplus(k, theta, state);
-        });
+    const auto add = [&]
+    {
+      for (const std::size_t k : nonlinear.indices())
+        of_groups[groups.of_body(k)] += nonlinear.energy_surplus(k, theta, state);
+    };
+    structure.communicator().agree(std::ref(add)); // a reference allocates nothing
   }
 
   /// Contribution of a constraint with a mean force: the change of its spring energy, or minus its

@@ -81,11 +81,21 @@ namespace taut
     coefficients = c;
   }
 
+  void TimeStepper::store_sizes()
+  {
+    before_step.motion = errors.largest_motions;
+    step.conditions().gaps().copy_sizes(before_step.of_gaps);
+    constraints.copy_courses(before_step.courses);
+    if (projection)
+      before_step.rates = projection->largest_rates();
+    else
+      before_step.rates.clear();
+  }
+
   void TimeStepper::advance()
   {
     last = {};
-    before_step = {errors.largest_motions, step.conditions().gaps().sizes(), constraints.courses(),
-                   projection ? projection->largest_rates() : std::vector<double>()};
+    store_sizes();
     const double end = clock.advance(current.last_step);
     if (const StepCoefficients c = clock.coefficients(current.last_step); c != coefficients)
       attempt([&] { prepare(c); });

@@ -108,6 +108,7 @@ namespace taut
 
     /// MovingPlace::course() of each sliding constraint.
     std::vector<std::vector<double>> courses() const;
+    void copy_courses(std::vector<std::vector<double>> &to) const;
     void set_courses(const std::vector<std::vector<double>> &courses);
 
     /// Delta of each of the turning_rows() at U = @p reference + @p U; without @p reference, its

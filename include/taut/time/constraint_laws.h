@@ -91,11 +91,11 @@ namespace taut
       double gap = 0., force = 0.;
     };
     void begin(std::size_t i, Row row, double low, double high);
-    std::vector<double> compressions(const std::vector<double> &gap) const;
+    void set_compressions(const std::vector<double> &gap, std::vector<double> &result) const;
     void linearise(const std::vector<double> &u, std::vector<double> &S,
                    std::vector<double> &shift) const;
     Error error(const Point &at, const MixedComplementarityProblem &problem,
-                const ComplementarityOperator &F) const;
+                const ComplementarityOperator &F);
     double slope_of_energy(const Point &from, const Point &to, double s,
                            const std::vector<double> &S) const;
     void shorten(const Point &from, Point &to, const std::vector<double> &S) const;
@@ -104,6 +104,10 @@ namespace taut
     std::vector<std::shared_ptr<const ForceLaw>> linear; ///< laws of conserving constraints
     std::vector<Row> rows;
     std::vector<std::size_t> row_of; ///< row of each constraint; rows.size(): no law
+
+    // In solve(): gaps of the problem and their scales, compressions, and the last two iterates.
+    std::vector<double> free_gap, scale, compression, in_error;
+    Point last, now;
   };
 } // namespace taut
 

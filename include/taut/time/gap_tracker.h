@@ -69,7 +69,11 @@ namespace taut
     {
       std::vector<double> scale, terms;
     };
-    Sizes sizes() const { return {largest_scale, gap_terms}; }
+    void copy_sizes(Sizes &to) const
+    {
+      to.scale = largest_scale;
+      to.terms = gap_terms;
+    }
     void set_sizes(const Sizes &sizes)
     {
       largest_scale = sizes.scale;

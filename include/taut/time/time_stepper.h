@@ -99,6 +99,7 @@ namespace taut
     template <typename Archive>
     void store(Archive &archive);
     void reset_caches(const std::vector<double> &largest_rates);
+    void store_sizes();
     void begin_step(double end);
     void attempt(const std::function<void()> &work);
     void solve();
