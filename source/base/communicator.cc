@@ -159,13 +159,8 @@ namespace taut
       broadcast_from(0, processes, text);
   }
 
-  void Communicator::agree(const std::function<void()> &work) const
+  void Communicator::agree_with_others(const std::function<void()> &work) const
   {
-    if (n_ranks == 1)
-    {
-      work();
-      return;
-    }
     Failure failure = run(work);
     int first =
         failure.kind == Failure::none ? static_cast<int>(n_ranks) : static_cast<int>(own_rank);

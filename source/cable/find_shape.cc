@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "equilibrium_search.h"
+#include "cable_equilibrium.h"
 #include "parabola.h"
 
 #include <taut/base/exceptions.h>
@@ -24,14 +24,14 @@ namespace taut
                         const std::vector<unsigned int> &held, const std::vector<double> &load,
                         const double tension)
   {
-    EquilibriumSearch search(cable, held, load);
+    CableEquilibrium search(cable, held, load);
     CableShape result;
     result.positions = start;
     const double EA = cable.section().axial_stiffness;
     // A stage that fails is left out: the next stage may succeed.
     for (const double stiffness : SlenderBody::softer_axial_stiffnesses(EA, tension))
-      search.solve(cable.with_axial_stiffness(stiffness), 1e-3, result.positions);
-    if (search.solve(cable, 1e-10, result.positions))
+      search.find_roughly(cable.with_axial_stiffness(stiffness), result.positions);
+    if (search.find(cable, result.positions))
     {
       result.n_iterations = search.iterations();
       result.residual = search.residual();

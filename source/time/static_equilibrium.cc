@@ -4,14 +4,15 @@
 #include "turning_at_rest.h"
 
 #include <taut/base/exceptions.h>
+#include <taut/base/newton_search.h>
 #include <taut/base/text.h>
 #include <taut/substructure/slender_body.h>
 #include <taut/time/matrix_norms.h>
-#include <taut/time/newton_convergence.h>
 #include <taut/time/nonlinear_bodies.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -29,14 +30,10 @@ namespace taut
     constexpr double least_part_of_links = 1e-3;
 
     /// The same with bodies that are softer than their own, as a start for the next search.
-    constexpr double near = 1e-3;
+    constexpr NewtonConvergence::Limits rough = {1e-3, 1e-3, 1, 500};
 
     /// Iterations: with full steps first, then with a line search.
     constexpr int most_full_steps = 20, most_iterations = 1000;
-
-    /// Part of the expected decrease of the energy that a step has to make (L. Armijo, 1966).
-    constexpr double sufficient = 1e-4;
-    constexpr double shortest_step = 1e-6;
 
     /**
      * Newton's method with the complementarity problem solved exactly in each iteration (N. H.
@@ -45,52 +42,54 @@ namespace taut
      * line search on the energy and tangents that are made definite. An equilibrium whose own
      * tangent is not definite is none that a structure stays in.
      */
-    class NonlinearEquilibrium
+    class NonlinearEquilibrium : private DescentProblem
     {
     public:
       NonlinearEquilibrium(const Structure &structure, const Constraints &constraints,
                            const SolverParameters &parameters, const double t)
           : structure(structure), constraints(constraints), parameters(parameters), time(t),
             soft(structure), load(sum_of_loads()), turning(structure, constraints, load),
-            motion_of_body(structure.all_bodies().size(), 0.)
+            start(structure.zero()), motion_of_body(structure.all_bodies().size(), 0.)
       {
       }
 
       StaticState find()
       {
-        StaticState state;
-        const BodyVectors undeformed = structure.zero();
-        if (iterate(false, limits.converged, undeformed, state))
+        const BodyVectors undeformed = start;
+        if (is_found([&] { return search.find(*this); }))
           return state;
-        BodyVectors start = undeformed;
-        if (find_start(start) && (iterate(false, limits.converged, start, state) ||
-                                  iterate(true, limits.converged, start, state)))
+        if (find_start() && (is_found([&] { return search.find(*this); }) || descends()))
           return state;
-        if (!iterate(true, limits.converged, undeformed, state))
+        start = undeformed;
+        if (!descends())
           fail();
         return state;
       }
 
     private:
-      /// The displacements with softer bodies; false if there are none, or no such displacements.
-      bool find_start(BodyVectors &start)
+      /// Starts from the displacements with softer bodies; false if there are none, or no such
+      /// displacements.
+      bool find_start()
       {
         const double EA = structure.communicator().max(structure.largest_axial_stiffness());
-        bool is_found = false;
+        const NewtonSearch roughly(rough, most_full_steps, most_iterations);
+        bool result = false;
+        is_rough = true;
         // One that is not found is left out: the next one may be within reach.
         for (const double limit : SlenderBody::softer_axial_stiffnesses(EA, load))
         {
           soft = structure;
           structure.communicator().agree([&] { soft.limit_axial_stiffness(limit); });
-          StaticState state;
-          if (iterate(false, near, start, state) || iterate(true, near, start, state))
+          if (is_found([&] { return roughly.find(*this); }) ||
+              is_found([&] { return roughly.descend(*this); }))
           {
-            start = std::move(state.displacement);
-            is_found = true;
+            start = state.displacement;
+            result = true;
           }
         }
+        is_rough = false;
         soft = structure;
-        return is_found;
+        return result;
       }
 
       /// [N]
@@ -113,66 +112,72 @@ namespace taut
         return sum;
       }
 
-      /// From @p start on, to a change of @p tolerance; a rough one need not be stable.
-      bool iterate(const bool is_damped, const double tolerance, const BodyVectors &start,
-                   StaticState &state)
+      /// Directions of links that are far from those at rest may have no solution, which is no
+      /// error of the user.
+      bool is_found(const std::function<bool()> &search_once) const
       {
-        if (turning.empty() || (is_damped && gives_way.empty()))
-          return search(is_damped, tolerance, start, state);
+        if (turning.empty())
+          return search_once();
         try
         {
-          return search(is_damped, tolerance, start, state);
+          return search_once();
         }
         catch (const UserError &)
         {
-          return false; // of directions far from those at rest
+          return false;
         }
       }
 
-      bool search(const bool is_damped, const double tolerance, const BodyVectors &start,
-                  StaticState &state)
+      /// As is_found(), but what no equilibrium is known of is the error of the last search.
+      bool descends()
       {
-        BodyVectors U = start;
-        NewtonConvergence convergence(limits);
+        return gives_way.empty() ? search.descend(*this)
+                                 : is_found([&] { return search.descend(*this); });
+      }
+
+      void begin() override
+      {
+        U = start;
+        is_first = true;
         turning.begin(U);
-        for (int iteration = 0; iteration < (is_damped ? most_iterations : most_full_steps);
-             ++iteration)
+      }
+
+      /// Linearised at U, where a tangent that is not definite is an error of the start only.
+      double solve() override
+      {
+        try
         {
-          std::optional<StaticStep> next;
-          try
-          {
-            next.emplace(soft, turning.constraints(), parameters, time, U);
-          }
-          catch (const BodyNotHeld &)
-          {
-            if (iteration == 0)
-              throw;
-            return false; // far from anything, where no tangent is definite
-          }
-          StaticStep &step = *next;
-          state = step.solve();
-          change = relative_change(step.bodies(), U, state.displacement);
-          if (!turning.empty())
-            change = std::max(change, turning.change(state));
-          if (tolerance > limits.converged && change <= tolerance)
-            return true;
-          const NewtonConvergence::Verdict verdict = convergence.add(change);
-          if (verdict == NewtonConvergence::Verdict::failed)
-            return false;
-          if (verdict == NewtonConvergence::Verdict::converged)
-          {
-            if (!stays(step, state))
-              return false;
-            state.certificate = step.certify();
-            turning.finish(state);
-            return is_stable(state);
-          }
-          if (is_damped)
-            shorten(U, state);
-          U = state.displacement;
-          turning.go_on(state);
+          step.emplace(soft, turning.constraints(), parameters, time, U);
         }
-        return false;
+        catch (const BodyNotHeld &)
+        {
+          if (is_first)
+            throw;
+          return std::numeric_limits<double>::quiet_NaN();
+        }
+        is_first = false;
+        state = step->solve();
+        change = relative_change(step->bodies(), U, state.displacement);
+        if (!turning.empty())
+          change = std::max(change, turning.change(state));
+        return change;
+      }
+
+      void go_on() override
+      {
+        U = state.displacement;
+        turning.go_on(state);
+      }
+
+      bool accept() override
+      {
+        if (is_rough)
+          return true;
+        if (!stays(*step, state))
+          return false;
+        state.certificate = step->certify();
+        turning.finish(state);
+        return is_stable();
       }
 
       /// True if the tangents are definite or, of cables that lie on something or hang
@@ -190,7 +195,7 @@ namespace taut
       }
 
       /// False if links that push give way to the side.
-      bool is_stable(const StaticState &state)
+      bool is_stable()
       {
         const std::vector<TurningAtRest::Across> springs = turning.begin_check(state);
         if (springs.empty())
@@ -314,23 +319,20 @@ namespace taut
         return sum;
       }
 
-      /// Armijo's condition along the way from U.
-      void shorten(const BodyVectors &U, StaticState &state) const
+      Descent descent() override
       {
-        const BodyVectors end = state.displacement;
-        const double start = energy(U, state.multiplier);
         constexpr double difference = 1e-6;
-        const auto at = [&](const double s)
-        {
-          for (std::size_t k = 0; k < U.size(); ++k)
-            for (std::size_t i = 0; i < U[k].size(); ++i)
-              state.displacement[k][i] = U[k][i] + s * (end[k][i] - U[k][i]);
-          return energy(state.displacement, state.multiplier);
-        };
-        const double slope = (at(difference) - start) / difference;
-        for (double s = 1.; s > shortest_step; s *= .5)
-          if (at(s) <= start + sufficient * s * std::min(0., slope))
-            return;
+        const double energy_at_guess = energy(U, state.multiplier);
+        end = state.displacement;
+        return {energy_at_guess, (shorten_to(difference) - energy_at_guess) / difference};
+      }
+
+      double shorten_to(const double s) override
+      {
+        for (std::size_t k = 0; k < U.size(); ++k)
+          for (std::size_t i = 0; i < U[k].size(); ++i)
+            state.displacement[k][i] = U[k][i] + s * (end[k][i] - U[k][i]);
+        return energy(state.displacement, state.multiplier);
       }
 
       const Structure &structure;
@@ -340,6 +342,12 @@ namespace taut
       Structure soft;    ///< slender bodies as soft as a search begins with
       const double load; ///< sum of the sizes of all [N]
       TurningAtRest turning;
+      const NewtonSearch search{limits, most_full_steps, most_iterations};
+      BodyVectors start;
+      bool is_first = true, is_rough = false;
+      BodyVectors U, end; ///< guess, and the solution before it is shortened
+      std::optional<StaticStep> step;
+      StaticState state; ///< solution
       double change = 0.;
       std::string gives_way, origin_of_unstable; ///< of the last equilibrium that is not stable
       std::vector<double> motion_of_body; ///< of those of this rank, in the last iteration [m]

@@ -2,7 +2,6 @@
 #include <taut/time/step.h>
 
 #include <algorithm>
-#include <functional>
 
 namespace taut
 {
@@ -138,12 +137,12 @@ namespace taut
   void Step::measure(State &state, Certificate &certificate,
                      const BalanceCertificate::SetRows &rows)
   {
-    const auto work = [&]
-    {
-      own_balance.measure(c, own_history.forces(), own_conditions.in_balance(),
-                          own_conditions.impulsive(), state, rows);
-    };
-    structure.communicator().agree(std::ref(work)); // a reference allocates nothing
+    structure.communicator().agree(
+        [&]
+        {
+          own_balance.measure(c, own_history.forces(), own_conditions.in_balance(),
+                              own_conditions.impulsive(), state, rows);
+        });
     certificate.balance = structure.communicator().max(own_balance.residual());
   }
 

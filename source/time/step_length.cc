@@ -24,7 +24,7 @@ namespace taut
   void TimeStepper::restore(const State &before)
   {
     current = before;
-    newton.follow(current);
+    nonlinear.follow(current);
     errors.largest_motions = before_step.motion;
     step.conditions().gaps().set_sizes(before_step.of_gaps);
     constraints.set_courses(before_step.courses);

@@ -32,7 +32,7 @@ namespace taut
     std::vector<double> largest_rates;
     archive >> largest_rates;
     constraints.update(current.time);
-    newton.follow(current);
+    nonlinear.follow(current);
     reset_caches(largest_rates);
   }
 

@@ -19,14 +19,14 @@ namespace taut
       : structure(structure), constraints(at_time(constraints, start.time)), parameters(parameters),
         reference_state(std::move(reference)), current(std::move(start)),
         clock(integrator, length, current.time, at_rest),
-        newton(structure, constraints, reference_state),
-        step(structure, constraints, this->parameters, reference_state, newton.bodies(),
-             newton.constraints(), current),
+        nonlinear(structure, constraints, reference_state),
+        step(structure, constraints, this->parameters, reference_state, nonlinear.bodies(),
+             nonlinear.constraints(), current),
         loads(structure), errors(structure, constraints, reference_state),
-        energy_gains(structure, constraints, newton.bodies(), step.conditions(),
-                     newton.constraints())
+        energy_gains(structure, constraints, nonlinear.bodies(), step.conditions(),
+                     nonlinear.constraints())
   {
-    newton.follow(current);
+    nonlinear.follow(current);
     energy_gains.start(current);
     prepare(clock.coefficients(0.));
     if (integrator.coefficients(length).starts_itself())
@@ -68,7 +68,7 @@ namespace taut
   void TimeStepper::prepare(const StepCoefficients c)
   {
     coefficients = {};
-    newton.prepare(c, clock.step(), current);
+    nonlinear.prepare(c, clock.step(), current);
     step.prepare(c, clock.step());
     if (c.velocity_projection)
     {
@@ -117,7 +117,7 @@ namespace taut
                              current.time);
         });
     constraints.update(current.time);
-    if (newton.constraints().empty())
+    if (nonlinear.constraints().empty())
       step.equations().interface().update_moving();
   }
 
@@ -130,10 +130,10 @@ namespace taut
       step.find_increments(current, last);
     }
     else
-      newton.find_increments(step, current, last);
+      nonlinear.find_increments(step, current, last);
     step.accept(current, last);
     step.certify(current, last);
-    structure.communicator().agree([&] { newton.bodies().set_own_force(current); });
+    structure.communicator().agree([&] { nonlinear.bodies().set_own_force(current); });
     face_new_directions();
     if (coefficients.velocity_projection)
       project_velocities();
@@ -143,9 +143,9 @@ namespace taut
   /// Gives turning constraints the directions of the new state.
   void TimeStepper::face_new_directions()
   {
-    if (newton.constraints().empty())
+    if (nonlinear.constraints().empty())
       return;
-    newton.follow(current);
+    nonlinear.follow(current);
     if (coefficients.velocity_projection)
       step.conditions().rates().update(current);
   }

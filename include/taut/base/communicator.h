@@ -61,9 +61,18 @@ namespace taut
      * any rank, all ranks throw the exception of the first of these ranks: a UserError with its
      * type, std::bad_alloc, or any other exception as std::runtime_error.
      */
-    void agree(const std::function<void()> &work) const;
+    template <typename Work>
+    void agree(const Work &work) const
+    {
+      if (n_ranks == 1)
+        work();
+      else
+        agree_with_others(std::cref(work));
+    }
 
   private:
+    void agree_with_others(const std::function<void()> &work) const;
+
     MPI_Comm processes = MPI_COMM_NULL;
     unsigned int own_rank = 0, n_ranks = 1;
   };

@@ -9,7 +9,7 @@
 #include <taut/time/load_sampling.h>
 #include <taut/time/local_error.h>
 #include <taut/time/matrix_norms.h>
-#include <taut/time/newton_search.h>
+#include <taut/time/nonlinear_step.h>
 #include <taut/time/solver_parameters.h>
 #include <taut/time/state.h>
 #include <taut/time/step.h>
@@ -29,7 +29,7 @@ namespace taut
    *     and certifies them                           Step
    *     projects the velocities, with some schemes   VelocityProjection.
    *
-   * With nonlinear bodies or turning constraints, NewtonSearch iterates to the increments.
+   * With nonlinear bodies or turning constraints, NonlinearStep iterates to the increments.
    */
   class TimeStepper
   {
@@ -87,8 +87,8 @@ namespace taut
     long n_steps_done() const { return clock.n_steps(); }
 
     /// Newton iterations so far; 0 if all bodies are linear and no constraint turns.
-    long n_newton_iterations() const { return newton.n_iterations(); }
-    bool is_linear() const { return newton.is_linear(); }
+    long n_newton_iterations() const { return nonlinear.n_iterations(); }
+    bool is_linear() const { return nonlinear.is_linear(); }
 
     /// Form and size of the interface operator, for the log.
     std::string interface_description() const { return step.equations().interface().description(); }
@@ -128,7 +128,7 @@ namespace taut
     };
     Sizes before_step;
 
-    NewtonSearch newton;
+    NonlinearStep nonlinear;
     Step step;
     LoadSampling loads;
     LocalError errors;

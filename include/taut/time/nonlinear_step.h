@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef taut_newton_search_h
-#define taut_newton_search_h
+#ifndef taut_nonlinear_step_h
+#define taut_nonlinear_step_h
 
 #include <taut/time/nonlinear_bodies.h>
 #include <taut/time/step.h>
@@ -9,15 +9,15 @@
 namespace taut
 {
   /**
-   * Newton's method through the steps, for bodies that are not linear and constraints that turn.
-   * The complementarity problem of each linearisation is solved exactly (N. H. Josephy, 1979). All
-   * functions but those that return what is known are called by all ranks together.
+   * Steps of bodies that are not linear, and of constraints that turn: NewtonSearch through linear
+   * steps. The complementarity problem of each linearisation is solved exactly (N. H. Josephy,
+   * 1979). All functions but those that return what is known are called by all ranks together.
    */
-  class NewtonSearch
+  class NonlinearStep
   {
   public:
     /// The arguments are kept by reference.
-    NewtonSearch(const Structure &structure, Constraints &constraints, const Reference &reference);
+    NonlinearStep(const Structure &structure, Constraints &constraints, const Reference &reference);
 
     /// True if all bodies of all ranks are linear and no constraint turns: there is nothing to
     /// search for.
@@ -41,8 +41,8 @@ namespace taut
     long n_iterations() const { return iterations; }
 
   private:
+    class Iterations;
     void check_masses(const Constraints &constraints) const;
-    bool iterate(Step &step, State &state, Certificate &certificate);
     void linearise(StepEquations &equations) const;
     double set_guess(Step &step, const State &state);
     void turn() { constraint_set.turn(turning.directions()); }
@@ -56,6 +56,8 @@ namespace taut
     StepCoefficients c;
     double length = 0.; ///< of a step [s]
     long iterations = 0;
+    BodyVectors loads;              ///< P^ of the step, without remainders
+    std::vector<double> multiplier; ///< before the step
   };
 } // namespace taut
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
+#include <taut/base/newton_search.h>
 #include <taut/base/text.h>
-#include <taut/time/newton_convergence.h>
-#include <taut/time/newton_search.h>
+#include <taut/time/nonlinear_step.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,11 +15,11 @@ namespace taut
     /// Limits of the error of increments, see NonlinearBodies::set_guess(). If rounding keeps it
     /// above the first limit, the balance of the step shows the error.
     constexpr NewtonConvergence::Limits limits = {1e-9, 1e-5, 2};
+    constexpr int most_iterations = 30;
 
     /// Iterations up to which a tangent is kept, by the rate of convergence, also for the next
     /// step. A tangent with its factors costs two or three iterations, but saves fewer.
     constexpr int most_with_a_kept_tangent = 5;
-    constexpr int most_iterations = 30;
 
     /// Whether a change after @p before needs more iterations at the same rate.
     bool is_slow(const double change, const double before)
@@ -28,8 +28,8 @@ namespace taut
     }
   } // namespace
 
-  NewtonSearch::NewtonSearch(const Structure &structure, Constraints &constraints,
-                             const Reference &reference)
+  NonlinearStep::NonlinearStep(const Structure &structure, Constraints &constraints,
+                               const Reference &reference)
       : structure(structure), constraint_set(constraints), nonlinear(structure, reference),
         turning(constraints, reference),
         bodies_are_linear(!structure.communicator().any(!nonlinear.indices().empty()))
@@ -38,7 +38,7 @@ namespace taut
   }
 
   /// Requires inertia that resists the force of a turning constraint in all directions.
-  void NewtonSearch::check_masses(const Constraints &constraints) const
+  void NonlinearStep::check_masses(const Constraints &constraints) const
   {
     if (turning.empty())
       return;
@@ -51,8 +51,8 @@ namespace taut
                              "'Mass matrix' that is not 'reduced'");
   }
 
-  void NewtonSearch::prepare(const StepCoefficients &coefficients, const double step,
-                             const State &state)
+  void NonlinearStep::prepare(const StepCoefficients &coefficients, const double step,
+                              const State &state)
   {
     turning.prepare(coefficients);
     c = coefficients;
@@ -61,7 +61,7 @@ namespace taut
     nonlinear.begin(state, c, length);
   }
 
-  void NewtonSearch::follow(const State &state)
+  void NonlinearStep::follow(const State &state)
   {
     if (turning.empty())
       return;
@@ -69,7 +69,7 @@ namespace taut
     turn();
   }
 
-  void NewtonSearch::linearise(StepEquations &equations) const
+  void NonlinearStep::linearise(StepEquations &equations) const
   {
     if (bodies_are_linear)
       equations.interface().update_moving();
@@ -78,7 +78,7 @@ namespace taut
   }
 
   /// Largest change of the increments over all ranks.
-  double NewtonSearch::set_guess(Step &step, const State &state)
+  double NonlinearStep::set_guess(Step &step, const State &state)
   {
     double change = 0.;
     BodyVectors &dU = step.history().increments();
@@ -102,67 +102,87 @@ namespace taut
                                                  step.conditions().springs().histories()));
   }
 
-  void NewtonSearch::find_increments(Step &step, State &state, Certificate &certificate)
+  /// The iterations of one step, from dU = 0. New tangents are those at the last guess.
+  class NonlinearStep::Iterations : public NewtonProblem
   {
-    if (iterate(step, state, certificate))
-      return;
-    if (tangents_are_kept)
+  public:
+    Iterations(NonlinearStep &own, Step &step, State &state, Certificate &certificate)
+        : own(own), step(step), state(state), certificate(certificate)
     {
-      tangents_are_kept = false;
-      if (iterate(step, state, certificate))
-        return;
     }
+
+    void begin() override
+    {
+      n = 0;
+      own.multiplier = state.multiplier;
+      own.nonlinear.begin(state, own.c, own.length);
+      own.turning.begin(own.c);
+      own.turn();
+      if (!own.tangents_are_kept)
+        own.linearise(step.equations());
+      else if (!own.turning.empty())
+        step.equations().interface().update_moving();
+      step.set_loads(state);
+      own.loads = step.history().loads();
+    }
+
+    double solve() override
+    {
+      BodyVectors &P = step.history().loads();
+      P = own.loads;
+      for (const std::size_t k : own.nonlinear.indices())
+        for (std::size_t i = 0; i < P[k].size(); ++i)
+          P[k][i] += own.nonlinear.remainder(k)[i];
+      state.multiplier = own.multiplier;
+      step.find_increments(state, certificate);
+      ++own.iterations;
+      ++n;
+      before = change;
+      return change = own.set_guess(step, state);
+    }
+
+    void go_on() override
+    {
+      own.turn();
+      if (n > 1 && is_slow(change, before))
+      {
+        own.tangents_are_kept = false;
+        own.linearise(step.equations());
+        for (const std::size_t k : own.nonlinear.indices())
+          own.nonlinear.set_tangent(k, step.equations().bodies().stiffness(k));
+      }
+      else if (!own.turning.empty())
+        step.equations().interface().update_moving();
+    }
+
+    bool accept() override
+    {
+      own.tangents_are_kept = n <= most_with_a_kept_tangent;
+      return true;
+    }
+
+  private:
+    NonlinearStep &own;
+    Step &step;
+    State &state;
+    Certificate &certificate;
+    int n = 0;
+    double change = 0., before = 0.;
+  };
+
+  void NonlinearStep::find_increments(Step &step, State &state, Certificate &certificate)
+  {
+    const NewtonSearch search(limits, most_iterations);
+    Iterations iterations_of_step(*this, step, state, certificate);
+    if (search.find(iterations_of_step))
+      return;
+    state.multiplier = multiplier;
+    const bool once_more = tangents_are_kept;
+    tangents_are_kept = false;
+    if (once_more && search.find(iterations_of_step))
+      return;
     throw UserError(to_text("at t = ", state.time,
                             " s: Newton's method does not converge in a step of ", length,
                             " s. Take a smaller step"));
-  }
-
-  /// Iterates from dU = 0; new tangents are those at the last guess.
-  bool NewtonSearch::iterate(Step &step, State &state, Certificate &certificate)
-  {
-    const std::vector<double> multiplier = state.multiplier;
-    nonlinear.begin(state, c, length);
-    turning.begin(c);
-    turn();
-    if (!tangents_are_kept)
-      linearise(step.equations());
-    else if (!turning.empty())
-      step.equations().interface().update_moving();
-    step.set_loads(state);
-    const BodyVectors loads = step.history().loads();
-    NewtonConvergence convergence(limits);
-    double before = std::numeric_limits<double>::infinity();
-    for (int iteration = 1; iteration <= most_iterations; ++iteration)
-    {
-      BodyVectors &P = step.history().loads();
-      P = loads;
-      for (const std::size_t k : nonlinear.indices())
-        for (std::size_t i = 0; i < P[k].size(); ++i)
-          P[k][i] += nonlinear.remainder(k)[i];
-      state.multiplier = multiplier;
-      step.find_increments(state, certificate);
-      ++iterations;
-      const double change = set_guess(step, state);
-      const NewtonConvergence::Verdict verdict = convergence.add(change);
-      if (verdict == NewtonConvergence::Verdict::converged)
-      {
-        tangents_are_kept = iteration <= most_with_a_kept_tangent;
-        return true;
-      }
-      if (verdict == NewtonConvergence::Verdict::failed)
-        return false;
-      turn();
-      if (iteration > 1 && is_slow(change, before))
-      {
-        tangents_are_kept = false;
-        linearise(step.equations());
-        for (const std::size_t k : nonlinear.indices())
-          nonlinear.set_tangent(k, step.equations().bodies().stiffness(k));
-      }
-      else if (!turning.empty())
-        step.equations().interface().update_moving();
-      before = change;
-    }
-    return false;
   }
 } // namespace taut
