@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: a cable as a body of a scene is in balance in its found shape, moves as closed forms say,
-// and refuses what makes no cable. Expected values: closed forms; the element
-// of the other kind.
+// and refuses what makes no cable. Expected values: closed forms; the element of the other kind.
 #include "cable/elastic_catenary.h"
 #include "cable/slack_cable.h"
 #include "verification/scene_tests.h"

@@ -10,10 +10,8 @@
 #include <utility>
 #include <vector>
 
-/**
- * The equilibrium of elastic catenaries that meet at nodes, in closed form but for the places of
- * the nodes: Newton's method on the forces there, with differences as derivatives.
- */
+/// The equilibrium of elastic catenaries that meet at nodes, in closed form but for the places of
+/// the nodes: Newton's method on the forces there, with differences as derivatives.
 class JoinedCatenaries
 {
 public:

@@ -83,11 +83,9 @@ namespace extremes
     static bool is_zero_row(const Matrix &matrix, std::size_t i);
   };
 
-  /**
-   * A scene of wires and masses, assembled from its values alone: shape functions as polynomials,
-   * integrals exact. Of the library only the positions of the nodes are used, grid(). Expressions
-   * are constants here; elements of strings and bars have degree 1 or 2.
-   */
+  /// A scene of wires and masses, assembled from its values alone: shape functions as polynomials,
+  /// integrals exact. Of the library only the positions of the nodes are used, grid(). Expressions
+  /// are constants here; elements of strings and bars have degree 1 or 2.
   class ExtendedWires : public ExtendedModel
   {
   public:

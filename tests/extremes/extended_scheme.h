@@ -14,12 +14,10 @@ namespace extremes
     Vector U, V, A, U_old, V_old;
   };
 
-  /**
-   * A scheme for steps of one length by its name in parameter files, with the defaults of its
-   * entries: "Moreau-Jean" has conditions on gaps, then velocities. "Moreau-Jean of gaps" has them
-   * on gaps only. V = velocity U + v and A = acceleration U + a at the end of a step with known v
-   * and a, and old inertia and balance have the weights alpha_m and alpha_f.
-   */
+  /// A scheme for steps of one length by its name in parameter files, with the defaults of its
+  /// entries: "Moreau-Jean" has conditions on gaps, then velocities. "Moreau-Jean of gaps" has them
+  /// on gaps only. V = velocity U + v and A = acceleration U + a at the end of a step with known v
+  /// and a, and old inertia and balance have the weights alpha_m and alpha_f.
   struct ExtendedScheme
   {
     ExtendedScheme() = default;

@@ -6,7 +6,6 @@
 #include "observation.h"
 
 #include <cstdio>
-#include <cstdlib>
 
 using namespace extremes;
 

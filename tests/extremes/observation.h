@@ -57,10 +57,8 @@ namespace extremes
     unsigned int iterations = 0, n_fallbacks = 0;
   };
 
-  /**
-   * Runs a case through the whole program, from parameters to certificates. A UserError is an
-   * answer's error; anything else that is thrown is a failure of the test.
-   */
+  /// Runs a case through the whole program, from parameters to certificates. A UserError is an
+  /// answer's error; anything else that is thrown is a failure of the test.
   Answer program_answer(const Case &c);
 
   /// What each quantity of a run is measured by: its largest value; of forces the largest load or
@@ -88,11 +86,9 @@ namespace extremes
     std::string where;
   };
 
-  /**
-   * Compares two runs. An entry may deviate by @p relative of its own largest value in the run plus
-   * @p absolute of the scale of its quantity, plus a thousand times what it changes from b to one
-   * of @p neighbours, the same scene with all its numbers changed in their last digit.
-   */
+  /// Compares two runs. An entry may deviate by @p relative of its own largest value in the run, by
+  /// @p absolute of the scale of its quantity, and by a thousand times what it changes from b to one
+  /// of @p neighbours, the same scene with all its numbers changed in their last digit.
   Deviation compare(const std::vector<Observation> &a, const std::vector<Observation> &b,
                     const std::array<double, n_quantities> &scales,
                     const std::vector<std::vector<Observation>> &neighbours, double relative,

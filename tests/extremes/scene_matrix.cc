@@ -358,9 +358,8 @@ namespace extremes
         for (int copy = 0; copy < static_cast<int>(level["copies"]); ++copy)
         {
           const double x = length * i / (n - 1);
-          // A mass that turns has no points away from it: a joint to a massless node
-          // would be a body more; its constraints hold deflection and, as angular
-          // stops, rotation.
+          // A mass that turns has no points away from it: a joint to a massless node would be a
+          // body more; its constraints hold deflection and, as angular stops, rotation.
           taut::Link l = link("constraint" + std::to_string(i) + "_" + std::to_string(copy),
                               hangs ? taut::LinkKind::dropper : taut::LinkKind::stop, {},
                               body == 5 ? on_mass(0) : on_wire(x), level["compliance"],

@@ -18,11 +18,9 @@ namespace extremes
   /// The observations of that case back in the units of the first one.
   void to_units_of_origin(std::vector<Observation> &steps, const Units &units);
 
-  /**
-   * A neighbour in the numbers of double precision: stiffnesses, masses, loads, gaps and so on
-   * change by up to two units in the last place. Numbers that are equal stay equal, so that
-   * duplicated constraints stay duplicates; places stay, so that nodes stay one node.
-   */
+  /// A neighbour in the numbers of double precision: stiffnesses, masses, loads, gaps and so on
+  /// change by up to two units in the last place. Numbers that are equal stay equal, so that
+  /// duplicated constraints stay duplicates; places stay, so that nodes stay one node.
   Case in_last_digits(const Case &c, unsigned int seed);
 } // namespace extremes
 

@@ -31,11 +31,9 @@ namespace extremes
     nodes_to_faces
   };
 
-  /**
-   * A box pressed on what is below it, a rigid plane or a second box that is held at its bottom. A
-   * traction acts on its top, downwards, load (1 - slope x / length) (1 + growth t), and a pull to
-   * the right on its right side. Two materials, left and right.
-   */
+  /// A box pressed on what is below it, a rigid plane or a second box that is held at its bottom. A
+  /// traction acts on its top, downwards, load (1 - slope x / length) (1 + growth t), and a pull to
+  /// the right on its right side. Two materials, left and right.
   struct SolidCase
   {
     std::string name;

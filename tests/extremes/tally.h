@@ -23,10 +23,8 @@ namespace extremes
     /// part of scenes that may end in an error (doc/extremes.md has the figure).
     static constexpr double relative = 1e-6, absolute = 1e-7, largest_part_of_errors = .05;
 
-    /**
-     * An answer of the program is that of the copy, @p exact, and that of a twin in other units;
-     * where it has none, there is a reason. @p neighbours of the copy have other last digits.
-     */
+    /// An answer of the program is that of the copy, @p exact, and that of a twin in other units;
+    /// where it has none, there is a reason. @p neighbours of the copy have other last digits.
     template <typename MakeTwin>
     void judge(const std::string &family, const std::string &name, const Answer &ours,
                const Answer &exact, const std::array<double, n_quantities> &scale,

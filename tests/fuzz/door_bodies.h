@@ -65,11 +65,9 @@ namespace door
     void add(double, std::vector<double> &P) const override { P.resize(P.size() + 3); }
   };
 
-  /**
-   * Masses on a vertical chain: spring i is above mass i, the first one hangs from the ground, and
-   * with a first spring of zero the chain floats. DoF i is the displacement of mass i upwards; a
-   * place is {i, 0, 0}.
-   */
+  /// Masses on a vertical chain: spring i is above mass i, the first one hangs from the ground, and
+  /// with a first spring of zero the chain floats. DoF i is the displacement of mass i upwards; a
+  /// place is {i, 0, 0}.
   class Chain : public taut::Substructure
   {
   public:

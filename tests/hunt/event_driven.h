@@ -18,12 +18,10 @@ namespace hunt
     using std::runtime_error::runtime_error;
   };
 
-  /**
-   * The motion of a linear model between events by the exponential of its matrix, and events where
-   * they happen: a constraint closes, opens, or reaches the next straight piece of its law. At a
-   * rigid one Newton's law of impact holds, for all constraints that touch at once. No time
-   * integration of the program takes part.
-   */
+  /// The motion of a linear model between events by the exponential of its matrix, and events where
+  /// they happen: a constraint closes, opens, or reaches the next straight piece of its law. At a
+  /// rigid one Newton's law of impact holds, for all constraints that touch at once. No time
+  /// integration of the program takes part.
   class EventDriven
   {
   public:

@@ -8,8 +8,6 @@
 
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
-#include <map>
 
 namespace
 {

@@ -15,13 +15,11 @@ namespace hunt
 {
   using Vector = std::vector<double>;
 
-  /**
-   * A scene of linear bodies in dense matrices, free DoFs only:
-   *
-   *     M u" + C u' + K u = P0 + Pc cos(w t) + Ps sin(w t) + B N.
-   *
-   * The discretisation in space is the program's, so that what differs is the integration in time.
-   */
+  /// A scene of linear bodies in dense matrices, free DoFs only:
+  ///
+  ///     M u" + C u' + K u = P0 + Pc cos(w t) + Ps sin(w t) + B N.
+  ///
+  /// The discretisation in space is the program's, so that what differs is the integration in time.
   struct LinearModel
   {
     /// From the start of a run. @p frequency is that of its loads, 0 if they are constant [rad/s].

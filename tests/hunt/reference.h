@@ -20,12 +20,10 @@ namespace hunt
   /// Bounds of the promise, fixed before the first hunt.
   constexpr double place_bound = .02, impulse_bound = .02, energy_bound = .05;
 
-  /**
-   * Places are compared at the same times. Impulses and energies jump at an impact, and the bound
-   * of the places lets it be early or late by what the fastest place takes for so much motion:
-   * those of the run may be anything that the reference has within this time, or within a step. The
-   * times of the run are the first ones of the reference.
-   */
+  /// Places are compared at the same times. Impulses and energies jump at an impact, and the bound
+  /// of the places lets it be early or late by what the fastest place takes for so much motion:
+  /// those of the run may be anything that the reference has within this time, or within a step.
+  /// The times of the run are the first ones of the reference.
   Difference difference(const History &reference, const History &run);
 
   /// Two references of one scene, the second one disturbed: what they do not agree about is chaos,

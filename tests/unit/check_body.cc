@@ -8,8 +8,6 @@
 #include <taut/mechanism/rigid_body.h>
 #include <taut/substructure/check_body.h>
 
-#include <map>
-
 namespace
 {
   using Vector = std::vector<double>;

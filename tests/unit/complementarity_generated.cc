@@ -6,7 +6,6 @@
 
 #include <taut/complementarity/solver.h>
 
-#include <cstdlib>
 #include <iostream>
 
 namespace

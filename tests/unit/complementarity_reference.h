@@ -19,11 +19,9 @@ inline std::vector<taut::LinearForm> mode_equations(std::size_t n_rows,
   return result;
 }
 
-/**
- * Methods that share nothing with the library, for tests: all sets by enumeration up to 12
- * unilateral rows, Lemke's method with lexicographic pivots beyond. Everything in long double and
- * scaled to a unit diagonal.
- */
+/// Methods that share nothing with the library, for tests: all sets by enumeration up to 12
+/// unilateral rows, Lemke's method with lexicographic pivots beyond. Everything in long double and
+/// scaled to a unit diagonal.
 namespace reference
 {
   using Real = long double;
@@ -94,11 +92,9 @@ namespace reference
     closed[k] = 0;
   }
 
-  /**
-   * Lemke's method for w = M z + q, w, z >= 0, w^T z = 0 with positive semidefinite M. Columns of
-   * the table: w (m), z (m), the artificial variable, q. Returns the z_i that are basic at the end,
-   * or false on a ray.
-   */
+  /// Lemke's method for w = M z + q, w, z >= 0, w^T z = 0 with positive semidefinite M. Columns of
+  /// the table: w (m), z (m), the artificial variable, q. Returns the z_i that are basic at the
+  /// end, or false on a ray.
   inline bool lemke(const Vector &M, const Vector &q, std::size_t m, std::vector<char> &basic_z)
   {
     const std::size_t width = 2 * m + 2;

@@ -26,9 +26,7 @@
 #include <deal.II/numerics/solution_transfer.h>
 #include <deal.II/numerics/vector_tools.h>
 
-#include <cstdlib>
 #include <iostream>
-#include <map>
 #include <type_traits>
 
 namespace
