@@ -93,19 +93,11 @@ TEST(CableConditions, a_straight_start_fits_what_is_held)
   EXPECT_EQ(error_of(make), "");
 }
 
-TEST(CableConditions, places_are_numbers_along_the_cable)
+TEST(CableConditions, a_link_has_two_places_along_the_cable_and_a_direction)
 {
   EXPECT_EQ(error_of_scene({}), "");
   expect_entry("Link l/From", error_of_scene({"Network/Link l/From=cable @ 39, 7"}));
   expect_entry("Link l/From", error_of_scene({"Network/Link l/From=cable @ 39, 0, 9"}));
-}
-
-TEST(CableConditions, a_link_needs_two_places)
-{
   expect_entry("Link l/To", error_of_scene({"Network/Link l/To=cable @ 39, 0"}));
-}
-
-TEST(CableConditions, a_link_to_a_cable_needs_a_direction)
-{
   expect_entry("Link l/Direction", error_of_scene({"Network/Link l/Direction="}));
 }

@@ -7,6 +7,8 @@
 #include <boost/math/quadrature/tanh_sinh.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 
+#include <tuple>
+
 namespace
 {
   using namespace taut;
@@ -54,21 +56,12 @@ namespace
     // Tip of the inextensible one for P L^2 / EI = 1, 5, 10, from the tables of the literature.
     EXPECT_NEAR(elastica_tip(1.).y, .30172, 2e-5);
     EXPECT_NEAR(elastica_tip(10.).y, .81061, 2e-5);
-    struct Case
+    const std::tuple<double, unsigned int, double> cases[] = {
+        {1., 2, 5e-4},  {1., 8, 2e-6},  {5., 4, 2e-4},  {5., 8, 2e-5},
+        {10., 4, 5e-4}, {10., 8, 4e-5}, {10., 16, 2e-6}};
+    for (const auto &[P, n, limit] : cases)
     {
-      double P;
-      unsigned int n;
-      double limit;
-    };
-    for (const Case &c : {Case{1., 2, 5e-4},
-                          {1., 8, 2e-6},
-                          {5., 4, 2e-4},
-                          {5., 8, 2e-5},
-                          {10., 4, 5e-4},
-                          {10., 8, 4e-5},
-                          {10., 16, 2e-6}})
-    {
-      const CableElements cable = make(c.n);
+      const CableElements cable = make(n);
       const std::vector<double> start = cable.interpolate(
           [](const double s) {
             return Coordinates{s, 0., 0.};
@@ -77,15 +70,15 @@ namespace
             return Coordinates{1., 0., 0.};
           });
       std::vector<double> load(cable.n_dofs(), 0.);
-      cable.position(length, {0., 1., 0.}).add_to(c.P, load);
+      cable.position(length, {0., 1., 0.}).add_to(P, load);
       // The clamp keeps the direction, and leaves the strain free.
       const CableShape shape = find_shape(cable, start, {0, 1, 2, 4, 5}, load);
-      const double error = norm(cable.position(shape.positions, length) - elastica_tip(c.P));
-      const std::string what = "elastica, P L^2/EI = " + std::to_string(int(c.P)) + ", " +
-                               std::to_string(c.n) + " elements";
+      const double error = norm(cable.position(shape.positions, length) - elastica_tip(P));
+      const std::string what =
+          "elastica, P L^2/EI = " + std::to_string(int(P)) + ", " + std::to_string(n) + " elements";
       verification::figure("tip error of an " + what, error, "L");
       verification::figure("iterations of an " + what, shape.n_iterations);
-      EXPECT_LT(error, 1.5 * c.limit) << what;
+      EXPECT_LT(error, 1.5 * limit) << what;
       EXPECT_LE(shape.n_iterations, 25u) << what;
     }
   }

@@ -10,6 +10,8 @@
 namespace
 {
   using namespace taut;
+  using verification::largest;
+  using verification::matrix_times;
 
   const CableSection section = {2e4, 30., 1.2, 50.};
 
@@ -37,14 +39,6 @@ namespace
   {
     return cable.interpolate([&](const double s) { return add_scaled(from, s, along); },
                              [&](double) { return along; });
-  }
-
-  double largest(const std::vector<double> &x)
-  {
-    double size = 0.;
-    for (const double value : x)
-      size = std::max(size, std::fabs(value));
-    return size;
   }
 
   class Elements : public testing::TestWithParam<CableElement>
@@ -102,11 +96,10 @@ namespace
       };
       const std::vector<double> a = force(step), b = force(-step), c = force(2. * step),
                                 d = force(-2. * step);
-      std::vector<double> unit = zero, column = zero, damping = zero, velocity = zero, f, f0;
+      std::vector<double> unit = zero, velocity = zero, f, f0;
       unit[j] = 1.;
       velocity[j] = .7;
-      K->vmult_add(1., unit.data(), column.data());
-      D->vmult_add(1., unit.data(), damping.data());
+      const std::vector<double> column = matrix_times(*K, unit), damping = matrix_times(*D, unit);
       cable.internal_force(q, {}, f0);
       cable.internal_force(q, velocity, f);
       for (const unsigned int i : dofs())
@@ -128,11 +121,10 @@ namespace
     std::normal_distribution<double> normal;
     for (int k = 0; k < 1000; ++k)
     {
-      std::vector<double> x(q.size(), 0.), y(q.size(), 0.);
+      std::vector<double> x(q.size(), 0.);
       for (const unsigned int i : dofs())
         x[i] = normal(random);
-      K->vmult_add(1., x.data(), y.data());
-      EXPECT_GE(dot(x, y), 0.);
+      EXPECT_GE(dot(x, matrix_times(*K, x)), 0.);
     }
     // A straight line under tension has nothing to leave out.
     const std::vector<double> straight = line(cable, {}, {1.01, 0., 0.});
@@ -217,12 +209,7 @@ namespace
     cable.add_load({0., -3., 2.}, load);
     // Unit translation along y; rotation about the first end.
     const auto shift = line(cable, {0., 1., 0.}, {}), turn = line(cable, {}, {0., 1., 0.});
-    const auto energy = [&](const std::vector<double> &v)
-    {
-      std::vector<double> p(v.size(), 0.);
-      M->vmult_add(1., v.data(), p.data());
-      return dot(v, p);
-    };
+    const auto energy = [&](const std::vector<double> &v) { return dot(v, matrix_times(*M, v)); };
     EXPECT_NEAR(energy(shift), 1.2 * 5., 1e-12);
     EXPECT_NEAR(energy(turn), 1.2 * 125. / 3., 1e-11);
     EXPECT_NEAR(dot(load, shift), -15., 1e-12);

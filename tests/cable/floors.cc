@@ -3,6 +3,7 @@
 // lie slack, and stay there. Expected values: the balance of forces; a catenary that ends level on
 // the floor (Irvine 1981), without stretch.
 #include "cable/one_cable.h"
+#include "cable/slack_cable.h"
 #include "verification/scene_tests.h"
 
 #include <taut/time/stepper.h>
@@ -32,23 +33,16 @@ namespace
     Stepper stepper(one.system, verification::steps_of(2e-3, Start::equilibrium));
     AtRest result;
     result.balance = stepper.certificate().balance;
-    std::vector<double> f, P;
-    const std::vector<double> U = stepper.displacement(0);
-    cable->internal_force(U, {}, f);
-    cable->external_force(0., P);
-    for (std::size_t i = 0; i < P.size(); ++i)
-      P[i] -= f[i];
+    const std::vector<double> U = stepper.displacement(0), r = verification::unbalanced(*cable, U);
     const auto first = cable->elements().end_dofs(false), last = cable->elements().end_dofs(true);
-    result.horizontal = P[first[0]];
-    result.ends = -P[first[1]] - P[last[1]];
+    result.horizontal = r[first[0]];
+    result.ends = -r[first[1]] - r[last[1]];
     for (unsigned int k = 0; k + 1 < n; ++k)
       result.floor += stepper.multiplier(k);
     result.least_tension = EA * cable->elements().smallest_strain(cable->positions(U));
     for (int k = 0; k < 5; ++k)
       stepper.advance();
-    const std::vector<double> later = stepper.displacement(0);
-    for (std::size_t i = 0; i < U.size(); ++i)
-      result.way = std::max(result.way, std::fabs(later[i] - U[i]));
+    result.way = verification::largest_difference(U, stepper.displacement(0));
     return result;
   }
 
@@ -114,8 +108,7 @@ TEST(CableFloors, tension_is_that_of_the_free_parts)
     const AtRest found = on_floor(length, 1.5, 64, 1e6, CableElement::ancf);
     const double exact = horizontal_on_floor(length, 1.5);
     verification::figure(
-        "horizontal force of a cable on a floor 1.5 m below, less that of its free "
-        "parts",
+        "horizontal force of a cable on a floor 1.5 m below, less that of its free parts",
         found.horizontal - exact, "N");
     EXPECT_NEAR(found.horizontal, exact, .1 * weight * length / 64.);
   }

@@ -3,7 +3,7 @@
 // it lacks; one that is exactly taut is straight. Expected value: the length under its own weight,
 // L + w L^2 / (2 EA).
 #include "cable/errors_of_runs.h"
-#include "verification/scene_tests.h"
+#include "cable/places_in_steps.h"
 
 namespace
 {
@@ -24,24 +24,10 @@ Time: End = 0; Step = 5e-3
                                   const std::string &scene = rope)
   {
     std::vector<Coordinates> result;
+    Attachment at{Attachment::Kind::body, 0};
+    at.place = {s};
     verification::run_scene(scene, overrides,
-                            [&](const StepView &view)
-                            {
-                              Attachment at{Attachment::Kind::body, 0};
-                              at.place = {s};
-                              const Coordinates place = view.structure.position(view.scene, at);
-                              double u[3];
-                              for (unsigned int c = 0; c < 3; ++c)
-                              {
-                                Coordinates axis;
-                                (c == 0 ? axis.x : c == 1 ? axis.y : axis.z) = 1.;
-                                std::vector<Term> terms;
-                                view.structure.motion(at, false, axis, 1., terms);
-                                u[c] = evaluate(terms, view.reference.displacement) +
-                                       evaluate(terms, view.state.U);
-                              }
-                              result.push_back(add_scaled(place, 1., {u[0], u[1], u[2]}));
-                            });
+                            [&](const StepView &view) { result.push_back(displaced(view, at)); });
     return result;
   }
 } // namespace

@@ -4,8 +4,9 @@
 #include "cable/slack_cable.h"
 #include "verification/scene_tests.h"
 
-#include <taut/base/dot.h>
 #include <taut/cable/find_length.h>
+
+#include <deal.II/lac/lapack_full_matrix.h>
 
 namespace
 {
@@ -17,48 +18,33 @@ namespace
 
   const double pi = std::acos(-1.);
 
-  /// The lowest natural frequencies by subspace iteration one after the other [rad/s].
+  /// The lowest natural frequencies [rad/s].
   std::vector<double> frequencies(const Substructure &body, const unsigned int n)
   {
-    const auto solver = make_local_solver("block tridiagonal", body.stiffness());
-    solver->factor({{1., &body.stiffness()}}, body.constrained_dofs());
-    std::vector<std::vector<double>> modes;
-    std::vector<double> result;
-    for (unsigned int mode = 0; mode < n; ++mode)
+    const std::vector<unsigned int> &held = body.constrained_dofs();
+    std::vector<unsigned int> dofs;
+    for (unsigned int i = 0; i < body.n_dofs(); ++i)
+      if (std::find(held.begin(), held.end(), i) == held.end())
+        dofs.push_back(i);
+    const auto dense = [&](const SymmetricMatrix &matrix)
     {
-      std::vector<double> x(body.n_dofs());
-      for (std::size_t i = 0; i < x.size(); ++i)
-        x[i] = std::sin(1. + 1.7 * i * (mode + 1));
-      for (const unsigned int i : body.constrained_dofs())
-        x[i] = 0.;
-      double omega = 0.;
-      for (int iteration = 0; iteration < 300; ++iteration)
+      dealii::LAPACKFullMatrix<double> result(dofs.size());
+      for (std::size_t j = 0; j < dofs.size(); ++j)
       {
-        const auto times_mass = [&](const std::vector<double> &v)
-        {
-          std::vector<double> Mv(v.size(), 0.);
-          body.mass().vmult_add(1., v.data(), Mv.data());
-          return Mv;
-        };
-        for (const auto &other : modes)
-        {
-          const double part = dot(times_mass(other), x);
-          for (std::size_t i = 0; i < x.size(); ++i)
-            x[i] -= part * other[i];
-        }
-        const double size = std::sqrt(dot(times_mass(x), x));
-        for (double &value : x)
-          value /= size;
-        std::vector<double> y = times_mass(x);
-        const std::vector<double> Mx = y;
-        solver->solve(y);
-        omega = 1. / std::sqrt(dot(y, Mx));
-        if (iteration < 299)
-          x = y;
+        std::vector<double> unit(body.n_dofs(), 0.);
+        unit[dofs[j]] = 1.;
+        const std::vector<double> column = verification::matrix_times(matrix, unit);
+        for (std::size_t i = 0; i < dofs.size(); ++i)
+          result(i, j) = column[dofs[i]];
       }
-      modes.push_back(x);
-      result.push_back(omega);
-    }
+      return result;
+    };
+    dealii::LAPACKFullMatrix<double> K = dense(body.stiffness()), M = dense(body.mass());
+    std::vector<dealii::Vector<double>> no_modes;
+    K.compute_generalized_eigenvalues_symmetric(M, no_modes);
+    std::vector<double> result;
+    for (unsigned int k = 0; k < n; ++k)
+      result.push_back(std::sqrt(K.eigenvalue(k).real()));
     return result;
   }
 

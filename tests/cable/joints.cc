@@ -56,13 +56,8 @@ TEST(CableJoints, a_link_between_two_places_of_one_cable)
           between(link, is_one), {},
           [&](const StepView &view)
           { force[is_one].push_back(view.state.multiplier[view.constraints.index_of_link(0)]); });
-    ASSERT_EQ(force[0].size(), force[1].size());
-    double size = 0., error = 0.;
-    for (std::size_t i = 0; i < force[0].size(); ++i)
-    {
-      size = std::max(size, std::fabs(force[0][i]));
-      error = std::max(error, std::fabs(force[0][i] - force[1][i]));
-    }
+    const double size = verification::largest(force[0]),
+                 error = verification::largest_difference(force[0], force[1]);
     EXPECT_GT(size, 10.) << link;
     EXPECT_LT(error, 1e-6 * size) << link;
     figure("force between two places of one cable beside that of two joined cables", error / size);

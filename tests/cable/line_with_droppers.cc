@@ -3,6 +3,7 @@
 // as its head expects. Expected values: elastic catenaries that meet at the droppers; no gain of
 // energy; the same run with half the step and half the elements.
 #include "cable/joined_catenaries.h"
+#include "cable/places_in_steps.h"
 #include "verification/scene_tests.h"
 
 #include <array>
@@ -92,18 +93,11 @@ namespace
               found.start.tension[i] = step.state.multiplier[link_of[i]];
               found.start.distance[i] = lengths[i] - step.state.geometric_gap[link_of[i]];
             }
-          std::vector<double> height;
-          for (const Probe &probe : step.scene.probes)
-          {
-            std::vector<Term> terms;
-            step.structure.motion(probe.point, false, probe.direction, 1., terms);
-            Coordinates place = step.structure.position(step.scene, probe.point);
-            height.push_back(place.y + verification::displacement(step, terms));
-          }
+          const double middle = displaced(step, step.scene.probes[0].point).y;
           if (t == 0.)
           {
-            found.start.middle = height[0];
-            found.start.messenger = height[1];
+            found.start.middle = middle;
+            found.start.messenger = displaced(step, step.scene.probes[1].point).y;
           }
           if (t > 0. && found.caught == 0. && inner > 0.)
             found.caught = t;
@@ -111,7 +105,7 @@ namespace
             found.first = std::max(found.first, inner);
           for (const std::size_t link : link_of)
             found.largest = std::max(found.largest, t > 0. ? step.state.multiplier[link] : 0.);
-          found.lowest = std::min(found.lowest, height[0]);
+          found.lowest = std::min(found.lowest, middle);
           found.gain = step.measures.summary().relative_motion_energy;
         });
     return found;

@@ -4,6 +4,7 @@
 // cables, from which they differ by the square of the load.
 #include "cable/errors_of_runs.h"
 #include "cable/one_cable.h"
+#include "cable/places_in_steps.h"
 
 #include <taut/output/scene_report.h>
 #include <taut/time/static_equilibrium.h>
@@ -17,18 +18,15 @@ namespace
   using verification::Overrides;
   using verification::scene_file;
   using verification::Session;
+  using verification::operator+;
 
   /// The line of prm/line_with_droppers.prm, all droppers taut, with cables of one geometry.
   Overrides line(const std::string &geometry, const Overrides &entries)
   {
     Overrides all;
-    for (const std::string cable : {"messenger", "contact wire"})
-    {
-      all.push_back("Body " + cable + "/Geometry=" + geometry);
-      all.push_back("Body " + cable + "/Elements=24");
-    }
-    all.insert(all.end(), entries.begin(), entries.end());
-    return all;
+    for (const std::string cable : {"Body messenger", "Body contact wire"})
+      all = all + Overrides{cable + "/Geometry=" + geometry, cable + "/Elements=24"};
+    return all + entries;
   }
 
   /// Probes and forces of links of all steps, under a load that begins at zero.
@@ -156,12 +154,7 @@ TEST(CableLinearised, start_shows_places_of_the_equilibrium)
         if (step.state.time > 0.)
           return;
         for (const Link &link : step.scene.links)
-        {
-          std::vector<Term> terms;
-          step.structure.motion(link.to, false, {0., 1.}, 1., terms);
-          heights.push_back(step.structure.position(step.scene, link.to).y +
-                            verification::displacement(step, terms));
-        }
+          heights.push_back(displaced(step, link.to).y);
       });
   const std::vector<double> y =
       verification::read_table(session.folder() + "/start.csv").at("y [m]");
@@ -197,14 +190,9 @@ TEST(CableLinearised, a_system_stays_as_it_is)
     u *= .5;
   linear[0].mean_internal_force(zero, U, 1., mean);
   linear[0].internal_force(half, {}, f);
-  const double step = 1e-6;
-  double work = 0.;
-  for (std::size_t i = 0; i < U.size(); ++i)
-  {
-    EXPECT_NEAR(mean[i], f[i], 1e-6);
-    work += mean[i] * U[i];
-  }
+  EXPECT_LT(largest_difference(mean, f), 1e-6);
+  const double work = std::inner_product(U.begin(), U.end(), mean.begin(), 0.);
   EXPECT_NEAR(work, linear[0].strain_energy(U) - linear[0].strain_energy(zero),
-              step * std::fabs(work));
+              1e-6 * std::fabs(work));
   EXPECT_NEAR(linear[0].strain_energy(U), system.body(0)->strain_energy(U), 1e-9);
 }

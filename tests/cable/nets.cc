@@ -10,6 +10,7 @@ namespace
   using namespace taut;
   using verification::figure;
   using verification::has;
+  using verification::number;
 
   constexpr double weight = .5 * 9.81; ///< of a cable [N/m]
 
@@ -23,18 +24,7 @@ namespace
 
   std::string numbers_of(const Coordinates &a)
   {
-    std::ostringstream out;
-    out.precision(17);
-    out << a.x << ", " << a.y << ", " << a.z;
-    return out.str();
-  }
-
-  std::string cable_end(const Net &net, const std::size_t cable, const bool last)
-  {
-    std::ostringstream out;
-    out.precision(17);
-    out << "c" << cable << " @ " << (last ? net.system.cables[cable].length : 0.) << ", 0";
-    return out.str();
+    return number(a.x) + ", " + number(a.y) + ", " + number(a.z);
   }
 
   /// The parameter file of a net.
@@ -61,7 +51,8 @@ namespace
           << "\n";
       for (const bool last : {false, true})
         if (!(last ? holds_to : holds_from))
-          ends[last ? cable.to : cable.from].push_back(cable_end(net, k, last));
+          ends[last ? cable.to : cable.from].push_back("c" + std::to_string(k) + " @ " +
+                                                       number(last ? cable.length : 0.) + ", 0");
     }
     for (std::size_t i = 0; i < system.n_free; ++i)
     {
@@ -73,42 +64,35 @@ namespace
         ends[i].insert(ends[i].begin(), node);
       }
       for (std::size_t e = 1; e < ends[i].size(); ++e)
-      {
-        const std::string title = node + " " + std::to_string(e);
-        out << "Link " << title << ": Type = ball joint; From = " << ends[i][0]
+        out << "Link " << node << " " << e << ": Type = ball joint; From = " << ends[i][0]
             << "; To = " << ends[i][e] << "\n";
-      }
       for (const char axis : {'x', 'y', 'z'})
-      {
-        const std::string title = node + " " + axis;
-        out << "Probe " << title << ": Point = " << ends[i][0] << "; Direction = " << (axis == 'x')
-            << ", " << (axis == 'y') << ", " << (axis == 'z') << "\n";
-      }
+        out << "Probe " << node << " " << axis << ": Point = " << ends[i][0]
+            << "; Direction = " << (axis == 'x') << ", " << (axis == 'y') << ", " << (axis == 'z')
+            << "\n";
     }
     return out.str();
+  }
+
+  /// The free nodes of a net, displaced as the three probes of each say.
+  std::vector<Coordinates> displaced(const Net &net, const StepView &step)
+  {
+    EXPECT_EQ(step.probes.size(), 3 * net.system.n_free);
+    std::vector<Coordinates> places;
+    for (std::size_t i = 0; i < net.system.n_free; ++i)
+    {
+      const double *const u = &step.probes[3 * i];
+      places.push_back(add_scaled(net.system.places[i], 1., {u[0], u[1], u[2]}));
+    }
+    return places;
   }
 
   /// Places of the free nodes at rest.
   std::vector<Coordinates> found(const Net &net, const verification::Overrides &overrides = {})
   {
     std::vector<Coordinates> places;
-    verification::run_scene(
-        parameter_file(net), overrides,
-        [&](const StepView &step)
-        {
-          for (std::size_t i = 0; i < net.system.n_free; ++i)
-          {
-            double u[3];
-            for (std::size_t c = 0; c < 3; ++c)
-            {
-              const Probe &probe = step.scene.probes[3 * i + c];
-              std::vector<Term> terms;
-              step.structure.motion(probe.point, false, probe.direction, 1., terms);
-              u[c] = verification::displacement(step, terms);
-            }
-            places.push_back(add_scaled(net.system.places[i], 1., {u[0], u[1], u[2]}));
-          }
-        });
+    verification::run_scene(parameter_file(net), overrides,
+                            [&](const StepView &step) { places = displaced(net, step); });
     return places;
   }
 
@@ -273,18 +257,9 @@ TEST(CableNets, scene)
 {
   Net net;
   JoinedCatenaries &system = net.system;
-  const double heights[] = {0., .6, 1.2, .3, .9, 0., .5, 1.5};
-  for (const double z : {3., 6.})
-    for (const double x : {3., 6.})
-      system.places.push_back({x, 0., z});
-  for (const double x : {0., 9.})
-    for (const double z : {3., 6.})
-      system.places.push_back({x, 0., z});
-  for (const double z : {0., 9.})
-    for (const double x : {3., 6.})
-      system.places.push_back({x, 0., z});
-  for (std::size_t i = 0; i < 8; ++i)
-    system.places[4 + i].y = heights[i];
+  system.places = {{3., 0., 3.}, {6., 0., 3.}, {3., 0., 6.},  {6., 0., 6.},
+                   {0., 0., 3.}, {0., .6, 6.}, {9., 1.2, 3.}, {9., .3, 6.},
+                   {3., .9, 0.}, {6., 0., 0.}, {3., .5, 9.},  {6., 1.5, 9.}};
   system.n_free = 4;
   system.loads.assign(4, {});
   set_masses(net, {20., 20., 40., 20.});
@@ -292,17 +267,13 @@ TEST(CableNets, scene)
                                  {8, 0}, {0, 2}, {2, 10}, {9, 1}, {1, 3}, {3, 11}};
   for (const auto &[from, to] : ends)
     system.cables.push_back({from, to, from < 4 && to < 4 ? 3.4 : 3.6, 1e6, {0., -.3 * 9.81, 0.}});
-
-  std::vector<Coordinates> places(system.places.begin(), system.places.begin() + 4);
+  std::vector<Coordinates> places;
   std::vector<double> table;
   verification::Session session(verification::scene_file("net_of_cables"));
   session.run(
       [&](const StepView &step)
       {
-        ASSERT_EQ(step.probes.size(), 12u);
-        for (std::size_t i = 0; i < 4; ++i)
-          places[i] = add_scaled(
-              places[i], 1., {step.probes[3 * i], step.probes[3 * i + 1], step.probes[3 * i + 2]});
+        places = displaced(net, step);
         table = step.probes;
       });
   const std::vector<Coordinates> exact = by_catenaries(net, places);

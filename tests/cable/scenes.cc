@@ -1,21 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: the scenes of cables in prm/ have the numbers that their heads expect. Expected values:
 // closed forms that the heads name.
+#include "cable/places_in_steps.h"
 #include "verification/scene_tests.h"
 
-namespace
-{
-  using verification::run_scene;
-  using verification::scene_file;
-
-  double moved(const taut::StepView &step, const taut::Attachment &point,
-               const taut::Coordinates &direction)
-  {
-    std::vector<taut::Term> terms;
-    step.structure.motion(point, false, direction, 1., terms);
-    return verification::displacement(step, terms);
-  }
-} // namespace
+using verification::run_scene;
+using verification::scene_file;
 
 TEST(CableScenes, weight_on_a_slack_cable)
 {
@@ -136,8 +126,7 @@ TEST(CableScenes, floor)
   EXPECT_GT(lifted, 12. - 10.1); // from its own shape to the floor is 10.1 m
 }
 
-// BDF2 begins with a step of backward Euler, whose gain of energy is measured, and measures none of
-// its own.
+// BDF2 begins with a step of backward Euler, whose gain of energy is measured, and measures none.
 TEST(CableScenes, certificates_are_of_their_own_steps)
 {
   std::vector<double> gains;
