@@ -23,8 +23,7 @@ namespace
   throw std::bad_alloc();
 }
 
-/// Of temporary buffers of the standard library; the sanitizers' own one would not fit the
-/// operators below.
+/// Of temporary buffers of the library; the sanitizers' own would not fit the operators below.
 [[gnu::noinline]] void *operator new(std::size_t size, const std::nothrow_t &) noexcept
 {
   ++n_allocations;
@@ -72,7 +71,6 @@ namespace
       EXPECT_NEAR(a[i], b[i], tolerance) << "entry " << i;
   }
 
-  /// The answer of a method that starts from these closed rows.
   ComplementarityResult solved(const std::string &method, const MixedComplementarityProblem &values,
                                DenseOperator F, const std::vector<char> &start = {})
   {
@@ -81,7 +79,6 @@ namespace
     return solver.solve(values, F);
   }
 
-  /// F that is not a DenseOperator, and that counts.
   class CountingOperator : public ComplementarityOperator
   {
   public:
@@ -190,7 +187,6 @@ namespace
     expect_solved("a violated gap is pushed shut", {{2.}}, problem({1}, {-3.}), {1.5}, {0.}, 8e-16,
                   1e-15);
     expect_solved("a bilateral row pulls as well", {{2.}}, problem({0}, {3.}), {-1.5}, {0.}, 8e-16);
-
     // With F = [2 1; 1 2] and both rows closed N = -F^-1 d = -(2 d0 - d1, 2 d1 - d0) / 3.
     std::vector<Vector> F = {{2., 1.}, {1., 2.}};
     // Row 0 alone takes N = 2 and lifts row 1 from -1 to +1.
@@ -199,7 +195,6 @@ namespace
     // Bilateral row 0 pulls with -2 and draws row 1 from 1 to -1, which has to close.
     expect_solved("bilateral and unilateral rows mix", F, problem({0, 1}, {4., 1.}),
                   {-7. / 3., 2. / 3.}, {0., 0.});
-
     // The same motion, gaps -1 and -2: only the second touches, N = 2, and the first is open by 1.
     expect_solved("the tighter of two parallel stops carries", {{1., 1.}, {1., 1.}},
                   problem({1, 1}, {-1., -2.}), {0., 2.}, {1., 0.});
@@ -211,7 +206,6 @@ namespace
                   {20. / 3., 0., 50. / 9.}, {0., 1. / 3., 0.});
     expect_solved("rows without stiffness are dropped", {{2., 0., 0.}, {0., 0., 0.}, {0., 0., 0.}},
                   problem({1, 1, 0}, {-4., 7., 0.}), {2., 0., 0.}, {0., 7., 0.});
-
     // Row 1 alone: N = 3/2; row 0 would close.
     F = {{2., -1.}, {-1., 2.}};
     auto one_of_two = problem({1, 1}, {-1., -3.});
@@ -267,8 +261,6 @@ namespace
     EXPECT_EQ(force(), 0.);
   }
 
-  // ---- cycling
-
   TEST(complementarity, cycling_3x3_is_solved)
   {
     // d = (2,1,-3): rows 0 and 2 closed, F_aa = [4 -5; -5 7], det 3, N = (1/3, 0, 2/3), D_1 = 1 +
@@ -291,8 +283,7 @@ namespace
 
   TEST(complementarity, a_cycle_is_seen_at_its_first_return)
   {
-    // Newton's method alone cycles from 6 of the 8 starts, without the guard to the iteration
-    // bound.
+    // Newton's method alone cycles from 6 of the 8 starts, or ends at the iteration bound.
     unsigned int n_cycles = 0;
     for (int start = 0; start < 8; ++start)
     {
@@ -309,7 +300,6 @@ namespace
       ++n_cycles;
       EXPECT_EQ(outcome, SemismoothNewton::Outcome::cycle);
       EXPECT_LT(guarded.n_iterations(), 8u);
-
       options.detect_cycles = false;
       SemismoothNewton unguarded(options);
       solution.closed = closed;
@@ -317,8 +307,6 @@ namespace
     }
     EXPECT_EQ(n_cycles, 6u);
   }
-
-  // ---- dependent rows
 
   TEST(complementarity, duplicate_rows_share_the_force_evenly)
   {
@@ -411,8 +399,7 @@ namespace
     expect_solved("a rigid beam finds the two rigid stops that hold it", rigid,
                   beam_on_stops(10., .3, {1e-3, 0., 0.}), {7., 3., 0.}, {0., 0., 1e-3}, 1e-12,
                   1e-15, {-1e-3, 1e-3}, 1e-15, true);
-    // By hand: N = 10 from the second balance, 2 alpha_0 = N - 4, alpha_1 = -(0.1 N + 0.5 +
-    // alpha_0).
+    // By hand: N = 10 from the second balance, 2 alpha_0 = N - 4, alpha_1 = -.1 N - .5 - alpha_0.
     expect_solved(
         "E_k = 0 is a null space vector that contacts alone balance, beside a resisted one", {{.1}},
         floating(problem({1}, {.5}), {1., 1.}, {-4., -10.}, {2., 0.}), {10.}, {0.}, 1e-12, 1e-12,
@@ -428,8 +415,7 @@ namespace
   TEST(complementarity, a_touching_row_may_be_what_holds_a_body)
   {
     // Made from N = (0, -3, 0, 0, -5, 0), D = (0, 0, 2, 3, 0, 5), alpha = (1, 3, 0). Without row 0,
-    // which touches, one motion is free: the method of multipliers alone comes to rest some 1e-7 N
-    // from the answer.
+    // which touches, one motion is free: the method of multipliers alone is off by some 1e-7 N.
     const std::vector<Vector> F = {{19., 6., 14., 2., -15., -11.},  {6., 10., 7., -2., -12., 0.},
                                    {14., 7., 14., -1., -12., -4.},  {2., -2., -1., 2., 0., -4.},
                                    {-15., -12., -12., 0., 19., 7.}, {-11., 0., -4., -4., 7., 11.}};
@@ -443,8 +429,7 @@ namespace
 
   TEST(complementarity, rigid_beam_rests_on_stops_without_any_gap)
   {
-    // d = F = 0: nothing gives rounding a scale. N is not unique, its balance is; the load on one
-    // stop is a case apart.
+    // d = F = 0: nothing gives rounding a scale. N is not unique, its balance is.
     for (const std::string &method : both_methods)
       for (const double position : {0., .3, 1., 2.})
       {
@@ -519,9 +504,7 @@ namespace
     for (const std::string &method : both_methods)
       for (const std::size_t n : {0, 1})
       {
-        DenseOperator F(n);
-        if (n > 0)
-          F.set(0, 0, 1.);
+        const DenseOperator F = dense(std::vector<Vector>(n, {1.}));
         auto loose = problem(std::vector<char>(n, 1), Vector(n, -1.));
         loose.null_space = {{}};
         loose.null_space_load = {0.};
@@ -531,23 +514,17 @@ namespace
       }
   }
 
-  // ---- solves that are not exact
-
   TEST(complementarity, solves_that_are_off_are_corrected)
   {
-    // Each correction leaves a hundredth of the gaps, from 3 to less than 1e-12 of the terms of 6:
-    // 3 * 100^-k < 6e-12 with k = 6.
+    // Each correction leaves a hundredth of the gaps: 3 * 100^-k < 6e-12 with k = 6.
     CountingOperator F(dense({{2., 1.}, {1., 2.}}));
     F.solve_error = .01;
     ComplementaritySolver solver("semismooth Newton");
     const auto &result = solver.solve(problem({0, 0}, {-3., -3.}), F);
-    for (const double multiplier : result.solution.multiplier)
-      EXPECT_NEAR(multiplier, 1., 2e-12);
+    expect_near(result.solution.multiplier, {1., 1.}, 2e-12);
     EXPECT_EQ(F.n_solves, 6u);
     EXPECT_EQ(result.iterations, 1u);
   }
-
-  // ---- cost
 
   TEST(complementarity, bilateral_rows_alone_take_one_linear_solve)
   {
@@ -593,8 +570,6 @@ namespace
     EXPECT_EQ(n_allocations, before);
   }
 
-  // ---- the dense operator
-
   TEST(complementarity, kept_factor_equals_a_fresh_one)
   {
     // Random sets, orders, shifts and entries; the reference is an operator that has seen no other.
@@ -622,8 +597,7 @@ namespace
       const std::vector<std::size_t> set(order.begin(), order.begin() + random() % (n + 1));
       const double shift = random() % 3 == 0 ? .1 * (1 + random() % 2) : 0.;
       Vector rhs(n), x, y;
-      for (double &value : rhs)
-        value = random() % 10;
+      std::generate(rhs.begin(), rhs.end(), [&] { return random() % 10; });
       DenseOperator fresh(n);
       for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; j <= i; ++j)
@@ -664,8 +638,6 @@ namespace
       EXPECT_FALSE(F.solve({2}, {1., 1., 1.}, 0., x));
     }
   }
-
-  // ---- the residual, and what is refused
 
   TEST(complementarity, residual_tells_each_kind_of_error)
   {
@@ -767,8 +739,7 @@ namespace
 
   TEST(complementarity, the_flag_says_which_method_got_to_the_end)
   {
-    // Newton's method cycles; what the energy-ordered set finds misses the tolerance, and Newton's
-    // method ends what it began or what the other did.
+    // Newton's method cycles; the energy-ordered set misses the tolerance, and Newton's ends it.
     for (const std::string method : {"semismooth Newton", "energy-ordered"})
     {
       RoughEntries F(dense(cycling_matrix));
@@ -817,11 +788,8 @@ namespace
           problem({1, 1}, {-1., -1.}), F, {0, 1}, options.linear_tolerance, solution, terms);
       EXPECT_EQ(outcome, ActiveSetSystem::Outcome::solved);
       EXPECT_GE(F.n_solves, 5u);
-      for (int i = 0; i < 2; ++i)
-      {
-        EXPECT_NEAR(solution.multiplier[i], .5, 1e-8);
-        EXPECT_NEAR(solution.gap[i], 0., 1e-12);
-      }
+      expect_near(solution.multiplier, {.5, .5}, 1e-8);
+      expect_near(solution.gap, {0., 0.});
     }
   }
 } // namespace
