@@ -13,12 +13,8 @@
 
 namespace
 {
+  using namespace verification;
   using namespace taut;
-  using verification::equilibrium;
-  using verification::has;
-  using verification::largest_of;
-  using verification::slack_cable;
-  using verification::unbalanced;
 
   TEST(CableBodies, FoundShapeIsInBalance)
   {
@@ -44,7 +40,7 @@ namespace
     const auto is_short = [&](const double H) {
       return .5 * H * L / EA + H / w * (std::asinh(V / H) - std::asinh((V - .5 * w * L) / H)) < 30.;
     };
-    const double H = verification::end_of(1., 1e5, is_short);
+    const double H = end_of(1., 1e5, is_short);
     const double depth =
         .5 * L / EA * (V - .25 * w * L) + (std::hypot(H, V) - std::hypot(H, V - .5 * w * L)) / w;
     const ElasticCatenary before({}, {60., 0., 0.}, {0., -w, 0.}, EA, L);
@@ -54,8 +50,7 @@ namespace
     const LinearForm middle = cable.displacement({39., 0.}, {0., -1., 0.});
     cable.add_force(middle, F);
     const double found = middle.dot(equilibrium(cable));
-    verification::figure("error of a cable sinking by 1.045 m under a weight", found - sinking,
-                         "m");
+    figure("error of a cable sinking by 1.045 m under a weight", found - sinking, "m");
     EXPECT_NEAR(found, sinking, 1e-5);
   }
 
@@ -102,7 +97,7 @@ namespace
     std::vector<double> direction(U.size()), f, g;
     for (std::size_t i = 0; i < U.size(); ++i)
       direction[i] = std::cos(3. * i) * 1e-6;
-    const std::vector<double> Kd = verification::matrix_times(*K, direction);
+    const std::vector<double> Kd = matrix_times(*K, direction);
     std::vector<double> ahead = U, behind = U;
     for (std::size_t i = 0; i < U.size(); ++i)
     {
@@ -141,7 +136,7 @@ namespace
     EXPECT_THROW(cable.displacement({-.1, 0.}, {0., 1., 0.}), UserError);
     const std::string path = testing::TempDir() + "taut_cable.vtu";
     cable.write_vtu(path, std::vector<double>(cable.n_dofs(), 0.));
-    const std::string text = verification::file_text(path);
+    const std::string text = file_text(path);
     for (const char *name : {"tension", "unstressed_arc_length", "displacement"})
       EXPECT_TRUE(has(text, std::string("Name=\"") + name)) << name;
     std::remove(path.c_str());
@@ -161,20 +156,20 @@ Time: End = 0
     for (const std::string &entry :
          {std::string("Unstressed length=78"),
           "Horizontal tension=" + std::to_string(exact.horizontal()), "Sag=" + std::to_string(sag)})
-      verification::run_scene(
-          scene,
-          {"Body cable/Elements=32", "Body cable/Geometry=linearised", "Body cable/" + entry},
-          [&](const StepView &view)
-          {
-            const auto &cable = dynamic_cast<const Cable &>(view.structure[0]);
-            EXPECT_NEAR(cable.elements().length(), 78., 1e-5) << entry;
-            EXPECT_NEAR(cable.elements().position(cable.shape().positions, 39.).y, -sag, 1e-4);
-          });
+      run_scene(scene,
+                {"Body cable/Elements=32", "Body cable/Geometry=linearised", "Body cable/" + entry},
+                [&](const StepView &view)
+                {
+                  const auto &cable = dynamic_cast<const Cable &>(view.structure[0]);
+                  EXPECT_NEAR(cable.elements().length(), 78., 1e-5) << entry;
+                  EXPECT_NEAR(cable.elements().position(cable.shape().positions, 39.).y, -sag,
+                              1e-4);
+                });
   }
 
   TEST(CableEntries, WhatMakesNoCable)
   {
-    const std::tuple<verification::Overrides, std::string, std::string> cases[] = {
+    const std::tuple<Overrides, std::string, std::string> cases[] = {
         {{}, "Unstressed length", "exactly one"},
         {{"Unstressed length=78", "Sag=3"}, "Unstressed length", "exactly one"},
         {{"Unstressed length=-78"}, "Unstressed length", "negative"},

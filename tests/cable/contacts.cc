@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: contacts of cables with obstacles are those of lines in space: the same wherever the scene
-// is and however it is turned, on any side of the cable. Expected values: closed forms, and the
-// same scene in the plane z = 0.
+// is and however it is turned, on any side of the cable. Source: closed forms; the plane z = 0.
 #include "cable/errors_of_runs.h"
-#include "verification/scene_tests.h"
 
 #include <taut/model/surface_constraints.h>
 
 #include <tuple>
 
-using verification::has;
-using verification::Overrides;
-using verification::operator+;
-
 namespace
 {
+  using namespace verification;
   using namespace taut;
 
   const std::string scene = R"(Generator = network; Gravity = 0, -9.81; Start = equilibrium
@@ -44,7 +39,7 @@ Time: End = 0
         result.least_gap = std::min(result.least_gap, row.gap);
       }
     };
-    verification::run_scene(scene, entries, record);
+    run_scene(scene, entries, record);
     return result;
   }
 } // namespace
@@ -141,12 +136,12 @@ TEST(CableContacts, large_motions_on_a_plane_side_of_a_solid)
          {"Contact o/Slave: a contact keeps", "whose normals differ", "plane side of a solid"});
   // As much as a rigid floor carries, but for the mean gaps of the mesh: two per cent.
   double force = 0.;
-  verification::run_scene(both, between + of_block,
-                          [&](const StepView &step)
-                          {
-                            for (const double N : step.state.multiplier)
-                              force += N;
-                          });
+  run_scene(both, between + of_block,
+            [&](const StepView &step)
+            {
+              for (const double N : step.state.multiplier)
+                force += N;
+            });
   const double of_floor = touch({}).force;
   EXPECT_NEAR(force, of_floor, .02 * of_floor);
 }
@@ -162,7 +157,7 @@ TEST(CableContacts, held_ends_inside_an_obstacle)
 
 TEST(CableContacts, what_is_out_of_reach_is_named)
 {
-  const std::string refusal = verification::error_of(
+  const std::string refusal = error_of(
       [&] {
         touch({"Contact o/Point=0, -50", "Contact o/Search distance=1"});
       });
@@ -172,9 +167,9 @@ TEST(CableContacts, what_is_out_of_reach_is_named)
 
 TEST(CableContacts, the_force_acts_where_the_cable_lies)
 {
-  verification::Session session(scene);
+  Session session(scene);
   session.run();
-  const auto table = verification::read_table(session.folder() + "/contact_o.csv");
+  const auto table = read_table(session.folder() + "/contact_o.csv");
   EXPECT_EQ(table.size(), 11u);
   EXPECT_GT(table.at("force y [N]").back(), 1.);
   EXPECT_NEAR(table.at("point x [m]").back(), 5., 1e-6);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: the forces of cable elements are gradients of their energy, their tangents are derivatives
-// of the forces, and the mean force over a step does the work that the energy says. Expected
-// values: differences, and the identities themselves.
+// of the forces, and mean forces do the work of the energy. Source: differences, and identities.
 #include "common.h"
 
 #include <taut/base/dot.h>
@@ -9,9 +8,8 @@
 
 namespace
 {
+  using namespace verification;
   using namespace taut;
-  using verification::largest;
-  using verification::matrix_times;
 
   const CableSection section = {2e4, 30., 1.2, 50.};
 
@@ -19,13 +17,13 @@ namespace
   std::vector<double> shape(const CableElements &cable, const unsigned int seed)
   {
     const double pi = std::acos(-1.);
-    std::vector<double> q = cable.interpolate(
-        [&](const double s) {
-          return Coordinates{s, std::sin(pi * s / 5.), .3 * std::cos(s)};
-        },
-        [&](const double s) {
-          return Coordinates{1., pi / 5. * std::cos(pi * s / 5.), -.3 * std::sin(s)};
-        });
+    const auto place = [&](const double s) -> Coordinates {
+      return {s, std::sin(pi * s / 5.), .3 * std::cos(s)};
+    };
+    const auto slope = [&](const double s) -> Coordinates {
+      return {1., pi / 5. * std::cos(pi * s / 5.), -.3 * std::sin(s)};
+    };
+    std::vector<double> q = cable.interpolate(place, slope);
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> noise(-.1, .1);
     for (double &x : q)
@@ -46,7 +44,6 @@ namespace
   protected:
     CableElements cable = CableElements(GetParam(), 5., 4, section);
 
-    /// Those that are there.
     std::vector<unsigned int> dofs() const
     {
       const std::vector<unsigned int> unused = cable.unused_dofs();
@@ -154,7 +151,6 @@ namespace
       undamped.mean_force(q0, q1, .01, f);
       const double energy = undamped.strain_energy(q0);
       EXPECT_NEAR(dot(f, increment), undamped.strain_energy(q1) - energy, 2e-14 * energy);
-
       // Damping takes energy, as much as eta (delta eps)^2 / step.
       cable.mean_force(q0, q1, .01, g);
       const double taken = dot(g, increment) - dot(f, increment);
@@ -219,13 +215,9 @@ namespace
   TEST_P(Elements, PlacesInterpolate)
   {
     // Both elements have polynomials of degree 2.
-    const std::vector<double> q = cable.interpolate(
-        [](const double s) {
-          return Coordinates{s * s, 1. - s, 2. + s * s};
-        },
-        [](const double s) {
-          return Coordinates{2. * s, -1., 2. * s};
-        });
+    const auto place = [](const double s) { return Coordinates{s * s, 1. - s, 2. + s * s}; };
+    const auto slope = [](const double s) { return Coordinates{2. * s, -1., 2. * s}; };
+    const std::vector<double> q = cable.interpolate(place, slope);
     for (const double s : {0., .7, 2.5, 3.99, 5.})
     {
       EXPECT_NEAR(cable.position(s, {0., 0., 1.}).dot(q), 2. + s * s, 1e-12);
@@ -238,13 +230,10 @@ namespace
   {
     const double radius = 10.;
     const CableElements cable(CableElement::ancf, 5., 16, section);
-    const std::vector<double> q = cable.interpolate(
-        [&](const double s) {
-          return Coordinates{0., radius * std::sin(s / radius), radius * std::cos(s / radius)};
-        },
-        [&](const double s) {
-          return Coordinates{0., std::cos(s / radius), -std::sin(s / radius)};
-        });
+    const auto at = [](const double a) { return Coordinates{0., std::sin(a), std::cos(a)}; };
+    const std::vector<double> q =
+        cable.interpolate([&](const double s) { return add_scaled({}, radius, at(s / radius)); },
+                          [&](const double s) { return at(s / radius + std::acos(0.)); });
     EXPECT_NEAR(cable.curvature(q, 2.2), 1. / radius, 1e-4 / radius);
     EXPECT_NEAR(cable.strain_energy(q), .5 * 30. * 5. / (radius * radius), 1e-4);
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: a cable that one end holds hangs straight down at rest, wherever To is given, or says what
-// it lacks; one that is exactly taut is straight. Expected value: the length under its own weight,
-// L + w L^2 / (2 EA).
+// it lacks; one that is exactly taut is straight. Expected: the length, L + w L^2 / (2 EA).
 #include "cable/errors_of_runs.h"
 #include "cable/places_in_steps.h"
 
@@ -19,7 +18,6 @@ Body rope: Type = cable; From = 0, 0; To = 0, -10; Unstressed length = 10;
 Time: End = 0; Step = 5e-3
 )";
 
-  /// Where a place on the rope is in each step.
   std::vector<Coordinates> places(const Overrides &overrides, const double s,
                                   const std::string &scene = rope)
   {

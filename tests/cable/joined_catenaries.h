@@ -61,12 +61,6 @@ public:
     return catenary(cable, places[cable.to] - places[cable.from]).pull();
   }
 
-  /// With which it pulls at its last node [N].
-  taut::Coordinates pull_back(const Cable &cable) const
-  {
-    return catenary(cable, places[cable.from] - places[cable.to]).pull();
-  }
-
 private:
   static ElasticCatenary catenary(const Cable &cable, const taut::Coordinates &chord)
   {
@@ -81,7 +75,7 @@ private:
     for (const Cable &cable : cables)
     {
       add(cable.from, pull(cable), r);
-      add(cable.to, pull_back(cable), r);
+      add(cable.to, catenary(cable, places[cable.from] - places[cable.to]).pull(), r);
     }
     return r;
   }

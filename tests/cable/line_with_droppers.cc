@@ -10,9 +10,8 @@
 
 namespace
 {
+  using namespace verification;
   using namespace taut;
-  using verification::figure;
-  using verification::scene_file;
 
   constexpr std::size_t n_droppers = 6;
   constexpr double g = 9.81, unit = 59.88 / 12.,
@@ -79,23 +78,22 @@ namespace
     double lowest = 1., gain = 0.;
   };
 
-  Found run(const verification::Overrides &overrides)
+  Found run(const Overrides &overrides)
   {
     Found found;
-    verification::Session session(scene_file("line_with_droppers"), overrides);
+    Session session(scene_file("line_with_droppers"), overrides);
     session.run(
         [&](const StepView &step)
         {
-          const double t = step.state.time, inner = step.state.multiplier[link_of[2]];
+          const double t = step.state.time, inner = step.state.multiplier[link_of[2]],
+                       middle = displaced(step, step.scene.probes[0].point).y;
           if (t == 0.)
+          {
             for (std::size_t i = 0; i < n_droppers; ++i)
             {
               found.start.tension[i] = step.state.multiplier[link_of[i]];
               found.start.distance[i] = lengths[i] - step.state.geometric_gap[link_of[i]];
             }
-          const double middle = displaced(step, step.scene.probes[0].point).y;
-          if (t == 0.)
-          {
             found.start.middle = middle;
             found.start.messenger = displaced(step, step.scene.probes[1].point).y;
           }

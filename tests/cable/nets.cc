@@ -7,10 +7,8 @@
 
 namespace
 {
+  using namespace verification;
   using namespace taut;
-  using verification::figure;
-  using verification::has;
-  using verification::number;
 
   constexpr double weight = .5 * 9.81; ///< of a cable [N/m]
 
@@ -27,13 +25,13 @@ namespace
     return number(a.x) + ", " + number(a.y) + ", " + number(a.z);
   }
 
-  /// The parameter file of a net.
   std::string parameter_file(const Net &net)
   {
     const JoinedCatenaries &system = net.system;
     std::ostringstream out;
     out.precision(17);
     out << "Gravity = 0, -9.81; Start = equilibrium\nTime: End = 0\n";
+    const char *const held_ends[] = {"none", "from", "to", "both"};
     std::vector<std::vector<std::string>> ends(system.n_free);
     for (std::size_t k = 0; k < system.cables.size(); ++k)
     {
@@ -43,12 +41,8 @@ namespace
           << "; To = " << numbers_of(system.places[cable.to])
           << "; Unstressed length = " << cable.length << "; Axial stiffness = " << cable.EA
           << "; Mass per length = " << -cable.load.y / 9.81 << "; Element = " << net.elements
-          << "; Elements = " << net.n_elements << "; Largest strain = 1; Held ends = "
-          << (holds_from && holds_to ? "both"
-              : holds_from           ? "from"
-              : holds_to             ? "to"
-                                     : "none")
-          << "\n";
+          << "; Elements = " << net.n_elements
+          << "; Largest strain = 1; Held ends = " << held_ends[holds_from + 2 * holds_to] << "\n";
       for (const bool last : {false, true})
         if (!(last ? holds_to : holds_from))
           ends[last ? cable.to : cable.from].push_back("c" + std::to_string(k) + " @ " +
@@ -87,12 +81,11 @@ namespace
     return places;
   }
 
-  /// Places of the free nodes at rest.
-  std::vector<Coordinates> found(const Net &net, const verification::Overrides &overrides = {})
+  std::vector<Coordinates> found(const Net &net, const Overrides &overrides = {})
   {
     std::vector<Coordinates> places;
-    verification::run_scene(parameter_file(net), overrides,
-                            [&](const StepView &step) { places = displaced(net, step); });
+    run_scene(parameter_file(net), overrides,
+              [&](const StepView &step) { places = displaced(net, step); });
     return places;
   }
 
@@ -104,8 +97,7 @@ namespace
     return distance;
   }
 
-  /// n x n nodes a metre apart and cables to supports around them, all starting at height 0: each
-  /// cable is longer than a metre by the part @p slack.
+  /// n x n nodes a metre apart, cables to supports around them, each longer by the part @p slack.
   Net square(const int n, const double EA, const double slack)
   {
     Net net;
@@ -224,7 +216,6 @@ TEST(CableNets, a_row_is_one_cable)
     EXPECT_LT(norm(places[i - 1] - exact.position(2.4 * i)), 1e-4) << i;
 }
 
-// Nothing holds the last cable.
 TEST(CableNets, one_error_for_what_nothing_holds)
 {
   Net net = square(1, 1e6, .1);
@@ -236,7 +227,7 @@ TEST(CableNets, one_error_for_what_nothing_holds)
   system.n_free = 3;
   system.loads.assign(3, {});
   system.cables.push_back({1, 2, 1.1, 1e6, {0., -weight, 0.}});
-  const std::string refusal = verification::error_of([&] { found(net); });
+  const std::string refusal = error_of([&] { found(net); });
   EXPECT_TRUE(has(refusal, "'c4' is not held")) << refusal;
 }
 
@@ -247,7 +238,7 @@ TEST(CableNets, one_error_without_stable_equilibrium)
   net.system.places = {{1., 1., 0.}, {0., 0., 0.}, {2., 0., 0.}};
   net.system.n_free = 1;
   net.system.cables = {{1, 0, 1.1, 1e4, {0., -weight, 0.}}, {0, 2, 1.1, 1e4, {0., -weight, 0.}}};
-  const std::string refusal = verification::error_of([&] { found(net, {"Gravity=0, 0"}); });
+  const std::string refusal = error_of([&] { found(net, {"Gravity=0, 0"}); });
   EXPECT_TRUE(has(refusal, "none that is stable was found")) << refusal;
   EXPECT_EQ(found(net).size(), 1u); // with weight it hangs
 }
@@ -269,7 +260,7 @@ TEST(CableNets, scene)
     system.cables.push_back({from, to, from < 4 && to < 4 ? 3.4 : 3.6, 1e6, {0., -.3 * 9.81, 0.}});
   std::vector<Coordinates> places;
   std::vector<double> table;
-  verification::Session session(verification::scene_file("net_of_cables"));
+  Session session(scene_file("net_of_cables"));
   session.run(
       [&](const StepView &step)
       {
@@ -281,11 +272,11 @@ TEST(CableNets, scene)
     figure("height of a lamp in a net", place.y, "m");
   EXPECT_LT(largest_distance(places, exact), 1e-5);
   // A run at rest has a table of one line, with the same numbers.
-  std::istringstream lines(verification::file_text(session.folder() + "/probes.csv"));
+  std::istringstream lines(file_text(session.folder() + "/probes.csv"));
   std::string head, line, more;
   ASSERT_TRUE(std::getline(lines, head) && std::getline(lines, line));
   EXPECT_FALSE(std::getline(lines, more));
-  const std::vector<std::string> values = verification::cells_of(line);
+  const std::vector<std::string> values = cells_of(line);
   ASSERT_GT(values.size(), table.size());
   EXPECT_EQ(std::stod(values[0]), 0.);
   for (std::size_t i = 0; i < table.size(); ++i)

@@ -40,6 +40,32 @@ Link contact: Type = sliding contact; From = head; To = )" +
               [&](const taut::StepView &view) { result.push_back(view.state.multiplier.back()); });
     return result;
   }
+
+  constexpr std::size_t cable_body = 1; ///< after the mass
+
+  /// A cable of 78 m over 60 m, far above a contact that travels at 4 m/s from s = 13 m on.
+  void slack(const Overrides &settings, const Callback &record)
+  {
+    const Overrides entries = {
+        "Body cable/Unstressed length=78", "Body cable/Bending stiffness=0",
+        "Network/Loads=push, swing, back", "Network/Link contact/Gap=100",
+        "Network/Link contact/Speed=4",    "Network/Link contact/Straight=true"};
+    run_scene(scene("cable @ 13, 0", cable("nonlinear", "-9.81")) + R"(
+Load swing: On = cable @ 39, 0; Direction = 1, 0
+Load back: On = cable @ 39, 0; Direction = -1, 0
+)",
+              entries + settings, record);
+  }
+
+  std::string slack_error(const Overrides &settings)
+  {
+    return error_of([&] { slack(settings, {}); });
+  }
+
+  double place_of_contact(const taut::StepView &view)
+  {
+    return view.constraints.position(view.constraints.sliding_rows().front(), view.state.time);
+  }
 } // namespace
 
 TEST(CableSliding, as_along_a_wire)
@@ -110,44 +136,12 @@ TEST(CableSliding, follows_the_shape_at_rest)
   const double linear = way("linear", 10., 20.);
   figure("way of a mass that slides under a linear cable", linear, "m");
   EXPECT_NEAR(linear - raised(10.), rise - across, .05 * across);
-
   // At rest under the middle, whose height then is the start's.
   const double there = way("nonlinear", 30., 0.) - across, slid = way("nonlinear", 10., 20.);
   figure("way of a mass that slides under a nonlinear cable beside that at rest", slid - there,
          "m");
   EXPECT_NEAR(slid, there, .05 * across);
 }
-
-namespace
-{
-  constexpr std::size_t cable_body = 1; ///< after the mass
-
-  /// A cable of 78 m over 60 m, far above a contact that travels at 4 m/s from s = 13 m on.
-  void slack(const Overrides &settings, const Callback &record)
-  {
-    const Overrides entries = {
-        "Body cable/Unstressed length=78", "Body cable/Bending stiffness=0",
-        "Network/Loads=push, swing, back", "Network/Link contact/Gap=100",
-        "Network/Link contact/Speed=4",    "Network/Link contact/Straight=true"};
-    run_scene(scene("cable @ 13, 0", cable("nonlinear", "-9.81")) + R"(
-Load swing: On = cable @ 39, 0; Direction = 1, 0
-Load back: On = cable @ 39, 0; Direction = -1, 0
-)",
-              entries + settings, record);
-  }
-
-  /// The error that ends such a run; empty: none.
-  std::string slack_error(const Overrides &settings)
-  {
-    return error_of([&] { slack(settings, {}); });
-  }
-
-  /// Where the contact is along the cable.
-  double place_of_contact(const taut::StepView &view)
-  {
-    return view.constraints.position(view.constraints.sliding_rows().front(), view.state.time);
-  }
-} // namespace
 
 TEST(CableSliding, straight_along_a_catenary)
 {
@@ -269,12 +263,9 @@ TEST(CableSliding, straight_far_from_the_origin)
 
 TEST(CableSliding, leaves_the_cable)
 {
-  const std::string refusal = error_of(
-      [&]
-      {
-        forces(scene("cable @ 10, 0", cable("linear", "0")),
-               {"Body cable/Unstressed length=59.9", "Time/End=3"});
-      });
+  const std::string text = scene("cable @ 10, 0", cable("linear", "0"));
+  const Overrides entries = {"Body cable/Unstressed length=59.9", "Time/End=3"};
+  const std::string refusal = error_of([&] { forces(text, entries); });
   EXPECT_TRUE(has(refusal, "sliding contact 'contact' at t = 2.5 s"));
   EXPECT_TRUE(has(refusal, "has no place"));
 }
@@ -283,28 +274,22 @@ TEST(CableSliding, under_a_line_of_cables_as_under_straight_wires)
 {
   struct Force
   {
-    double mean = 0., deviation = 0.;
-    int n = 0;
+    double mean, deviation;
   };
   // Between the masts at 60 and 120 m.
-  const auto force = [](const std::string &name, const Overrides &settings)
+  const auto force = [](const std::string &name, const Overrides &settings) -> Force
   {
-    Force result;
-    double squares = 0.;
-    run_scene(scene_file(name), settings,
-              [&](const taut::StepView &view)
-              {
-                const double x = 40. + 250. / 3.6 * view.state.time,
-                             N = view.state.multiplier[view.constraints.sliding_rows().front()];
-                if (x < 60. || x > 120.)
-                  return;
-                result.mean += N;
-                squares += N * N;
-                ++result.n;
-              });
-    result.mean /= result.n;
-    result.deviation = std::sqrt(squares / result.n - result.mean * result.mean);
-    return result;
+    std::vector<double> N;
+    const auto record = [&](const taut::StepView &view)
+    {
+      const double x = 40. + 250. / 3.6 * view.state.time;
+      if (x >= 60. && x <= 120.)
+        N.push_back(view.state.multiplier[view.constraints.sliding_rows().front()]);
+    };
+    run_scene(scene_file(name), settings, record);
+    const double mean = std::accumulate(N.begin(), N.end(), 0.) / N.size(),
+                 squares = std::inner_product(N.begin(), N.end(), N.begin(), 0.);
+    return {mean, std::sqrt(squares / N.size() - mean * mean)};
   };
   const Force cables = force("line_of_cables", {"Time/End=1.16"}),
               wires = force("en50318_2002_250",
