@@ -15,8 +15,7 @@ namespace extremes
     Number softness = 0; ///< the square of S over part of the flexibility of the bodies in a step
   };
 
-  /// The second part of a step with conditions on gaps, then velocities: of all contacts that had
-  /// impulses p in the first part,
+  /// Conditions on velocities after those on gaps: of contacts with impulses p in the first part,
   ///
   ///     V = V* + M^-1 B (P - p),    0 <= P _|_ D' + f_ii softness (P - p) >= 0,    f = B^T M^-1 B.
   ///
@@ -24,7 +23,6 @@ namespace extremes
   class ExtendedProjection
   {
   public:
-    /// @p as_double: as extended_answer().
     ExtendedProjection(const ExtendedModel &model, const Matrix &M, bool as_double);
 
     /// Throws std::logic_error if the mass matrix is singular.

@@ -23,7 +23,6 @@ namespace extremes
     ExtendedScheme() = default;
     ExtendedScheme(const std::string &name, const Number &step);
 
-    /// v and a.
     void look_back(const ExtendedMotion &before, Vector &v, Vector &a) const;
 
     std::string name;

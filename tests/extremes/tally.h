@@ -11,8 +11,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <map>
-#include <string>
-#include <vector>
 
 namespace extremes
 {
@@ -74,7 +72,6 @@ namespace extremes
       }
     }
 
-    /// The table, and the bound on errors.
     void print() const
     {
       unsigned int n_scenes = 0, n_answers = 0;
@@ -124,10 +121,8 @@ namespace extremes
   void for_each_seed(unsigned int last, const Visit &visit)
   {
     unsigned int first = 1;
-    if (const char *const seeds = std::getenv("TAUT_EXTREMES_SEEDS"))
-    {
-      ASSERT_EQ(std::sscanf(seeds, "%u:%u", &first, &last), 2) << seeds;
-    }
+    const char *const seeds = std::getenv("TAUT_EXTREMES_SEEDS");
+    ASSERT_TRUE(!seeds || std::sscanf(seeds, "%u:%u", &first, &last) == 2) << seeds;
     for (unsigned int seed = first; seed <= last; ++seed)
       visit(seed);
   }
