@@ -4,15 +4,17 @@
 
 #include "history.h"
 
+#include <taut/base/dot.h>
 #include <taut/output/observer.h>
 
 #include <deal.II/lac/full_matrix.h>
 
+#include <cmath>
 #include <memory>
-#include <vector>
 
 namespace hunt
 {
+  using taut::dot;
   using Vector = std::vector<double>;
 
   /// A scene of linear bodies in dense matrices, free DoFs only:
@@ -35,14 +37,14 @@ namespace hunt
       double stiffness, damping;
       std::shared_ptr<const taut::ForceLaw> law;
 
-      bool rigid() const;
+      bool rigid() const { return std::isinf(stiffness); }
     };
 
     std::size_t size() const { return free.size(); }
 
     /// The free DoFs of a vector of the bodies, displacements counted from the undeformed ones.
     Vector displacement(const taut::StepView &view) const;
-    Vector velocity(const taut::StepView &view) const;
+    Vector velocity(const taut::StepView &view) const { return gather(view.state.V); }
 
     /// Kinetic energy, and strain energy less the work of the constant loads; no links [J].
     double kinetic(const Vector &v) const;
@@ -74,8 +76,6 @@ namespace hunt
     std::vector<std::vector<int>> number; ///< of each DoF of a body among the free ones, or -1
     std::vector<char> is_length;
   };
-
-  double dot(const Vector &a, const Vector &b);
 } // namespace hunt
 
 #endif

@@ -4,8 +4,6 @@
 
 #include "linear_model.h"
 
-#include <vector>
-
 namespace hunt
 {
   /// The spring of a constraint in straight pieces: from u[j] on, the force is f[j] + k[j] (d -

@@ -2,12 +2,8 @@
 #ifndef taut_hunt_reference_h
 #define taut_hunt_reference_h
 
-#include "history.h"
 #include "linear_model.h"
 #include "scenes.h"
-
-#include <memory>
-#include <string>
 
 namespace hunt
 {
@@ -26,8 +22,7 @@ namespace hunt
   /// The times of the run are the first ones of the reference.
   Difference difference(const History &reference, const History &run);
 
-  /// Two references of one scene, the second one disturbed: what they do not agree about is chaos,
-  /// and no run can be compared in that.
+  /// Two references of one scene, one disturbed: what they do not agree about is chaos.
   struct Reference
   {
     History history;
@@ -35,8 +30,7 @@ namespace hunt
     std::string missing;                     ///< why there is none; empty: there is one
   };
 
-  /// The motion of a scene at the times of a run, and a little longer. @p chosen is the log of that
-  /// run.
+  /// The motion of a scene at the times of a run and a little longer; @p chosen is its log.
   Reference make_reference(const HuntScene &scene, const LinearModel *model,
                            const std::vector<double> times, const std::string &chosen);
 
@@ -53,7 +47,6 @@ namespace hunt
 
     History history;
     std::unique_ptr<LinearModel> model;
-    double longest_step = 0.; ///< [s]
 
   private:
     double frequency;
