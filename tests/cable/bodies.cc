@@ -1,25 +1,20 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: a cable as a body of a scene is in balance in its found shape, moves as closed forms say,
-// and refuses what makes no cable. Expected values: closed forms; the element
-// of the other kind.
+// and refuses what makes no cable. Expected values: closed forms; the element of the other kind.
 #include "cable/elastic_catenary.h"
+#include "cable/errors_of_runs.h"
 #include "cable/slack_cable.h"
-#include "verification/scene_tests.h"
 
 #include <taut/base/dot.h>
 #include <taut/cable/find_length.h>
 
 #include <cstdio>
-#include <iterator>
+#include <tuple>
 
 namespace
 {
+  using namespace verification;
   using namespace taut;
-  using verification::equilibrium;
-  using verification::has;
-  using verification::largest_of;
-  using verification::slack_cable;
-  using verification::unbalanced;
 
   TEST(CableBodies, FoundShapeIsInBalance)
   {
@@ -45,7 +40,7 @@ namespace
     const auto is_short = [&](const double H) {
       return .5 * H * L / EA + H / w * (std::asinh(V / H) - std::asinh((V - .5 * w * L) / H)) < 30.;
     };
-    const double H = verification::end_of(1., 1e5, is_short);
+    const double H = end_of(1., 1e5, is_short);
     const double depth =
         .5 * L / EA * (V - .25 * w * L) + (std::hypot(H, V) - std::hypot(H, V - .5 * w * L)) / w;
     const ElasticCatenary before({}, {60., 0., 0.}, {0., -w, 0.}, EA, L);
@@ -55,8 +50,7 @@ namespace
     const LinearForm middle = cable.displacement({39., 0.}, {0., -1., 0.});
     cable.add_force(middle, F);
     const double found = middle.dot(equilibrium(cable));
-    verification::figure("error of a cable sinking by 1.045 m under a weight", found - sinking,
-                         "m");
+    figure("error of a cable sinking by 1.045 m under a weight", found - sinking, "m");
     EXPECT_NEAR(found, sinking, 1e-5);
   }
 
@@ -103,7 +97,7 @@ namespace
     std::vector<double> direction(U.size()), f, g;
     for (std::size_t i = 0; i < U.size(); ++i)
       direction[i] = std::cos(3. * i) * 1e-6;
-    const std::vector<double> Kd = verification::matrix_times(*K, direction);
+    const std::vector<double> Kd = matrix_times(*K, direction);
     std::vector<double> ahead = U, behind = U;
     for (std::size_t i = 0; i < U.size(); ++i)
     {
@@ -114,14 +108,10 @@ namespace
     cable.internal_force(behind, {}, g);
     for (std::size_t i = 0; i < U.size(); ++i)
       EXPECT_NEAR(Kd[i], .5 * (f[i] - g[i]), 1e-6 * largest_of(Kd, {}));
-    EXPECT_NEAR(
-        .5 * (cable.strain_energy(ahead) - cable.strain_energy(behind)),
-        [&]
-        {
-          cable.internal_force(U, {}, f);
-          return dot(f, direction);
-        }(),
-        1e-6 * std::fabs(dot(f, direction)) + 1e-9);
+    cable.internal_force(U, {}, f);
+    const double work = dot(f, direction);
+    EXPECT_NEAR(.5 * (cable.strain_energy(ahead) - cable.strain_energy(behind)), work,
+                1e-6 * std::fabs(work) + 1e-9);
   }
 
   TEST(CableBodies, StartsStraight)
@@ -146,7 +136,7 @@ namespace
     EXPECT_THROW(cable.displacement({-.1, 0.}, {0., 1., 0.}), UserError);
     const std::string path = testing::TempDir() + "taut_cable.vtu";
     cable.write_vtu(path, std::vector<double>(cable.n_dofs(), 0.));
-    const std::string text = verification::file_text(path);
+    const std::string text = file_text(path);
     for (const char *name : {"tension", "unstressed_arc_length", "displacement"})
       EXPECT_TRUE(has(text, std::string("Name=\"") + name)) << name;
     std::remove(path.c_str());
@@ -166,25 +156,20 @@ Time: End = 0
     for (const std::string &entry :
          {std::string("Unstressed length=78"),
           "Horizontal tension=" + std::to_string(exact.horizontal()), "Sag=" + std::to_string(sag)})
-      verification::run_scene(
-          scene,
-          {"Body cable/Elements=32", "Body cable/Geometry=linearised", "Body cable/" + entry},
-          [&](const StepView &view)
-          {
-            const auto &cable = dynamic_cast<const Cable &>(view.structure[0]);
-            EXPECT_NEAR(cable.elements().length(), 78., 1e-5) << entry;
-            EXPECT_NEAR(cable.elements().position(cable.shape().positions, 39.).y, -sag, 1e-4);
-          });
+      run_scene(scene,
+                {"Body cable/Elements=32", "Body cable/Geometry=linearised", "Body cable/" + entry},
+                [&](const StepView &view)
+                {
+                  const auto &cable = dynamic_cast<const Cable &>(view.structure[0]);
+                  EXPECT_NEAR(cable.elements().length(), 78., 1e-5) << entry;
+                  EXPECT_NEAR(cable.elements().position(cable.shape().positions, 39.).y, -sag,
+                              1e-4);
+                });
   }
 
   TEST(CableEntries, WhatMakesNoCable)
   {
-    struct Case
-    {
-      std::vector<std::string> overrides;
-      std::string entry, text;
-    };
-    const std::vector<Case> cases = {
+    const std::tuple<Overrides, std::string, std::string> cases[] = {
         {{}, "Unstressed length", "exactly one"},
         {{"Unstressed length=78", "Sag=3"}, "Unstressed length", "exactly one"},
         {{"Unstressed length=-78"}, "Unstressed length", "negative"},
@@ -214,21 +199,14 @@ Time: End = 0
          "Geometry",
          "slack"},
     };
-    for (const Case &c : cases)
+    for (auto [overrides, entry, text] : cases)
     {
-      std::vector<std::string> overrides;
-      for (const std::string &text : c.overrides)
-        overrides.push_back("Body cable/" + text);
-      try
-      {
-        verification::run_scene(scene, overrides, {});
-        ADD_FAILURE() << c.text << ": was taken";
-      }
-      catch (const EntryError &e)
-      {
-        EXPECT_EQ(e.entry(), "Body cable" + (c.entry.empty() ? "" : "/" + c.entry));
-        EXPECT_TRUE(has(e.message(), c.text)) << e.message();
-      }
+      for (std::string &change : overrides)
+        change = "Body cable/" + change;
+      const std::string error = error_of(scene, overrides),
+                        place = "Body cable" + (entry.empty() ? "" : "/" + entry) + ": ";
+      EXPECT_EQ(error.substr(0, place.size()), place) << text;
+      EXPECT_TRUE(has(error, text, place.size())) << error;
     }
   }
 } // namespace

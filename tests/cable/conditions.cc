@@ -1,36 +1,29 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: what holds a cable, what is linked to it and how it starts fit each other or are refused
-// by the name of the entry. Fields of linearised cables show their own tension. Expected values:
-// closed forms.
+// by the name of the entry. Fields of linearised cables have their own tension.
 #include "cable/one_cable.h"
 #include "verification/scene_tests.h"
 
 #include <cstdio>
 
-using verification::error_of;
-using verification::has;
-
 namespace
 {
+  using namespace verification;
   using namespace taut;
+
+  const auto has_part = [](const std::string &error, const std::string &part)
+  { return has(error, part); };
 
   CableData cable_data()
   {
-    return verification::cable_to({60., 0., 0.}, 59.93, {1.3e7, 0., 1.07, 0.},
-                                  CableData().n_elements);
+    return cable_to({60., 0., 0.}, 59.93, {1.3e7, 0., 1.07, 0.}, CableData().n_elements);
   }
 
-  void expect_entry(const std::string &entry, const std::string &error)
-  {
-    EXPECT_TRUE(has(error, entry)) << error;
-  }
-
-  /// The tensions of a .vtu file, as it has them encoded.
   std::string tensions(const Cable &cable, const std::vector<double> &U)
   {
     const std::string path = testing::TempDir() + "taut_linear_tension.vtu";
     cable.write_vtu(path, U);
-    const std::string text = verification::file_text(path);
+    const std::string text = file_text(path);
     std::remove(path.c_str());
     const std::size_t begin = text.find('>', text.find("Name=\"tension\"")) + 1;
     return text.substr(begin, text.find('<', begin) - begin);
@@ -44,14 +37,13 @@ Link l: Type = dropper; From = cable @ 39, 0; To = m; Stiffness = 1e5; Direction
 Time: End = 0
 )";
 
-  std::string error_of_scene(const verification::Overrides &entries)
+  std::string error_of_scene(const Overrides &entries)
   {
-    return error_of([&] { verification::run_scene(scene, entries, {}); });
+    return error_of([&] { run_scene(scene, entries, {}); });
   }
 } // namespace
 
-/// Out of the plane of the cable a displacement changes nothing in first order, while half of the
-/// square of its slope would be 65 kN.
+/// Out of the plane a displacement changes nothing in first order; half of its square is 65 kN.
 TEST(CableConditions, tension_of_a_linearised_cable_is_linear)
 {
   for (const CableElement element : {CableElement::ancf, CableElement::bar})
@@ -82,30 +74,23 @@ TEST(CableConditions, a_straight_start_fits_what_is_held)
   data.starts_straight = true;
   data.start_direction = {1., 0., 0.};
   const auto make = [&] { Cable cable(data); };
-  expect_entry("Held ends", error_of(make));
+  EXPECT_PRED2(has_part, error_of(make), "Held ends");
   data.holds_to = false;
   EXPECT_EQ(error_of(make), "");
   data.clamped = true;
-  expect_entry("Clamped", error_of(make));
+  EXPECT_PRED2(has_part, error_of(make), "Clamped");
   data.holds_from = false;
-  expect_entry("Clamped", error_of(make)); // of no end at all
+  EXPECT_PRED2(has_part, error_of(make), "Clamped"); // of no end at all
   data.clamped = false;
   EXPECT_EQ(error_of(make), "");
 }
 
-TEST(CableConditions, places_are_numbers_along_the_cable)
+TEST(CableConditions, a_link_has_two_places_along_the_cable_and_a_direction)
 {
   EXPECT_EQ(error_of_scene({}), "");
-  expect_entry("Link l/From", error_of_scene({"Network/Link l/From=cable @ 39, 7"}));
-  expect_entry("Link l/From", error_of_scene({"Network/Link l/From=cable @ 39, 0, 9"}));
-}
-
-TEST(CableConditions, a_link_needs_two_places)
-{
-  expect_entry("Link l/To", error_of_scene({"Network/Link l/To=cable @ 39, 0"}));
-}
-
-TEST(CableConditions, a_link_to_a_cable_needs_a_direction)
-{
-  expect_entry("Link l/Direction", error_of_scene({"Network/Link l/Direction="}));
+  for (const auto &[entry, value] : {std::pair{"Link l/From", "cable @ 39, 7"},
+                                     {"Link l/From", "cable @ 39, 0, 9"},
+                                     {"Link l/To", "cable @ 39, 0"},
+                                     {"Link l/Direction", ""}})
+    EXPECT_PRED2(has_part, error_of_scene({std::string("Network/") + entry + "=" + value}), entry);
 }

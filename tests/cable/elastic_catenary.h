@@ -6,11 +6,8 @@
 
 #include <cmath>
 
-/**
- * The elastic catenary in closed form (Irvine, Cable Structures, 1981, section 1.3) between two
- * places, in the plane of chord and load: forces H across the load and V against it at the first
- * end, found by Newton's method.
- */
+/// The elastic catenary in closed form (Irvine, Cable Structures, 1981, section 1.3) between two
+/// places, in the plane of chord and load: forces H across it and V against it at the first end.
 class ElasticCatenary
 {
 public:

@@ -7,8 +7,11 @@
 #include <boost/math/quadrature/tanh_sinh.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 
+#include <tuple>
+
 namespace
 {
+  using namespace verification;
   using namespace taut;
 
   constexpr double EI = 1., EA = 1e6, length = 1.;
@@ -54,38 +57,25 @@ namespace
     // Tip of the inextensible one for P L^2 / EI = 1, 5, 10, from the tables of the literature.
     EXPECT_NEAR(elastica_tip(1.).y, .30172, 2e-5);
     EXPECT_NEAR(elastica_tip(10.).y, .81061, 2e-5);
-    struct Case
+    const std::tuple<double, unsigned int, double> cases[] = {
+        {1., 2, 5e-4},  {1., 8, 2e-6},  {5., 4, 2e-4},  {5., 8, 2e-5},
+        {10., 4, 5e-4}, {10., 8, 4e-5}, {10., 16, 2e-6}};
+    for (const auto &[P, n, limit] : cases)
     {
-      double P;
-      unsigned int n;
-      double limit;
-    };
-    for (const Case &c : {Case{1., 2, 5e-4},
-                          {1., 8, 2e-6},
-                          {5., 4, 2e-4},
-                          {5., 8, 2e-5},
-                          {10., 4, 5e-4},
-                          {10., 8, 4e-5},
-                          {10., 16, 2e-6}})
-    {
-      const CableElements cable = make(c.n);
-      const std::vector<double> start = cable.interpolate(
-          [](const double s) {
-            return Coordinates{s, 0., 0.};
-          },
-          [](double) {
-            return Coordinates{1., 0., 0.};
-          });
+      const CableElements cable = make(n);
+      const auto straight = [](const double s) { return Coordinates{s, 0., 0.}; };
+      const std::vector<double> start =
+          cable.interpolate(straight, [&](double) { return straight(1.); });
       std::vector<double> load(cable.n_dofs(), 0.);
-      cable.position(length, {0., 1., 0.}).add_to(c.P, load);
+      cable.position(length, {0., 1., 0.}).add_to(P, load);
       // The clamp keeps the direction, and leaves the strain free.
       const CableShape shape = find_shape(cable, start, {0, 1, 2, 4, 5}, load);
-      const double error = norm(cable.position(shape.positions, length) - elastica_tip(c.P));
-      const std::string what = "elastica, P L^2/EI = " + std::to_string(int(c.P)) + ", " +
-                               std::to_string(c.n) + " elements";
-      verification::figure("tip error of an " + what, error, "L");
-      verification::figure("iterations of an " + what, shape.n_iterations);
-      EXPECT_LT(error, 1.5 * c.limit) << what;
+      const double error = norm(cable.position(shape.positions, length) - elastica_tip(P));
+      const std::string what =
+          "elastica, P L^2/EI = " + std::to_string(int(P)) + ", " + std::to_string(n) + " elements";
+      figure("tip error of an " + what, error, "L");
+      figure("iterations of an " + what, shape.n_iterations);
+      EXPECT_LT(error, 1.5 * limit) << what;
       EXPECT_LE(shape.n_iterations, 25u) << what;
     }
   }
@@ -99,21 +89,18 @@ namespace
       const CableElements cable = make(n);
       // From a spiral that ends in the direction where it began, and elsewhere.
       const auto angle = [](const double s) { return 2. * pi * s * (1.3 - .3 * s); };
-      const auto start = cable.interpolate(
-          [&](const double s)
-          {
-            Coordinates r;
-            constexpr int steps = 400;
-            for (int k = 0; k < steps; ++k)
-            {
-              const double t = angle(s * (k + .5) / steps);
-              r = add_scaled(r, s / steps, {std::cos(t), std::sin(t), 0.});
-            }
-            return r;
-          },
-          [&](const double s) {
-            return Coordinates{std::cos(angle(s)), std::sin(angle(s)), 0.};
-          });
+      const auto slope = [&](const double s) {
+        return Coordinates{std::cos(angle(s)), std::sin(angle(s)), 0.};
+      };
+      const auto place = [&](const double s)
+      {
+        Coordinates r;
+        constexpr int steps = 400;
+        for (int k = 0; k < steps; ++k)
+          r = add_scaled(r, s / steps, slope(s * (k + .5) / steps));
+        return r;
+      };
+      const std::vector<double> start = cable.interpolate(place, slope);
       // In the plane; the directions of both ends are held.
       std::vector<unsigned int> held = {0, 1, 4, 6 * n + 4};
       for (unsigned int i = 2; i < cable.n_dofs(); i += 3)
@@ -122,8 +109,7 @@ namespace
       const CableShape shape =
           find_shape(cable, start, held, std::vector<double>(cable.n_dofs(), 0.));
       // Its ends meet by symmetry; the moment there, the force on y' times x', is 2 pi EI / L. A
-      // moment with an error turns the end too far by the same part of the turn, and leaves a gap
-      // of that part of the length.
+      // moment with an error turns the end too far by the same part, and leaves such a gap.
       EXPECT_NEAR(norm(cable.position(shape.positions, length)), 0., 1e-12);
       std::vector<double> f;
       cable.internal_force(shape.positions, {}, f);
@@ -131,13 +117,11 @@ namespace
                    error = std::fabs(moment / (2. * pi * EI / length) - 1.);
       sizes.push_back(cable.element_length());
       errors.push_back(error);
-      verification::figure("end moment error of a circle of " + std::to_string(n) + " elements",
-                           error);
-      verification::figure("iterations of a circle of " + std::to_string(n) + " elements",
-                           shape.n_iterations);
+      figure("end moment error of a circle of " + std::to_string(n) + " elements", error);
+      figure("iterations of a circle of " + std::to_string(n) + " elements", shape.n_iterations);
       EXPECT_LT(error, 1.5 * limit) << n;
       EXPECT_NEAR(cable.strain_energy(shape.positions), 2. * pi * pi, 60. * limit);
     }
-    EXPECT_NEAR(verification::fitted_order(sizes, errors), 4., .15);
+    EXPECT_NEAR(fitted_order(sizes, errors), 4., .15);
   }
 } // namespace

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: the forces of cable elements are gradients of their energy, their tangents are derivatives
-// of the forces, and the mean force over a step does the work that the energy says. Expected
-// values: differences, and the identities themselves.
+// of the forces, and mean forces do the work of the energy. Source: differences, and identities.
 #include "common.h"
 
 #include <taut/base/dot.h>
@@ -9,6 +8,7 @@
 
 namespace
 {
+  using namespace verification;
   using namespace taut;
 
   const CableSection section = {2e4, 30., 1.2, 50.};
@@ -17,13 +17,13 @@ namespace
   std::vector<double> shape(const CableElements &cable, const unsigned int seed)
   {
     const double pi = std::acos(-1.);
-    std::vector<double> q = cable.interpolate(
-        [&](const double s) {
-          return Coordinates{s, std::sin(pi * s / 5.), .3 * std::cos(s)};
-        },
-        [&](const double s) {
-          return Coordinates{1., pi / 5. * std::cos(pi * s / 5.), -.3 * std::sin(s)};
-        });
+    const auto place = [&](const double s) -> Coordinates {
+      return {s, std::sin(pi * s / 5.), .3 * std::cos(s)};
+    };
+    const auto slope = [&](const double s) -> Coordinates {
+      return {1., pi / 5. * std::cos(pi * s / 5.), -.3 * std::sin(s)};
+    };
+    std::vector<double> q = cable.interpolate(place, slope);
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> noise(-.1, .1);
     for (double &x : q)
@@ -39,20 +39,11 @@ namespace
                              [&](double) { return along; });
   }
 
-  double largest(const std::vector<double> &x)
-  {
-    double size = 0.;
-    for (const double value : x)
-      size = std::max(size, std::fabs(value));
-    return size;
-  }
-
   class Elements : public testing::TestWithParam<CableElement>
   {
   protected:
     CableElements cable = CableElements(GetParam(), 5., 4, section);
 
-    /// Those that are there.
     std::vector<unsigned int> dofs() const
     {
       const std::vector<unsigned int> unused = cable.unused_dofs();
@@ -102,11 +93,10 @@ namespace
       };
       const std::vector<double> a = force(step), b = force(-step), c = force(2. * step),
                                 d = force(-2. * step);
-      std::vector<double> unit = zero, column = zero, damping = zero, velocity = zero, f, f0;
+      std::vector<double> unit = zero, velocity = zero, f, f0;
       unit[j] = 1.;
       velocity[j] = .7;
-      K->vmult_add(1., unit.data(), column.data());
-      D->vmult_add(1., unit.data(), damping.data());
+      const std::vector<double> column = matrix_times(*K, unit), damping = matrix_times(*D, unit);
       cable.internal_force(q, {}, f0);
       cable.internal_force(q, velocity, f);
       for (const unsigned int i : dofs())
@@ -128,11 +118,10 @@ namespace
     std::normal_distribution<double> normal;
     for (int k = 0; k < 1000; ++k)
     {
-      std::vector<double> x(q.size(), 0.), y(q.size(), 0.);
+      std::vector<double> x(q.size(), 0.);
       for (const unsigned int i : dofs())
         x[i] = normal(random);
-      K->vmult_add(1., x.data(), y.data());
-      EXPECT_GE(dot(x, y), 0.);
+      EXPECT_GE(dot(x, matrix_times(*K, x)), 0.);
     }
     // A straight line under tension has nothing to leave out.
     const std::vector<double> straight = line(cable, {}, {1.01, 0., 0.});
@@ -162,7 +151,6 @@ namespace
       undamped.mean_force(q0, q1, .01, f);
       const double energy = undamped.strain_energy(q0);
       EXPECT_NEAR(dot(f, increment), undamped.strain_energy(q1) - energy, 2e-14 * energy);
-
       // Damping takes energy, as much as eta (delta eps)^2 / step.
       cable.mean_force(q0, q1, .01, g);
       const double taken = dot(g, increment) - dot(f, increment);
@@ -217,12 +205,7 @@ namespace
     cable.add_load({0., -3., 2.}, load);
     // Unit translation along y; rotation about the first end.
     const auto shift = line(cable, {0., 1., 0.}, {}), turn = line(cable, {}, {0., 1., 0.});
-    const auto energy = [&](const std::vector<double> &v)
-    {
-      std::vector<double> p(v.size(), 0.);
-      M->vmult_add(1., v.data(), p.data());
-      return dot(v, p);
-    };
+    const auto energy = [&](const std::vector<double> &v) { return dot(v, matrix_times(*M, v)); };
     EXPECT_NEAR(energy(shift), 1.2 * 5., 1e-12);
     EXPECT_NEAR(energy(turn), 1.2 * 125. / 3., 1e-11);
     EXPECT_NEAR(dot(load, shift), -15., 1e-12);
@@ -232,13 +215,9 @@ namespace
   TEST_P(Elements, PlacesInterpolate)
   {
     // Both elements have polynomials of degree 2.
-    const std::vector<double> q = cable.interpolate(
-        [](const double s) {
-          return Coordinates{s * s, 1. - s, 2. + s * s};
-        },
-        [](const double s) {
-          return Coordinates{2. * s, -1., 2. * s};
-        });
+    const auto place = [](const double s) { return Coordinates{s * s, 1. - s, 2. + s * s}; };
+    const auto slope = [](const double s) { return Coordinates{2. * s, -1., 2. * s}; };
+    const std::vector<double> q = cable.interpolate(place, slope);
     for (const double s : {0., .7, 2.5, 3.99, 5.})
     {
       EXPECT_NEAR(cable.position(s, {0., 0., 1.}).dot(q), 2. + s * s, 1e-12);
@@ -251,13 +230,10 @@ namespace
   {
     const double radius = 10.;
     const CableElements cable(CableElement::ancf, 5., 16, section);
-    const std::vector<double> q = cable.interpolate(
-        [&](const double s) {
-          return Coordinates{0., radius * std::sin(s / radius), radius * std::cos(s / radius)};
-        },
-        [&](const double s) {
-          return Coordinates{0., std::cos(s / radius), -std::sin(s / radius)};
-        });
+    const auto at = [](const double a) { return Coordinates{0., std::sin(a), std::cos(a)}; };
+    const std::vector<double> q =
+        cable.interpolate([&](const double s) { return add_scaled({}, radius, at(s / radius)); },
+                          [&](const double s) { return at(s / radius + std::acos(0.)); });
     EXPECT_NEAR(cable.curvature(q, 2.2), 1. / radius, 1e-4 / radius);
     EXPECT_NEAR(cable.strain_energy(q), .5 * 30. * 5. / (radius * radius), 1e-4);
   }

@@ -2,7 +2,7 @@
 // Claim: lengths of droppers that hang from cables are found, so that what they hold stands at the
 // prescribed height. Expected values: two bars under a force; distances of displaced places.
 #include "cable/errors_of_runs.h"
-#include "verification/scene_tests.h"
+#include "cable/places_in_steps.h"
 
 namespace
 {
@@ -34,27 +34,17 @@ Time: End = 0
   Found find(const std::string &scene, const verification::Overrides &overrides = {})
   {
     Found result;
-    verification::run_scene(scene, overrides,
-                            [&](const StepView &view)
-                            {
-                              result = Found();
-                              const auto height = [&](const Attachment &end)
-                              {
-                                std::vector<Term> terms;
-                                view.structure.motion(end, false, {0., 1.}, 1., terms);
-                                return view.structure.position(view.scene, end).y +
-                                       evaluate(terms, view.reference.displacement) +
-                                       evaluate(terms, view.state.U);
-                              };
-                              for (std::size_t i = 0; i < view.scene.links.size(); ++i)
-                              {
-                                const Link &link = view.scene.links[i];
-                                result.length.push_back(link.length);
-                                result.force.push_back(view.state.multiplier[i]);
-                                result.height.push_back(height(link.to));
-                                result.distance.push_back(height(link.from) - height(link.to));
-                              }
-                            });
+    const auto record = [&](const StepView &view)
+    {
+      result = {{}, view.state.multiplier, {}, {}};
+      for (const Link &link : view.scene.links)
+      {
+        result.length.push_back(link.length);
+        result.height.push_back(displaced(view, link.to).y);
+        result.distance.push_back(displaced(view, link.from).y - result.height.back());
+      }
+    };
+    verification::run_scene(scene, overrides, record);
     return result;
   }
 } // namespace

@@ -4,16 +4,14 @@
 
 #include "cable/elastic_catenary.h"
 
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/vector.h>
+
 #include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <utility>
 #include <vector>
 
-/**
- * The equilibrium of elastic catenaries that meet at nodes, in closed form but for the places of
- * the nodes: Newton's method on the forces there, with differences as derivatives.
- */
+/// The equilibrium of elastic catenaries that meet at nodes, in closed form but for the places of
+/// the nodes: Newton's method on the forces there, with differences as derivatives.
 class JoinedCatenaries
 {
 public:
@@ -36,13 +34,15 @@ public:
     const std::size_t n = 3 * n_free;
     for (int iteration = 0; iteration < 60; ++iteration)
     {
-      std::vector<double> A(n * n, 0.);
-      std::vector<double> r = unbalanced();
+      const std::vector<double> r = unbalanced();
       if (largest(r) < 1e-9)
         break;
+      dealii::FullMatrix<double> A(n);
       for (const Cable &cable : cables)
         add_tangent(cable, A);
-      const std::vector<double> step = solution(A, r);
+      A.gauss_jordan();
+      dealii::Vector<double> step(n);
+      A.vmult(step, dealii::Vector<double>(r.begin(), r.end()));
       const std::vector<taut::Coordinates> start = places;
       for (double part = 1.; part > 1e-6; part *= .5)
       {
@@ -61,19 +61,7 @@ public:
     return catenary(cable, places[cable.to] - places[cable.from]).pull();
   }
 
-  /// With which it pulls at its last node [N].
-  taut::Coordinates pull_back(const Cable &cable) const
-  {
-    return catenary(backward(cable), places[cable.from] - places[cable.to]).pull();
-  }
-
 private:
-  static Cable backward(Cable cable)
-  {
-    std::swap(cable.from, cable.to);
-    return cable;
-  }
-
   static ElasticCatenary catenary(const Cable &cable, const taut::Coordinates &chord)
   {
     return {{}, chord, cable.load, cable.EA, cable.length};
@@ -83,26 +71,24 @@ private:
   {
     std::vector<double> r(3 * n_free);
     for (std::size_t i = 0; i < n_free; ++i)
-      add(i, 1., loads[i], r);
+      add(i, loads[i], r);
     for (const Cable &cable : cables)
     {
-      add(cable.from, 1., pull(cable), r);
-      add(cable.to, 1., pull_back(cable), r);
+      add(cable.from, pull(cable), r);
+      add(cable.to, catenary(cable, places[cable.from] - places[cable.to]).pull(), r);
     }
     return r;
   }
 
-  void add(const std::size_t node, const double factor, const taut::Coordinates &force,
-           std::vector<double> &r) const
+  void add(const std::size_t node, const taut::Coordinates &force, std::vector<double> &r) const
   {
     for (std::size_t c = 0; node < n_free && c < 3; ++c)
-      r[3 * node + c] += factor * force[c];
+      r[3 * node + c] += force[c];
   }
 
   /// Minus the derivatives of the forces.
-  void add_tangent(const Cable &cable, std::vector<double> &A) const
+  void add_tangent(const Cable &cable, dealii::FullMatrix<double> &A) const
   {
-    const std::size_t n = 3 * n_free;
     for (std::size_t c = 0; c < 3; ++c)
     {
       taut::Coordinates d;
@@ -116,7 +102,7 @@ private:
       for (const std::size_t row : {cable.from, cable.to})
         for (const std::size_t column : {cable.from, cable.to})
           for (std::size_t k = 0; row < n_free && column < n_free && k < 3; ++k)
-            A[(3 * row + k) * n + 3 * column + c] += (row == column ? 1. : -1.) * change[k];
+            A(3 * row + k, 3 * column + c) += (row == column ? 1. : -1.) * change[k];
     }
   }
 
@@ -126,36 +112,6 @@ private:
     for (const double value : r)
       size = std::max(size, std::isfinite(value) ? std::fabs(value) : 1e300);
     return size;
-  }
-
-  /// Gauss' elimination with pivots.
-  static std::vector<double> solution(std::vector<double> A, std::vector<double> b)
-  {
-    const std::size_t n = b.size();
-    for (std::size_t k = 0; k < n; ++k)
-    {
-      std::size_t pivot = k;
-      for (std::size_t i = k + 1; i < n; ++i)
-        if (std::fabs(A[i * n + k]) > std::fabs(A[pivot * n + k]))
-          pivot = i;
-      std::swap(b[k], b[pivot]);
-      for (std::size_t j = 0; j < n; ++j)
-        std::swap(A[k * n + j], A[pivot * n + j]);
-      for (std::size_t i = k + 1; i < n; ++i)
-      {
-        const double factor = A[i * n + k] / A[k * n + k];
-        for (std::size_t j = k; j < n; ++j)
-          A[i * n + j] -= factor * A[k * n + j];
-        b[i] -= factor * b[k];
-      }
-    }
-    for (std::size_t k = n; k-- > 0;)
-    {
-      for (std::size_t j = k + 1; j < n; ++j)
-        b[k] -= A[k * n + j] * b[j];
-      b[k] /= A[k * n + k];
-    }
-    return b;
   }
 };
 

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: links that turn hold two places of one cable together, and ball joints of solids and
-// masses hold one place. Expected values: the same cable as two bodies that are joined in the
-// middle, and the messages.
+// masses hold one place. Source: the same cable as two joined bodies, and the messages.
 #include "cable/errors_of_runs.h"
-#include "verification/scene_tests.h"
 
 namespace
 {
+  using namespace verification;
   using namespace taut;
-  using verification::figure;
-  using verification::Overrides;
 
   std::string part_of_cable(const std::string &name, const std::string &ends,
                             const std::string &length, const std::string &elements)
@@ -52,17 +49,11 @@ TEST(CableJoints, a_link_between_two_places_of_one_cable)
   {
     std::vector<double> force[2];
     for (const bool is_one : {false, true})
-      verification::run_scene(
-          between(link, is_one), {},
-          [&](const StepView &view)
-          { force[is_one].push_back(view.state.multiplier[view.constraints.index_of_link(0)]); });
-    ASSERT_EQ(force[0].size(), force[1].size());
-    double size = 0., error = 0.;
-    for (std::size_t i = 0; i < force[0].size(); ++i)
-    {
-      size = std::max(size, std::fabs(force[0][i]));
-      error = std::max(error, std::fabs(force[0][i] - force[1][i]));
-    }
+      run_scene(between(link, is_one), {},
+                [&](const StepView &view) {
+                  force[is_one].push_back(view.state.multiplier[view.constraints.index_of_link(0)]);
+                });
+    const double size = largest(force[0]), error = largest_difference(force[0], force[1]);
     EXPECT_GT(size, 10.) << link;
     EXPECT_LT(error, 1e-6 * size) << link;
     figure("force between two places of one cable beside that of two joined cables", error / size);

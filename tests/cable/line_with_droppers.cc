@@ -3,15 +3,15 @@
 // as its head expects. Expected values: elastic catenaries that meet at the droppers; no gain of
 // energy; the same run with half the step and half the elements.
 #include "cable/joined_catenaries.h"
+#include "cable/places_in_steps.h"
 #include "verification/scene_tests.h"
 
 #include <array>
 
 namespace
 {
+  using namespace verification;
   using namespace taut;
-  using verification::figure;
-  using verification::scene_file;
 
   constexpr std::size_t n_droppers = 6;
   constexpr double g = 9.81, unit = 59.88 / 12.,
@@ -78,32 +78,24 @@ namespace
     double lowest = 1., gain = 0.;
   };
 
-  Found run(const verification::Overrides &overrides)
+  Found run(const Overrides &overrides)
   {
     Found found;
-    verification::Session session(scene_file("line_with_droppers"), overrides);
+    Session session(scene_file("line_with_droppers"), overrides);
     session.run(
         [&](const StepView &step)
         {
-          const double t = step.state.time, inner = step.state.multiplier[link_of[2]];
+          const double t = step.state.time, inner = step.state.multiplier[link_of[2]],
+                       middle = displaced(step, step.scene.probes[0].point).y;
           if (t == 0.)
+          {
             for (std::size_t i = 0; i < n_droppers; ++i)
             {
               found.start.tension[i] = step.state.multiplier[link_of[i]];
               found.start.distance[i] = lengths[i] - step.state.geometric_gap[link_of[i]];
             }
-          std::vector<double> height;
-          for (const Probe &probe : step.scene.probes)
-          {
-            std::vector<Term> terms;
-            step.structure.motion(probe.point, false, probe.direction, 1., terms);
-            Coordinates place = step.structure.position(step.scene, probe.point);
-            height.push_back(place.y + verification::displacement(step, terms));
-          }
-          if (t == 0.)
-          {
-            found.start.middle = height[0];
-            found.start.messenger = height[1];
+            found.start.middle = middle;
+            found.start.messenger = displaced(step, step.scene.probes[1].point).y;
           }
           if (t > 0. && found.caught == 0. && inner > 0.)
             found.caught = t;
@@ -111,7 +103,7 @@ namespace
             found.first = std::max(found.first, inner);
           for (const std::size_t link : link_of)
             found.largest = std::max(found.largest, t > 0. ? step.state.multiplier[link] : 0.);
-          found.lowest = std::min(found.lowest, height[0]);
+          found.lowest = std::min(found.lowest, middle);
           found.gain = step.measures.summary().relative_motion_energy;
         });
     return found;

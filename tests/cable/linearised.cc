@@ -1,34 +1,25 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: linearised cables have small motions about the equilibrium of their scene, links that turn
-// with them, and are refused where they are slack there. Expected values: the scene of nonlinear
-// cables, from which they differ by the square of the load.
+// with them, and are refused where slack. Source: nonlinear ones, which differ by the load squared.
 #include "cable/errors_of_runs.h"
 #include "cable/one_cable.h"
+#include "cable/places_in_steps.h"
 
 #include <taut/output/scene_report.h>
 #include <taut/time/static_equilibrium.h>
-#include <taut/time/stepper.h>
 
 namespace
 {
+  using namespace verification;
   using namespace taut;
-  using verification::has;
-  using verification::largest_difference;
-  using verification::Overrides;
-  using verification::scene_file;
-  using verification::Session;
 
   /// The line of prm/line_with_droppers.prm, all droppers taut, with cables of one geometry.
   Overrides line(const std::string &geometry, const Overrides &entries)
   {
     Overrides all;
-    for (const std::string cable : {"messenger", "contact wire"})
-    {
-      all.push_back("Body " + cable + "/Geometry=" + geometry);
-      all.push_back("Body " + cable + "/Elements=24");
-    }
-    all.insert(all.end(), entries.begin(), entries.end());
-    return all;
+    for (const std::string cable : {"Body messenger", "Body contact wire"})
+      all = all + Overrides{cable + "/Geometry=" + geometry, cable + "/Elements=24"};
+    return all + entries;
   }
 
   /// Probes and forces of links of all steps, under a load that begins at zero.
@@ -67,18 +58,14 @@ Time: End = 0
 
 TEST(CableLinearised, a_line_moves_as_a_nonlinear_one_under_small_loads)
 {
-  double before = 0.;
+  double before = INFINITY;
   for (const std::string load : {"16", "8", "4"})
   {
     const std::vector<double> nonlinear = motion("nonlinear", load);
     const double difference = largest_difference(nonlinear, motion("linearised", load)),
                  moved = largest_difference(nonlinear, motion("nonlinear", "0"));
-    verification::figure("line of linearised cables beside nonlinear ones, " + load + " N",
-                         difference / moved);
-    if (before > 0.)
-    {
-      EXPECT_GT(before / difference, 3.5) << load;
-    }
+    figure("line of linearised cables beside nonlinear ones, " + load + " N", difference / moved);
+    EXPECT_GT(before / difference, 3.5) << load;
     before = difference;
   }
 }
@@ -139,7 +126,6 @@ TEST(CableLinearised, only_under_tension_at_the_equilibrium_of_the_scene)
   const std::string error = error_of(span(taut_alone, "15", "2e4"));
   EXPECT_TRUE(has(error, "Body span/Geometry")) << error;
   EXPECT_TRUE(has(error, "slack somewhere")) << error;
-
   // So stiff in bending that the cable alone is under compression.
   const std::string slack_alone = "Unstressed length = 30.03; Bending stiffness = 1e6";
   EXPECT_TRUE(has(error_of(span(slack_alone, "15", "0")), "slack somewhere"));
@@ -156,15 +142,9 @@ TEST(CableLinearised, start_shows_places_of_the_equilibrium)
         if (step.state.time > 0.)
           return;
         for (const Link &link : step.scene.links)
-        {
-          std::vector<Term> terms;
-          step.structure.motion(link.to, false, {0., 1.}, 1., terms);
-          heights.push_back(step.structure.position(step.scene, link.to).y +
-                            verification::displacement(step, terms));
-        }
+          heights.push_back(displaced(step, link.to).y);
       });
-  const std::vector<double> y =
-      verification::read_table(session.folder() + "/start.csv").at("y [m]");
+  const std::vector<double> y = read_table(session.folder() + "/start.csv").at("y [m]");
   ASSERT_GE(y.size(), heights.size());
   for (std::size_t i = 0; i < heights.size(); ++i)
     EXPECT_NEAR(y[i], heights[i], 1e-6) << i;
@@ -175,16 +155,15 @@ TEST(CableLinearised, start_shows_places_of_the_equilibrium)
 // Statics of a body with a force at U = 0, and a system whose steppers do not see each other.
 TEST(CableLinearised, a_system_stays_as_it_is)
 {
-  CableData data = verification::cable_to({60., 0., 0.}, 60.1, {1.3e7, 0., 1.07, 0.}, 32);
+  CableData data = cable_to({60., 0., 0.}, 60.1, {1.3e7, 0., 1.07, 0.}, 32);
   data.geometry = CableGeometry::linearised;
-  const verification::OneCable<> one(data);
+  const OneCable<> one(data);
   one.cable->add_force(one.cable->displacement({30.05, 0., 0.}, {0., -1., 0.}), 500.);
   const System &system = one.system;
   const Displacement down = system.displacement(0, {30.05, 0., 0.}, {0., -1., 0.});
   const Stepper first(system), second(system);
   EXPECT_FALSE(system.body(0)->is_linear());
   EXPECT_EQ(first.displacement(down), second.displacement(down));
-
   Structure linear = system.structure();
   const StaticState rest = static_equilibrium(linear, system.constraints(), {}, 0.);
   EXPECT_EQ(linear.linearise(rest.displacement), std::vector<char>{1});
@@ -197,14 +176,9 @@ TEST(CableLinearised, a_system_stays_as_it_is)
     u *= .5;
   linear[0].mean_internal_force(zero, U, 1., mean);
   linear[0].internal_force(half, {}, f);
-  const double step = 1e-6;
-  double work = 0.;
-  for (std::size_t i = 0; i < U.size(); ++i)
-  {
-    EXPECT_NEAR(mean[i], f[i], 1e-6);
-    work += mean[i] * U[i];
-  }
+  EXPECT_LT(largest_difference(mean, f), 1e-6);
+  const double work = std::inner_product(U.begin(), U.end(), mean.begin(), 0.);
   EXPECT_NEAR(work, linear[0].strain_energy(U) - linear[0].strain_energy(zero),
-              step * std::fabs(work));
+              1e-6 * std::fabs(work));
   EXPECT_NEAR(linear[0].strain_energy(U), system.body(0)->strain_energy(U), 1e-9);
 }

@@ -7,9 +7,8 @@
 
 namespace
 {
+  using namespace verification;
   using namespace taut;
-  using verification::figure;
-  using verification::has;
 
   constexpr double weight = .5 * 9.81; ///< of a cable [N/m]
 
@@ -23,27 +22,16 @@ namespace
 
   std::string numbers_of(const Coordinates &a)
   {
-    std::ostringstream out;
-    out.precision(17);
-    out << a.x << ", " << a.y << ", " << a.z;
-    return out.str();
+    return number(a.x) + ", " + number(a.y) + ", " + number(a.z);
   }
 
-  std::string cable_end(const Net &net, const std::size_t cable, const bool last)
-  {
-    std::ostringstream out;
-    out.precision(17);
-    out << "c" << cable << " @ " << (last ? net.system.cables[cable].length : 0.) << ", 0";
-    return out.str();
-  }
-
-  /// The parameter file of a net.
   std::string parameter_file(const Net &net)
   {
     const JoinedCatenaries &system = net.system;
     std::ostringstream out;
     out.precision(17);
     out << "Gravity = 0, -9.81; Start = equilibrium\nTime: End = 0\n";
+    const char *const held_ends[] = {"none", "from", "to", "both"};
     std::vector<std::vector<std::string>> ends(system.n_free);
     for (std::size_t k = 0; k < system.cables.size(); ++k)
     {
@@ -53,15 +41,12 @@ namespace
           << "; To = " << numbers_of(system.places[cable.to])
           << "; Unstressed length = " << cable.length << "; Axial stiffness = " << cable.EA
           << "; Mass per length = " << -cable.load.y / 9.81 << "; Element = " << net.elements
-          << "; Elements = " << net.n_elements << "; Largest strain = 1; Held ends = "
-          << (holds_from && holds_to ? "both"
-              : holds_from           ? "from"
-              : holds_to             ? "to"
-                                     : "none")
-          << "\n";
+          << "; Elements = " << net.n_elements
+          << "; Largest strain = 1; Held ends = " << held_ends[holds_from + 2 * holds_to] << "\n";
       for (const bool last : {false, true})
         if (!(last ? holds_to : holds_from))
-          ends[last ? cable.to : cable.from].push_back(cable_end(net, k, last));
+          ends[last ? cable.to : cable.from].push_back("c" + std::to_string(k) + " @ " +
+                                                       number(last ? cable.length : 0.) + ", 0");
     }
     for (std::size_t i = 0; i < system.n_free; ++i)
     {
@@ -73,42 +58,34 @@ namespace
         ends[i].insert(ends[i].begin(), node);
       }
       for (std::size_t e = 1; e < ends[i].size(); ++e)
-      {
-        const std::string title = node + " " + std::to_string(e);
-        out << "Link " << title << ": Type = ball joint; From = " << ends[i][0]
+        out << "Link " << node << " " << e << ": Type = ball joint; From = " << ends[i][0]
             << "; To = " << ends[i][e] << "\n";
-      }
       for (const char axis : {'x', 'y', 'z'})
-      {
-        const std::string title = node + " " + axis;
-        out << "Probe " << title << ": Point = " << ends[i][0] << "; Direction = " << (axis == 'x')
-            << ", " << (axis == 'y') << ", " << (axis == 'z') << "\n";
-      }
+        out << "Probe " << node << " " << axis << ": Point = " << ends[i][0]
+            << "; Direction = " << (axis == 'x') << ", " << (axis == 'y') << ", " << (axis == 'z')
+            << "\n";
     }
     return out.str();
   }
 
-  /// Places of the free nodes at rest.
-  std::vector<Coordinates> found(const Net &net, const verification::Overrides &overrides = {})
+  /// The free nodes of a net, displaced as the three probes of each say.
+  std::vector<Coordinates> displaced(const Net &net, const StepView &step)
+  {
+    EXPECT_EQ(step.probes.size(), 3 * net.system.n_free);
+    std::vector<Coordinates> places;
+    for (std::size_t i = 0; i < net.system.n_free; ++i)
+    {
+      const double *const u = &step.probes[3 * i];
+      places.push_back(add_scaled(net.system.places[i], 1., {u[0], u[1], u[2]}));
+    }
+    return places;
+  }
+
+  std::vector<Coordinates> found(const Net &net, const Overrides &overrides = {})
   {
     std::vector<Coordinates> places;
-    verification::run_scene(
-        parameter_file(net), overrides,
-        [&](const StepView &step)
-        {
-          for (std::size_t i = 0; i < net.system.n_free; ++i)
-          {
-            double u[3];
-            for (std::size_t c = 0; c < 3; ++c)
-            {
-              const Probe &probe = step.scene.probes[3 * i + c];
-              std::vector<Term> terms;
-              step.structure.motion(probe.point, false, probe.direction, 1., terms);
-              u[c] = verification::displacement(step, terms);
-            }
-            places.push_back(add_scaled(net.system.places[i], 1., {u[0], u[1], u[2]}));
-          }
-        });
+    run_scene(parameter_file(net), overrides,
+              [&](const StepView &step) { places = displaced(net, step); });
     return places;
   }
 
@@ -120,8 +97,7 @@ namespace
     return distance;
   }
 
-  /// n x n nodes a metre apart and cables to supports around them, all starting at height 0: each
-  /// cable is longer than a metre by the part @p slack.
+  /// n x n nodes a metre apart, cables to supports around them, each longer by the part @p slack.
   Net square(const int n, const double EA, const double slack)
   {
     Net net;
@@ -240,7 +216,6 @@ TEST(CableNets, a_row_is_one_cable)
     EXPECT_LT(norm(places[i - 1] - exact.position(2.4 * i)), 1e-4) << i;
 }
 
-// Nothing holds the last cable.
 TEST(CableNets, one_error_for_what_nothing_holds)
 {
   Net net = square(1, 1e6, .1);
@@ -252,7 +227,7 @@ TEST(CableNets, one_error_for_what_nothing_holds)
   system.n_free = 3;
   system.loads.assign(3, {});
   system.cables.push_back({1, 2, 1.1, 1e6, {0., -weight, 0.}});
-  const std::string refusal = verification::error_of([&] { found(net); });
+  const std::string refusal = error_of([&] { found(net); });
   EXPECT_TRUE(has(refusal, "'c4' is not held")) << refusal;
 }
 
@@ -263,7 +238,7 @@ TEST(CableNets, one_error_without_stable_equilibrium)
   net.system.places = {{1., 1., 0.}, {0., 0., 0.}, {2., 0., 0.}};
   net.system.n_free = 1;
   net.system.cables = {{1, 0, 1.1, 1e4, {0., -weight, 0.}}, {0, 2, 1.1, 1e4, {0., -weight, 0.}}};
-  const std::string refusal = verification::error_of([&] { found(net, {"Gravity=0, 0"}); });
+  const std::string refusal = error_of([&] { found(net, {"Gravity=0, 0"}); });
   EXPECT_TRUE(has(refusal, "none that is stable was found")) << refusal;
   EXPECT_EQ(found(net).size(), 1u); // with weight it hangs
 }
@@ -273,18 +248,9 @@ TEST(CableNets, scene)
 {
   Net net;
   JoinedCatenaries &system = net.system;
-  const double heights[] = {0., .6, 1.2, .3, .9, 0., .5, 1.5};
-  for (const double z : {3., 6.})
-    for (const double x : {3., 6.})
-      system.places.push_back({x, 0., z});
-  for (const double x : {0., 9.})
-    for (const double z : {3., 6.})
-      system.places.push_back({x, 0., z});
-  for (const double z : {0., 9.})
-    for (const double x : {3., 6.})
-      system.places.push_back({x, 0., z});
-  for (std::size_t i = 0; i < 8; ++i)
-    system.places[4 + i].y = heights[i];
+  system.places = {{3., 0., 3.}, {6., 0., 3.}, {3., 0., 6.},  {6., 0., 6.},
+                   {0., 0., 3.}, {0., .6, 6.}, {9., 1.2, 3.}, {9., .3, 6.},
+                   {3., .9, 0.}, {6., 0., 0.}, {3., .5, 9.},  {6., 1.5, 9.}};
   system.n_free = 4;
   system.loads.assign(4, {});
   set_masses(net, {20., 20., 40., 20.});
@@ -292,17 +258,13 @@ TEST(CableNets, scene)
                                  {8, 0}, {0, 2}, {2, 10}, {9, 1}, {1, 3}, {3, 11}};
   for (const auto &[from, to] : ends)
     system.cables.push_back({from, to, from < 4 && to < 4 ? 3.4 : 3.6, 1e6, {0., -.3 * 9.81, 0.}});
-
-  std::vector<Coordinates> places(system.places.begin(), system.places.begin() + 4);
+  std::vector<Coordinates> places;
   std::vector<double> table;
-  verification::Session session(verification::scene_file("net_of_cables"));
+  Session session(scene_file("net_of_cables"));
   session.run(
       [&](const StepView &step)
       {
-        ASSERT_EQ(step.probes.size(), 12u);
-        for (std::size_t i = 0; i < 4; ++i)
-          places[i] = add_scaled(
-              places[i], 1., {step.probes[3 * i], step.probes[3 * i + 1], step.probes[3 * i + 2]});
+        places = displaced(net, step);
         table = step.probes;
       });
   const std::vector<Coordinates> exact = by_catenaries(net, places);
@@ -310,11 +272,11 @@ TEST(CableNets, scene)
     figure("height of a lamp in a net", place.y, "m");
   EXPECT_LT(largest_distance(places, exact), 1e-5);
   // A run at rest has a table of one line, with the same numbers.
-  std::istringstream lines(verification::file_text(session.folder() + "/probes.csv"));
+  std::istringstream lines(file_text(session.folder() + "/probes.csv"));
   std::string head, line, more;
   ASSERT_TRUE(std::getline(lines, head) && std::getline(lines, line));
   EXPECT_FALSE(std::getline(lines, more));
-  const std::vector<std::string> values = verification::cells_of(line);
+  const std::vector<std::string> values = cells_of(line);
   ASSERT_GT(values.size(), table.size());
   EXPECT_EQ(std::stod(values[0]), 0.);
   for (std::size_t i = 0; i < table.size(); ++i)

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Claim: the shapes of cables are those of the elastic catenary, whatever their slack. Expected
-// values: closed forms.
+// Claim: cables have the shape of the elastic catenary, whatever their slack. Source: closed forms.
 #include "cable/elastic_catenary.h"
 
 #include "verification/scene_tests.h"
 
 #include <taut/cable/find_length.h>
 
-using verification::has;
-
 namespace
 {
+  using namespace verification;
   using namespace taut;
 
   constexpr double EA = 1.3e7, mass = 1.07, gravity = 9.81;
@@ -22,7 +20,6 @@ namespace
     return {element, length, n, {EA, EI, mass, 0.}};
   }
 
-  /// Of the first end.
   double end_force(const CableElements &cable, const CableShape &shape, const Coordinates &load)
   {
     std::vector<double> f, p(cable.n_dofs(), 0.);
@@ -45,24 +42,19 @@ namespace
 
   TEST(CableShapes, FewIterationsWhateverTheSlack)
   {
-    struct Case
-    {
-      double length, drop;
-    };
     unsigned int most = 0, n_cables = 0;
-    for (const Case &c :
-         {Case{59.93, 0.}, Case{60., 0.}, Case{63., -6.}, Case{78., 0.}, Case{120., 0.}})
+    for (const double length : {59.93, 60., 63., 78., 120.})
     {
-      const Coordinates to = {60., c.drop, 0.};
-      const ElasticCatenary exact({}, to, weight, EA, c.length);
+      const Coordinates to = {60., length == 63. ? -6. : 0., 0.};
+      const ElasticCatenary exact({}, to, weight, EA, length);
       ASSERT_LT(exact.error, 1e-9);
       for (const unsigned int n : {8, 16, 32, 64})
         for (const double EI : {0., 1., -1.})
         {
-          const CableElements cable = make(EI < 0. ? CableElement::bar : CableElement::ancf,
-                                           c.length, n, std::fmax(EI, 0.));
+          const CableElements cable =
+              make(EI < 0. ? CableElement::bar : CableElement::ancf, length, n, std::fmax(EI, 0.));
           const CableShape shape = hang(cable, {}, to, weight);
-          EXPECT_LE(shape.n_iterations, 25u) << c.length << " m, " << n << " elements";
+          EXPECT_LE(shape.n_iterations, 25u) << length << " m, " << n << " elements";
           EXPECT_LT(shape.residual, 1e-6);
           EXPECT_LT(largest_error(cable, shape, exact), .03);
           most = std::max(most, shape.n_iterations);
@@ -70,7 +62,7 @@ namespace
         }
     }
     EXPECT_EQ(n_cables, 60u);
-    verification::figure("iterations of a cable's shape, the most of 60", most);
+    figure("iterations of a cable's shape, the most of 60", most);
   }
 
   struct Row
@@ -84,23 +76,22 @@ namespace
   {
     const Coordinates to = {60., 0., 0.};
     const ElasticCatenary exact({}, to, weight, EA, length);
+    const double middle = .5 * length, depth = -exact.position(middle).y;
     for (const Row &row : rows)
     {
       const CableElements cable = make(row.element, length, row.n);
       const CableShape shape = hang(cable, {}, to, weight);
-      const double middle = .5 * length,
-                   sag_error = std::fabs(cable.position(shape.positions, middle).y -
-                                         exact.position(middle).y),
+      const double sag_error = std::fabs(cable.position(shape.positions, middle).y + depth),
                    force_error =
                        std::fabs(end_force(cable, shape, weight) / exact.end_force() - 1.);
       const std::string what = name + ", " + std::to_string(row.n) +
                                (row.element == CableElement::bar ? " bars" : " ANCF elements");
-      verification::figure("sag error of " + what, sag_error, "m");
-      verification::figure("end force error of " + what, force_error);
+      figure("sag error of " + what, sag_error, "m");
+      figure("end force error of " + what, force_error);
       EXPECT_LT(sag_error, 1.5 * row.sag) << what;
       EXPECT_LT(force_error, 1.5 * row.force) << what;
       // The largest distance from the chord is that of the middle.
-      EXPECT_NEAR(sag(cable, shape, weight), -exact.position(middle).y, 2. * row.sag + 1e-12);
+      EXPECT_NEAR(sag(cable, shape, weight), depth, 2. * row.sag + 1e-12);
       EXPECT_NEAR(horizontal_tension(cable, shape, weight) / exact.horizontal(), 1.,
                   20. * row.force);
       // Continued from points inside of bars.
@@ -124,9 +115,9 @@ namespace
   double length_of(const double H)
   {
     const double w = mass * gravity;
-    return verification::end_of(
-        30., 300.,
-        [&](const double L) { return H * L / EA + 2. * H / w * std::asinh(.5 * w * L / H) < 60.; });
+    return end_of(30., 300.,
+                  [&](const double L)
+                  { return H * L / EA + 2. * H / w * std::asinh(.5 * w * L / H) < 60.; });
   }
 
   TEST(CableShapes, TautCatenary)
@@ -156,10 +147,10 @@ namespace
         EXPECT_LT(errors.back(), 1.5 * limit) << n;
         EXPECT_LE(shape.n_iterations, 25u);
       }
-      const double order = verification::fitted_order(sizes, errors);
-      verification::figure(std::string("order of a cable in the wind, ") +
-                               (element == CableElement::bar ? "bars" : "ANCF"),
-                           order);
+      const double order = fitted_order(sizes, errors);
+      figure(std::string("order of a cable in the wind, ") +
+                 (element == CableElement::bar ? "bars" : "ANCF"),
+             order);
       EXPECT_NEAR(order, 4., .15);
     }
   }
@@ -223,7 +214,7 @@ namespace
     EXPECT_NEAR(length_through(of_length, {}, level, weight, {30., -5., 0.}),
                 length_for_sag(of_length, {}, level, weight, 5.), 1e-9);
     const auto message = [&](const Coordinates &place, const Coordinates &force) -> std::string
-    { return verification::error_of([&] { length_through(of_length, {}, level, force, place); }); };
+    { return error_of([&] { length_through(of_length, {}, level, force, place); }); };
     EXPECT_TRUE(has(message({30., 1., 0.}, weight), "1 m above the straight line"));
     EXPECT_TRUE(has(message({30., -1., .5}, weight), "0.5 m beside it"));
     EXPECT_TRUE(has(message({61., -1., 0.}, weight), "not between the ends"));
@@ -232,32 +223,22 @@ namespace
 
   TEST(CableShapes, CompressedLineIsNoAnswer)
   {
-    // Dead loads push a line together that is held at both ends and starts straight: its
-    // equilibrium is not stable. That the search finds lies aside.
+    // Dead loads push a straight line together: its equilibrium is not stable, that found is aside.
     const CableElements cable(CableElement::ancf, 10., 16, {1e5, 1., 0., 0.});
-    const auto start = [&](const double slack)
-    {
-      return cable.interpolate(
-          [&](const double s) {
-            return Coordinates{(1. - slack) * s, 0., 0.};
-          },
-          [&](double) {
-            return Coordinates{1. - slack, 0., 0.};
-          });
-    };
+    const auto place = [](const double s) { return Coordinates{.95 * s, 0., 0.}; };
+    const std::vector<double> start = cable.interpolate(place, [&](double) { return place(1.); });
     std::vector<unsigned int> held;
     for (const bool last : {false, true})
       for (const unsigned int i : cable.end_dofs(last))
         held.push_back(i);
     std::vector<double> load(cable.n_dofs(), 0.);
     cable.add_load({0., -1e-3, 0.}, load);
-    const CableShape shape = find_shape(cable, start(.05), held, load);
+    const CableShape shape = find_shape(cable, start, held, load);
     EXPECT_LT(cable.position(shape.positions, 5.).y, -.5);
     EXPECT_GT(cable.smallest_strain(shape.positions), -1e-4);
     // Exactly straight, nothing says where to.
     const std::vector<double> none(cable.n_dofs(), 0.);
-    const std::string refusal =
-        verification::error_of([&] { find_shape(cable, start(.05), held, none); });
+    const std::string refusal = error_of([&] { find_shape(cable, start, held, none); });
     EXPECT_TRUE(has(refusal, "no stable equilibrium"));
     EXPECT_THROW(hang(cable, {}, {9., 0., 0.}, {}), UserError); // slack without load
   }

@@ -2,20 +2,15 @@
 #ifndef taut_tests_slack_cable_h
 #define taut_tests_slack_cable_h
 
+#include "common.h"
+
 #include <taut/cable/cable.h>
 #include <taut/substructure/local_solver.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
 
 namespace verification
 {
   using namespace taut;
 
-  /// Between places of one height, 30 % longer than its span.
   inline CableData slack_cable(const CableElement element = CableElement::ancf)
   {
     CableData data;
@@ -45,13 +40,9 @@ namespace verification
   {
     for (const unsigned int i : left_out)
       x[i] = 0.;
-    double size = 0.;
-    for (const double value : x)
-      size = std::max(size, std::fabs(value));
-    return size;
+    return largest(x);
   }
 
-  /// Newton's method from the found shape.
   inline std::vector<double> equilibrium(const Cable &cable)
   {
     std::vector<double> U(cable.n_dofs(), 0.);

@@ -37,7 +37,7 @@ namespace extremes
       if (!factor.factor(sub))
         throw std::logic_error("the extended F is singular");
       const Vector x = factor.solve(rhs);
-      Vector result(m, Number(0));
+      Vector result(Number(0), m);
       for (std::size_t p = 0; p < set.size(); ++p)
         result[set[p]] = x[p];
       bool changed = false;

@@ -6,10 +6,8 @@
 
 namespace extremes
 {
-  /**
-   * x with y = F x + d, 0 <= x _|_ y >= 0 in unilateral rows and y = 0 in the others, by Murty's
-   * least-index principal pivoting from a set of rows that are guessed closed. F is definite.
-   */
+  /// x with y = F x + d, 0 <= x _|_ y >= 0 in unilateral rows and y = 0 in the others, by Murty's
+  /// least-index principal pivoting from a set of rows that are guessed closed. F is definite.
   Vector principal_pivoting(const Matrix &F, const Vector &d, const std::vector<char> &unilateral,
                             std::vector<char> closed);
 

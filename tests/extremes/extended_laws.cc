@@ -46,11 +46,8 @@ namespace extremes
         const Number s = half * (low + high);
         (slope_of_energy(laws, from, to, s) > 0 ? high : low) = s;
       }
-      for (std::size_t k = 0; k < laws.size(); ++k)
-      {
-        to.N[k] = from.N[k] + high * (to.N[k] - from.N[k]);
-        to.D[k] = from.D[k] + high * (to.D[k] - from.D[k]);
-      }
+      to.N = from.N + high * (to.N - from.N);
+      to.D = from.D + high * (to.D - from.D);
     }
 
     /// The solution with laws that are linear, tangents at u.
@@ -68,9 +65,7 @@ namespace extremes
         }
       Point result;
       result.N = principal_pivoting(softened, shifted, unilateral, closed);
-      result.D = F.times(result.N);
-      for (std::size_t k = 0; k < d.size(); ++k)
-        result.D[k] += d[k];
+      result.D = F.times(result.N) + d;
       return result;
     }
 
@@ -121,7 +116,7 @@ namespace extremes
   {
     if (std::none_of(laws.begin(), laws.end(), [](const auto &law) { return law.has_value(); }))
       return principal_pivoting(F, d, unilateral, closed);
-    Vector u(d.size(), Number(0));
+    Vector u(Number(0), d.size());
     for (std::size_t k = 0; k < d.size(); ++k)
       if (laws[k])
         u[k] = laws[k]->least_compression(-d[k]);

@@ -8,11 +8,9 @@
 
 namespace extremes
 {
-  /**
-   * The mean force of an elastic contact that keeps the energy W = stiffness max(0, u)^2 / 2 over a
-   * step from compression u_0, negative where it was open: N = 2 (W(u) - W(u_0)) / (u - u_0) as the
-   * multiplier of the end of a step of theta = 1/2. It increases and is convex.
-   */
+  /// The mean force of an elastic contact that keeps the energy W = stiffness max(0, u)^2 / 2 over
+  /// a step from compression u_0, negative where it was open: N = 2 (W(u) - W(u_0)) / (u - u_0) as
+  /// the multiplier of the end of a step of theta = 1/2. It increases and is convex.
   class ConservingLaw
   {
   public:
@@ -31,11 +29,9 @@ namespace extremes
     Number stiffness, before;
   };
 
-  /**
-   * N >= 0 of D = F N + d where constraint k has N_k = law(-D_k) if it has a law, and
-   * 0 <= N_k _|_ D_k >= 0 or D_k = 0 else, as of principal_pivoting(). Newton's method, with the
-   * energy made least along the way of a step that may have increased it.
-   */
+  /// N >= 0 of D = F N + d where constraint k has N_k = law(-D_k) if it has a law, and
+  /// 0 <= N_k _|_ D_k >= 0 or D_k = 0 else, as of principal_pivoting(). Newton's method, with the
+  /// energy made least along the way of a step that may have increased it.
   Vector solve_with_laws(const Matrix &F, const Vector &d, const std::vector<char> &unilateral,
                          std::vector<char> closed,
                          const std::vector<std::optional<ConservingLaw>> &laws);

@@ -3,13 +3,14 @@
 #include "extended_model.h"
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 
 namespace extremes
 {
   namespace
   {
-    using Polynomial = Vector; ///< coefficients of 1, xi, xi^2, ...
+    using Polynomial = std::vector<Number>; ///< coefficients of 1, xi, xi^2, ...
 
     Polynomial derivative(const Polynomial &p)
     {
@@ -27,7 +28,6 @@ namespace extremes
       return sum;
     }
 
-    /// Integral of p q over 0 to 1.
     Number integral(const Polynomial &p, const Polynomial &q)
     {
       Number sum = 0;
@@ -49,6 +49,18 @@ namespace extremes
       throw std::logic_error("the extended model has elements of degree 1, 2 and Hermite's");
     }
 
+    /// Of the plane.
+    Number product(const taut::Coordinates &a, const taut::Coordinates &b)
+    {
+      return Number(a.x) * Number(b.x) + Number(a.y) * Number(b.y);
+    }
+
+    void scale(Form &form, const Number &factor)
+    {
+      for (auto &entry : form)
+        entry.second *= factor;
+    }
+
     double constant_value(const taut::Expression &f)
     {
       if (f.depends_on_time())
@@ -59,7 +71,7 @@ namespace extremes
 
   Vector Matrix::times(const Vector &x) const
   {
-    Vector y(n, Number(0));
+    Vector y(Number(0), n);
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < n; ++j)
         if (entries[i * n + j] != 0)
@@ -71,7 +83,7 @@ namespace extremes
   {
     n = A.size();
     L = Matrix(n);
-    inverse_pivot.assign(n, Number(0));
+    inverse_pivot.resize(n);
     const Number smallest("1e-80");
     for (std::size_t j = 0; j < n; ++j)
     {
@@ -121,12 +133,17 @@ namespace extremes
     return sum;
   }
 
+  Number dot(const Vector &x, const Vector &y)
+  {
+    return std::inner_product(begin(x), end(x), begin(y), Number(0));
+  }
+
   void ExtendedModel::resize(const std::size_t n_dofs)
   {
     M = C = K = Matrix(n_dofs);
     held.assign(n_dofs, 0);
     is_rotation.assign(n_dofs, 0);
-    given = initial_U = initial_V = Vector(n_dofs, Number(0));
+    given = initial_U = initial_V = Vector(Number(0), n_dofs);
   }
 
   bool ExtendedModel::is_zero_row(const Matrix &matrix, const std::size_t i)
@@ -135,11 +152,6 @@ namespace extremes
       if (matrix(i, j) != 0)
         return false;
     return true;
-  }
-
-  std::size_t ExtendedWires::Component::dof(const std::size_t element, const unsigned int i) const
-  {
-    return first + (degree == 3 ? 2 : degree) * element + i;
   }
 
   ExtendedWires::ExtendedWires(const taut::Scene &scene)
@@ -169,7 +181,7 @@ namespace extremes
         n += moves;
     }
     resize(n);
-    constant = Vector(n, Number(0));
+    constant = Vector(Number(0), n);
     for (std::size_t w = 0; w < scene.wires.size(); ++w)
       for (Component *c : {&axial[w], &transverse[w]})
         if (c->exists)
@@ -197,14 +209,11 @@ namespace extremes
   {
     const taut::Wire &wire = scene.wires[w];
     const taut::Coordinates axis = component.axial ? wire.tangent() : wire.normal();
-    const Number gravity =
-        Number(scene.gravity.x) * Number(axis.x) + Number(scene.gravity.y) * Number(axis.y);
-    const Number stretch = component.axial ? wire.axial_stiffness : wire.tension;
+    const Number gravity = product(scene.gravity, axis),
+                 stretch = component.axial ? wire.axial_stiffness : wire.tension;
     const bool beam = component.degree == 3;
-    const double u0 = constant_value(
-                     (component.axial ? wire.axial_start : wire.transverse_start).displacement),
-                 v0 = constant_value(
-                     (component.axial ? wire.axial_start : wire.transverse_start).velocity);
+    const taut::InitialMotion &start = component.axial ? wire.axial_start : wire.transverse_start;
+    const double u0 = constant_value(start.displacement), v0 = constant_value(start.velocity);
     for (std::size_t e = 0; e + 1 < nodes[w].size(); ++e)
     {
       const Number h = Number(nodes[w][e + 1]) - Number(nodes[w][e]);
@@ -219,9 +228,7 @@ namespace extremes
           constant[r] += Number(wire.mass_per_length) * gravity * h * integral(all[i], {1});
         for (const taut::Load &load : scene.loads)
           if (load.kind == taut::Load::Kind::distributed && load.target.index == w)
-            constant[r] += Number(constant_value(load.magnitude)) *
-                           (Number(load.direction.x) * Number(axis.x) +
-                            Number(load.direction.y) * Number(axis.y)) *
+            constant[r] += Number(constant_value(load.magnitude)) * product(load.direction, axis) *
                            h * integral(all[i], {1});
         for (unsigned int j = 0; j < all.size(); ++j)
         {
@@ -240,25 +247,22 @@ namespace extremes
     }
     for (const taut::Support &support : scene.supports)
     {
-      const bool mine = (support.motion == taut::WireMotion::axial) == component.axial;
-      if (support.wire != w || !mine)
+      if (support.wire != w || (support.motion == taut::WireMotion::axial) != component.axial)
         continue;
       for (const double s : support.positions)
       {
         // A node: the shape function that is one there.
-        Form form = shape(w, component, s, support.motion == taut::WireMotion::slope);
-        const auto largest =
-            std::max_element(form.begin(), form.end(),
-                             [](const auto &p, const auto &q) { return p.second < q.second; });
-        const std::size_t dof = largest->first;
+        const Form form = shape(w, component, s, support.motion == taut::WireMotion::slope);
+        const auto less = [](const auto &p, const auto &q) { return p.second < q.second; };
+        const std::size_t dof = std::max_element(form.begin(), form.end(), less)->first;
+        held[dof] = held[dof] || support.fixed;
         if (support.fixed)
-        {
-          held[dof] = 1;
           given[dof] = constant_value(support.prescribed);
-          continue;
+        else
+        {
+          K(dof, dof) += support.stiffness;
+          C(dof, dof) += support.damping;
         }
-        K(dof, dof) += support.stiffness;
-        C(dof, dof) += support.damping;
       }
     }
     for (const taut::PointMass &mass : scene.point_masses)
@@ -332,9 +336,7 @@ namespace extremes
           continue;
         const taut::Wire &wire = scene.wires[point.index];
         const taut::Coordinates axis = c->axial ? wire.tangent() : wire.normal();
-        const Number factor = rotational ? Number(1)
-                                         : Number(direction.x) * Number(axis.x) +
-                                               Number(direction.y) * Number(axis.y);
+        const Number factor = rotational ? Number(1) : product(direction, axis);
         for (const auto &[i, v] : shape(point.index, *c, Number(point.position), rotational))
           form.emplace_back(i, factor * v);
       }
@@ -345,12 +347,9 @@ namespace extremes
   Form ExtendedWires::sliding(const taut::Link &link, const Number &t, const bool slope) const
   {
     const taut::Coordinates axis = scene.wires[link.to.index].normal();
-    const Number factor =
-        Number(link.direction.x) * Number(axis.x) + Number(link.direction.y) * Number(axis.y);
     Form form = shape(link.to.index, transverse[link.to.index],
                       Number(link.to.position) + Number(link.speed) * t, slope);
-    for (auto &entry : form)
-      entry.second *= factor;
+    scale(form, product(link.direction, axis));
     return form;
   }
 
@@ -359,8 +358,7 @@ namespace extremes
     Form form;
     if (link.moving())
       form = sliding(link, t, true);
-    for (auto &entry : form)
-      entry.second *= Number(link.speed);
+    scale(form, Number(link.speed));
     return form;
   }
 
@@ -369,8 +367,7 @@ namespace extremes
     const Number sign = link.kind == taut::LinkKind::dropper ? -1 : 1;
     Form form =
         link.moving() ? sliding(link, t, false) : motion(link.to, link.rotational, link.direction);
-    for (auto &entry : form)
-      entry.second *= sign;
+    scale(form, sign);
     for (const auto &[i, v] : motion(link.from, link.rotational, link.direction))
       form.emplace_back(i, -sign * v);
     return form;

@@ -7,6 +7,7 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
 #include <utility>
+#include <valarray>
 #include <vector>
 
 namespace extremes
@@ -14,13 +15,13 @@ namespace extremes
   /// 120 decimal digits: room for the artificial springs of ExtendedRun below all ratios of scenes.
   using Number = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<120>,
                                                boost::multiprecision::et_off>;
-  using Vector = std::vector<Number>;
+  using Vector = std::valarray<Number>;
 
   /// Symmetric, dense.
   class Matrix
   {
   public:
-    explicit Matrix(std::size_t n = 0) : n(n), entries(n * n, Number(0)) {}
+    explicit Matrix(std::size_t n = 0) : n(n), entries(Number(0), n * n) {}
     std::size_t size() const { return n; }
     Number &operator()(std::size_t i, std::size_t j) { return entries[i * n + j]; }
     const Number &operator()(std::size_t i, std::size_t j) const { return entries[i * n + j]; }
@@ -35,8 +36,7 @@ namespace extremes
   class Cholesky
   {
   public:
-    /// False if A is singular to 1e-80.
-    bool factor(const Matrix &A);
+    bool factor(const Matrix &A); ///< false if A is singular to 1e-80
     Vector solve(Vector b) const;
 
   private:
@@ -45,9 +45,9 @@ namespace extremes
     Vector inverse_pivot;
   };
 
-  /// A linear form on the DoFs.
-  using Form = std::vector<std::pair<std::size_t, Number>>;
+  using Form = std::vector<std::pair<std::size_t, Number>>; ///< a linear form on the DoFs
   Number dot(const Form &form, const Vector &x);
+  Number dot(const Vector &x, const Vector &y);
 
   /// M, C, K and P of a small scene, and where its constraints act.
   class ExtendedModel
@@ -63,31 +63,26 @@ namespace extremes
     virtual Form constraint(const taut::Link &link, const Number &t) const = 0;
     /// What the motion of the place of a moving link adds to D' = B^T V: a form on U.
     virtual Form convection(const taut::Link &link, const Number &t) const = 0;
-    /// External forces at time t.
     virtual Vector load(const Number &t) const = 0;
     /// True if the row of M is zero; and that of C, too.
     bool is_massless(std::size_t i) const { return is_zero_row(M, i); }
     bool is_quasi_static(std::size_t i) const { return is_zero_row(M, i) && is_zero_row(C, i); }
-    /// True if the DoF is held; its value is in given.
-    std::vector<char> held;
+    std::vector<char> held; ///< true if the DoF is held; its value is in given
     Vector given;
     Vector initial_U, initial_V;
     std::vector<char> is_rotation;
     Matrix M, C, K;
 
   protected:
-    /// All zero, nothing held.
-    void resize(std::size_t n_dofs);
+    void resize(std::size_t n_dofs); ///< all zero, nothing held
 
   private:
     static bool is_zero_row(const Matrix &matrix, std::size_t i);
   };
 
-  /**
-   * A scene of wires and masses, assembled from its values alone: shape functions as polynomials,
-   * integrals exact. Of the library only the positions of the nodes are used, grid(). Expressions
-   * are constants here; elements of strings and bars have degree 1 or 2.
-   */
+  /// A scene of wires and masses, assembled from its values alone: shape functions as polynomials,
+  /// integrals exact. Of the library only the positions of the nodes are used, grid(). Expressions
+  /// are constants here; elements of strings and bars have degree 1 or 2.
   class ExtendedWires : public ExtendedModel
   {
   public:
@@ -105,7 +100,10 @@ namespace extremes
       unsigned int degree = 1; ///< 3: Hermite
       std::size_t first = 0;
       bool exists = false;
-      std::size_t dof(std::size_t element, unsigned int i) const;
+      std::size_t dof(std::size_t element, unsigned int i) const
+      {
+        return first + (degree == 3 ? 2 : degree) * element + i;
+      }
     };
 
     Form shape(std::size_t wire, const Component &component, const Number &s, bool slope) const;

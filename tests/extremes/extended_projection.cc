@@ -35,14 +35,10 @@ namespace extremes
     std::vector<ProjectedContact *> taking;
     for (ProjectedContact &contact : contacts)
     {
-      Vector row;
-      Number largest = 0;
-      for (const std::size_t i : dofs)
-      {
-        row.push_back(contact.form[i]);
-        largest = std::max(largest, Number(abs(row.back())));
-      }
-      if (largest == 0)
+      Vector row(dofs.size());
+      for (std::size_t i = 0; i < dofs.size(); ++i)
+        row[i] = contact.form[dofs[i]];
+      if (dot(row, row) == 0)
         continue;
       columns.push_back(factor_of_M.solve(row));
       rows.push_back(std::move(row));
@@ -52,8 +48,7 @@ namespace extremes
     Matrix f(m);
     for (std::size_t k = 0; k < m; ++k)
       for (std::size_t l = 0; l < m; ++l)
-        for (std::size_t i = 0; i < dofs.size(); ++i)
-          f(k, l) += rows[k][i] * columns[l][i];
+        f(k, l) = dot(rows[k], columns[l]);
     for (std::size_t k = 0; k < m; ++k)
       f(k, k) *= 1 + taking[k]->softness + shared_by;
     Vector d(m);

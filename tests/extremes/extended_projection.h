@@ -15,18 +15,14 @@ namespace extremes
     Number softness = 0; ///< the square of S over part of the flexibility of the bodies in a step
   };
 
-  /**
-   * The second part of a step with conditions on gaps, then velocities: of all contacts that had
-   * impulses p in the first part,
-   *
-   *     V = V* + M^-1 B (P - p),    0 <= P _|_ D' + f_ii softness (P - p) >= 0,    f = B^T M^-1 B.
-   *
-   * DoFs that are held or have no mass keep their velocities.
-   */
+  /// Conditions on velocities after those on gaps: of contacts with impulses p in the first part,
+  ///
+  ///     V = V* + M^-1 B (P - p),    0 <= P _|_ D' + f_ii softness (P - p) >= 0,    f = B^T M^-1 B.
+  ///
+  /// DoFs that are held or have no mass keep their velocities.
   class ExtendedProjection
   {
   public:
-    /// @p as_double: as extended_answer().
     ExtendedProjection(const ExtendedModel &model, const Matrix &M, bool as_double);
 
     /// Throws std::logic_error if the mass matrix is singular.

@@ -3,8 +3,6 @@
 #include "extended_run.h"
 
 #include "extended_complementarity.h"
-#include "extended_laws.h"
-#include "extended_model.h"
 #include "extended_projection.h"
 #include "extended_scheme.h"
 #include "extended_system.h"
@@ -34,7 +32,6 @@ namespace extremes
       void set_balance(const Vector &P);
       void project(const Number &t);
       void find_multipliers(const Vector &right_hand_side, const Number &t);
-      Vector combine(const Number &a, const Vector &x, const Number &b, const Vector &y) const;
       Number elastic_terms(std::size_t i) const;
       void observe();
       bool conserves(const std::size_t k) const
@@ -66,21 +63,12 @@ namespace extremes
         : c(c), model(model), M(model.M), C(model.C), K(model.K), as_double(as_double),
           scene(this->c.scene), points(points), group(groups_of_links(scene)), tau(c.step),
           system(scene, model, as_double), is_mean(scene.links.size(), 0),
-          N(scene.links.size(), Number(0)), D(scene.links.size(), Number(0)), B(scene.links.size())
+          N(Number(0), scene.links.size()), D(Number(0), scene.links.size()), B(scene.links.size())
     {
       if (as_double)
         for (Matrix *matrix : {&M, &C, &K})
           for (std::size_t i = 0; i < matrix->size(); ++i)
             (*matrix)(i, i) *= 1 + last_place(i);
-    }
-
-    Vector ExtendedRun::combine(const Number &a, const Vector &x, const Number &b,
-                                const Vector &y) const
-    {
-      Vector z(x.size());
-      for (std::size_t i = 0; i < x.size(); ++i)
-        z[i] = a * x[i] + b * y[i];
-      return z;
     }
 
     Answer ExtendedRun::run()
@@ -105,7 +93,7 @@ namespace extremes
     void ExtendedRun::start()
     {
       const std::size_t n = model.n_dofs();
-      const Vector zero(n, Number(0));
+      const Vector zero(Number(0), n);
       motion = {zero, zero, zero, zero, zero};
       r = zero;
       std::string first =
@@ -186,35 +174,27 @@ namespace extremes
       const Number t = tau * i;
       for (std::size_t k = 0; k < B.size(); ++k)
         B[k] = model.constraint(scene.links[k], t);
-
-      const std::size_t n = model.n_dofs();
       const ExtendedMotion before = motion;
       Vector v, a;
       scheme.look_back(before, v, a);
       const Number kappa = scheme.alpha_f / (1 - scheme.alpha_f),
                    now = (1 - scheme.alpha_m) / (1 - scheme.alpha_f),
                    old = scheme.alpha_m / (1 - scheme.alpha_f);
-      const Vector P = model.load(t), Cv = C.times(v), Ma = M.times(combine(now, a, old, before.A));
-      Vector rhs(n);
-      for (std::size_t k = 0; k < n; ++k)
-        rhs[k] = P[k] + kappa * r[k] - Cv[k] - Ma[k];
+      const Vector P = model.load(t);
+      Vector rhs = P + kappa * r - C.times(v) - M.times(now * a + old * before.A);
       // Mean forces of moving contacts: the balance has the last one in its old place.
       for (std::size_t k = 0; k < B.size(); ++k)
         if (is_mean[k] && scene.links[k].moving() && scheme.projects)
           for (const auto &[dof, value] : B[k])
             rhs[dof] -= value * N[k];
-
       find_multipliers(rhs, t);
       for (std::size_t k = 0; k < B.size(); ++k)
         if (is_mean[k])
           N[k] *= 1 - scheme.alpha_f;
       motion.U_old = before.U;
       motion.V_old = before.V;
-      for (std::size_t k = 0; k < n; ++k)
-      {
-        motion.V[k] = scheme.velocity * motion.U[k] + v[k];
-        motion.A[k] = scheme.acceleration * motion.U[k] + a[k];
-      }
+      motion.V = scheme.velocity * motion.U + v;
+      motion.A = scheme.acceleration * motion.U + a;
       if (scheme.projects)
         project(t);
       set_balance(P);
@@ -224,14 +204,11 @@ namespace extremes
     /// are in it, too, as the next step takes them off in their new place.
     void ExtendedRun::set_balance(const Vector &P)
     {
-      const Vector CV = C.times(motion.V);
-      Vector KU = K.times(motion.U);
+      r = P - C.times(motion.V) - K.times(motion.U);
       // Their roundings differ from step to step, so that what one gives the next does not take.
       const std::size_t step = answer.steps.size();
       for (std::size_t i = 0; as_double && i < r.size(); ++i)
-        KU[i] += last_place(i + step) * elastic_terms(i);
-      for (std::size_t i = 0; i < r.size(); ++i)
-        r[i] = P[i] - CV[i] - KU[i];
+        r[i] -= last_place(i + step) * elastic_terms(i);
       for (std::size_t k = 0; k < B.size(); ++k)
         if (!is_mean[k] || (scheme.projects && scene.links[k].moving()))
           for (const auto &[i, value] : B[k])
@@ -252,7 +229,7 @@ namespace extremes
           continue;
         const taut::Link &link = scene.links[k];
         ProjectedContact contact;
-        contact.form.assign(model.n_dofs(), Number(0));
+        contact.form.resize(model.n_dofs());
         bool takes_part = true;
         for (const auto &[i, value] : B[k])
         {
@@ -283,7 +260,7 @@ namespace extremes
     /// that this has at the start of the step; of one that conserves, all of its energy.
     void ExtendedRun::find_multipliers(const Vector &right_hand_side, const Number &t)
     {
-      Vector past(B.size(), Number(0));
+      Vector past(Number(0), B.size());
       std::vector<std::optional<ConservingLaw>> laws(B.size());
       for (std::size_t k = 0; k < B.size(); ++k)
         if (conserves(k))
@@ -308,7 +285,7 @@ namespace extremes
       for (const ObservedPoint &p : points)
         o[p.rotational ? rotation : displacement].push_back(
             static_cast<double>(dot(model.motion(p.at, p.rotational, p.direction), motion.U)));
-      Vector sum(N.size(), Number(0));
+      Vector sum(Number(0), N.size());
       for (std::size_t k = 0; k < N.size(); ++k)
         sum[group[k]] += N[k];
       for (std::size_t k = 0; k < N.size(); ++k)
@@ -320,7 +297,7 @@ namespace extremes
       }
       answer.steps.push_back(std::move(o));
       const Vector &flexibility = system.flexibility();
-      for (std::size_t k = 0; k < N.size() && !flexibility.empty(); ++k)
+      for (std::size_t k = 0; k < N.size() && flexibility.size() > 0; ++k)
       {
         double &largest = scene.links[k].rotational ? answer.row_turn : answer.row_motion;
         largest = std::max(largest, static_cast<double>(abs(flexibility[k] * N[k])));

@@ -46,28 +46,21 @@ namespace extremes
 
   void ExtendedScheme::look_back(const ExtendedMotion &m, Vector &v, Vector &a) const
   {
-    v.resize(m.U.size());
-    a.resize(m.U.size());
-    for (std::size_t k = 0; k < m.U.size(); ++k)
-      if (name == "BDF2")
-      {
-        v[k] = (m.U_old[k] - 4 * m.U[k]) / (2 * tau);
-        a[k] = (3 * v[k] - 4 * m.V[k] + m.V_old[k]) / (2 * tau);
-      }
-      else if (name == "backward Euler")
-      {
-        v[k] = -m.U[k] / tau;
-        a[k] = (v[k] - m.V[k]) / tau;
-      }
-      else if (has_mean_forces)
-      {
-        v[k] = -2 * m.U[k] / tau - m.V[k];
-        a[k] = (v[k] - m.V[k]) / tau;
-      }
-      else
-      {
-        a[k] = -acceleration * (m.U[k] + tau * m.V[k]) - (1 / (2 * beta) - 1) * m.A[k];
-        v[k] = m.V[k] + tau * ((1 - gamma) * m.A[k] + gamma * a[k]);
-      }
+    const Number two = 2, three = 3, four = 4;
+    if (name == "BDF2")
+    {
+      v = (m.U_old - four * m.U) / (two * tau);
+      a = (three * v - four * m.V + m.V_old) / (two * tau);
+    }
+    else if (name == "backward Euler" || has_mean_forces)
+    {
+      v = has_mean_forces ? Vector(-two / tau * m.U - m.V) : Vector(-m.U / tau);
+      a = (v - m.V) / tau;
+    }
+    else
+    {
+      a = -acceleration * (m.U + tau * m.V) - (1 / (2 * beta) - 1) * m.A;
+      v = m.V + tau * ((1 - gamma) * m.A + gamma * a);
+    }
   }
 } // namespace extremes

@@ -14,18 +14,15 @@ namespace extremes
     Vector U, V, A, U_old, V_old;
   };
 
-  /**
-   * A scheme for steps of one length by its name in parameter files, with the defaults of its
-   * entries: "Moreau-Jean" has conditions on gaps, then velocities. "Moreau-Jean of gaps" has them
-   * on gaps only. V = velocity U + v and A = acceleration U + a at the end of a step with known v
-   * and a, and old inertia and balance have the weights alpha_m and alpha_f.
-   */
+  /// A scheme for steps of one length by its name in parameter files, with the defaults of its
+  /// entries: "Moreau-Jean" has conditions on gaps, then velocities. "Moreau-Jean of gaps" has them
+  /// on gaps only. V = velocity U + v and A = acceleration U + a at the end of a step with known v
+  /// and a, and old inertia and balance have the weights alpha_m and alpha_f.
   struct ExtendedScheme
   {
     ExtendedScheme() = default;
     ExtendedScheme(const std::string &name, const Number &step);
 
-    /// v and a.
     void look_back(const ExtendedMotion &before, Vector &v, Vector &a) const;
 
     std::string name;

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The matrices of boxes of linear elasticity in extended precision, independent of those of the
-// library: products of exact integrals along the axes.
+// The matrices of boxes of linear elasticity in extended precision: products of exact integrals.
 #include "extended_model.h"
 #include "extended_run.h"
 #include "solid_case.h"
 
-#include <limits>
+#include <algorithm>
 #include <stdexcept>
 
 namespace extremes
@@ -44,13 +43,9 @@ namespace extremes
       Form convection(const taut::Link &, const Number &) const override { return {}; }
       Vector load(const Number &t) const override
       {
-        Vector P = steady;
-        for (std::size_t i = 0; i < P.size(); ++i)
-          P[i] += (1 + Number(c.growth) * t) * growing[i];
-        return P;
+        return steady + (1 + Number(c.growth) * t) * growing;
       }
 
-      /// DoFs of a node of a body, by its place.
       std::size_t dof(std::size_t body, const taut::Coordinates &place, unsigned int d) const;
 
     private:
@@ -93,7 +88,7 @@ namespace extremes
         bodies.push_back(std::move(body));
       }
       resize(n);
-      steady = growing = Vector(n, Number(0));
+      steady = growing = Vector(Number(0), n);
       for (const Body &body : bodies)
         add_cells(body);
       add_loads(bodies[0]);
@@ -131,8 +126,7 @@ namespace extremes
       for (unsigned int axis = 0; axis < c.dim; ++axis)
       {
         const std::vector<double> &x = bodies[body].x[axis];
-        while (at[axis] < x.size() && x[at[axis]] != place[axis])
-          ++at[axis];
+        at[axis] = std::find(x.begin(), x.end(), place[axis]) - x.begin();
         if (at[axis] == x.size())
           throw std::logic_error("a node of the library is not one of the copy");
       }
@@ -220,32 +214,19 @@ namespace extremes
     {
       const std::array<std::vector<double>, 3> &x = body.x;
       const Number thickness = c.dim == 2 ? Number(c.thickness) : Number(1);
-      /// Integral of the shape function of node i along an axis.
-      const auto share = [&](const unsigned int d, const unsigned int i)
+      /// Integrals along an axis of the shape function of node i, and of it times the distance from
+      /// the first node: sums of those of the cell before node i and the one after it.
+      const auto share = [&](const unsigned int d, const std::size_t i) -> std::pair<Number, Number>
       {
-        Number sum = 0;
         if (d >= c.dim)
-          return Number(1);
-        if (i > 0)
-          sum += (Number(x[d][i]) - Number(x[d][i - 1])) / 2;
-        if (i + 1 < x[d].size())
-          sum += (Number(x[d][i + 1]) - Number(x[d][i])) / 2;
-        return sum;
-      };
-      /// The same times the distance from the left side.
-      const auto moment = [&](const unsigned int i)
-      {
-        Number sum = 0;
-        const Number at = Number(x[0][i]) - Number(x[0][0]);
-        if (i > 0)
+          return {1, 0};
+        std::pair<Number, Number> sum = {0, 0};
+        const Number at = Number(x[d][i]) - Number(x[d][0]);
+        for (std::size_t k = std::max<std::size_t>(i, 1); k <= i + 1 && k < x[d].size(); ++k)
         {
-          const Number h = Number(x[0][i]) - Number(x[0][i - 1]);
-          sum += h * (at / 2 - h / 6);
-        }
-        if (i + 1 < x[0].size())
-        {
-          const Number h = Number(x[0][i + 1]) - Number(x[0][i]);
-          sum += h * (at / 2 + h / 6);
+          const Number h = Number(x[d][k]) - Number(x[d][k - 1]);
+          sum.first += h / 2;
+          sum.second += h * (at / 2 + Number(k == i ? -1 : 1) * h / 6);
         }
         return sum;
       };
@@ -257,10 +238,12 @@ namespace extremes
             const std::size_t first = body.first + c.dim * node(body, at);
             if (at[1] + 1 == x[1].size())
               growing[first + 1] -=
-                  Number(c.load) * thickness * share(2, at[2]) *
-                  (share(0, at[0]) - Number(c.slope) / Number(body.box->size[0]) * moment(at[0]));
+                  Number(c.load) * thickness * share(2, at[2]).first *
+                  (share(0, at[0]).first -
+                   Number(c.slope) / Number(body.box->size[0]) * share(0, at[0]).second);
             if (at[0] + 1 == x[0].size())
-              steady[first] += Number(c.pull) * thickness * share(1, at[1]) * share(2, at[2]);
+              steady[first] +=
+                  Number(c.pull) * thickness * share(1, at[1]).first * share(2, at[2]).first;
           }
     }
   } // namespace
@@ -281,24 +264,17 @@ namespace extremes
       taut::Link link;
       link.name = std::to_string(k);
       link.kind = taut::LinkKind::stop;
-      link.to.kind = taut::Attachment::Kind::body;
-      link.to.index = k;
+      link.to = {taut::Attachment::Kind::body, k};
       link.gap = rows.rows[k].gap;
       if (c.compliance > 0.)
         link.stiffness = rows.rows[k].area / c.compliance;
       steps.scene.links.push_back(link);
     }
     std::vector<ObservedPoint> points;
-    const std::vector<taut::Coordinates> *const places[2] = {&rows.slave_points,
-                                                             &rows.master_points};
-    for (std::size_t b = 0; b < 2; ++b)
-      for (const taut::Coordinates &place : *places[b])
+    for (const std::size_t b : {0, 1})
+      for (const taut::Coordinates &place : b == 0 ? rows.slave_points : rows.master_points)
         for (unsigned int d = 0; d < c.dim; ++d)
-        {
-          points.emplace_back();
-          points.back().at.kind = taut::Attachment::Kind::body;
-          points.back().at.index = model.dof(b, place, d);
-        }
+          points.push_back({{taut::Attachment::Kind::body, model.dof(b, place, d)}, false, {}});
     return extended_answer(steps, model, points, as_double);
   }
 } // namespace extremes

@@ -11,14 +11,6 @@ namespace extremes
   namespace
   {
     const Number held_by("1e-45"), shared_by("1e-30"), no_share("1e-15");
-
-    Number size(const Vector &x)
-    {
-      Number m = 0;
-      for (const Number &v : x)
-        m = std::max(m, Number(abs(v)));
-      return m;
-    }
   } // namespace
 
   ExtendedSystem::ExtendedSystem(const taut::Scene &scene, const ExtendedModel &model,
@@ -35,7 +27,7 @@ namespace extremes
     A_full = full;
     const std::size_t n = free_dofs.size();
     Matrix A(n);
-    spring.assign(n, Number(0));
+    spring.resize(n);
     Number largest[2] = {0, 0};
     for (std::size_t i = 0; i < n; ++i)
     {
@@ -59,17 +51,11 @@ namespace extremes
     Cholesky of_heavy;
     if (!factor_of_A.factor(A) || !of_heavy.factor(heavy))
       throw std::runtime_error("not held: the matrix is singular");
-    flexibilities.assign(scene.links.size(), Number(0));
+    flexibilities.resize(scene.links.size());
     for (std::size_t k = 0; k < scene.links.size(); ++k)
     {
-      Vector full_row(model.n_dofs(), Number(0)), constraint;
-      for (const auto &[i, v] : model.constraint(scene.links[k], Number(0)))
-        full_row[i] += v;
-      for (const std::size_t i : free_dofs)
-        constraint.push_back(full_row[i]);
-      const Vector x = of_heavy.solve(constraint);
-      for (std::size_t i = 0; i < n; ++i)
-        flexibilities[k] += constraint[i] * x[i];
+      const Vector constraint = free_part(model.constraint(scene.links[k], Number(0)));
+      flexibilities[k] = dot(constraint, of_heavy.solve(constraint));
       if (flexibilities[k] == 0)
         flexibilities[k] = n > 0 ? 1 / heavy(0, 0) : Number(1);
     }
@@ -81,25 +67,25 @@ namespace extremes
                              Vector &D, Vector &result)
   {
     const std::size_t n = free_dofs.size(), m = B.size();
-    Vector held_U(model.n_dofs(), Number(0));
+    Vector held_U(Number(0), model.n_dofs());
     for (std::size_t i = 0; i < held_U.size(); ++i)
       if (model.held[i])
         held_U[i] = model.given[i];
-    const Vector lift = A_full.times(held_U);
+    const Vector all = full_rhs - A_full.times(held_U);
     Vector rhs(n);
     for (std::size_t i = 0; i < n; ++i)
-      rhs[i] = full_rhs[free_dofs[i]] - lift[free_dofs[i]];
-
-    std::vector<Vector> constraints(m, Vector(n)), columns;
-    for (std::size_t k = 0; k < m; ++k)
+      rhs[i] = all[free_dofs[i]];
+    std::vector<Vector> constraints, columns;
+    for (const Form &form : B)
     {
-      Vector full(model.n_dofs(), Number(0));
-      for (const auto &[i, v] : B[k])
-        full[i] += v;
-      for (std::size_t i = 0; i < n; ++i)
-        constraints[k][i] = full[free_dofs[i]];
-      columns.push_back(factor_of_A.solve(constraints[k]));
+      constraints.push_back(free_part(form));
+      columns.push_back(factor_of_A.solve(constraints.back()));
     }
+    const auto own_gap = [&](const taut::Link &link)
+    {
+      const auto s = static_cast<double>(Number(link.to.position) + Number(link.speed) * t);
+      return Number(link.gap) + (link.moving() ? Number(link.profile(s, 0.)) : Number(0));
+    };
     const Vector U_free = factor_of_A.solve(rhs);
     Matrix F(m);
     Vector d(m);
@@ -107,18 +93,12 @@ namespace extremes
     {
       const taut::Link &link = scene.links[k];
       for (std::size_t l = 0; l < m; ++l)
-        for (std::size_t i = 0; i < n; ++i)
-          F(k, l) += constraints[k][i] * columns[l][i];
+        F(k, l) = dot(constraints[k], columns[l]);
       motions_of_forces[k] = F(k, k);
       F(k, k) += shared_by * flexibilities[k];
       if (!link.rigid() && !laws[k])
         F(k, k) += 1 / Number(link.stiffness);
-      d[k] = Number(link.gap) + dot(B[k], held_U) + past[k];
-      if (link.moving())
-        d[k] += Number(link.profile(
-            static_cast<double>(Number(link.to.position) + Number(link.speed) * t), 0.));
-      for (std::size_t i = 0; i < n; ++i)
-        d[k] += constraints[k][i] * U_free[i];
+      d[k] = own_gap(link) + dot(B[k], held_U) + past[k] + dot(constraints[k], U_free);
     }
     if (as_double)
       for (std::size_t k = 0; k < m; ++k)
@@ -137,25 +117,31 @@ namespace extremes
     result = held_U;
     Vector U = U_free;
     for (std::size_t k = 0; k < m; ++k)
-      for (std::size_t i = 0; i < n; ++i)
-        U[i] += columns[k][i] * N[k];
+      U += columns[k] * N[k];
     for (std::size_t i = 0; i < n; ++i)
       result[free_dofs[i]] = U[i];
     check_answer(rhs, B, N, result);
     for (std::size_t k = 0; k < m; ++k)
-      D[k] = dot(B[k], result) + Number(scene.links[k].gap) +
-             (scene.links[k].moving() ? Number(scene.links[k].profile(
-                                            static_cast<double>(Number(scene.links[k].to.position) +
-                                                                Number(scene.links[k].speed) * t),
-                                            0.))
-                                      : Number(0));
+      D[k] = dot(B[k], result) + own_gap(scene.links[k]);
+  }
+
+  Vector ExtendedSystem::free_part(const Form &form) const
+  {
+    Vector full(Number(0), model.n_dofs()), result(free_dofs.size());
+    for (const auto &[i, v] : form)
+      full[i] += v;
+    for (std::size_t i = 0; i < free_dofs.size(); ++i)
+      result[i] = full[free_dofs[i]];
+    return result;
   }
 
   void ExtendedSystem::check_answer(const Vector &rhs, const std::vector<Form> &B, const Vector &N,
                                     const Vector &U) const
   {
-    const Number load = size(rhs);
-    Number force = load, in_springs = 0;
+    Number load = 0, in_springs = 0;
+    for (const Number &P : rhs)
+      load = std::max(load, Number(abs(P)));
+    Number force = load;
     for (std::size_t k = 0; k < N.size(); ++k)
       for (const auto &[i, v] : B[k])
         force = std::max(force, Number(abs(v * N[k])));

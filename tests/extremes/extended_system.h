@@ -16,11 +16,9 @@ namespace extremes
     /// For this A from now on; of a static problem with springs. Throws std::runtime_error.
     void factor(const Matrix &full, bool is_static);
 
-    /**
-     * N, D and U at time t with the forms @p B, under forces @p P. The condition of each constraint
-     * is on D + N / stiffness + @p past, or its law if it has one in @p laws. N as given says which
-     * constraints may be closed. Throws std::runtime_error where there is no answer.
-     */
+    /// N, D and U at time t with the forms @p B, under forces @p P. The condition of each
+    /// constraint is on D + N / stiffness + @p past, or its law if it has one in @p laws. N as
+    /// given says which constraints may be closed. Throws std::runtime_error if there is no answer.
     void solve(const Vector &P, const Number &t, const std::vector<Form> &B, const Vector &past,
                const std::vector<std::optional<ConservingLaw>> &laws, Vector &N, Vector &D,
                Vector &U);
@@ -32,6 +30,7 @@ namespace extremes
     const Vector &motion_of_force() const { return motions_of_forces; }
 
   private:
+    Vector free_part(const Form &form) const;
     void check_answer(const Vector &rhs, const std::vector<Form> &B, const Vector &N,
                       const Vector &U) const;
 

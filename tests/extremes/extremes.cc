@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: whatever the numbers of a scene, from steps of 1e-9 to 1e6 s, ratios of 1e12, loads of
 // 1e-12 and 1e12 N, the program gives the answer of the model, or one error with its reason.
-// Expected values: a copy of each scene in 120 digits, and a twin in millimetres, grams and
-// milliseconds.
+// Expected: a copy of each scene in 120 digits, a twin in millimetres, grams and milliseconds.
 #include "extended_run.h"
 #include "scene_matrix.h"
 #include "tally.h"

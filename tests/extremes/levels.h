@@ -7,11 +7,9 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 namespace extremes
 {
-  /// A dimension of a matrix: its name and its levels as numbers.
   struct Dimension
   {
     std::string name;

@@ -114,9 +114,7 @@ namespace extremes
         for (std::size_t i = 0; i < b.size(); ++i)
         {
           const double difference = std::fabs(a[i][q][k] - b[i][q][k]);
-          if (difference == 0.)
-            continue;
-          if (difference <= result.excess * allowed)
+          if (difference == 0. || difference <= result.excess * allowed)
             continue;
           result.excess = std::isnan(difference) ? infinity : difference / allowed;
           std::ostringstream where;

@@ -19,7 +19,6 @@ namespace extremes
     double step = 1e-3;
     unsigned int n_steps = 4; ///< at least 1
     unsigned int n_parts = 1;
-    std::string cuts; ///< if not empty, instead of n_parts
     std::string local_solver = "block tridiagonal";
     std::string interface_operator = "assembled dense";
     std::string complementarity = "semismooth Newton";
@@ -51,16 +50,13 @@ namespace extremes
     std::vector<char> conserving; ///< of each link, or constraint of a contact, in the program
     double certificate = 0.;      ///< largest of the run
 
-    /// Of the extended run: largest |K||U|, and largest motion of a constraint under its own force,
-    /// which the others take back.
+    /// Of the extended run: largest |K||U|, and motion of a constraint under its own force.
     double elastic_force = 0., elastic_moment = 0., row_motion = 0., row_turn = 0.;
     unsigned int iterations = 0, n_fallbacks = 0;
   };
 
-  /**
-   * Runs a case through the whole program, from parameters to certificates. A UserError is an
-   * answer's error; anything else that is thrown is a failure of the test.
-   */
+  /// Runs a case through the whole program, from parameters to certificates. A UserError is an
+  /// answer's error; anything else that is thrown is a failure of the test.
   Answer program_answer(const Case &c);
 
   /// What each quantity of a run is measured by: its largest value; of forces the largest load or
@@ -77,22 +73,18 @@ namespace extremes
   };
   std::vector<ObservedPoint> observed_points(const taut::Scene &scene);
 
-  /// Of each link the first one that acts alike: only the sum of the forces of such links is
-  /// unique.
+  /// Of each link the first one that acts alike: only the sum of their forces is unique.
   std::vector<std::size_t> groups_of_links(const taut::Scene &scene);
 
-  /// Largest deviations of a from b.
   struct Deviation
   {
     double excess = 0.; ///< over what is allowed; more than 1 is a failure
     std::string where;
   };
 
-  /**
-   * Compares two runs. An entry may deviate by @p relative of its own largest value in the run plus
-   * @p absolute of the scale of its quantity, plus a thousand times what it changes from b to one
-   * of @p neighbours, the same scene with all its numbers changed in their last digit.
-   */
+  /// Compares two runs. An entry may deviate by @p relative of its own largest value in the run, by
+  /// @p absolute of the scale of its quantity, and by a thousand times what it changes from b to
+  /// one of @p neighbours, the same scene with all its numbers changed in their last digit.
   Deviation compare(const std::vector<Observation> &a, const std::vector<Observation> &b,
                     const std::array<double, n_quantities> &scales,
                     const std::vector<std::vector<Observation>> &neighbours, double relative,

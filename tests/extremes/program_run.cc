@@ -69,11 +69,6 @@ namespace extremes
         "Solver.Interface operator=" + c.interface_operator,
         "Solver.Complementarity=" + c.complementarity,
         "Partition.Number of substructures=" + std::to_string(c.n_parts)};
-    if (!c.cuts.empty())
-    {
-      overrides.push_back("Partition.Method=given");
-      overrides.push_back("Partition.Cuts=" + c.cuts);
-    }
     const std::vector<ObservedPoint> points = observed_points(c.scene);
     const std::vector<std::size_t> group = groups_of_links(c.scene);
     const auto record = [&](const taut::StepView &view)

@@ -24,11 +24,6 @@ namespace extremes
     const char *const scheme_names[] = {"backward Euler", "BDF2", "generalised-alpha",
                                         "Moreau-Jean"};
 
-    double stiffness(const double compliance)
-    {
-      return compliance == 0. ? std::numeric_limits<double>::infinity() : 1. / compliance;
-    }
-
     taut::Link link(const std::string &name, const taut::LinkKind kind, const Attachment &from,
                     const Attachment &to, const double compliance, const double gap)
     {
@@ -37,7 +32,8 @@ namespace extremes
       l.kind = kind;
       l.from = from;
       l.to = to;
-      l.stiffness = stiffness(compliance);
+      if (compliance > 0.)
+        l.stiffness = 1. / compliance;
       l.gap = gap;
       return l;
     }
@@ -90,14 +86,8 @@ namespace extremes
       return result;
     }
 
-    Attachment on_wire(const double s)
-    {
-      return {Kind::wire, 0, s};
-    }
-    Attachment on_mass(const std::size_t i)
-    {
-      return {Kind::mass, i, 0.};
-    }
+    const auto on_wire = [](const double s) { return Attachment{Kind::wire, 0, s}; };
+    const auto on_mass = [](const std::size_t i) { return Attachment{Kind::mass, i, 0.}; };
 
     void set_common(Case &c, const Levels &level)
     {
@@ -139,8 +129,7 @@ namespace extremes
       return own == 0 ? 2. * u : own == 1 ? .5 * u : u;
     }
 
-    // Ground, spring, mass 1, spring, mass 2 under a load; a stop below mass 2, one above mass 1 at
-    // a distance, and a dropper between them; duplicated.
+    // Ground, spring, mass 1, spring, mass 2 under a load; stops below, above and between them.
     const std::vector<Dimension> dimensions_of_masses = {
         steps,
         {"stiffness ratio", {1., 1e6, 1e12, 1e-6, 1e-12}},
@@ -161,8 +150,7 @@ namespace extremes
       const double k1 = 1024., k2 = k1 * level["stiffness ratio"], P = level["load"],
                    S = level["compliance"], G = level["gap"];
       const double u = P / k1 + P / k2;
-      // Beside what their impulses do to the light one the velocities of masses that touch are
-      // lost from 1e12 on.
+      // Beside what their impulses do to the light one the velocities are lost from 1e12 on.
       double heavier = level["mass ratio"];
       if (c.scheme == "Moreau-Jean" && heavier > 0.)
         heavier = std::clamp(heavier, 1e-9, 1e9);
@@ -179,8 +167,7 @@ namespace extremes
         c.scene.links.push_back(link("between" + n, LinkKind::stop, on_mass(1), on_mass(0), S,
                                      gap_in_state(state, 2, G)));
       }
-      if (level["start"] > 0.)
-        c.scene.start = level["start"] == 1. ? taut::Start::undeformed : taut::Start::given;
+      c.scene.start = static_cast<taut::Start>(static_cast<int>(level["start"]));
       // Far from equilibrium, both alike, so that rigid constraints start open.
       for (taut::Mass &m : c.scene.masses)
       {
@@ -257,8 +244,7 @@ namespace extremes
           l.direction = along;
           c.scene.links.push_back(l);
         }
-      if (level["start"] > 0.)
-        c.scene.start = level["start"] == 1. ? taut::Start::undeformed : taut::Start::given;
+      c.scene.start = static_cast<taut::Start>(static_cast<int>(level["start"]));
       for (taut::InitialMotion *m : {&w.axial_start, &w.transverse_start})
       {
         m->displacement = taut::Expression(hold == 1 ? 10. : 0.);
@@ -304,8 +290,7 @@ namespace extremes
                           on_wire(.1 * length), level["compliance"], level["gap"]);
       l.speed = v;
       c.scene.links = {l};
-      if (level["start"] == 1.)
-        c.scene.start = taut::Start::undeformed;
+      c.scene.start = static_cast<taut::Start>(static_cast<int>(level["start"]));
     }
     // A free beam, string or rigid bar on stops, or one that hangs on droppers, at rest.
     const std::vector<Dimension> dimensions_of_resting = {
@@ -358,9 +343,8 @@ namespace extremes
         for (int copy = 0; copy < static_cast<int>(level["copies"]); ++copy)
         {
           const double x = length * i / (n - 1);
-          // A mass that turns has no points away from it: a joint to a massless node
-          // would be a body more; its constraints hold deflection and, as angular
-          // stops, rotation.
+          // A mass that turns has no points away from it: a joint to a massless node would be a
+          // body more; its constraints hold deflection and, as angular stops, rotation.
           taut::Link l = link("constraint" + std::to_string(i) + "_" + std::to_string(copy),
                               hangs ? taut::LinkKind::dropper : taut::LinkKind::stop, {},
                               body == 5 ? on_mass(0) : on_wire(x), level["compliance"],
@@ -401,8 +385,10 @@ namespace extremes
 
   std::vector<Case> impossible()
   {
+    using taut::LinkKind;
     std::vector<Case> cases;
-    const auto add = [&](const std::string &name, const taut::Start start)
+    const auto add = [&](const std::string &name, const taut::Start start,
+                         const std::vector<std::pair<LinkKind, double>> &kinds_and_gaps)
     {
       Case c;
       c.family = "impossible";
@@ -412,27 +398,22 @@ namespace extremes
       c.scene.masses = {mass("1", 1.)};
       c.scene.springs = {spring(taut::ground, 0, 1e3)};
       c.scene.loads = {load(on_mass(0), -1.)};
+      for (const auto &[kind, gap] : kinds_and_gaps)
+        c.scene.links.push_back(
+            link(c.scene.links.empty() ? "a" : "b", kind, {}, on_mass(0), 0., gap));
       cases.push_back(c);
       return &cases.back().scene;
     };
-    using taut::LinkKind;
-    taut::Scene *s = add("two joints with two gaps", taut::Start::equilibrium);
-    s->links = {link("a", LinkKind::joint, {}, on_mass(0), 0., 0.),
-                link("b", LinkKind::joint, {}, on_mass(0), 0., 1e-6)};
-    s = add("squeezed between two stops", taut::Start::equilibrium);
-    s->links = {link("a", LinkKind::stop, {}, on_mass(0), 0., -1.),
-                link("b", LinkKind::dropper, {}, on_mass(0), 0., -1.)};
-    s = add("a joint against a stop", taut::Start::equilibrium);
-    s->links = {link("a", LinkKind::joint, {}, on_mass(0), 0., 1.),
-                link("b", LinkKind::stop, {}, on_mass(0), 0., 0.)};
-    s = add("two joints with two gaps, in motion", taut::Start::undeformed);
-    s->links = {link("a", LinkKind::joint, {}, on_mass(0), 0., 0.),
-                link("b", LinkKind::joint, {}, on_mass(0), 0., 1e-6)};
-    s = add("a load pulls off the only stop", taut::Start::equilibrium);
+    const auto rest = taut::Start::equilibrium, motion = taut::Start::undeformed;
+    add("two joints with two gaps", rest, {{LinkKind::joint, 0.}, {LinkKind::joint, 1e-6}});
+    add("squeezed between two stops", rest, {{LinkKind::stop, -1.}, {LinkKind::dropper, -1.}});
+    add("a joint against a stop", rest, {{LinkKind::joint, 1.}, {LinkKind::stop, 0.}});
+    add("two joints with two gaps, in motion", motion,
+        {{LinkKind::joint, 0.}, {LinkKind::joint, 1e-6}});
+    taut::Scene *s = add("a load pulls off the only stop", rest, {{LinkKind::stop, 0.}});
     s->springs.clear();
     s->loads = {load(on_mass(0), 1.)};
-    s->links = {link("a", LinkKind::stop, {}, on_mass(0), 0., 0.)};
-    s = add("a massless mass that nothing holds", taut::Start::undeformed);
+    s = add("a massless mass that nothing holds", motion, {});
     s->springs.clear();
     s->masses[0].mass = 0.;
     return cases;

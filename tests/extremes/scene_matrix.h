@@ -6,10 +6,7 @@
 
 namespace extremes
 {
-  /**
-   * Families of small cases, each a pairwise cover of its dimensions; the name of a case lists its
-   * levels. Other seeds give other covers.
-   */
+  /// Families of small cases, each a pairwise cover of its dimensions. Other seeds, other covers.
   std::vector<Case> masses(unsigned int seed); ///< springs, stops and droppers on a chain of masses
   std::vector<Case> wires(unsigned int seed);  ///< one wire, its ends, stops between
   std::vector<Case> sliding(unsigned int seed); ///< a mass that slides along a wire

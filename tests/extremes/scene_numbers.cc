@@ -119,38 +119,43 @@ namespace extremes
   Case in_units(const Case &c, const Units &units)
   {
     Case result = c;
-    Numbers(result, [&](double &x, int l, int m, int t, bool)
-            { x *= std::pow(units.length, l) * std::pow(units.mass, m) * std::pow(units.time, t); })
-        .all();
+    Numbers(result, [&](double &x, int l, int m, int t, bool) { x *= units.of(l, m, t); }).all();
     return result;
   }
 
   void to_units_of_origin(std::vector<Observation> &steps, const Units &units)
   {
-    const double newton = units.mass * units.length / (units.time * units.time);
-    const double factor[n_quantities] = {units.length,          1.,           newton,
-                                         newton * units.length, units.length, 1.};
+    const double factor[n_quantities] = {units.length,       1.,           units.of(1, 1, -2),
+                                         units.of(2, 1, -2), units.length, 1.};
     for (Observation &o : steps)
       for (int q = 0; q < n_quantities; ++q)
         for (double &x : o[q])
           x /= factor[q];
   }
 
+  double Units::of(const int l, const int m, const int t) const
+  {
+    return std::pow(length, l) * std::pow(mass, m) * std::pow(time, t);
+  }
+
+  void change_last_digit(double &x, const unsigned int seed)
+  {
+    std::uint64_t z;
+    std::memcpy(&z, &x, sizeof z);
+    z = (z ^ (seed * 0x9e3779b97f4a7c15u)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 29)) * 0x94d049bb133111ebu;
+    x *= 1. + 0x1p-52 * (static_cast<double>((z >> 32) % 5) - 2.);
+  }
+
   Case in_last_digits(const Case &c, const unsigned int seed)
   {
     Case result = c;
-    Numbers(result,
-            [seed](double &x, int, int, int, bool is_place)
-            {
-              if (is_place)
-                return;
-              std::uint64_t z;
-              std::memcpy(&z, &x, sizeof z);
-              z = (z ^ (seed * 0x9e3779b97f4a7c15u)) * 0xbf58476d1ce4e5b9u;
-              z = (z ^ (z >> 29)) * 0x94d049bb133111ebu;
-              x *= 1. + 0x1p-52 * (static_cast<double>((z >> 32) % 5) - 2.);
-            })
-        .all();
+    const auto visit = [seed](double &x, int, int, int, bool is_place)
+    {
+      if (!is_place)
+        change_last_digit(x, seed);
+    };
+    Numbers(result, visit).all();
     return result;
   }
 } // namespace extremes

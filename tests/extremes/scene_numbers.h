@@ -10,6 +10,9 @@ namespace extremes
   struct Units
   {
     double length = 1., mass = 1., time = 1.;
+
+    /// Of a number with these powers of length, mass and time.
+    double of(int l, int m, int t) const;
   };
 
   /// The same case in other units: all its numbers are multiplied as their dimension says.
@@ -18,11 +21,12 @@ namespace extremes
   /// The observations of that case back in the units of the first one.
   void to_units_of_origin(std::vector<Observation> &steps, const Units &units);
 
-  /**
-   * A neighbour in the numbers of double precision: stiffnesses, masses, loads, gaps and so on
-   * change by up to two units in the last place. Numbers that are equal stay equal, so that
-   * duplicated constraints stay duplicates; places stay, so that nodes stay one node.
-   */
+  /// By up to two units in the last place, which are the same for equal numbers.
+  void change_last_digit(double &x, unsigned int seed);
+
+  /// A neighbour in the numbers of double precision: stiffnesses, masses, loads, gaps and so on
+  /// change by up to two units in the last place. Numbers that are equal stay equal, so that
+  /// duplicated constraints stay duplicates; places stay, so that nodes stay one node.
   Case in_last_digits(const Case &c, unsigned int seed);
 } // namespace extremes
 

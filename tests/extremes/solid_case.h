@@ -2,14 +2,9 @@
 #ifndef taut_extremes_solid_case_h
 #define taut_extremes_solid_case_h
 
-#include "observation.h"
 #include "scene_numbers.h"
 
 #include <taut/scene/contact_surface.h>
-
-#include <array>
-#include <string>
-#include <vector>
 
 namespace extremes
 {
@@ -20,8 +15,7 @@ namespace extremes
     std::array<double, 3> from = {0., 0., 0.}, size = {1., 1., 1.}; ///< [m]
     std::array<double, 3> first = {0., 0., 0.}; ///< of its length: the first cell; 0: as the others
 
-    /// Coordinates of the planes of nodes [m].
-    std::vector<double> nodes(unsigned int axis) const;
+    std::vector<double> nodes(unsigned int axis) const; ///< coordinates of the planes of nodes [m]
   };
 
   enum class Touching
@@ -31,11 +25,9 @@ namespace extremes
     nodes_to_faces
   };
 
-  /**
-   * A box pressed on what is below it, a rigid plane or a second box that is held at its bottom. A
-   * traction acts on its top, downwards, load (1 - slope x / length) (1 + growth t), and a pull to
-   * the right on its right side. Two materials, left and right.
-   */
+  /// A box pressed on what is below it, a rigid plane or a second box that is held at its bottom. A
+  /// traction acts on its top, downwards, load (1 - slope x / length) (1 + growth t), and a pull to
+  /// the right on its right side. Two materials, left and right.
   struct SolidCase
   {
     std::string name;
@@ -57,10 +49,8 @@ namespace extremes
     std::vector<char> conserving; ///< of each constraint, for the copy; as of a Case
   };
 
-  /// The same case in other units.
   SolidCase in_units(const SolidCase &c, const Units &units);
 
-  /// A neighbour in the last digits of its numbers, as in_last_digits() of a Case.
   SolidCase in_last_digits(const SolidCase &c, unsigned int seed);
 
   /// Constraints of a contact as the library made them, and where the nodes of its sides are.

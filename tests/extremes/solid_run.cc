@@ -3,15 +3,14 @@
 #include "solid_case.h"
 
 #include "common.h"
+#include "solid/mesh_file.h"
 #include "verification/run.h"
 
 #include <taut/model/surface_constraints.h>
 
-#include <unistd.h>
+#include <deal.II/grid/grid_generator.h>
+#include <deal.II/grid/grid_tools.h>
 
-#include <cstdint>
-#include <cstring>
-#include <filesystem>
 #include <limits>
 
 namespace extremes
@@ -20,122 +19,41 @@ namespace extremes
   {
     /// Ids of the boundary: 10 + 2 axis at the lower end of an axis, 11 + 2 axis at the upper one.
     constexpr int first_boundary = 10;
-
     /// Of turns and sliding: the arithmetic is tested here, not what the model is good for.
     constexpr double no_limit = 1e300;
 
-    /// A mesh in the format 2.2 of gmsh; materials 1 and 2 are left and right.
-    class MeshFile
+    /// Materials 1 and 2 are left and right.
+    template <int dim>
+    verification::MeshFile mesh_of(const Box &box)
     {
-    public:
-      MeshFile(const Box &box, const unsigned int dim, const std::string &path) : dim(dim), n(box.n)
+      const std::vector<double> x[] = {box.nodes(0), box.nodes(1), box.nodes(2)};
+      const std::vector<unsigned int> n(box.n.begin(), box.n.begin() + dim);
+      dealii::Point<dim> end;
+      for (unsigned int d = 0; d < dim; ++d)
+        end[d] = n[d];
+      dealii::Triangulation<dim> cells;
+      dealii::GridGenerator::subdivided_hyper_rectangle(cells, n, dealii::Point<dim>(), end, true);
+      for (const auto &cell : cells.active_cell_iterators())
+        cell->set_material_id(2. * cell->vertex(0)[0] < n[0] ? 1 : 2);
+      const auto place = [&](dealii::Point<dim> p)
       {
-        if (dim == 2)
-          n[2] = 0;
-        std::ofstream out(path);
-        out.precision(std::numeric_limits<double>::max_digits10);
-        out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n"
-            << (n[0] + 1) * (n[1] + 1) * (n[2] + 1) << '\n';
-        const std::vector<double> x = box.nodes(0), y = box.nodes(1), z = box.nodes(2);
-        for (unsigned int k = 0; k <= n[2]; ++k)
-          for (unsigned int j = 0; j <= n[1]; ++j)
-            for (unsigned int i = 0; i <= n[0]; ++i)
-              out << node(i, j, k) << ' ' << x[i] << ' ' << y[j] << ' ' << (dim == 3 ? z[k] : 0.)
-                  << '\n';
-        add_elements();
-        out << "$EndNodes\n$Elements\n" << lines.size() << '\n';
-        for (std::size_t e = 0; e < lines.size(); ++e)
-          out << e + 1 << ' ' << lines[e] << '\n';
-        out << "$EndElements\n";
-      }
-
-    private:
-      unsigned int node(const unsigned int i, const unsigned int j, const unsigned int k) const
-      {
-        return 1 + i + (n[0] + 1) * (j + (n[1] + 1) * k);
-      }
-
-      /// Corners of the unit cell of some axes, in the order of gmsh.
-      void add(const int type, const int id, std::array<unsigned int, 3> at,
-               const std::vector<unsigned int> &axes)
-      {
-        const int ring[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-        std::ostringstream line;
-        line << type << " 2 " << id << ' ' << id;
-        for (unsigned int layer = 0; layer < (axes.size() == 3 ? 2 : 1); ++layer)
-          for (unsigned int c = 0; c < (axes.size() == 1 ? 2 : 4); ++c)
-          {
-            std::array<unsigned int, 3> corner = at;
-            corner[axes[0]] += ring[c][0];
-            if (axes.size() > 1)
-              corner[axes[1]] += ring[c][1];
-            if (axes.size() > 2)
-              corner[axes[2]] += layer;
-            line << ' ' << node(corner[0], corner[1], corner[2]);
-          }
-        lines.push_back(line.str());
-      }
-
-      void add_elements()
-      {
-        constexpr int line = 1, quadrilateral = 3, hexahedron = 5;
-        std::vector<unsigned int> all;
         for (unsigned int d = 0; d < dim; ++d)
-          all.push_back(d);
-        for (unsigned int axis = 0; axis < dim; ++axis)
-          for (const int end : {0, 1})
-          {
-            std::vector<unsigned int> axes;
-            for (const unsigned int d : all)
-              if (d != axis)
-                axes.push_back(d);
-            for (unsigned int a = 0; a < n[axes[0]]; ++a)
-              for (unsigned int b = 0; b < (dim == 3 ? n[axes[1]] : 1); ++b)
-              {
-                std::array<unsigned int, 3> at = {0, 0, 0};
-                at[axis] = end == 1 ? n[axis] : 0;
-                at[axes[0]] = a;
-                if (dim == 3)
-                  at[axes[1]] = b;
-                add(dim == 2 ? line : quadrilateral, first_boundary + 2 * axis + end, at, axes);
-              }
-          }
-        for (unsigned int k = 0; k < (dim == 3 ? n[2] : 1); ++k)
-          for (unsigned int j = 0; j < n[1]; ++j)
-            for (unsigned int i = 0; i < n[0]; ++i)
-              add(dim == 2 ? quadrilateral : hexahedron, 2 * i < n[0] ? 1 : 2, {i, j, k}, all);
-      }
+          p[d] = x[d][std::lround(p[d])];
+        return p;
+      };
+      dealii::GridTools::transform(place, cells);
+      return verification::MeshFile(cells, first_boundary);
+    }
 
-      const unsigned int dim;
-      std::array<unsigned int, 3> n;
-      std::vector<std::string> lines;
-    };
-
-    /// A folder for the meshes of one run.
-    class Scratch
+    std::string body(const SolidCase &c, const bool is_upper, const verification::MeshFile &mesh)
     {
-    public:
-      Scratch()
-          : path(std::filesystem::temp_directory_path() /
-                 ("taut_solids_" + std::to_string(getpid())))
-      {
-        std::filesystem::create_directories(path);
-      }
-      ~Scratch() { std::filesystem::remove_all(path); }
-      const std::filesystem::path path;
-    };
-
-    std::string body(const SolidCase &c, const bool is_upper, const Scratch &scratch)
-    {
-      const std::string name = is_upper ? "upper" : "lower",
-                        mesh = (scratch.path / (name + ".msh")).string();
-      const MeshFile file(is_upper ? c.upper : c.lower, c.dim, mesh);
       std::ostringstream out;
       out.precision(std::numeric_limits<double>::max_digits10);
-      out << "subsection Body " << name << "\nset Type = solid\nset Dimension = " << c.dim
-          << "\nset Largest turn = " << no_limit << "\nset Materials = 1: " << c.E[0] << ", "
-          << c.nu[0] << ", " << c.density[0] << "; 2: " << c.E[1] << ", " << c.nu[1] << ", "
-          << c.density[1] << "\nset Plane state = " << (c.plane_stress ? "stress" : "strain")
+      out << "subsection Body " << (is_upper ? "upper" : "lower")
+          << "\nset Type = solid\nset Dimension = " << c.dim << "\nset Largest turn = " << no_limit
+          << "\nset Materials = 1: " << c.E[0] << ", " << c.nu[0] << ", " << c.density[0]
+          << "; 2: " << c.E[1] << ", " << c.nu[1] << ", " << c.density[1]
+          << "\nset Plane state = " << (c.plane_stress ? "stress" : "strain")
           << "\nset Thickness = " << c.thickness << "\nset Mass matrix = " << c.mass << '\n';
       const std::string zero = c.dim == 3 ? ", 0" : "";
       if (!is_upper)
@@ -151,11 +69,12 @@ namespace extremes
             << zero << "; 11: " << c.pull << ", 0" << zero << '\n';
         out << "set Initial velocity = 0, " << -c.velocity << zero << '\n';
       }
-      out << "subsection Mesh\nset File = " << mesh << "\nend\nend\n";
+      out << "subsection Mesh\nset File = " << mesh.path() << "\nend\nend\n";
       return out.str();
     }
 
-    std::string scene(const SolidCase &c, const Scratch &scratch)
+    std::string scene(const SolidCase &c, const verification::MeshFile &upper,
+                      const verification::MeshFile &lower)
     {
       std::ostringstream out;
       out.precision(std::numeric_limits<double>::max_digits10);
@@ -163,9 +82,9 @@ namespace extremes
       const std::string zero = c.dim == 3 ? ", 0" : "";
       out << "set Generator = network\nset Gravity = 0, 0\nset Start = " << c.start
           << "\nset Bodies = upper" << (on_plane ? "" : ", lower") << "\nset Contacts = joint\n"
-          << body(c, true, scratch);
+          << body(c, true, upper);
       if (!on_plane)
-        out << body(c, false, scratch);
+        out << body(c, false, lower);
       out << "subsection Contact joint\nset Slave = upper: 12\n";
       if (on_plane)
         out << "set Obstacle = plane\nset Point = " << c.upper.from[0] << ", " << c.upper.from[1]
@@ -206,14 +125,6 @@ namespace extremes
         o[gap].push_back(view.state.geometric_gap[k]);
       }
       return o;
-    }
-
-    /// What `automatic` takes, as the copy names it.
-    std::string scheme_of(const taut::StepCoefficients &c)
-    {
-      return !c.mean_force           ? "generalised-alpha"
-             : c.velocity_projection ? "Moreau-Jean"
-                                     : "Moreau-Jean of gaps";
     }
 
     /// A number and its powers of length, mass and time.
@@ -260,24 +171,14 @@ namespace extremes
         box->from[d] *= units.length;
         box->size[d] *= units.length;
       }
-    visit_numbers(
-        result, [&](double &x, const int l, const int m, const int t)
-        { x *= std::pow(units.length, l) * std::pow(units.mass, m) * std::pow(units.time, t); });
+    visit_numbers(result, [&](double &x, int l, int m, int t) { x *= units.of(l, m, t); });
     return result;
   }
 
   SolidCase in_last_digits(const SolidCase &c, const unsigned int seed)
   {
     SolidCase result = c;
-    visit_numbers(result,
-                  [seed](double &x, int, int, int)
-                  {
-                    std::uint64_t z;
-                    std::memcpy(&z, &x, sizeof z);
-                    z = (z ^ (seed * 0x9e3779b97f4a7c15u)) * 0xbf58476d1ce4e5b9u;
-                    z = (z ^ (z >> 29)) * 0x94d049bb133111ebu;
-                    x *= 1. + 0x1p-52 * (static_cast<double>((z >> 32) % 5) - 2.);
-                  });
+    visit_numbers(result, [seed](double &x, int, int, int) { change_last_digit(x, seed); });
     return result;
   }
 
@@ -299,7 +200,10 @@ namespace extremes
         rows.rows = taut::contact_geometry(view.scene, 0).constraints;
       }
       answer.steps.push_back(observe(view, c.dim, n_nodes));
-      answer.scheme = scheme_of(view.scheme);
+      // What `automatic` takes, as the copy names it.
+      answer.scheme = !view.scheme.mean_force           ? "generalised-alpha"
+                      : view.scheme.velocity_projection ? "Moreau-Jean"
+                                                        : "Moreau-Jean of gaps";
       answer.conserving.clear();
       for (std::size_t k = 0; k < view.constraints.size(); ++k)
         answer.conserving.push_back(view.constraints[k].spring.conserving);
@@ -307,9 +211,11 @@ namespace extremes
       answer.iterations = std::max(answer.iterations, view.certificate.iterations);
       answer.n_fallbacks += view.certificate.fallback;
     };
-    const Scratch scratch;
+    const auto mesh = [&](const Box &box)
+    { return c.dim == 2 ? mesh_of<2>(box) : mesh_of<3>(box); };
+    const verification::MeshFile upper = mesh(c.upper), lower = mesh(c.lower);
     answer.error =
-        verification::error_of([&] { verification::Session(scene(c, scratch)).run(record); });
+        verification::error_of([&] { verification::Session(scene(c, upper, lower)).run(record); });
     return answer;
   }
 } // namespace extremes

@@ -2,8 +2,7 @@
 // Claim: solids in contact are right, or end in one error with its reason, whatever their numbers:
 // cells of an aspect ratio of 1e4, moduli 1e12 apart, Poisson's ratio of 0.4999, overlaps of 1e-8
 // of a cell, contacts open, closed, by turns, grazing, statics and steps of 1e-6 to 1e6 times the
-// time of a wave through a cell. Expected values: a copy of each scene in 120 digits, and a twin in
-// millimetres, tons and newtons or other units.
+// time of a wave through a cell. Source: a copy of each scene in 120 digits, a twin in other units.
 #include "levels.h"
 #include "solid_case.h"
 #include "tally.h"
@@ -53,8 +52,7 @@ namespace
         cells > 0 ? level["aspect ratio"] : std::clamp(level["aspect ratio"], 1e-2, 1e2);
     const bool is_layered = cells > 0 && aspect != 1. && aspect != 1e2;
     c.upper.size = {cell * (is_layered ? 1. : aspect) * c.upper.n[0], cell * c.upper.n[1], cell};
-    // Thin cells at the contact, or at the side that is held; a rod of that slenderness is lost in
-    // the rounding of its stiffness.
+    // Thin cells at the contact or the held side; a rod that slender is lost in rounding.
     if (is_layered && aspect > 1.)
       c.upper.first[1] = 1. / aspect / c.upper.n[1];
     else if (is_layered)
@@ -122,10 +120,7 @@ namespace
       for (const taut::NodeWeight &w : row.master)
         master += w.weight.y;
       EXPECT_NEAR(slave, 1., 1e-12);
-      if (c.touching != Touching::plane)
-      {
-        EXPECT_NEAR(master, -1., 1e-12);
-      }
+      EXPECT_NEAR(master, c.touching == Touching::plane ? 0. : -1., 1e-12);
       EXPECT_GT(row.area, 0.);
       area += row.area;
     }

@@ -11,8 +11,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <map>
-#include <string>
-#include <vector>
 
 namespace extremes
 {
@@ -23,10 +21,8 @@ namespace extremes
     /// part of scenes that may end in an error (doc/extremes.md has the figure).
     static constexpr double relative = 1e-6, absolute = 1e-7, largest_part_of_errors = .05;
 
-    /**
-     * An answer of the program is that of the copy, @p exact, and that of a twin in other units;
-     * where it has none, there is a reason. @p neighbours of the copy have other last digits.
-     */
+    /// An answer of the program is that of the copy, @p exact, and that of a twin in other units;
+    /// where it has none, there is a reason. @p neighbours of the copy have other last digits.
     template <typename MakeTwin>
     void judge(const std::string &family, const std::string &name, const Answer &ours,
                const Answer &exact, const std::array<double, n_quantities> &scale,
@@ -76,7 +72,6 @@ namespace extremes
       }
     }
 
-    /// The table, and the bound on errors.
     void print() const
     {
       unsigned int n_scenes = 0, n_answers = 0;
@@ -126,10 +121,8 @@ namespace extremes
   void for_each_seed(unsigned int last, const Visit &visit)
   {
     unsigned int first = 1;
-    if (const char *const seeds = std::getenv("TAUT_EXTREMES_SEEDS"))
-    {
-      ASSERT_EQ(std::sscanf(seeds, "%u:%u", &first, &last), 2) << seeds;
-    }
+    const char *const seeds = std::getenv("TAUT_EXTREMES_SEEDS");
+    ASSERT_TRUE(!seeds || std::sscanf(seeds, "%u:%u", &first, &last) == 2) << seeds;
     for (unsigned int seed = first; seed <= last; ++seed)
       visit(seed);
   }

@@ -7,7 +7,9 @@
 #include <taut/substructure/substructure.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -65,11 +67,8 @@ namespace door
     void add(double, std::vector<double> &P) const override { P.resize(P.size() + 3); }
   };
 
-  /**
-   * Masses on a vertical chain: spring i is above mass i, the first one hangs from the ground, and
-   * with a first spring of zero the chain floats. DoF i is the displacement of mass i upwards; a
-   * place is {i, 0, 0}.
-   */
+  /// Masses on a vertical chain: spring i is above mass i, the first one hangs from the ground, and
+  /// with a first spring of zero the chain floats. DoF i is mass i upwards; a place is {i, 0, 0}.
   class Chain : public taut::Substructure
   {
   public:
@@ -115,7 +114,7 @@ namespace door
     NullSpace null_space() const override
     {
       NullSpace result;
-      if (floats || is_of_null_space())
+      if (floats || (defect >= Defect::short_null_space && defect <= Defect::fixing_dof_twice))
         result = {{std::vector<double>(n_dofs(), 1.)}, {0}};
       if (defect == Defect::short_null_space)
         result.vectors[0].pop_back();
@@ -142,64 +141,54 @@ namespace door
     bool is_linear() const override { return defect != Defect::not_linear; }
 
   private:
-    bool is_of_null_space() const
-    {
-      return defect >= Defect::short_null_space && defect <= Defect::fixing_dof_twice;
-    }
-
-    void spoil_sizes(const unsigned int n)
-    {
-      if (defect == Defect::no_stiffness)
-        K.reset();
-      if (defect == Defect::no_damping)
-        C.reset();
-      if (defect == Defect::other_size_of_M)
-        M = std::make_unique<taut::CoordinateMatrix>(n + 1);
-      if (defect == Defect::other_size_of_C)
-        C = std::make_unique<taut::CoordinateMatrix>(n - 1);
-      if (defect == Defect::short_force)
-        constant_force.pop_back();
-      if (defect == Defect::no_kinds)
-        kinds.clear();
-      if (defect == Defect::unknown_kind)
-        kinds = {7};
-      if (defect == Defect::no_dofs)
-      {
-        for (auto *matrix : {&M, &C, &K})
-          *matrix = std::make_unique<taut::CoordinateMatrix>(0);
-        constant_force.clear();
-      }
-    }
-
     void spoil(const unsigned int n)
     {
-      spoil_sizes(n);
-      if (defect == Defect::negative_mass)
-        M->add(0, 0, -1e9);
-      if (defect == Defect::mass_not_finite)
-        M->add(0, 0, not_a_number);
-      if (defect == Defect::stiffness_infinite)
-        K->add(0, 0, infinite);
-      if (defect == Defect::force_not_finite)
-        constant_force[0] = not_a_number;
-      if (defect == Defect::prescribes_too_far)
-        constrained = {{n, {}}};
-      if (defect == Defect::prescribes_twice)
-        constrained = {{0, {}}, {0, {}}};
-      if (defect == Defect::motion_not_finite)
-        constrained = {{0, [](double) { return not_a_number; }}};
-      if (defect == Defect::no_load)
-        time_loads.push_back(nullptr);
-      if (defect == Defect::resized_load)
-        time_loads.push_back(std::make_unique<ResizedLoad>());
-      taut::LinearForm form;
-      form.add(defect == Defect::load_too_far ? n + 1000000 : 0, 1.);
-      std::function<double(double)> magnitude = [](double) { return not_a_number; };
-      if (defect == Defect::load_without_magnitude)
-        magnitude = nullptr;
-      if (defect == Defect::load_too_far || defect == Defect::load_without_magnitude ||
-          defect == Defect::load_not_finite)
-        time_loads.push_back(std::make_unique<taut::PointLoad>(form, magnitude));
+      using taut::CoordinateMatrix;
+      const auto not_finite = [](double) { return not_a_number; };
+      const auto add_load = [&](const unsigned int dof, const std::function<double(double)> &P)
+      {
+        taut::LinearForm form;
+        form.add(dof, 1.);
+        time_loads.push_back(std::make_unique<taut::PointLoad>(form, P));
+      };
+      const auto lose_dofs = [&]
+      {
+        for (auto *matrix : {&M, &C, &K})
+          *matrix = std::make_unique<CoordinateMatrix>(0);
+        constant_force.clear();
+      };
+      const std::map<Defect, std::function<void()>> spoils = {
+          {Defect::no_stiffness, [&] { K.reset(); }},
+          {Defect::no_damping, [&] { C.reset(); }},
+          {Defect::other_size_of_M, [&] { M = std::make_unique<CoordinateMatrix>(n + 1); }},
+          {Defect::other_size_of_C, [&] { C = std::make_unique<CoordinateMatrix>(n - 1); }},
+          {Defect::short_force, [&] { constant_force.pop_back(); }},
+          {Defect::no_kinds, [&] { kinds.clear(); }},
+          {Defect::unknown_kind, [&] { kinds = {7}; }},
+          {Defect::no_dofs, lose_dofs},
+          {Defect::negative_mass, [&] { M->add(0, 0, -1e9); }},
+          {Defect::mass_not_finite, [&] { M->add(0, 0, not_a_number); }},
+          {Defect::stiffness_infinite, [&] { K->add(0, 0, infinite); }},
+          {Defect::force_not_finite, [&] { constant_force[0] = not_a_number; }},
+          {Defect::prescribes_too_far,
+           [&] {
+             constrained = {{n, {}}};
+           }},
+          {Defect::prescribes_twice,
+           [&] {
+             constrained = {{0, {}}, {0, {}}};
+           }},
+          {Defect::motion_not_finite,
+           [&] {
+             constrained = {{0, not_finite}};
+           }},
+          {Defect::no_load, [&] { time_loads.push_back(nullptr); }},
+          {Defect::resized_load, [&] { time_loads.push_back(std::make_unique<ResizedLoad>()); }},
+          {Defect::load_too_far, [&] { add_load(n + 1000000, not_finite); }},
+          {Defect::load_without_magnitude, [&] { add_load(0, nullptr); }},
+          {Defect::load_not_finite, [&] { add_load(0, not_finite); }}};
+      if (const auto found = spoils.find(defect); found != spoils.end())
+        found->second();
     }
 
     const Defect defect;

@@ -59,16 +59,27 @@ namespace door
   {
     using Mistakes = std::vector<std::pair<std::string, std::function<Constraint()>>>;
 
+    struct Refusal
+    {
+      std::string what, name;
+      std::function<void()> call;
+    };
+
+    void make(Calls &calls, const Refusal &mistake)
+    {
+      calls.refuse(mistake.what, mistake.name, mistake.call);
+    }
+
     const std::string bad_link = "bad link";
 
-    /// Numbers of a constraint that System::add() refuses.
     void make_bad_numbers(Calls &calls, taut::System &system, const std::size_t chain)
     {
       const taut::Displacement up = system.displacement(chain, {}, {0., 1., 0.});
-      const taut::LinkEnd end = system.link_end(chain, {}, {0., 0., 0.}), above{{0., 1., 0.}};
-      const auto law = std::make_shared<taut::TableLaw>(
-          std::vector<std::pair<double, double>>{{.1, 10.}, {.2, 40.}});
+      using Points = std::vector<std::pair<double, double>>;
+      const auto law = std::make_shared<taut::TableLaw>(Points{{.1, 10.}, {.2, 40.}});
       const double bad = calls.bad_number(), negative = -calls.between(1e-9, 1e9);
+      const taut::LinkEnd end = system.link_end(chain, {}, {0., 0., 0.}), above{{0., 1., 0.}},
+                          bad_end{{0., bad, 0.}};
       const auto good = [&] { return Constraint::unilateral(bad_link, up); };
       const Mistakes list = {
           {"negative stiffness", [&] { return good().stiffness(negative); }},
@@ -85,16 +96,12 @@ namespace door
           {"length NaN", [&] { return Constraint::prop(bad_link, above, end, not_a_number); }},
           {"infinite length", [&] { return Constraint::rod(bad_link, above, end, infinite); }},
           {"ends at one place", [&] { return Constraint::rod(bad_link, {{}}, end, 1.); }},
-          {"place of an end",
-           [&] {
-             return Constraint::rod(bad_link, {{0., bad, 0.}}, end, 1.);
-           }},
+          {"place of an end", [&] { return Constraint::rod(bad_link, bad_end, end, 1.); }},
           {"gap of a rope", [&] { return Constraint::rope(bad_link, above, end, 1.).gap(.1); }}};
       const auto &[what, make] = list[calls.below(list.size())];
       calls.refuse(what, bad_link, [&] { system.add(make()); });
     }
 
-    /// Forms of a constraint that System::add() refuses.
     void make_bad_form(Calls &calls, taut::System &system, const std::size_t chain)
     {
       taut::Displacement form = system.displacement(chain, {}, {0., 1., 0.});
@@ -112,13 +119,11 @@ namespace door
       ragged[0].form.value.clear();
       value[0].form.value[0] = calls.bad_number();
       end.motion[1][0].substructure = foreign;
+      const taut::Displacement empty = {{0, {}}};
       const Mistakes list = {
           {"no place", [&] { return Constraint::unilateral(name, nullptr); }},
           {"empty", [&] { return Constraint::bilateral(name, {}); }},
-          {"empty form",
-           [&] {
-             return Constraint::bilateral(name, {{0, {}}});
-           }},
+          {"empty form", [&] { return Constraint::bilateral(name, empty); }},
           {"foreign body", [&] { return Constraint::unilateral(name, foreign_body); }},
           {"foreign DoF", [&] { return Constraint::unilateral(name, {}, foreign_dof); }},
           {"ragged form", [&] { return Constraint::unilateral(name, ragged); }},
@@ -133,23 +138,16 @@ namespace door
     void make_bad_body(Calls &calls, taut::System &system)
     {
       const auto defect = static_cast<Defect>(1 + calls.below(first_of_places - 1));
-      const auto make = [&] { return chain_of("bad body", {1., 2.}, {1e3, 1e3}, defect); };
-      const std::string what = "defect " + std::to_string(static_cast<int>(defect));
-      switch (calls.below(6))
-      {
-      case 0:
-        return calls.refuse("nullptr", "bad body",
-                            [&] { system.add("bad body", [] { return nullptr; }); });
-      case 1:
-        return calls.refuse("no factory", "bad body",
-                            [&] { system.add("bad body", taut::Structure::Factory()); });
-      case 2:
-        return calls.refuse("owner", "bad body",
-                            [&] { system.add("bad body", 1 + calls.below(1000), make); });
-      default:
-        return calls.refuse(what, defect == Defect::prescribes_twice ? "" : "bad body",
-                            [&] { system.add("bad body", make); });
-      }
+      const std::string name = "bad body";
+      const auto make = [&] { return chain_of(name, {1., 2.}, {1e3, 1e3}, defect); };
+      const std::pair<std::string, std::function<void()>> list[] = {
+          {"nullptr", [&] { system.add(name, [] { return nullptr; }); }},
+          {"no factory", [&] { system.add(name, taut::Structure::Factory()); }},
+          {"owner", [&] { system.add(name, 1 + calls.below(1000), make); }},
+          {"defect " + std::to_string(static_cast<int>(defect)), [&] { system.add(name, make); }}};
+      const std::size_t kind = std::min<std::size_t>(calls.below(6), 3);
+      const bool is_named = kind < 3 || defect != Defect::prescribes_twice;
+      calls.refuse(list[kind].first, is_named ? name : "", list[kind].second);
     }
 
     /// A body whose mistake shows later, in a system of its own.
@@ -159,16 +157,11 @@ namespace door
           static_cast<Defect>(first_of_places + calls.below(n_defects - first_of_places));
       const std::string what = "defect " + std::to_string(static_cast<int>(defect));
       taut::System system;
-      const std::size_t body =
-          system.add("late body",
-                     [&] {
-                       return chain_of("late body", {1., 2.}, {1e3, 1e3}, defect);
-                     });
+      const auto make = [&] { return chain_of("late body", {1., 2.}, {1e3, 1e3}, defect); };
+      const std::size_t body = system.add("late body", make);
+      const taut::Coordinates up = {0., 1., 0.};
       if (static_cast<int>(defect) < first_of_starts)
-        return calls.refuse(what, "late body",
-                            [&] {
-                              system.displacement(body, {}, {0., 1., 0.});
-                            });
+        return calls.refuse(what, "late body", [&] { system.displacement(body, {}, up); });
       taut::StepperOptions options;
       options.start = taut::Start::given;
       calls.refuse(what, "late body", [&] { taut::Stepper(system, options).advance(); });
@@ -179,30 +172,25 @@ namespace door
   {
     const std::size_t n_bodies = system.n_bodies(), n_constraints = system.n_constraints(),
                       foreign = n_bodies + calls.below(100000);
-    const taut::Coordinates up = {0., 1., 0.};
+    const taut::Coordinates up = {0., 1., 0.}, bad = {0., calls.bad_number(), 0.};
     const std::string number = "number " + std::to_string(foreign);
-    const double bad = calls.bad_number();
-    const std::function<void()> mistakes[] = {
-        [&]
-        { calls.refuse("displacement", number, [&] { system.displacement(foreign, {}, up); }); },
-        [&] { calls.refuse("link_end", number, [&] { system.link_end(foreign, {}); }); },
-        [&] { calls.refuse("body", number, [&] { system.body(foreign); }); },
-        [&] {
-          calls.refuse("place", "finite", [&] { system.displacement(chain, {bad, 0., 0.}, up); });
-        },
-        [&] {
-          calls.refuse("direction", "finite",
-                       [&] {
-                         system.displacement(chain, {}, {0., bad, 0.});
-                       });
-        },
-        [&] { make_bad_body(calls, system); },
-        [&] { ask_bad_body(calls); },
-        [&] { make_bad_form(calls, system, chain); },
-        [&] { make_bad_form(calls, system, chain); }};
+    const Refusal list[] = {{"displacement", number, [&] { system.displacement(foreign, {}, up); }},
+                            {"link_end", number, [&] { system.link_end(foreign, {}); }},
+                            {"body", number, [&] { system.body(foreign); }},
+                            {"place", "finite",
+                             [&] {
+                               system.displacement(chain, {bad.y, 0., 0.}, up);
+                             }},
+                            {"direction", "finite", [&] { system.displacement(chain, {}, bad); }}};
     const std::size_t kind = calls.below(12);
-    if (kind < std::size(mistakes))
-      mistakes[kind]();
+    if (kind < std::size(list))
+      make(calls, list[kind]);
+    else if (kind == 5)
+      make_bad_body(calls, system);
+    else if (kind == 6)
+      ask_bad_body(calls);
+    else if (kind < 9)
+      make_bad_form(calls, system, chain);
     else
       make_bad_numbers(calls, system, chain);
     if (system.n_bodies() != n_bodies || system.n_constraints() != n_constraints)
@@ -225,7 +213,7 @@ namespace door
           {"Newmark/Beta", "0.25"},
           {"Moreau-Jean/Conditions", "x"},
           {"Moreau-Jean/Restitution", "2"}};
-      const auto &[path, value] = entries[calls.below(sizeof(entries) / sizeof(entries[0]))];
+      const auto &[path, value] = entries[calls.below(std::size(entries))];
       switch (calls.below(4))
       {
       case 0:
@@ -267,60 +255,35 @@ namespace door
                                    infinite, -infinite, 1e-320, 1e200},
                         ratios[] = {-1e-9, 1.1, not_a_number, infinite, -1.};
     taut::StepperOptions options;
-    std::string name;
-    switch (calls.below(4))
-    {
-    case 0:
+    const std::size_t kind = calls.below(4);
+    std::string name = kind == 0 ? "StepperOptions::step" : "StepperOptions::restitution";
+    if (kind == 0)
       options.step = steps[calls.below(8)];
-      name = "StepperOptions::step";
-      break;
-    case 1:
+    else if (kind == 1)
       options.restitution = ratios[calls.below(5)];
-      name = "StepperOptions::restitution";
-      break;
-    case 2:
-      name = spoil_scheme(calls, options);
-      break;
-    default:
-      name = spoil_solver(calls, options.solver);
-    }
+    else
+      name = kind == 2 ? spoil_scheme(calls, options) : spoil_solver(calls, options.solver);
     calls.refuse("options", name, [&] { taut::Stepper(system, options); });
   }
 
   void make_mistake_with_stepper(Calls &calls, taut::System &system, taut::Stepper &stepper)
   {
-    const std::size_t n = system.n_constraints(), foreign = n + calls.below(100);
+    const std::size_t foreign = system.n_constraints() + calls.below(100),
+                      body = system.n_bodies() + calls.below(10);
     taut::LinearForm one;
     one.add(0, 1.);
-    switch (calls.below(6))
-    {
-    case 0:
-      return calls.refuse("multiplier", "number " + std::to_string(foreign),
-                          [&] { stepper.multiplier(foreign); });
-    case 1:
-      return calls.refuse("gap", "number " + std::to_string(foreign),
-                          [&] { stepper.gap(foreign); });
-    case 2:
-      return calls.refuse("displacement of a body", "number",
-                          [&] { stepper.displacement(system.n_bodies() + calls.below(10)); });
-    case 3:
-      return calls.refuse(
-          "form on a foreign body", "body number",
-          [&] {
-            stepper.displacement(taut::Displacement{{system.n_bodies() + 1000, one}});
-          });
-    case 4:
-      one.index[0] = 77777;
-      return calls.refuse("velocity of a foreign DoF", "DoF 77777",
-                          [&] {
-                            stepper.velocity(taut::Displacement{{0, one}});
-                          });
-    default:
-      one.index.clear();
-      return calls.refuse("ragged form", "indices",
-                          [&] {
-                            stepper.displacement(taut::Displacement{{0, one}});
-                          });
-    }
+    const taut::Displacement foreign_body = {{system.n_bodies() + 1000, one}};
+    taut::Displacement foreign_dof = {{0, one}}, ragged = foreign_dof;
+    foreign_dof[0].form.index[0] = 77777;
+    ragged[0].form.index.clear();
+    const std::string number = "number " + std::to_string(foreign);
+    const Refusal list[] = {
+        {"multiplier", number, [&] { stepper.multiplier(foreign); }},
+        {"gap", number, [&] { stepper.gap(foreign); }},
+        {"displacement of a body", "number", [&] { stepper.displacement(body); }},
+        {"form on a foreign body", "body number", [&] { stepper.displacement(foreign_body); }},
+        {"velocity of a foreign DoF", "DoF 77777", [&] { stepper.velocity(foreign_dof); }},
+        {"ragged form", "indices", [&] { stepper.displacement(ragged); }}};
+    make(calls, list[calls.below(std::size(list))]);
   }
 } // namespace door

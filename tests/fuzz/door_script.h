@@ -8,11 +8,8 @@
 #include <taut/time/stepper.h>
 
 #include <cstdint>
-#include <functional>
 #include <random>
 #include <stdexcept>
-#include <string>
-#include <vector>
 
 namespace door
 {
@@ -42,21 +39,18 @@ namespace door
       return a + (b - a) * static_cast<double>(random() >> 11) * 0x1p-53;
     }
 
-    /// A number with which no result makes sense.
     double bad_number()
     {
       static const double numbers[] = {not_a_number, infinite, -infinite};
       return numbers[below(3)];
     }
 
-    /// A number of any size, of which many are possible.
-    double any_number();
+    double any_number(); ///< a number of any size, of which many are possible
 
     /// A call that has to be refused, with @p name in the message.
     void refuse(const std::string &what, const std::string &name,
                 const std::function<void()> &call);
 
-    /// A result of a valid call.
     void expect(const std::string &what, double value, double expected, double tolerance);
     void expect_true(const std::string &what, bool value);
 
@@ -66,8 +60,7 @@ namespace door
     std::mt19937_64 random;
   };
 
-  /// Mistakes that are possible at any time before and after a Stepper is made; each names what it
-  /// is about, and leaves no trace.
+  /// Mistakes before and after a Stepper is made; each names what it is about and leaves no trace.
   void make_mistake(Calls &calls, taut::System &system, std::size_t chain);
   void make_mistake_with_options(Calls &calls, const taut::System &system);
   void make_mistake_with_stepper(Calls &calls, taut::System &system, taut::Stepper &stepper);

@@ -6,7 +6,6 @@
 #include "door_script.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 namespace door
@@ -115,10 +114,8 @@ namespace door
       {
         ++calls.counts.open;
         const double mass = calls.any_number(), spring = calls.any_number();
-        const std::size_t body = system.add("body",
-                                            [&] {
-                                              return chain_of("body", {mass, 1.}, {1e3, spring});
-                                            });
+        const auto make = [&] { return chain_of("body", {mass, 1.}, {1e3, spring}); };
+        const std::size_t body = system.add("body", make);
         ++calls.counts.open;
         Constraint link = Constraint::unilateral("link", system.displacement(body, {1.}, up));
         link.gap(calls.any_number());
@@ -164,8 +161,7 @@ namespace door
                              const std::size_t constraint, const double tolerance)
     {
       std::vector<double> values = stepper.displacement(body);
-      values.push_back(stepper.multiplier(constraint));
-      values.push_back(stepper.gap(constraint));
+      values.insert(values.end(), {stepper.multiplier(constraint), stepper.gap(constraint)});
       for (const double value : values)
         if (!std::isfinite(value))
           throw Failure("a result is not finite");
@@ -269,25 +265,22 @@ namespace door
       const std::string name = "stop " + std::to_string(body);
       Constraint link = Constraint::unilateral(name, last).gap(gap);
       double compression = 0.;
-      switch (calls.below(4))
-      {
-      case 0:
+      const std::size_t kind = calls.below(4);
+      if (kind == 0)
       {
         const double k = std::pow(10., calls.between(2., 6.));
         link.stiffness(k).damping(calls.below(2) == 0 ? 0. : calls.between(0., 10.));
         compression = N / k;
-        break;
       }
-      case 1: // 100 N/m to 10 N, then 300 N/m
-        link.law(std::make_shared<taut::TableLaw>(
-            std::vector<std::pair<double, double>>{{.1, 10.}, {.2, 40.}}));
+      else if (kind == 1)
+      {
+        // 100 N/m to 10 N, then 300 N/m.
+        using Points = std::vector<std::pair<double, double>>;
+        link.law(std::make_shared<taut::TableLaw>(Points{{.1, 10.}, {.2, 40.}}));
         compression = N < 10. ? N / 100. : .1 + (N - 10.) / 300.;
-        break;
-      case 2:
-        link = Constraint::unilateral(name, std::make_shared<StandingPlace>(last, gap));
-        break;
-      default:;
       }
+      else if (kind == 2)
+        link = Constraint::unilateral(name, std::make_shared<StandingPlace>(last, gap));
       forces.push_back({add_link(link), N, -compression});
       double u = -gap - compression, weight = N;
       for (std::size_t i = masses.size(); i-- > 0;)

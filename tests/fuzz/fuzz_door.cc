@@ -59,7 +59,6 @@ int main(int argc, char **argv)
   po::notify(arguments);
   for (const int signal : {SIGALRM, SIGSEGV, SIGABRT, SIGFPE, SIGBUS})
     std::signal(signal, report_signal);
-
   Counts counts;
   std::size_t failures = 0;
   for (std::size_t k = first; k < first + count; ++k)

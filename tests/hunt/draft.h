@@ -5,15 +5,10 @@
 #include "scene_text.h"
 #include "scenes.h"
 
-#include <algorithm>
-#include <cmath>
-#include <string>
-
 namespace hunt
 {
   /// Decades of the step below its largest, three tenths of the time scale; wires cost more.
   constexpr double step_decades = 4., step_decades_of_wires = 3.3, largest_step = .3;
-
   /// Decades of the stiffness of a link about that of its surroundings: ten.
   constexpr double softest = -2., stiffest = 8.;
 
@@ -27,13 +22,6 @@ namespace hunt
     double f() const { return m * g(); }
   };
 
-  inline Scales draw_scales(Random &random)
-  {
-    return {short_number(random.decades(-2, 2)), short_number(random.decades(-2, 1)),
-            short_number(random.decades(-3, 1))};
-  }
-
-  /// A scene that grows.
   struct Draft
   {
     Random &random;
@@ -51,17 +39,13 @@ namespace hunt
       return number(short_number(unit * random.decades(a, b)));
     }
 
-    void set_time(const double decades, const double least, const double most)
+    /// With a step up to so many decades below its largest, and a duration in time scales.
+    HuntScene finish(const double decades, const double least, const double most)
     {
       scene.step = short_number(scales.t * largest_step * random.decades(-decades, 0));
       const double duration = scales.t * random.uniform(least, most);
-      const double n = std::max(8., std::round(duration / scene.step));
-      scene.n_steps = n;
-      line() << "Time: Step = " << scene.step << "; End = " << n * scene.step;
-    }
-
-    HuntScene finish()
-    {
+      scene.n_steps = std::max(8., std::round(duration / scene.step));
+      line() << "Time: Step = " << scene.step << "; End = " << scene.n_steps * scene.step;
       line() << "Output: Field interval = 0";
       scene.text = text.text();
       return scene;
@@ -75,8 +59,7 @@ namespace hunt
   void add_stop(Draft &draft, const std::string &name, const std::string &on,
                 const std::string &spring, bool is_stop = true);
 
-  /// A stiffness anywhere in the ten decades.
-  std::string elastic(Draft &draft);
+  std::string elastic(Draft &draft); ///< a stiffness anywhere in the ten decades
 
   HuntScene smooth_wire(Draft draft);
   HuntScene wire_on_stop(Draft draft);

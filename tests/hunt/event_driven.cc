@@ -4,25 +4,19 @@
 #include <boost/math/tools/toms748_solve.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 namespace hunt
 {
   namespace
   {
-    /// Events are looked for at least so often in a motion.
-    constexpr double least_looks = 4000.;
-
+    constexpr double least_looks = 4000.; ///< events are looked for at least so often in a motion
     /// Multiplications, about two seconds, and events of one motion.
     constexpr double most_work = 4e9;
     constexpr unsigned int most_events = 20000, most_events_at_once = 60;
-
     /// Rounding of gaps and forces, relative to the terms that they are summed from.
     constexpr double rounding_part = 1e-13;
-
     /// Halvings of a step down to the shortest rebound that is looked for.
     constexpr int shortest_rebound = 30;
-
     /// Steps are rounded to so many binary digits: those of one length then share a matrix.
     constexpr int digits_of_a_step = 30;
 
@@ -34,6 +28,14 @@ namespace hunt
                         exponent - digits_of_a_step);
     }
   } // namespace
+
+  double size_of(const Vector &a, const Vector &b)
+  {
+    double sum = 0.;
+    for (std::size_t i = 0; i < a.size(); ++i)
+      sum += std::fabs(a[i] * b[i]);
+    return sum;
+  }
 
   EventDriven::EventDriven(const LinearModel &model, const double restitution, const double reach,
                            const double duration, const double fineness, const double disturbance)
@@ -69,10 +71,7 @@ namespace hunt
         continue;
       }
       const double D = row.gap + dot(row.terms, model.start);
-      double size = std::fabs(row.gap);
-      for (std::size_t i = 0; i < model.size(); ++i)
-        size += std::fabs(row.terms[i] * model.start[i]);
-      const bool touches = D <= 1e-9 * size;
+      const bool touches = D <= 1e-9 * (std::fabs(row.gap) + size_of(row.terms, model.start));
       if (row.rigid() && touches)
         touching.push_back(r);
       else if (!row.rigid() && D < 0.)
@@ -87,9 +86,7 @@ namespace hunt
 
   const Phase &EventDriven::phase()
   {
-    const auto found = phases.find(modes);
-    return found != phases.end() ? found->second
-                                 : phases.emplace(modes, Phase(parts, modes)).first->second;
+    return phases.try_emplace(modes, parts, modes).first->second;
   }
 
   double EventDriven::relaxed(const std::size_t row, const double t) const
@@ -118,15 +115,10 @@ namespace hunt
       const Pieces &spring = parts.springs[r];
       const std::size_t piece = modes[r] - 1, one = parts.n_state() - 3;
       Vector deeper = current.gap(r), less = deeper;
-      if (piece == 0)
-        result.push_back({r, -1, current.force(r), false});
-      else
-      {
-        for (double &x : less)
-          x = -x;
-        less[one] -= spring.u[piece];
-        result.push_back({r, -1, less, false});
-      }
+      for (double &x : less)
+        x = -x;
+      less[one] -= piece > 0 ? spring.u[piece] : 0.;
+      result.push_back({r, -1, piece == 0 ? current.force(r) : less, false});
       if (piece + 1 < spring.u.size())
       {
         deeper[one] += spring.u[piece + 1];
@@ -143,10 +135,7 @@ namespace hunt
 
   double EventDriven::rounding(const Watched &event, const Vector &z) const
   {
-    double sum = 0.;
-    for (std::size_t i = 0; i < z.size(); ++i)
-      sum += std::fabs(event.value[i] * z[i]);
-    return rounding_part * sum;
+    return rounding_part * size_of(event.value, z);
   }
 
   double EventDriven::root(const Watched &event, const double step, const double at_end)

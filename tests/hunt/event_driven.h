@@ -2,12 +2,10 @@
 #ifndef taut_hunt_event_driven_h
 #define taut_hunt_event_driven_h
 
-#include "linear_model.h"
 #include "phase.h"
 
 #include <map>
 #include <stdexcept>
-#include <vector>
 
 namespace hunt
 {
@@ -18,12 +16,11 @@ namespace hunt
     using std::runtime_error::runtime_error;
   };
 
-  /**
-   * The motion of a linear model between events by the exponential of its matrix, and events where
-   * they happen: a constraint closes, opens, or reaches the next straight piece of its law. At a
-   * rigid one Newton's law of impact holds, for all constraints that touch at once. No time
-   * integration of the program takes part.
-   */
+  double size_of(const Vector &a, const Vector &b); ///< sum |a_i b_i|
+
+  /// The motion of a linear model between events by the exponential of its matrix, and events where
+  /// they happen: a constraint closes, opens, or reaches the next straight piece of its law. At a
+  /// rigid one Newton's law of impact holds, for all that touch at once. The program takes no part.
   class EventDriven
   {
   public:
@@ -33,8 +30,7 @@ namespace hunt
     EventDriven(const LinearModel &model, double restitution, double reach, double duration,
                 double fineness = 1., double disturbance = 0.);
 
-    /// Throws NoReference after too much work.
-    void advance(double end);
+    void advance(double end); ///< throws NoReference after too much work
     Sample sample();
 
   private:

@@ -18,8 +18,7 @@ namespace hunt
     double energy() const { return kinetic + potential; }
   };
 
-  /// Times increase.
-  using History = std::vector<Sample>;
+  using History = std::vector<Sample>; ///< times increase
 } // namespace hunt
 
 #endif

@@ -2,16 +2,13 @@
 #include "event_driven.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace hunt
 {
   namespace
   {
-    /// Part of the largest speed below which an approach has no rebound: a row of ever shorter
-    /// rebounds ends there.
+    /// Part of the largest speed below which an approach has no rebound, which ends their row.
     constexpr double least_approach = 1e-5;
-
     /// Rounding of speeds and accelerations, and of gaps that touch, relative to their terms.
     constexpr double rounding_of_impulses = 1e-10, rounding_of_touch = 1e-9;
   } // namespace
@@ -84,10 +81,7 @@ namespace hunt
       if (model.rows[r].unilateral && model.rows[r].rigid() && parts.acts_on_mass[r])
       {
         const Vector gap = phase().gap(r);
-        double size = 0.;
-        for (std::size_t i = 0; i < gap.size(); ++i)
-          size += std::fabs(gap[i] * state[i]);
-        if (modes[r] > 0 || dot(gap, state) <= rounding_of_touch * size)
+        if (modes[r] > 0 || dot(gap, state) <= rounding_of_touch * size_of(gap, state))
           touching.push_back(r);
       }
     Vector p;
@@ -106,8 +100,7 @@ namespace hunt
     choose_closed(touching);
   }
 
-  /// Of the rows that touch and do not separate, those that stay closed: forces push, and the
-  /// others do not approach.
+  /// Of the rows that touch, those that stay closed: forces push, and the others do not approach.
   void EventDriven::choose_closed(const std::vector<std::size_t> &touching)
   {
     std::vector<std::size_t> resting;

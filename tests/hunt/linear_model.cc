@@ -3,24 +3,10 @@
 
 #include <deal.II/lac/vector.h>
 
-#include <cmath>
 #include <stdexcept>
 
 namespace hunt
 {
-  double dot(const Vector &a, const Vector &b)
-  {
-    double sum = 0.;
-    for (std::size_t i = 0; i < a.size(); ++i)
-      sum += a[i] * b[i];
-    return sum;
-  }
-
-  bool LinearModel::Row::rigid() const
-  {
-    return std::isinf(stiffness);
-  }
-
   LinearModel::LinearModel(const taut::StepView &view, const double frequency)
       : frequency(frequency)
   {
@@ -132,11 +118,6 @@ namespace hunt
     for (std::size_t i = 0; i < result.size(); ++i)
       result[i] += reference[i];
     return result;
-  }
-
-  Vector LinearModel::velocity(const taut::StepView &view) const
-  {
-    return gather(view.state.V);
   }
 
   double LinearModel::kinetic(const Vector &v) const

@@ -4,24 +4,24 @@
 
 #include "history.h"
 
+#include <taut/base/dot.h>
 #include <taut/output/observer.h>
 
 #include <deal.II/lac/full_matrix.h>
 
+#include <cmath>
 #include <memory>
-#include <vector>
 
 namespace hunt
 {
+  using taut::dot;
   using Vector = std::vector<double>;
 
-  /**
-   * A scene of linear bodies in dense matrices, free DoFs only:
-   *
-   *     M u" + C u' + K u = P0 + Pc cos(w t) + Ps sin(w t) + B N.
-   *
-   * The discretisation in space is the program's, so that what differs is the integration in time.
-   */
+  /// A scene of linear bodies in dense matrices, free DoFs only:
+  ///
+  ///     M u" + C u' + K u = P0 + Pc cos(w t) + Ps sin(w t) + B N.
+  ///
+  /// The discretisation in space is the program's, so that what differs is the integration in time.
   struct LinearModel
   {
     /// From the start of a run. @p frequency is that of its loads, 0 if they are constant [rad/s].
@@ -37,14 +37,14 @@ namespace hunt
       double stiffness, damping;
       std::shared_ptr<const taut::ForceLaw> law;
 
-      bool rigid() const;
+      bool rigid() const { return std::isinf(stiffness); }
     };
 
     std::size_t size() const { return free.size(); }
 
     /// The free DoFs of a vector of the bodies, displacements counted from the undeformed ones.
     Vector displacement(const taut::StepView &view) const;
-    Vector velocity(const taut::StepView &view) const;
+    Vector velocity(const taut::StepView &view) const { return gather(view.state.V); }
 
     /// Kinetic energy, and strain energy less the work of the constant loads; no links [J].
     double kinetic(const Vector &v) const;
@@ -76,8 +76,6 @@ namespace hunt
     std::vector<std::vector<int>> number; ///< of each DoF of a body among the free ones, or -1
     std::vector<char> is_length;
   };
-
-  double dot(const Vector &a, const Vector &b);
 } // namespace hunt
 
 #endif

@@ -2,7 +2,6 @@
 #include "phase.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <stdexcept>
 
@@ -13,10 +12,8 @@ namespace hunt
     /// |A| times a step of the series: with this and so many terms what is left out is 1e-15.
     constexpr double series_reach = .5;
     constexpr int series_terms = 12;
-
     /// Steps of one length after which a full matrix costs less than the series.
     constexpr unsigned int worth_a_matrix = 30;
-
     /// Part of its force by which a law may differ from its straight pieces.
     constexpr double law_error = 5e-4;
     constexpr int law_octaves = 30, law_halvings = 8;
@@ -160,7 +157,6 @@ namespace hunt
         u[parts.with_mass[i]][j] = parts.T(i, j);
     if (n_z == 0)
       return;
-
     dealii::FullMatrix<double> K = model.stiffness;
     Vector constant = model.constant_load;
     add_closed_springs(modes, K, constant);
@@ -168,7 +164,6 @@ namespace hunt
     for (std::size_t r = 0; r < modes.size(); ++r)
       if (modes[r] > 0 && model.rows[r].rigid() && !parts.acts_on_mass[r])
         held.push_back(r);
-
     dealii::FullMatrix<double> S(n_z + held.size(), n_z + held.size());
     std::vector<Vector> right(S.m(), Vector(parts.n_state(), 0.));
     for (std::size_t a = 0; a < n_z; ++a)

@@ -4,8 +4,6 @@
 
 #include "linear_model.h"
 
-#include <vector>
-
 namespace hunt
 {
   /// The spring of a constraint in straight pieces: from u[j] on, the force is f[j] + k[j] (d -
@@ -38,13 +36,11 @@ namespace hunt
     std::vector<Pieces> springs;    ///< of the rows that are not rigid
   };
 
-  /**
-   * The motion while no constraint changes its mode: z' = A z for the state
-   *
-   *     z = q, q', impulses of the rows, 1, cos(w t), sin(w t).
-   *
-   * DoFs without mass are in equilibrium and follow from it.
-   */
+  /// The motion while no constraint changes its mode: z' = A z for the state
+  ///
+  ///     z = q, q', impulses of the rows, 1, cos(w t), sin(w t).
+  ///
+  /// DoFs without mass are in equilibrium and follow from it.
   class Phase
   {
   public:

@@ -1,48 +1,34 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "reference.h"
 
+#include "common.h"
 #include "event_driven.h"
 #include "verification/run.h"
 
 #include <boost/numeric/odeint.hpp>
 
-#include <cmath>
-
 namespace hunt
 {
+  using verification::largest;
+  using verification::largest_difference;
+
   namespace
   {
     /// Of the second reference: a disturbance of the start, and shorter steps.
     constexpr double disturbance = 1e-9, finer = 1.37;
-
-    /// Part of a bound by which references may differ.
-    constexpr double sure = .25;
-
+    constexpr double sure = .25; ///< part of a bound by which references may differ
     /// Impulses below this part of the largest momentum are nothing.
     constexpr double least_impulse = 1e-3;
-
     /// Steps of the references by the program in one of the run.
     constexpr std::size_t coarse = 16, fine = 32;
-
-    /// Samples behind the end of the run.
-    constexpr int n_behind = 16;
-
-    /// The largest of a place between two samples [m/s].
-    double largest_speed(const History &history)
-    {
-      double result = 0.;
-      for (std::size_t k = 1; k < history.size(); ++k)
-        for (std::size_t i = 0; i < history[k].place.size(); ++i)
-          result = std::max(result, std::fabs(history[k].place[i] - history[k - 1].place[i]) /
-                                        (history[k].time - history[k - 1].time));
-      return result;
-    }
+    constexpr int n_behind = 16; ///< samples behind the end of the run
 
     double ratio(const double a, const double b)
     {
       return a == 0. ? 0. : a / b;
     }
 
+    /// The speed is that of a place between two samples.
     struct Largest
     {
       double place = 0., impulse = 0., energy = 0., speed = 0.;
@@ -51,14 +37,15 @@ namespace hunt
     Largest largest_values(const History &history)
     {
       Largest result;
-      result.speed = largest_speed(history);
       double least = history[0].potential, most = least;
-      for (const Sample &sample : history)
+      for (std::size_t k = 0; k < history.size(); ++k)
       {
-        for (std::size_t i = 0; i < sample.place.size(); ++i)
-          result.place = std::max(result.place, std::fabs(sample.place[i] - history[0].place[i]));
-        for (const double p : sample.impulse)
-          result.impulse = std::max(result.impulse, std::fabs(p));
+        const Sample &sample = history[k], &before = history[k > 0 ? k - 1 : 0];
+        result.place = std::max(result.place, largest_difference(sample.place, history[0].place));
+        if (k > 0)
+          result.speed = std::max(result.speed, largest_difference(sample.place, before.place) /
+                                                    (sample.time - before.time));
+        result.impulse = std::max(result.impulse, largest(sample.impulse));
         result.energy = std::max(result.energy, sample.kinetic);
         least = std::min(least, sample.potential);
         most = std::max(most, sample.potential);
@@ -117,8 +104,7 @@ namespace hunt
     for (std::size_t k = 0; k < std::min(run.size(), reference.size()); ++k)
     {
       const Range range(reference, k, late);
-      for (std::size_t i = 0; i < run[k].place.size(); ++i)
-        result.place = worse(std::fabs(run[k].place[i] - reference[k].place[i]), result.place);
+      result.place = worse(largest_difference(reference[k].place, run[k].place), result.place);
       for (std::size_t i = 0; i < run[k].impulse.size(); ++i)
         result.impulse = worse(range.distance(run[k].impulse[i], [&](const std::size_t j)
                                               { return reference[j].impulse[i]; }),
@@ -149,7 +135,6 @@ namespace hunt
         impulse[i] += (is_mean ? N : .5 * (N + multiplier[i])) * view.state.last_step;
         multiplier[i] = N;
       }
-    longest_step = std::max(longest_step, view.state.last_step);
     if (n_steps++ % stride != 0)
       return;
     const Vector u = model->displacement(view);

@@ -2,12 +2,8 @@
 #ifndef taut_hunt_reference_h
 #define taut_hunt_reference_h
 
-#include "history.h"
 #include "linear_model.h"
 #include "scenes.h"
-
-#include <memory>
-#include <string>
 
 namespace hunt
 {
@@ -20,16 +16,13 @@ namespace hunt
   /// Bounds of the promise, fixed before the first hunt.
   constexpr double place_bound = .02, impulse_bound = .02, energy_bound = .05;
 
-  /**
-   * Places are compared at the same times. Impulses and energies jump at an impact, and the bound
-   * of the places lets it be early or late by what the fastest place takes for so much motion:
-   * those of the run may be anything that the reference has within this time, or within a step. The
-   * times of the run are the first ones of the reference.
-   */
+  /// Places are compared at the same times. Impulses and energies jump at an impact, and the bound
+  /// of the places lets it be early or late by what the fastest place takes for so much motion:
+  /// those of the run may be anything that the reference has within this time, or within a step.
+  /// The times of the run are the first ones of the reference.
   Difference difference(const History &reference, const History &run);
 
-  /// Two references of one scene, the second one disturbed: what they do not agree about is chaos,
-  /// and no run can be compared in that.
+  /// Two references of one scene, one disturbed: what they do not agree about is chaos.
   struct Reference
   {
     History history;
@@ -37,8 +30,7 @@ namespace hunt
     std::string missing;                     ///< why there is none; empty: there is one
   };
 
-  /// The motion of a scene at the times of a run, and a little longer. @p chosen is the log of that
-  /// run.
+  /// The motion of a scene at the times of a run and a little longer; @p chosen is its log.
   Reference make_reference(const HuntScene &scene, const LinearModel *model,
                            const std::vector<double> times, const std::string &chosen);
 
@@ -55,7 +47,6 @@ namespace hunt
 
     History history;
     std::unique_ptr<LinearModel> model;
-    double longest_step = 0.; ///< [s]
 
   private:
     double frequency;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: the event-driven motions that runs are judged by are exact. Source: closed forms of a ball
-// that bounces, of springs that stop a mass with and without a damper and with two slopes, and of
-// two masses that collide.
+// that bounces, of springs that stop a mass, damped, with two slopes; of two masses that collide.
 #include "common.h"
 #include "event_driven.h"
 #include "reference.h"
@@ -27,7 +26,6 @@ Output: Field interval = 0
     return std::move(*recorder.model);
   }
 
-  /// Place, impulse of the stop and energy at a time.
   hunt::Sample sample(const hunt::LinearModel &model, const double restitution, const double t)
   {
     return hunt::event_driven_history(model, restitution, 10., {0., .3 * t, t}).back();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "scene_text.h"
 
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
@@ -10,16 +9,6 @@ namespace hunt
   double Random::uniform(const double a, const double b)
   {
     return a + (b - a) * std::ldexp(static_cast<double>(engine() >> 11), -53);
-  }
-
-  double Random::decades(const double a, const double b)
-  {
-    return std::pow(10., uniform(a, b));
-  }
-
-  int Random::integer(const int first, const int last)
-  {
-    return first + static_cast<int>(uniform(0., last - first + 1.));
   }
 
   std::string number(const double x)

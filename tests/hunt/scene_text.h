@@ -4,9 +4,9 @@
 
 #include "verification/scene_builder.h"
 
+#include <cmath>
 #include <cstdint>
 #include <random>
-#include <string>
 
 namespace hunt
 {
@@ -17,16 +17,15 @@ namespace hunt
     explicit Random(const std::uint64_t seed) : engine(seed) {}
 
     double uniform(double a, double b);
-    double decades(double a, double b); ///< 10^uniform(a, b)
-    int integer(int first, int last);   ///< both may come
+    double decades(double a, double b) { return std::pow(10., uniform(a, b)); }
+    int integer(int first, int last) { return first + int(uniform(0., last - first + 1.)); }
     bool chance(double probability) { return uniform(0., 1.) < probability; }
 
   private:
     std::mt19937_64 engine;
   };
 
-  /// With three digits: what a user writes.
-  double short_number(double x);
+  double short_number(double x); ///< with three digits: what a user writes
   std::string number(double x);
 
   /// A parameter file that grows line by line of SceneBuilder, each made of parts as by a stream.

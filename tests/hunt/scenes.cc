@@ -70,16 +70,14 @@ namespace hunt
           draft.line() << "Link tie: Stiffness = "
                        << draft.draw_decades(draft.scales.k(), softest, 4);
       }
-      draft.set_time(step_decades, 1.5, 4.);
-      return draft.finish();
+      return draft.finish(step_decades, 1.5, 4.);
     }
 
     HuntScene elastic_stop(Draft draft)
     {
       add_chain(draft, draft.random.integer(1, 3), draft.random.chance(.5));
       add_stop(draft, "floor", "m0", elastic(draft));
-      draft.set_time(step_decades, 1.5, 4.);
-      return draft.finish();
+      return draft.finish(step_decades, 1.5, 4.);
     }
 
     HuntScene rigid_stop(Draft draft)
@@ -91,8 +89,7 @@ namespace hunt
         draft.scene.restitution = short_number(draft.random.uniform(.1, 1.));
         draft.line() << "Time/Moreau-Jean: Restitution = " << draft.scene.restitution;
       }
-      draft.set_time(step_decades, 1.5, 4.);
-      return draft.finish();
+      return draft.finish(step_decades, 1.5, 4.);
     }
 
     HuntScene damped_stop(Draft draft)
@@ -102,8 +99,7 @@ namespace hunt
                    critical = 2. * std::sqrt(k * draft.scales.m);
       add_stop(draft, "floor", "m0",
                "Stiffness = " + number(k) + "; Damping = " + draft.draw_decades(critical, -2, .5));
-      draft.set_time(step_decades, 1.5, 4.);
-      return draft.finish();
+      return draft.finish(step_decades, 1.5, 4.);
     }
 
     HuntScene several_links(Draft draft)
@@ -121,8 +117,7 @@ namespace hunt
       if (draft.random.chance(.5))
         draft.line() << "Link between: Type = stop; From = m0; To = m1; Direction = 0, 1; "
                      << elastic(draft) << "; Gap = " << draft.draw(draft.scales.l, .05, 1.);
-      draft.set_time(step_decades, 1.5, 4.);
-      return draft.finish();
+      return draft.finish(step_decades, 1.5, 4.);
     }
 
     HuntScene law(Draft draft)
@@ -143,17 +138,15 @@ namespace hunt
                  "Law = formula; Law formula = " + number(short_number(k)) + "*d + " +
                      number(short_number(k / (u * u))) +
                      "*d^3; Law range = " + number(short_number(10. * u)));
-      draft.set_time(step_decades, 1.5, 4.);
-      return draft.finish();
+      return draft.finish(step_decades, 1.5, 4.);
     }
 
     HuntScene adaptive(Draft draft)
     {
       add_chain(draft, draft.random.integer(1, 3), draft.random.chance(.5));
       add_stop(draft, "floor", "m0", draft.random.chance(.3) ? "" : elastic(draft));
-      draft.set_time(step_decades - 1., 1.5, 4.);
       draft.line() << "Time: Step control = adaptive";
-      return draft.finish();
+      return draft.finish(step_decades - 1., 1.5, 4.);
     }
 
     HuntScene turning_rope(Draft draft)
@@ -174,49 +167,40 @@ namespace hunt
           << p.length << "; Stiffness = " << p.stiffness;
       draft.line() << "Start = undeformed; Gravity = 0, -" << p.gravity;
       draft.scene.kind = ReferenceKind::pendulum;
-      draft.set_time(step_decades, 1.5, 4.);
-      return draft.finish();
+      return draft.finish(step_decades, 1.5, 4.);
     }
 
-    struct Family
-    {
-      const char *name;
-      HuntScene (*make)(Draft);
-    };
-
-    constexpr Family all[] = {{"smooth masses", smooth_masses},
-                              {"elastic stop", elastic_stop},
-                              {"rigid stop", rigid_stop},
-                              {"damped stop", damped_stop},
-                              {"several links", several_links},
-                              {"law", law},
-                              {"adaptive steps", adaptive},
-                              {"smooth wire", smooth_wire},
-                              {"wire on elastic stop", wire_on_stop},
-                              {"wire on rigid stop", wire_on_rigid_stop},
-                              {"moving contact", moving_contact},
-                              {"turning rope", turning_rope}};
+    const std::pair<const char *, HuntScene (*)(Draft)> all[] = {
+        {"smooth masses", smooth_masses},
+        {"elastic stop", elastic_stop},
+        {"rigid stop", rigid_stop},
+        {"damped stop", damped_stop},
+        {"several links", several_links},
+        {"law", law},
+        {"adaptive steps", adaptive},
+        {"smooth wire", smooth_wire},
+        {"wire on elastic stop", wire_on_stop},
+        {"wire on rigid stop", wire_on_rigid_stop},
+        {"moving contact", moving_contact},
+        {"turning rope", turning_rope}};
   } // namespace
 
   const std::vector<std::string> &families()
   {
-    static const std::vector<std::string> names = []
-    {
-      std::vector<std::string> result;
-      for (const Family &family : all)
-        result.emplace_back(family.name);
-      return result;
-    }();
+    static std::vector<std::string> names;
+    for (std::size_t i = names.size(); i < std::size(all); ++i)
+      names.emplace_back(all[i].first);
     return names;
   }
 
   HuntScene make_scene(const std::uint64_t seed, const std::size_t number)
   {
     Random random(seed * 1000003 + number);
-    const Family &family = all[number % families().size()];
-    const Scales scales = draw_scales(random);
-    HuntScene scene = family.make({random, scales});
-    scene.family = family.name;
+    const auto &[name, make] = all[number % std::size(all)];
+    const Scales scales = {short_number(random.decades(-2, 2)), short_number(random.decades(-2, 1)),
+                           short_number(random.decades(-3, 1))};
+    HuntScene scene = make({random, scales});
+    scene.family = name;
     return scene;
   }
 } // namespace hunt

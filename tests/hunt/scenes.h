@@ -37,8 +37,7 @@ namespace hunt
     Pendulum pendulum = {};
   };
 
-  /// Names of the families, in the order of the table.
-  const std::vector<std::string> &families();
+  const std::vector<std::string> &families(); ///< names of the families, in the order of the table
 
   /// The scene of a number; the same on every machine. Families take turns.
   HuntScene make_scene(std::uint64_t seed, std::size_t number);

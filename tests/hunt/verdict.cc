@@ -1,39 +1,28 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "verdict.h"
 
+#include "common.h"
 #include "verification/run.h"
 
-#include <taut/base/exceptions.h>
-
-#include <cmath>
+using verification::has;
 
 namespace hunt
 {
   namespace
   {
-    /// Remarks about what a force means, which say nothing of the accuracy of a motion.
-    constexpr const char *remarks[] = {"is an impulse over a step"};
-
     /// The warnings of a log that name something and speak of the step.
     std::string warnings(const std::string &log)
     {
       std::istringstream lines(log);
       std::string result;
+      // What a force means says nothing of the accuracy of a motion.
       for (std::string line; std::getline(lines, line);)
-      {
-        bool counts =
-            line.find("Warning: ") != std::string::npos &&
-            (line.find("step") != std::string::npos || line.find("Step") != std::string::npos) &&
-            line.find('\'') != std::string::npos;
-        for (const char *remark : remarks)
-          counts = counts && line.find(remark) == std::string::npos;
-        if (counts)
+        if (has(line, "Warning: ") && (has(line, "step") || has(line, "Step")) && has(line, "'") &&
+            !has(line, "is an impulse over a step"))
           result += line + "\n";
-      }
       return result;
     }
 
-    /// A run of the program.
     struct Run
     {
       explicit Run(const HuntScene &scene) : recorder(scene.frequency)
@@ -42,15 +31,12 @@ namespace hunt
         {
           verification::Session session(scene.text,
                                         {"Time.Step=" + verification::number(scene.step)});
-          try
-          {
-            session.run(std::ref(recorder));
-            ended = true;
-          }
-          catch (const taut::UserError &e)
-          {
-            refusal = e.what();
-          }
+          refusal = verification::error_of(
+              [&]
+              {
+                session.run(std::ref(recorder));
+                ended = true;
+              });
           log = session.log();
           at_end = session.simulation().n_steps();
         }
@@ -99,8 +85,8 @@ namespace hunt
     if (!run.crash.empty())
       return result;
     const History &history = run.recorder.history;
-    if (!run.ended && (history.empty() ||
-                       history.back().time < scene.step * (static_cast<double>(run.at_end) - .5)))
+    const double last = scene.step * (static_cast<double>(run.at_end) - .5);
+    if (!run.ended && (history.empty() || history.back().time < last))
     {
       result.verdict = Verdict::refused;
       result.what = run.refusal;

@@ -3,9 +3,6 @@
 #define taut_hunt_verdict_h
 
 #include "reference.h"
-#include "scenes.h"
-
-#include <string>
 
 namespace hunt
 {

@@ -27,10 +27,9 @@ namespace hunt
       if (draft.random.chance(.4))
         draft.line() << "Wire wire: Mass damping = " << draft.draw(1. / s.t, .01, .5);
       if (moves)
-        draft.line() << "Start = given";
-      if (moves)
-        draft.line() << "Wire wire: Initial " << (kind == "bar" ? "axial" : "transverse")
-                     << " velocity = -" << draft.draw(s.v(), .5, 2.)
+        draft.line() << "Start = given\nWire wire: Initial "
+                     << (kind == "bar" ? "axial" : "transverse") << " velocity = -"
+                     << draft.draw(s.v(), .5, 2.)
                      << (kind == "bar" ? "" : "*sin(pi*s/" + number(length) + ")");
       if (kind != "bar")
         draft.line() << "Support ends: Wire = wire; Positions = 0, " << length;
@@ -56,8 +55,7 @@ namespace hunt
                    << "; Direction = 0, 1";
       draft.line() << "Start = undeformed";
     }
-    draft.set_time(step_decades_of_wires, 1., 2.5);
-    return draft.finish();
+    return draft.finish(step_decades_of_wires, 1., 2.5);
   }
 
   HuntScene wire_on_stop(Draft draft)
@@ -65,8 +63,7 @@ namespace hunt
     const double length = add_wire(draft, kind_of_wire(draft));
     add_stop(draft, "stop", "wire @ " + number(.5 * length), elastic(draft),
              draft.random.chance(.6));
-    draft.set_time(step_decades_of_wires, 1., 2.5);
-    return draft.finish();
+    return draft.finish(step_decades_of_wires, 1., 2.5);
   }
 
   HuntScene wire_on_rigid_stop(Draft draft)
@@ -79,8 +76,7 @@ namespace hunt
           << draft.draw(draft.scales.l, .05, .5);
     else
       add_stop(draft, "stop", "wire @ " + number(.5 * length), "");
-    draft.set_time(step_decades_of_wires, 1., 2.5);
-    return draft.finish();
+    return draft.finish(step_decades_of_wires, 1., 2.5);
   }
 
   /// A mass that is pushed against a wire and moves along it.
@@ -99,7 +95,6 @@ namespace hunt
       draft.line() << "Link collector: Stiffness = " << draft.draw_decades(s.k(), 0, 5);
     draft.line() << "Statistics: Filter frequency = 0";
     draft.scene.kind = ReferenceKind::program;
-    draft.set_time(2., 1., 2.5);
-    return draft.finish();
+    return draft.finish(2., 1., 2.5);
   }
 } // namespace hunt

@@ -2,8 +2,9 @@
 // Claim: rigid bodies turn, swing and hit as they have to, and keep energy, angular momentum and
 // shape. Expected values: Euler's solution of the free symmetric top; conservation; the elliptic
 // integral of the compound pendulum; the impulse of Newton's laws.
-#include "common.h"
 #include "mechanism/rigid_body_run.h"
+
+#include <boost/math/special_functions/ellint_1.hpp>
 
 #include <array>
 
@@ -12,7 +13,6 @@ namespace
   using namespace mechanism;
   using namespace taut;
 
-  /// x, y, z of the displacement of a place.
   Coordinates moved(const OneBody &one, const Stepper &stepper, const Coordinates &place)
   {
     const auto along = [&](const Coordinates &axis)
@@ -27,8 +27,15 @@ namespace
     return {along({1., 0., 0.}), along({0., 1., 0.}), along({0., 0., 1.})};
   }
 
-  /// Angular momentum about the origin: of six equal masses on the principal axes that have the
-  /// same moments of inertia as the body.
+  /// Where this unit vector of the body at rest points to.
+  Coordinates now(const OneBody &one, const Stepper &stepper, const RigidBodyData &data,
+                  const Coordinates &axis)
+  {
+    return add_scaled(axis, 1., moved(one, stepper, add_scaled(data.centre, 1., axis))) -
+           moved(one, stepper, data.centre);
+  }
+
+  /// About the origin: of six masses on the principal axes that have the body's moments of inertia.
   Coordinates angular_momentum(const OneBody &one, const Stepper &stepper,
                                const RigidBodyData &data)
   {
@@ -73,23 +80,60 @@ namespace
                       spin = {0., 0., (1. - J3 / J1) * omega.z * end};
     double error = 0.;
     for (const Coordinates &axis : data.axes)
-    {
-      const Coordinates exact = turned(precession, turned(spin, axis)),
-                        place = add_scaled(data.centre, 1., axis),
-                        now = add_scaled(axis, 1., moved(one, stepper, place)) -
-                              moved(one, stepper, data.centre);
-      error = std::max(error, norm(now - exact));
-    }
+      error = std::max(
+          error, norm(now(one, stepper, data, axis) - turned(precession, turned(spin, axis))));
     return error;
+  }
+
+  struct Swing
+  {
+    double period = 0., energy_error = 0., deformation = 0., gap = 0.;
+  };
+
+  /// A bar, hung up at 0.3 m of its length from the centre, swings from this angle.
+  Swing swing(const double angle, const double step)
+  {
+    constexpr double arm = .3, weight = 9.81;
+    RigidBodyData data;
+    data.name = "bar";
+    data.mass = 3.;
+    data.moments = {.002, .1, .1};
+    const double s = std::sin(angle), c = std::cos(angle);
+    data.axes = {{{s, -c, 0.}, {c, s, 0.}, {0., 0., 1.}}};
+    data.centre = add_scaled({}, arm, data.axes[0]);
+    data.gravity = {0., -weight, 0.};
+    OneBody one(data);
+    one.hold({0., 0., 0.});
+    Stepper stepper(one.system, given(step));
+    Swing result;
+    const double energy = one.energy(stepper), scale = data.mass * weight * arm;
+    std::vector<double> passes;
+    double before = data.centre.x, t = 0.;
+    while (passes.size() < 3)
+    {
+      stepper.advance();
+      const std::vector<double> U = stepper.displacement(0);
+      const double x = one.body->centre(U).x;
+      if ((x > 0.) != (before > 0.))
+        passes.push_back(t + (stepper.time() - t) * before / (before - x));
+      before = x;
+      t = stepper.time();
+      result.energy_error =
+          std::max(result.energy_error, std::fabs(one.energy(stepper) - energy) / scale);
+      result.deformation = std::max(result.deformation, one.body->deformation(U));
+      for (int i = 0; i < 3; ++i)
+        result.gap = std::max(result.gap, std::fabs(stepper.gap(i)));
+    }
+    result.period = passes[2] - passes[0];
+    return result;
   }
 } // namespace
 
-// All rows of [A, G^T; G, 0] x = b, but those of DoFs that are held: some of them make rows of G
-// depend on each other.
+// All rows of [A, G^T; G, 0] x = b, but those of DoFs that are held: rows of G then may depend.
 TEST(RigidBodies, local_solver)
 {
   const RigidBody body(spinning({.1, .2, .25}, {}));
-  std::vector<double> U(body.n_dofs(), 0.);
+  std::vector<double> U(body.n_dofs());
   for (unsigned int i = 0; i < U.size(); ++i)
     U[i] = .1 * std::sin(1. + 3. * i);
   const auto K = body.tangent(U, 1., false);
@@ -109,19 +153,15 @@ TEST(RigidBodies, local_solver)
     solver->solve(found);
     body.mass().vmult_add(1e3, found.data(), product.data());
     K->vmult_add(1., found.data(), product.data());
-    for (unsigned int i = 0; i < x.size(); ++i)
-      if (std::find(held.begin(), held.end(), i) == held.end())
-      {
-        EXPECT_NEAR(product[i], b[i], 1e-9) << i << ", " << held.size() << " held";
-      }
-      else
-      {
-        EXPECT_EQ(found[i], 0.);
-      }
+    for (const unsigned int i : held)
+    {
+      EXPECT_EQ(found[i], 0.);
+      product[i] = b[i];
+    }
+    EXPECT_LT(verification::largest_difference(b, product), 1e-9) << held.size() << " held";
   }
 }
 
-// The tangent is the derivative of the force.
 TEST(RigidBodies, forces_and_tangents)
 {
   const RigidBody body(spinning({.1, .2, .25}, {}));
@@ -162,68 +202,18 @@ TEST(RigidBodies, spin_about_the_intermediate_axis)
   const double energy = one.energy(stepper);
   const Coordinates momentum = angular_momentum(one, stepper, data);
   double worst = 0., turned_over = 1.;
-  const Coordinates tip = add_scaled(data.centre, 1., data.axes[1]);
   for (int n = 0; n < 2000; ++n)
   {
     stepper.advance();
     worst = std::max(worst, one.body->deformation(stepper.displacement(0)));
     EXPECT_NEAR(one.energy(stepper), energy, 1e-10 * energy);
     EXPECT_LE(norm(angular_momentum(one, stepper, data) - momentum), 1e-10 * norm(momentum));
-    const Coordinates now =
-        add_scaled(data.axes[1], 1., moved(one, stepper, tip)) - moved(one, stepper, data.centre);
-    turned_over = std::min(turned_over, now.y);
+    turned_over = std::min(turned_over, now(one, stepper, data, data.axes[1]).y);
   }
   EXPECT_LE(worst, 1e-12);
   EXPECT_LT(turned_over, -.9);
   EXPECT_LE(static_cast<double>(stepper.n_newton_iterations()) / 2000., 8.);
 }
-
-namespace
-{
-  struct Swing
-  {
-    double period = 0., energy_error = 0., deformation = 0., gap = 0.;
-  };
-
-  /// A bar, hung up at 0.3 m of its length from the centre, swings from this angle.
-  Swing swing(const double angle, const double step)
-  {
-    constexpr double arm = .3, weight = 9.81;
-    RigidBodyData data;
-    data.name = "bar";
-    data.mass = 3.;
-    data.moments = {.002, .1, .1};
-    data.axes = {{{std::sin(angle), -std::cos(angle), 0.},
-                  {std::cos(angle), std::sin(angle), 0.},
-                  {0., 0., 1.}}};
-    data.centre = add_scaled({}, arm, data.axes[0]);
-    data.gravity = {0., -weight, 0.};
-    OneBody one(data);
-    one.hold({0., 0., 0.});
-    Stepper stepper(one.system, given(step));
-    Swing result;
-    const double energy = one.energy(stepper), scale = data.mass * weight * arm;
-    std::vector<double> passes;
-    double before = data.centre.x, t = 0.;
-    while (passes.size() < 3)
-    {
-      stepper.advance();
-      const std::vector<double> U = stepper.displacement(0);
-      const double x = one.body->centre(U).x;
-      if ((x > 0.) != (before > 0.))
-        passes.push_back(t + (stepper.time() - t) * before / (before - x));
-      before = x;
-      t = stepper.time();
-      result.energy_error =
-          std::max(result.energy_error, std::fabs(one.energy(stepper) - energy) / scale);
-      result.deformation = std::max(result.deformation, one.body->deformation(U));
-      for (int i = 0; i < 3; ++i)
-        result.gap = std::max(result.gap, std::fabs(stepper.gap(i)));
-    }
-    result.period = passes[2] - passes[0];
-    return result;
-  }
-} // namespace
 
 TEST(RigidBodies, compound_pendulum)
 {
@@ -231,7 +221,7 @@ TEST(RigidBodies, compound_pendulum)
   {
     const double angle = degrees * pi / 180.,
                  exact = 4. * std::sqrt((.1 + 3. * .09) / (3. * 9.81 * .3)) *
-                         elliptic_K(std::sin(.5 * angle));
+                         boost::math::ellint_1(std::sin(.5 * angle));
     double before = 0.;
     for (const int steps : {100, 200, 400})
     {
@@ -240,18 +230,14 @@ TEST(RigidBodies, compound_pendulum)
       EXPECT_LE(found.energy_error, 1e-10) << degrees << " degrees, " << steps;
       EXPECT_LE(found.deformation, 1e-12);
       EXPECT_LE(found.gap, 1e-12);
-      if (before > 0.)
-      {
-        EXPECT_NEAR(before / error, 4., .3) << degrees << " degrees, " << steps;
-      }
+      EXPECT_TRUE(before == 0. || std::fabs(before / error - 4.) < .3) << degrees << ' ' << steps;
       before = error;
     }
     EXPECT_LE(before, 2e-4) << degrees;
   }
 }
 
-// The impulse that stops the place hit, P = v / (1/m + (r x n) . J^-1 (r x n)), in a body whose
-// axes are none of the scene.
+// The impulse that stops the place hit, P = v / (1/m + (r x n) . J^-1 (r x n)), with turned axes.
 TEST(RigidBodies, impact_beside_the_centre)
 {
   RigidBodyData data;
@@ -301,8 +287,7 @@ TEST(RigidBodies, a_second_scheme)
   EXPECT_NEAR(norm(a - limit) / norm(b - limit), 2., .1);
 }
 
-// Where nothing turns the body, what its conditions miss and its multipliers are rounding: steps
-// have an answer for any numbers.
+// Where nothing turns the body, what its conditions miss is rounding: there is always an answer.
 TEST(RigidBodies, free_fall_and_rest_have_an_answer_for_any_mass)
 {
   const double g = 9.81;

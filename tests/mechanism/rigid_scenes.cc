@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Claim: the scenes of rigid bodies in prm/ have the numbers that their heads expect. Expected
-// values: closed forms that the heads name.
+// Claim: scenes of rigid bodies in prm/ have the numbers, closed forms, that their heads expect.
 #include "verification/scene_tests.h"
 
 #include <taut/mechanism/rigid_body.h>
 
 namespace
 {
-  using verification::run_scene;
-  using verification::scene_file;
+  using namespace verification;
 
-  /// Displacement of body k.
   std::vector<double> displacement(const taut::StepView &step, const std::size_t k)
   {
     std::vector<double> U = step.reference.displacement[k];

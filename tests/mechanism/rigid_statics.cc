@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: rigid bodies come to rest where joints and cables hold them, and what nothing holds is an
-// error. Expected values: equilibrium of forces and moments; the lowest place of a bar on two
-// lines.
-#include "common.h"
+// error. Source: equilibrium of forces and moments; the lowest place of a bar on two lines.
 #include "mechanism/rigid_body_run.h"
 
 #include <taut/cable/cable.h>
+
+#include <boost/math/tools/minima.hpp>
 
 namespace
 {
@@ -20,9 +20,8 @@ namespace
     data.name = "bar";
     data.mass = 50.;
     data.moments = {.5, 17., 17.};
-    data.axes = {{{std::cos(angle), std::sin(angle), 0.},
-                  {-std::sin(angle), std::cos(angle), 0.},
-                  {0., 0., 1.}}};
+    const double s = std::sin(angle), c = std::cos(angle);
+    data.axes = {{{c, s, 0.}, {-s, c, 0.}, {0., 0., 1.}}};
     data.gravity = {0., -g, 0.};
     return data;
   }
@@ -97,15 +96,8 @@ TEST(RigidBodyStatics, heavy_bar_on_two_cables)
     p.depth = -(p.first.y + a * std::sin(p.angle));
     return p;
   };
-  double low = -.4, high = .4;
-  const double ratio = .5 * (std::sqrt(5.) - 1.);
-  for (int k = 0; k < 100; ++k)
-  {
-    const double p = high - ratio * (high - low), q = low + ratio * (high - low);
-    (pose(p).depth > pose(q).depth ? high : low) = pose(p).depth > pose(q).depth ? q : p;
-  }
-  const Pose exact = pose(.5 * (low + high));
-
+  const auto height = [&](const double turn) { return -pose(turn).depth; };
+  const Pose exact = pose(boost::math::tools::brent_find_minima(height, -.4, .4, 40).first);
   // Built askew, with cables a little too short for that.
   const Pose built = pose(exact.turn + .15);
   RigidBodyData data = bar(built.angle);

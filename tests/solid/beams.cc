@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: slender solids are the beams of wires. Expected values: the same scene with a wire.
+#include "solid/first_frequency.h"
 #include "verification/scene_tests.h"
-
-#include <taut/substructure/local_solver.h>
 
 namespace
 {
+  using namespace verification;
   /// 50 m x 1 m x 1 m, clamped at the left end, 1 kN at the right one.
   const std::string solid = R"(Generator = network; Gravity = 0, 0
 Body beam: Type = solid; Degree = 2; Young's modulus = 1e9; Density = 1e3; Plane state = stress;
@@ -24,27 +24,6 @@ Time: End = 0
 Probe tip: Point = beam @ 50; Direction = 0, 1
 )";
 
-  /// By inverse iteration [rad/s].
-  double first_frequency(const taut::Substructure &body)
-  {
-    std::vector<double> x(body.n_dofs(), 1.);
-    const auto solver = taut::make_local_solver("sparse direct", body.stiffness());
-    solver->factor({{1., &body.stiffness()}}, body.constrained_dofs());
-    double omega2 = 0.;
-    for (int iteration = 0; iteration < 20; ++iteration)
-    {
-      const std::vector<double> Mx = verification::matrix_times(body.mass(), x);
-      x = Mx;
-      solver->solve(x);
-      const std::vector<double> My = verification::matrix_times(body.mass(), x);
-      const double yMy = std::inner_product(x.begin(), x.end(), My.begin(), 0.);
-      omega2 = std::inner_product(x.begin(), x.end(), Mx.begin(), 0.) / yMy;
-      for (double &value : x)
-        value /= std::sqrt(yMy);
-    }
-    return std::sqrt(omega2);
-  }
-
   struct Beam
   {
     double tip = 0., frequency = 0.;
@@ -52,15 +31,12 @@ Probe tip: Point = beam @ 50; Direction = 0, 1
   Beam cantilever(const std::string &scene)
   {
     Beam beam;
-    verification::run_scene(scene, {},
-                            [&](const taut::StepView &view)
-                            {
-                              const taut::Probe &probe = view.scene.probes[0];
-                              std::vector<taut::Term> terms;
-                              view.structure.motion(probe.point, false, probe.direction, 1., terms);
-                              beam.tip = verification::displacement(view, terms);
-                              beam.frequency = first_frequency(view.structure[0]);
-                            });
+    run_scene(scene, {},
+              [&](const taut::StepView &view)
+              {
+                beam.tip = view.probes[0];
+                beam.frequency = first_frequency(view.structure[0]);
+              });
     return beam;
   }
 
@@ -83,25 +59,24 @@ Time: Scheme = automatic; Step = 4e-3; End = 4
     double windward = 0., slack = 0.; ///< at the start [N, m]
     double at_end = 0.;               ///< of the other guy [N]
   };
-  Guys guys(const std::string &scene, const std::string &left, const std::string &right,
-            const verification::Overrides &overrides = {})
+  Guys guys(const std::string &scene, const Overrides &overrides = {})
   {
     Guys result;
-    verification::run_scene(scene, overrides,
-                            [&](const taut::StepView &view)
-                            {
-                              for (std::size_t i = 0; i < view.scene.links.size(); ++i)
-                              {
-                                const std::size_t k = view.constraints.index_of_link(i);
-                                const std::string &name = view.scene.links[i].name;
-                                if (view.state.time == 0. && name == left)
-                                  result.windward = view.state.multiplier[k];
-                                if (view.state.time == 0. && name == right)
-                                  result.slack = view.state.geometric_gap[k];
-                                if (name == right)
-                                  result.at_end = view.state.multiplier[k];
-                              }
-                            });
+    const auto record = [&](const taut::StepView &view)
+    {
+      for (std::size_t i = 0; i < view.scene.links.size(); ++i)
+      {
+        const std::size_t k = view.constraints.index_of_link(i);
+        const std::string &name = view.scene.links[i].name;
+        if (view.state.time == 0. && name == "left guy")
+          result.windward = view.state.multiplier[k];
+        if (view.state.time == 0. && name == "right guy")
+          result.slack = view.state.geometric_gap[k];
+        if (name == "right guy")
+          result.at_end = view.state.multiplier[k];
+      }
+    };
+    run_scene(scene, overrides, record);
     return result;
   }
 } // namespace
@@ -109,24 +84,19 @@ Time: Scheme = automatic; Step = 4e-3; End = 4
 TEST(SolidBeams, a_slender_one_bends_and_swings_as_a_wire)
 {
   const Beam of_solid = cantilever(solid), of_wire = cantilever(wire);
-  verification::figure("tip of a solid of 50 x 1 over that of a beam", of_solid.tip / of_wire.tip);
-  verification::figure("its first frequency", of_solid.frequency / of_wire.frequency);
+  figure("tip of a solid of 50 x 1 over that of a beam", of_solid.tip / of_wire.tip);
+  figure("its first frequency", of_solid.frequency / of_wire.frequency);
   EXPECT_NEAR(of_solid.tip / of_wire.tip, 1., 5e-3);
   EXPECT_NEAR(of_solid.frequency / of_wire.frequency, 1., 5e-3);
 }
 
-// A statically determinate force is the same to rounding. The slack also has what the foot yields
-// at the point that it stands on.
+// A statically determinate force is the same to rounding. The slack has what the foot yields, too.
 TEST(SolidBeams, a_mast_on_guys_stands_as_that_of_a_wire)
 {
-  const Guys of_solid = guys(mast, "left guy", "right guy"),
-             of_wire = guys(verification::scene_file("guyed_mast"), "left guy", "right guy",
-                            {"Time/Step=4e-3"});
-  verification::figure("windward guy of a mast, solid over wire",
-                       of_solid.windward / of_wire.windward);
-  verification::figure("slack of the leeward guy, solid over wire", of_solid.slack / of_wire.slack);
-  verification::figure("guy after the wind has turned, solid over wire",
-                       of_solid.at_end / of_wire.at_end);
+  const Guys of_solid = guys(mast), of_wire = guys(scene_file("guyed_mast"), {"Time/Step=4e-3"});
+  figure("windward guy of a mast, solid over wire", of_solid.windward / of_wire.windward);
+  figure("slack of the leeward guy, solid over wire", of_solid.slack / of_wire.slack);
+  figure("guy after the wind has turned, solid over wire", of_solid.at_end / of_wire.at_end);
   EXPECT_NEAR(of_wire.windward, 520.8333, 1e-3);
   EXPECT_NEAR(of_solid.windward / of_wire.windward, 1., 1e-8);
   EXPECT_NEAR(of_solid.slack / of_wire.slack, 1., 2.5e-2);

@@ -10,8 +10,6 @@
 
 #include <cmath>
 #include <memory>
-#include <string>
-#include <vector>
 
 namespace box_in_parts
 {
@@ -86,7 +84,6 @@ namespace box_in_parts
     return result;
   }
 
-  /// Its interface problem.
   template <int dim>
   std::unique_ptr<verification::InterfaceProblem> problem(const Box &box)
   {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Claim: FETI needs the iterations that theory and others need, and parts of solids hang together.
-// Source: an independent program for the same boxes.
+// Claim: FETI takes the iterations of an independent program, and parts of solids hang together.
 #include "solid/box_in_parts.h"
 #include "verification/scene_tests.h"
 
@@ -101,10 +100,8 @@ TEST(Feti, JumpsAndUnevenParts)
 // iterations. Expected: the same program, 7, 21, 28 at c tau / h of 1, 10, 100 with 256 squares.
 TEST(Feti, StepsOfAnySize)
 {
-  EXPECT_LE(iterations<2>({8, 8}, 1.), excess * 7.);
-  EXPECT_LE(iterations<2>({8, 8}, 10.), excess * 21.);
-  EXPECT_LE(iterations<2>({8, 8}, 100.), excess * 28.);
-  EXPECT_LE(iterations<2>({8, 8}, 1e4), excess * 28.);
+  for (const auto &[step, known] : {std::pair{1., 7.}, {10., 21.}, {100., 28.}, {1e4, 28.}})
+    EXPECT_LE(iterations<2>({8, 8}, step), excess * known);
   // Without them it grows: the bound above is theirs.
   EXPECT_GT(iterations<2>({8, 8}, 100., "Dirichlet", "none"), 100.);
 }
@@ -182,8 +179,7 @@ TEST(Partition, PartsOfSolidsHangTogether)
     ASSERT_EQ(division.part.size(), n);
     EXPECT_EQ(std::set<unsigned int>(division.part.begin(), division.part.end()).size(), n_parts);
     std::vector<unsigned int> group(n);
-    for (unsigned int c = 0; c < n; ++c)
-      group[c] = c;
+    std::iota(group.begin(), group.end(), 0u);
     for (bool has_changed = true; has_changed;)
     {
       has_changed = false;
@@ -209,9 +205,7 @@ TEST(Partition, AutomaticNumbersFollowTheTable)
 {
   const auto in_space = [](const unsigned int elements)
   {
-    Box box;
-    box.n = 1;
-    box.elements = elements;
+    const Box box{1, elements};
     return box_in_parts::scene<3>(std::make_shared<const box_in_parts::BoxType<3>>(box));
   };
   EXPECT_EQ(taut::automatic_number_of_parts(in_space(8), 0., false).n, 1u);   // 2187 DoFs
@@ -219,9 +213,6 @@ TEST(Partition, AutomaticNumbersFollowTheTable)
   EXPECT_EQ(taut::automatic_number_of_parts(in_space(15), 0., true).n, 1u);
   EXPECT_EQ(taut::automatic_number_of_parts(in_space(33), 0., true).n, 235u); // 117 912 DoFs
   EXPECT_EQ(taut::automatic_number_of_parts(in_space(15), 100., false).n, 1u);
-  Box square;
-  square.n = 1;
-  square.elements = 100;
-  const auto type = std::make_shared<const box_in_parts::BoxType<2>>(square);
+  const auto type = std::make_shared<const box_in_parts::BoxType<2>>(Box{1, 100});
   EXPECT_EQ(taut::automatic_number_of_parts(box_in_parts::scene<2>(type), 0., false).n, 1u);
 }

@@ -10,7 +10,7 @@
 
 namespace
 {
-  using verification::Overrides;
+  using namespace verification;
 
   struct Impact
   {
@@ -31,30 +31,29 @@ namespace
     Impact result;
     std::vector<double> plateau;
     double start_energy = 0.;
-    verification::run_scene(
-        scene, overrides,
-        [&](const taut::StepView &view)
-        {
-          const double force = std::accumulate(view.state.multiplier.begin(),
-                                               view.state.multiplier.end(), 0.),
-                       t = view.state.time - start;
-          result.largest = std::fmax(result.largest, force);
-          if (t < .02)
-            result.first = std::fmax(result.first, force);
-          if (t > .1 && t < .5)
-            plateau.push_back(force);
-          if (force > 0.)
-            result.released = t;
-          const std::vector<double> MV =
-              verification::matrix_times(view.structure[0].mass(), view.state.V[0]);
-          const double energy = verification::energy_of_bodies(view.structure, view.state);
-          if (start_energy == 0.)
-            start_energy = energy;
-          result.energy = energy / start_energy;
-          result.rebound = std::accumulate(MV.begin(), MV.end(), 0.) / 10.;
-          result.contact_energy = view.measures.summary().contact_energy;
-          result.certificate = std::fmax(result.certificate, view.certificate.max());
-        });
+    run_scene(scene, overrides,
+              [&](const taut::StepView &view)
+              {
+                const double force = std::accumulate(view.state.multiplier.begin(),
+                                                     view.state.multiplier.end(), 0.),
+                             t = view.state.time - start;
+                result.largest = std::fmax(result.largest, force);
+                if (t < .02)
+                  result.first = std::fmax(result.first, force);
+                if (t > .1 && t < .5)
+                  plateau.push_back(force);
+                if (force > 0.)
+                  result.released = t;
+                const std::vector<double> MV =
+                    matrix_times(view.structure[0].mass(), view.state.V[0]);
+                const double energy = energy_of_bodies(view.structure, view.state);
+                if (start_energy == 0.)
+                  start_energy = energy;
+                result.energy = energy / start_energy;
+                result.rebound = std::accumulate(MV.begin(), MV.end(), 0.) / 10.;
+                result.contact_energy = view.measures.summary().contact_energy;
+                result.certificate = std::fmax(result.certificate, view.certificate.max());
+              });
     result.plateau =
         std::accumulate(plateau.begin(), plateau.end(), 0.) / static_cast<double>(plateau.size());
     for (const double force : plateau)
@@ -64,18 +63,16 @@ namespace
 
   void print(const std::string &what, const Impact &i)
   {
-    verification::figure(what + ", first force", i.first, "N");
-    verification::figure(what + ", largest force", i.largest, "N");
-    verification::figure(what + ", mean force from 0.1 to 0.5 s", i.plateau, "N");
-    verification::figure(what + ", deviation from it", i.deviation, "N");
-    verification::figure(what + ", last contact", i.released, "s");
-    verification::figure(what + ", rebound", i.rebound, "m/s");
-    verification::figure(what + ", energy over that of the start", i.energy);
+    figure(what + ", first force", i.first, "N");
+    figure(what + ", largest force", i.largest, "N");
+    figure(what + ", mean force from 0.1 to 0.5 s", i.plateau, "N");
+    figure(what + ", deviation from it", i.deviation, "N");
+    figure(what + ", last contact", i.released, "s");
+    figure(what + ", rebound", i.rebound, "m/s");
+    figure(what + ", energy over that of the start", i.energy);
   }
 
   const Overrides no_contraction = {"Body block/Poisson's ratio=0"};
-
-  using verification::operator+;
 
   /// One element a step of the bar, 30 m/s and 0.1 m.
   const Overrides one_cell_a_step = {"Time/Step=0.00333333333333333333"};
@@ -85,9 +82,9 @@ namespace
 
 TEST(Impacts, a_block_that_does_not_contract_is_exact_with_mean_forces_and_reduced_mass)
 {
-  const Impact i = impact(verification::scene_file("block_impact"),
-                          no_contraction + one_cell_a_step + mean_forces +
-                              Overrides{"Body block/Mass matrix=reduced"});
+  const Impact i =
+      impact(scene_file("block_impact"), no_contraction + one_cell_a_step + mean_forces +
+                                             Overrides{"Body block/Mass matrix=reduced"});
   print("block, nu = 0, reduced mass, mean forces", i);
   EXPECT_NEAR(i.largest, 300., 1e-8);
   EXPECT_LT(i.deviation, 1e-8);
@@ -98,10 +95,9 @@ TEST(Impacts, a_block_that_does_not_contract_is_exact_with_mean_forces_and_reduc
 
 TEST(Impacts, with_the_default_scheme_a_block_errs_as_the_bar_does)
 {
-  const Impact block =
-      impact(verification::scene_file("block_impact"), no_contraction + one_cell_a_step);
+  const Impact block = impact(scene_file("block_impact"), no_contraction + one_cell_a_step);
   const Impact bar = impact(
-      verification::scene_file("bar_on_wall"),
+      scene_file("bar_on_wall"),
       one_cell_a_step + Overrides{"Network/Wire bar/Element size=0.1", "Network/Link floor/Gap=0",
                                   "Time/Scheme=automatic", "Time/Mass redistribution=no",
                                   "Time/End=1", "Network/Wire bar/Initial axial velocity=-10"});
@@ -110,8 +106,8 @@ TEST(Impacts, with_the_default_scheme_a_block_errs_as_the_bar_does)
   const auto compare =
       [](const char *what, const double ours, const double of_bar, const double exact)
   {
-    verification::figure(std::string("error of the block over that of the bar: ") + what,
-                         std::fabs(ours - exact) / std::fabs(of_bar - exact));
+    figure(std::string("error of the block over that of the bar: ") + what,
+           std::fabs(ours - exact) / std::fabs(of_bar - exact));
     EXPECT_LE(std::fabs(ours - exact), 1.5 * std::fabs(of_bar - exact) + 1e-9 * exact) << what;
   };
   compare("largest force", block.largest, bar.largest, 300.);
@@ -123,17 +119,16 @@ TEST(Impacts, with_the_default_scheme_a_block_errs_as_the_bar_does)
 
 // The front of the first wave, density c_p v = 348 N, overshoots by as much as that of the bar
 // does: the consistent mass carries a front at speeds that depend on the wave length. The reduced
-// mass carries it whole; its first forces are the mean over the step until waves come from the
-// sides.
+// mass carries it whole; its first forces are the mean over the step until the sides are felt.
 TEST(Impacts, a_block_hits_a_wall_with_the_force_of_its_waves)
 {
-  const std::string scene = verification::scene_file("block_impact");
+  const std::string scene = scene_file("block_impact");
   const double density_c_v = std::sqrt(900. * .7 / (1.3 * .4)) * 10.; // of pressure waves
   const Impact i = impact(scene, {});
   print("block, nu = 0.3, default scheme", i);
   const Impact like_bar = impact(scene, no_contraction);
-  verification::figure("overshoot of the first force, nu = 0.3 and 0", i.first / density_c_v - 1.);
-  verification::figure("overshoot of the first force, nu = 0", like_bar.first / 300. - 1.);
+  figure("overshoot of the first force, nu = 0.3 and 0", i.first / density_c_v - 1.);
+  figure("overshoot of the first force, nu = 0", like_bar.first / 300. - 1.);
   EXPECT_LT(std::fabs(i.first / density_c_v - 1.), 1.5 * std::fabs(like_bar.first / 300. - 1.));
   EXPECT_NEAR(i.plateau, 314., 3.);
   EXPECT_NEAR(i.released, .645, .01);
@@ -141,7 +136,6 @@ TEST(Impacts, a_block_hits_a_wall_with_the_force_of_its_waves)
   EXPECT_LE(i.energy, 1. + 1e-9);
   EXPECT_LT(i.contact_energy, 1e-9);
   EXPECT_LT(i.certificate, 1e-10);
-
   // One cell a step of pressure waves; the sides are felt from the second step on, as the mass is.
   const Impact reduced =
       impact(scene, mean_forces + Overrides{"Body block/Mass matrix=reduced",
@@ -153,24 +147,20 @@ TEST(Impacts, a_block_hits_a_wall_with_the_force_of_its_waves)
 // With mass at the nodes that hit, the first force of BDF2 is their momentum over a step.
 TEST(Impacts, without_mass_at_the_wall_forces_do_not_depend_on_the_step)
 {
-  const std::string scene = verification::scene_file("block_impact");
-  for (const char *step : {"0.0025", "0.0003"})
+  const std::string scene = scene_file("block_impact");
+  for (const std::string step : {"0.0025", "0.0003"})
   {
     const Overrides common =
-        no_contraction + Overrides{std::string("Time/Step=") + step, "Time/End=0.1",
+        no_contraction + Overrides{"Time/Step=" + step, "Time/End=0.1",
                                    "Time/Allow unsuitable scheme=true",
                                    "Time/Allow energy gain=true", "Time/Scheme=BDF2"};
     const Impact without =
         impact(scene, common + Overrides{"Body block/Boundaries without mass=0"});
-    verification::figure(std::string("block without mass at the wall, BDF2, largest force at ") +
-                             step + " s",
-                         without.largest, "N");
+    figure("block without mass at the wall, BDF2, largest force at " + step + " s", without.largest,
+           "N");
     EXPECT_GT(without.largest, 370.);
     EXPECT_LT(without.largest, 420.);
-    if (std::string(step) == "0.0003")
-    {
-      EXPECT_GT(impact(scene, common).largest, 800.);
-    }
+    EXPECT_TRUE(step == "0.0025" || impact(scene, common).largest > 800.);
   }
 }
 
@@ -208,16 +198,13 @@ TEST(Impacts, mass_that_leaves_a_boundary_keeps_total_centre_and_inertia)
               a[i] = x[p];
               b[i] = x[q];
             }
-          const std::vector<double> Mb = verification::matrix_times(solid.mass(), b);
+          const std::vector<double> Mb = matrix_times(solid.mass(), b);
           return std::inner_product(a.begin(), a.end(), Mb.begin(), 0.);
         };
         for (int p = 0; p < 3; ++p)
-          for (int q = p; q < 3; ++q)
-            if (keeps_inertia || q == 0)
-            {
-              EXPECT_NEAR(integral(without, p, q) / integral(whole, p, q), 1., 1e-12)
-                  << degree << ' ' << static_cast<int>(kind) << ' ' << p << q;
-            }
+          for (int q = p; q < (keeps_inertia ? 3 : 1); ++q)
+            EXPECT_NEAR(integral(without, p, q) / integral(whole, p, q), 1., 1e-12)
+                << degree << ' ' << static_cast<int>(kind) << ' ' << p << q;
         const std::vector<unsigned int> massless = without.dofs_without_mass();
         unsigned int n_on_boundary = 0;
         for (unsigned int i = 0; i < without.n_dofs(); ++i)

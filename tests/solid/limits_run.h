@@ -17,10 +17,10 @@ namespace solid_limits
 
   struct Ran
   {
-    std::vector<double> forces; ///< of all constraints, in the last step
-    std::vector<double> peaks;  ///< of all constraints, the largest so far
-    std::vector<taut::SurfaceConstraint> constraints;
-    std::vector<std::string> warnings; ///< kinds
+    std::vector<double> forces;                       ///< of all constraints, in the last step
+    std::vector<double> peaks;                        ///< of all constraints, the largest so far
+    std::vector<taut::SurfaceConstraint> constraints; ///< of all contacts
+    std::vector<std::string> warnings;                ///< kinds
     std::string log, error;
   };
 
@@ -41,8 +41,10 @@ namespace solid_limits
                       result.peaks.resize(result.forces.size(), 0.);
                       for (std::size_t i = 0; i < result.peaks.size(); ++i)
                         result.peaks[i] = std::fmax(result.peaks[i], result.forces[i]);
-                      if (result.constraints.empty() && !view.scene.contacts.empty())
-                        result.constraints = taut::contact_geometry(view.scene, 0).constraints;
+                      result.constraints.clear();
+                      for (std::size_t c = 0; c < view.scene.contacts.size(); ++c)
+                        for (const auto &row : taut::contact_geometry(view.scene, c).constraints)
+                          result.constraints.push_back(row);
                     });
               });
           result.log = session.log();

@@ -3,6 +3,8 @@
 #ifndef taut_tests_mesh_file_h
 #define taut_tests_mesh_file_h
 
+#include <deal.II/grid/tria.h>
+
 #include <unistd.h>
 
 #include <cstddef>
@@ -14,8 +16,7 @@
 
 namespace verification
 {
-  /// A file in gmsh's format 2.2, which is removed again. Nodes count from 1 in the order in which
-  /// they are added.
+  /// A file in gmsh's format 2.2, which is removed again. Nodes count from 1 as they are added.
   class MeshFile
   {
   public:
@@ -26,10 +27,33 @@ namespace verification
       static int count = 0;
       file = std::filesystem::temp_directory_path() /
              ("taut_mesh_" + std::to_string(getpid()) + "_" + std::to_string(++count) + ".msh");
-      nodes.precision(16);
+      nodes.precision(17);
     }
     MeshFile(const MeshFile &) = delete;
     ~MeshFile() { std::filesystem::remove(file); }
+
+    /// Of a triangulation, whose boundary ids become larger by @p first_id.
+    template <int dim>
+    explicit MeshFile(const dealii::Triangulation<dim> &cells, const int first_id = 0) : MeshFile()
+    {
+      for (const dealii::Point<dim> &x : cells.get_vertices())
+        add_node(x[0], x[1], x[dim - 1] * (dim - 2));
+      const auto add_object = [this](const int type, const int id, const auto &object)
+      {
+        std::vector<std::size_t> corners;
+        for (const unsigned int v : object->vertex_indices())
+          corners.push_back(1 + object->vertex_index(v % 4 < 2 ? v : v ^ 1u));
+        add(type, id, corners);
+      };
+      for (const auto &cell : cells.active_cell_iterators())
+      {
+        for (const unsigned int f : cell->face_indices())
+          if (cell->at_boundary(f))
+            add_object(dim == 2 ? line : quadrilateral, first_id + cell->face(f)->boundary_id(),
+                       cell->face(f));
+        add_object(dim == 2 ? quadrilateral : hexahedron, cell->material_id(), cell);
+      }
+    }
 
     void add_node(const double x, const double y, const double z = 0.)
     {
@@ -45,7 +69,6 @@ namespace verification
       elements << '\n';
     }
 
-    /// Writes it.
     std::string path() const
     {
       std::ofstream(file) << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n"

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: motions that nothing but constraints holds are found, and searches get past constraints
 // that do not hold a body. Source: the rigid body motions of a model of deal.II.
-#include <taut/base/exceptions.h>
+#include "common.h"
+
 #include <taut/interface/system.h>
 #include <taut/solid/elastic_solid.h>
 #include <taut/time/static_equilibrium.h>
@@ -11,14 +12,13 @@
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/lac/sparse_matrix.h>
 
-#include <gtest/gtest.h>
+#include <array>
 
 namespace
 {
   constexpr double spring = 100., to_the_ground = 10.;
 
-  /// Four nodes in a row and springs between them, all or those of two pairs; the first node hangs
-  /// on the ground by a spring of its own.
+  /// Four nodes with springs between all or in two pairs; the first node hangs on the ground.
   class Chain
   {
   public:
@@ -74,8 +74,7 @@ namespace
   }
 } // namespace
 
-// A motion that the stiffness resists is none of the null space, whether it is found from the
-// points or given: the load at the end stretches all springs.
+// A motion that the stiffness resists is no null space, found or given: all springs stretch.
 TEST(NullSpaces, motions_that_the_stiffness_resists_are_left_out)
 {
   for (const bool is_given : {false, true})
@@ -83,8 +82,8 @@ TEST(NullSpaces, motions_that_the_stiffness_resists_are_left_out)
     Chain chain(true);
     chain.load[3] = 3.;
     chain.options.null_space.resize(is_given);
-    for (dealii::Vector<double> &mode : chain.options.null_space)
-      mode = chain.vector({1., 1., 1., 1.});
+    if (is_given)
+      chain.options.null_space[0] = chain.vector({1., 1., 1., 1.});
     EXPECT_TRUE(chain.body()->null_space().vectors.empty());
     taut::System system;
     system.add("chain", [&] { return chain.body(); });
@@ -94,8 +93,7 @@ TEST(NullSpaces, motions_that_the_stiffness_resists_are_left_out)
   }
 }
 
-// Of motions that are each resisted the combination that is not: the two nodes that hang on nothing
-// move together, and a constraint holds them.
+// Of resisted motions the combination that is not: two nodes move together, and a constraint holds.
 TEST(NullSpaces, combinations_of_motions_that_the_stiffness_resists_are_found)
 {
   Chain chain(false);
@@ -108,7 +106,6 @@ TEST(NullSpaces, combinations_of_motions_that_the_stiffness_resists_are_found)
   EXPECT_NEAR(mode[1], 0., 1e-15);
   EXPECT_NE(mode[2], 0.);
   EXPECT_NEAR(mode[3], mode[2], 1e-15);
-
   taut::System system;
   const std::size_t body = system.add("chain", [&] { return chain.body(); });
   const taut::LinearForm last =
@@ -117,8 +114,7 @@ TEST(NullSpaces, combinations_of_motions_that_the_stiffness_resists_are_found)
   const taut::StaticState state = equilibrium(system);
   const std::vector<double> expected = {2. / to_the_ground, 2. / to_the_ground + 2. / spring,
                                         5. / spring, 0.};
-  for (unsigned int i = 0; i < 4; ++i)
-    EXPECT_NEAR(state.displacement[0][i], expected[i], 1e-13);
+  EXPECT_LT(verification::largest_difference(expected, state.displacement[0]), 1e-13);
   EXPECT_NEAR(state.multiplier[0], -5., 1e-12);
 }
 
@@ -131,6 +127,7 @@ TEST(NullSpaces, searches_get_past_constraints_that_do_not_hold_a_body)
   dealii::GridGenerator::subdivided_hyper_rectangle(*cells, {8, 4}, dealii::Point<2>(),
                                                     dealii::Point<2>(2., 1.));
   const auto mesh = std::make_shared<const taut::SolidMesh<2>>(std::move(cells), 1);
+  constexpr taut::Coordinates up = {0., 1., 0.};
   for (const char *const form : {"assembled dense", "matrix-free"})
   {
     taut::System system;
@@ -141,20 +138,18 @@ TEST(NullSpaces, searches_get_past_constraints_that_do_not_hold_a_body)
                      taut::ElasticSolid<2>::Options options;
                      options.materials[0] = {1e3, .3, 1.};
                      auto body = std::make_unique<taut::ElasticSolid<2>>("block", mesh, options);
-                     body->add_force(body->displacement({0., 0., 0.}, {0., 1., 0.}), 5.);
-                     body->add_force(body->displacement({2., 0., 0.}, {0., 1., 0.}), 5.);
-                     body->add_force(body->displacement({1.0625, 1., 0.}, {0., 1., 0.}), -16.);
+                     for (const auto &[x, y, force] :
+                          {std::array{0., 0., 5.}, {2., 0., 5.}, {1.0625, 1., -16.}})
+                       body->add_force(body->displacement({x, y, 0.}, up), force);
                      return body;
                    });
     for (const double x : {0., 1., 2.})
-      system.add(taut::Constraint::unilateral(
-          "point", system.displacement(block, {x, 0., 0.}, {0., 1., 0.})));
+      system.add(
+          taut::Constraint::unilateral("point", system.displacement(block, {x, 0., 0.}, up)));
     system.add(taut::Constraint::bilateral("side",
                                            system.displacement(block, {1., 0., 0.}, {1., 0., 0.})));
     const taut::StaticState state = equilibrium(system, {form, "Dirichlet", "rigid body modes"});
     EXPECT_TRUE(state.certificate.fallback) << form;
-    const double expected[] = {0., 5., 1., 0.};
-    for (unsigned int i = 0; i < 4; ++i)
-      EXPECT_NEAR(state.multiplier[i], expected[i], 1e-10) << form << ", constraint " << i;
+    EXPECT_LT(verification::largest_difference({0., 5., 1., 0.}, state.multiplier), 1e-10) << form;
   }
 }

@@ -6,8 +6,7 @@
 #include <string>
 
 /// An elastic slab of 20 m x 1 m in plane strain, whose top is pressed down onto a floor of eight
-/// waves, more on the right than on the left, and up and down by turns. The sides do not move along
-/// x.
+/// waves, more on the right, and up and down by turns. The sides do not move along x.
 namespace wavy_floor
 {
   constexpr double length = 20., E = 1e9, nu = .3, density = 2000.; // m, Pa, 1, kg/m^3
@@ -28,8 +27,7 @@ namespace wavy_floor
     return -.0016 * M_PI * std::sin(.8 * M_PI * x);
   }
 
-  /// The scene with @p n_x squares along x, from the equilibrium at t = 0 on, with @p n_steps of
-  /// backward Euler [s].
+  /// The scene with @p n_x squares along x, from equilibrium on, with steps of backward Euler [s].
   inline std::string scene(const unsigned int n_x, const int n_steps = 0, const double step = 2e-4)
   {
     return R"(Generator = network; Gravity = 0, 0; Start = equilibrium
@@ -41,11 +39,8 @@ Body slab/Mesh: Generator = subdivided_hyper_rectangle;
 Contact floor: Slave = slab: 2; Obstacle = height; Direction = 0, 1;
   Height = 0.002*(cos(0.8*pi*x) - 1); Search distance = 1
 Time: Scheme = backward Euler; Step = )" +
-           std::to_string(step) + R"(;
-  End = )" +
-           std::to_string(step * n_steps) + R"(
-Output: Field interval = 0
-)";
+           std::to_string(step) + "; End = " + std::to_string(step * n_steps) +
+           "\nOutput: Field interval = 0\n";
   }
 } // namespace wavy_floor
 

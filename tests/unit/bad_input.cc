@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: a mistake in the input is one error of one line that names file, line, entry, value and
-// remedy; results of an earlier run are as they were. Source: the rows of bad_input.txt and the
-// table below; each case changes a scene that runs.
+// remedy; results of an earlier run are as they were. Source: the rows of bad_input.txt, and below.
 #include "common.h"
 #include "verification/scene_builder.h"
 
@@ -10,17 +9,15 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <map>
 #include <set>
 
 namespace
 {
+  using namespace verification;
   namespace fs = std::filesystem;
   using Texts = std::vector<std::string>;
-  using verification::SceneBuilder;
 
-  /// A scene with a mistake, and what the message has to say. A line of the scene that ends with
-  /// "# here" is the one that the message has to name.
+  /// A scene with a mistake, and what the message says; it names the line that ends with "# here".
   struct Case
   {
     std::string name, scene;
@@ -39,7 +36,6 @@ namespace
     return parts;
   }
 
-  /// The scenes and the mistakes of bad_input.txt.
   struct Rows
   {
     Rows()
@@ -94,7 +90,7 @@ namespace
   }
 
   /// The network with a piece of its text replaced.
-  std::string network_with(const std::string &from, const std::string &to)
+  std::string with(const std::string &from, const std::string &to)
   {
     std::string text = scene("network");
     const std::size_t at = text.find(from);
@@ -102,70 +98,61 @@ namespace
     return at == std::string::npos ? text : text.replace(at, from.size(), to);
   }
 
-  /// Mistakes in the text of a file.
   std::vector<Case> mistakes_of_text()
   {
     const std::string output = "subsection Output\n";
     std::string sections;
     for (int i = 0; i < 21; ++i)
       sections += i < 20 ? "subsection a\n" : "subsection a # here\n";
-    return {
-        {"unknown_entry",
-         network_with("set Tension ", "set Tensoin # here\n#"),
-         {"cannot read", "set Tensoin"}},
-        {"misspelt_entry",
-         network_with("set Tension = 1000", "set Tensoin = 1000 # here"),
-         {"there is no entry 'Tensoin' in 'Wire line'", "did you mean 'Tension'"}},
-        {"misspelt_section",
-         network_with("subsection Wire line", "subsection Wire lime # here"),
-         {"there is no section 'Wire lime'", "did you mean 'Wire line'"}},
-        {"section_without_its_name_in_the_list",
-         scene("network", "Network: Loads =\nLoad push: *\nNetwork: Loads ="),
-         {"there is no section 'Load push' in 'Network'", "add 'push' to the names in 'Loads'"}},
-        {"figure_without_a_name",
-         scene("network", "Quantity impulze: *\nStudy: Quantities = impulse"),
-         {"no section 'Quantity impulze'", "did you mean 'Quantity impulse'"}},
-        {"duplicate_entry",
-         network_with("set Positions = 0, 10", "set Positions = 0, 10\nset Positions = 1 # here"),
-         {"Network/Support ends/Positions", "was set before, at", "remove one"}},
-        {"missing_end",
-         network_with("subsection Statistics\n  set Window = \nend",
-                      "subsection Statistics # here\n  set Window ="),
-         {"Statistics", "never closed", "add 'end'"}},
-        {"stray_end",
-         network_with(output, "end # here\n" + output),
-         {"'end' without a 'subsection'"}},
-        {"nonsense_line",
-         network_with(output, "hello # here\n" + output),
-         {"cannot read 'hello'", "set Name = value"}},
-        {"entry_without_name",
-         network_with("set Gap = 0.5", "set = 0.5 # here"),
-         {"the name of an entry", "empty"}},
-        {"trailing_backslash",
-         "set Start = equilibrium \\\\ # here\n",
-         {"Start", "continues a line"}},
-        {"binary",
-         "set A = 1\n\x7f"
-         "ELF\x02\x01 # here\n",
-         {"not text", "byte 0x7f"}},
-        {"binary_with_zero", {"set A = 1\n\0 # here\n", 19}, {"not text", "byte 0x00"}},
-        {"latin_1",
-         network_with("set Wires = line, arm", "set Wires = l\xfc"
-                                               "ne, arm # here"),
-         {"not text", "byte 0xfc", "UTF-8"}},
-        {"sections_without_end", sections, {"more than 20 sections", "'end'"}},
-        {"include_of_a_missing_file",
-         "set Start = given\ninclude nowhere.prm # here\n",
-         {"cannot include", "nowhere.prm", "no such file"}},
-        {"include_of_a_folder", "include results # here\n", {"cannot include", "no such file"}},
-        {"include_loop",
-         "\ninclude scene.prm # here\n",
-         {"cannot include", "include itself", "remove"}},
-        {"empty_file", "# nothing but a comment\n", {"scene.prm: it sets no entry"}},
-        {"no_bodies",
-         "set Generator = network\n",
-         {"scene.prm", "the scene is empty", "name at least one"}},
+    std::vector<Case> cases;
+    const auto add = [&](const std::string &name, const std::string &text, const Texts &fragments) {
+      cases.push_back({name, text, fragments});
     };
+    add("unknown_entry", with("set Tension ", "set Tensoin # here\n#"),
+        {"cannot read", "set Tensoin"});
+    add("misspelt_entry", with("set Tension = 1000", "set Tensoin = 1000 # here"),
+        {"there is no entry 'Tensoin' in 'Wire line'", "did you mean 'Tension'"});
+    add("misspelt_section", with("subsection Wire line", "subsection Wire lime # here"),
+        {"there is no section 'Wire lime'", "did you mean 'Wire line'"});
+    add("section_without_its_name_in_the_list",
+        scene("network", "Network: Loads =\nLoad push: *\nNetwork: Loads ="),
+        {"there is no section 'Load push' in 'Network'", "add 'push' to the names in 'Loads'"});
+    add("figure_without_a_name",
+        scene("network", "Quantity impulze: *\nStudy: Quantities = impulse"),
+        {"no section 'Quantity impulze'", "did you mean 'Quantity impulse'"});
+    add("duplicate_entry",
+        with("set Positions = 0, 10", "set Positions = 0, 10\nset Positions = 1 # here"),
+        {"Network/Support ends/Positions", "was set before, at", "remove one"});
+    add("missing_end",
+        with("subsection Statistics\n  set Window = \nend",
+             "subsection Statistics # here\n  set Window ="),
+        {"Statistics", "never closed", "add 'end'"});
+    add("stray_end", with(output, "end # here\n" + output), {"'end' without a 'subsection'"});
+    add("nonsense_line", with(output, "hello # here\n" + output),
+        {"cannot read 'hello'", "set Name = value"});
+    add("entry_without_name", with("set Gap = 0.5", "set = 0.5 # here"),
+        {"the name of an entry", "empty"});
+    add("trailing_backslash", "set Start = equilibrium \\\\ # here\n",
+        {"Start", "continues a line"});
+    add("binary",
+        "set A = 1\n\x7f"
+        "ELF\x02\x01 # here\n",
+        {"not text", "byte 0x7f"});
+    add("binary_with_zero", std::string("set A = 1\n\0 # here\n", 19), {"not text", "byte 0x00"});
+    add("latin_1",
+        with("set Wires = line, arm", "set Wires = l\xfc"
+                                      "ne, arm # here"),
+        {"not text", "byte 0xfc", "UTF-8"});
+    add("sections_without_end", sections, {"more than 20 sections", "'end'"});
+    add("include_of_a_missing_file", "set Start = given\ninclude nowhere.prm # here\n",
+        {"cannot include", "nowhere.prm", "no such file"});
+    add("include_of_a_folder", "include results # here\n", {"cannot include", "no such file"});
+    add("include_loop", "\ninclude scene.prm # here\n",
+        {"cannot include", "include itself", "remove"});
+    add("empty_file", "# nothing but a comment\n", {"scene.prm: it sets no entry"});
+    add("no_bodies", "set Generator = network\n",
+        {"scene.prm", "the scene is empty", "name at least one"});
+    return cases;
   }
 
   class BadInput : public testing::Test
@@ -283,10 +270,9 @@ namespace
   void expect_fragments(const std::string &message, const Texts &fragments)
   {
     EXPECT_NE(message, "") << "accepted";
-    EXPECT_FALSE(verification::has(message, "\n")) << message;
+    EXPECT_FALSE(has(message, "\n")) << message;
     for (const std::string &fragment : fragments)
-      EXPECT_TRUE(verification::has(message, fragment))
-          << "'" << fragment << "' is missing in: " << message;
+      EXPECT_TRUE(has(message, fragment)) << "'" << fragment << "' is missing in: " << message;
   }
 
 } // namespace
@@ -369,12 +355,10 @@ TEST_F(BadInput, ResultsOfAnEarlierRunStayWithoutOverwrite)
   expect_fragments(error_of("scene.prm", {}, false),
                    {"scene.prm:", "Output/Folder = 'results'", "--overwrite"});
   EXPECT_TRUE(earlier_results_are_whole());
-
   // A table of somebody else's without a run beside it is as much worth.
   fs::remove("results/used.prm");
   expect_fragments(error_of("scene.prm", {}, false), {"Output/Folder = 'results'", "--overwrite"});
   EXPECT_EQ(content("results/links.csv"), "earlier");
-
   // Files that no run writes are left alone.
   fs::remove("results/links.csv");
   write("results/notes.txt", "mine");
@@ -408,14 +392,13 @@ TEST_F(BadInput, EntriesOfAnotherSchemeAreSaidNotToBeUsed)
   for (const char *sentence :
        {"  not used by it: Time/Generalised-alpha/Spectral radius = 0.5\n",
         "# Not used by it: Time/Generalised-alpha/Spectral radius = 0.5\n", "# The scheme was "})
-    EXPECT_TRUE(verification::has(said, sentence)) << said;
+    EXPECT_TRUE(has(said, sentence)) << said;
   // A default is not worth a word, however it is written.
-  EXPECT_FALSE(verification::has(log_and_used({"Time.Generalised-alpha.Spectral radius=0.80"}),
-                                 "ot used by it"));
-  EXPECT_FALSE(verification::has(
-      log_and_used({"Time.Scheme=generalised-alpha", "Time.Allow unsuitable scheme=true",
-                    "Time.Generalised-alpha.Spectral radius=0.5"}),
-      "ot used by it"));
+  EXPECT_FALSE(has(log_and_used({"Time.Generalised-alpha.Spectral radius=0.80"}), "ot used by it"));
+  EXPECT_FALSE(
+      has(log_and_used({"Time.Scheme=generalised-alpha", "Time.Allow unsuitable scheme=true",
+                        "Time.Generalised-alpha.Spectral radius=0.5"}),
+          "ot used by it"));
 }
 
 TEST_F(BadInput, ARunThatFailsKeepsWhatItHad)
@@ -427,5 +410,5 @@ TEST_F(BadInput, ARunThatFailsKeepsWhatItHad)
   for (std::string line; std::getline(lines, line);)
     ++n;
   EXPECT_EQ(n, 4) << "head, start and two steps";
-  EXPECT_TRUE(verification::has(content("results/statistics.json"), "\"partial\": true"));
+  EXPECT_TRUE(has(content("results/statistics.json"), "\"partial\": true"));
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 /// G row by row from its entries, row-major, zeros left out.
@@ -19,11 +20,7 @@ inline std::vector<taut::LinearForm> mode_equations(std::size_t n_rows,
   return result;
 }
 
-/**
- * Methods that share nothing with the library, for tests: all sets by enumeration up to 12
- * unilateral rows, Lemke's method with lexicographic pivots beyond. Everything in long double and
- * scaled to a unit diagonal.
- */
+/// Lemke's method with lexicographic pivots, in long double and scaled to a unit diagonal.
 namespace reference
 {
   using Real = long double;
@@ -49,8 +46,6 @@ namespace reference
         if (i != k)
         {
           const Real f = at(i, k);
-          if (f == 0)
-            continue;
           for (std::size_t j = 0; j < n; ++j)
             if (j != k)
               at(i, j) += f * at(k, j);
@@ -67,38 +62,8 @@ namespace reference
     bool found = false;
   };
 
-  /// Depth first through all sets of @p rows, without dependent ones; keeps the one with the least
-  /// violation.
-  inline void enumerate(Tableau tableau, const std::vector<std::size_t> &rows, std::size_t depth,
-                        std::vector<char> &closed, Real &least, std::vector<char> &best)
-  {
-    if (depth == rows.size())
-    {
-      Real violation = 0;
-      for (const std::size_t i : rows)
-        violation = std::max(violation, -tableau.q[i]);
-      if (violation < least)
-      {
-        least = violation;
-        best = closed;
-      }
-      return;
-    }
-    const std::size_t k = rows[depth];
-    enumerate(tableau, rows, depth + 1, closed, least, best);
-    if (least == 0 || tableau.at(k, k) < 1e-15L)
-      return;
-    tableau.pivot(k);
-    closed[k] = 1;
-    enumerate(std::move(tableau), rows, depth + 1, closed, least, best);
-    closed[k] = 0;
-  }
-
-  /**
-   * Lemke's method for w = M z + q, w, z >= 0, w^T z = 0 with positive semidefinite M. Columns of
-   * the table: w (m), z (m), the artificial variable, q. Returns the z_i that are basic at the end,
-   * or false on a ray.
-   */
+  /// Lemke's method for w = M z + q, w, z >= 0, w^T z = 0 with positive semidefinite M. Columns of
+  /// the table: w, z, the artificial variable, q. Gives the z_i that are basic, or false on a ray.
   inline bool lemke(const Vector &M, const Vector &q, std::size_t m, std::vector<char> &basic_z)
   {
     const std::size_t width = 2 * m + 2;
@@ -138,7 +103,6 @@ namespace reference
           return less(j) < 0;
       return a < b;
     };
-
     basic_z.assign(m, 0);
     if (std::all_of(q.begin(), q.end(), [](Real value) { return value >= -1e-12L; }))
       return true;
@@ -177,7 +141,9 @@ namespace reference
   }
 
   /// Pivots on rows, largest first, as long as they are independent; returns those that are.
-  inline std::vector<std::size_t> pivot_all(Tableau &tableau, std::vector<std::size_t> rows)
+  /// @p smallest becomes the least of the pivots if it is larger.
+  inline std::vector<std::size_t> pivot_all(Tableau &tableau, std::vector<std::size_t> rows,
+                                            Real *smallest = nullptr)
   {
     std::vector<std::size_t> done;
     while (!rows.empty())
@@ -187,6 +153,8 @@ namespace reference
                                             { return tableau.at(a, a) < tableau.at(b, b); });
       if (tableau.at(*largest, *largest) < 1e-14L)
         break;
+      if (smallest)
+        *smallest = std::min(*smallest, tableau.at(*largest, *largest));
       tableau.pivot(*largest);
       done.push_back(*largest);
       rows.erase(largest);
@@ -194,99 +162,67 @@ namespace reference
     return done;
   }
 
+  /// F in units of the root of its diagonal, @p scale, or of 1 where that is 0. Without load.
+  inline Tableau scaled(const std::vector<double> &F, std::size_t n, Vector &scale)
+  {
+    Tableau result{n, Vector(n * n), Vector(n, 0)};
+    scale.assign(n, 1);
+    for (std::size_t i = 0; i < n; ++i)
+      if (F[i * n + i] > 0)
+        scale[i] = std::sqrt(Real(F[i * n + i]));
+    for (std::size_t e = 0; e < n * n; ++e)
+      result.T[e] = F[e] / (scale[e / n] * scale[e % n]);
+    return result;
+  }
+
   /// Solves a problem without null space; F is n x n.
   inline Solution solve(const taut::MixedComplementarityProblem &problem,
                         const std::vector<double> &F)
   {
     const std::size_t n = problem.size();
-    Vector scale(n, 1);
-    Tableau scaled{n, Vector(n * n, 0), Vector(n, 0)};
-    for (std::size_t i = 0; i < n; ++i)
-      if (F[i * n + i] > 0)
-        scale[i] = std::sqrt(Real(F[i * n + i]));
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      for (std::size_t j = 0; j < n; ++j)
-        scaled.at(i, j) = Real(F[i * n + j]) / (scale[i] * scale[j]);
-      scaled.q[i] = problem.free_gap[i] / scale[i];
-    }
-
+    Vector scale;
+    Tableau final = scaled(F, n, scale);
     std::vector<std::size_t> bilateral, unilateral;
     for (std::size_t i = 0; i < n; ++i)
+    {
+      final.q[i] = problem.free_gap[i] / scale[i];
       if (F[i * n + i] > 0)
         (problem.cones[i].may_open() ? unilateral : bilateral).push_back(i);
-    Tableau reduced = scaled;
+    }
+    Tableau reduced = final;
     std::vector<std::size_t> closed = pivot_all(reduced, bilateral);
 
     Solution solution;
-    if (unilateral.size() <= 12)
+    const std::size_t m = unilateral.size();
+    Vector M(m * m), q(m);
+    for (std::size_t i = 0; i < m; ++i)
     {
-      std::vector<char> current(n, 0), best(n, 0);
-      Real least = 1e30L;
-      enumerate(reduced, unilateral, 0, current, least, best);
-      solution.found = true;
-      for (const std::size_t i : unilateral)
-        if (best[i])
-          closed.push_back(i);
+      q[i] = reduced.q[unilateral[i]];
+      for (std::size_t j = 0; j < m; ++j)
+        M[i * m + j] = reduced.at(unilateral[i], unilateral[j]);
     }
-    else
-    {
-      const std::size_t m = unilateral.size();
-      Vector M(m * m), q(m);
-      for (std::size_t i = 0; i < m; ++i)
-      {
-        q[i] = reduced.q[unilateral[i]];
-        for (std::size_t j = 0; j < m; ++j)
-          M[i * m + j] = reduced.at(unilateral[i], unilateral[j]);
-      }
-      std::vector<char> basic;
-      solution.found = lemke(M, q, m, basic);
-      for (std::size_t i = 0; i < m; ++i)
-        if (basic[i])
-          closed.push_back(unilateral[i]);
-    }
-
-    Tableau final = scaled;
-    const auto pivoted = pivot_all(final, closed);
+    std::vector<char> basic;
+    solution.found = lemke(M, q, m, basic);
+    for (std::size_t i = 0; i < m; ++i)
+      if (basic[i])
+        closed.push_back(unilateral[i]);
     solution.N.assign(n, 0);
-    for (const std::size_t i : pivoted)
+    for (const std::size_t i : pivot_all(final, closed))
       solution.N[i] = final.q[i] / scale[i];
-    solution.D.assign(n, 0);
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      solution.D[i] = problem.free_gap[i];
-      for (std::size_t j = 0; j < n; ++j)
-        solution.D[i] += F[i * n + j] * solution.N[j];
-    }
+    solution.D.assign(problem.free_gap.begin(), problem.free_gap.end());
+    for (std::size_t e = 0; e < n * n; ++e)
+      solution.D[e / n] += F[e] * solution.N[e % n];
     return solution;
   }
 
-  /// Smallest pivot of F on the given rows, scaled to a unit diagonal: how unique their multipliers
-  /// are.
+  /// Smallest pivot of F on the given rows, with a unit diagonal: how unique their multipliers are.
   inline Real smallest_pivot(const std::vector<double> &F, std::size_t n,
-                             std::vector<std::size_t> rows)
+                             const std::vector<std::size_t> &rows)
   {
-    const std::size_t m = rows.size();
-    Tableau tableau{m, Vector(m * m, 0), Vector(m, 0)};
-    for (std::size_t i = 0; i < m; ++i)
-      for (std::size_t j = 0; j < m; ++j)
-        tableau.at(i, j) = F[rows[i] * n + rows[j]] / std::sqrt(Real(F[rows[i] * n + rows[i]]) *
-                                                                Real(F[rows[j] * n + rows[j]]));
+    Vector scale;
+    Tableau tableau = scaled(F, n, scale);
     Real smallest = 1;
-    std::vector<char> done(m, 0);
-    for (std::size_t step = 0; step < m; ++step)
-    {
-      std::size_t k = m;
-      for (std::size_t i = 0; i < m; ++i)
-        if (!done[i] && (k == m || tableau.at(i, i) > tableau.at(k, k)))
-          k = i;
-      smallest = std::min(smallest, tableau.at(k, k));
-      if (smallest < 1e-14L)
-        return 0;
-      tableau.pivot(k);
-      done[k] = 1;
-    }
-    return smallest;
+    return pivot_all(tableau, rows, &smallest).size() == rows.size() ? smallest : 0;
   }
 } // namespace reference
 

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <random>
 #include <vector>
 
@@ -17,34 +18,29 @@ namespace contact_meshes
   using taut::ContactSurface;
   using taut::Coordinates;
   using taut::SurfaceConstraint;
+  using Constraints = std::vector<SurfaceConstraint>;
   using Vectors = std::vector<Coordinates>;
+
+  constexpr double exact = 1e-13;
 
   inline Coordinates times(const double s, const Coordinates &a)
   {
     return {s * a.x, s * a.y, s * a.z};
   }
 
-  inline Coordinates vector_product(const Coordinates &a, const Coordinates &b)
-  {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-  }
-
   using Curve = std::function<Coordinates(double)>;
 
-  /// y = f(x) of x.
   inline Curve graph(const std::function<double(double)> &f)
   {
     return [f](const double x) { return Coordinates{x, f(x), 0.}; };
   }
 
-  /// A line at a height.
   inline Curve level(const double y)
   {
-    return graph([y](double) { return y; });
+    return [y](const double x) { return Coordinates{x, y, 0.}; };
   }
 
-  /// Positions of the ends of @p n edges from @p begin to @p end; none is shorter than a fifth of
-  /// their mean.
+  /// Ends of @p n edges from @p begin to @p end; none is shorter than a fifth of their mean.
   inline std::vector<double> random_grid(const unsigned int n, const double begin, const double end,
                                          std::mt19937 &random)
   {
@@ -68,8 +64,7 @@ namespace contact_meshes
     surface.degree = degree;
     const auto n = static_cast<unsigned int>(grid.size() - 1);
     std::vector<unsigned int> number(n * degree + 1);
-    for (unsigned int i = 0; i < number.size(); ++i)
-      number[i] = i;
+    std::iota(number.begin(), number.end(), 0u);
     std::shuffle(number.begin(), number.end(), random);
     surface.points.resize(number.size());
     for (unsigned int e = 0; e <= n; ++e)
@@ -91,7 +86,6 @@ namespace contact_meshes
     return surface;
   }
 
-  /// One surface of two that share no node.
   inline void append(ContactSurface &surface, const ContactSurface &more)
   {
     const auto n = static_cast<unsigned int>(surface.points.size());
@@ -105,20 +99,7 @@ namespace contact_meshes
     surface.outward.insert(surface.outward.end(), more.outward.begin(), more.outward.end());
   }
 
-  /// Forces of pressure p = N / area on the nodes of one side.
-  inline Vectors forces(const std::vector<SurfaceConstraint> &constraints,
-                        const std::vector<taut::NodeWeight> SurfaceConstraint::*side,
-                        const std::size_t n_nodes, const double p)
-  {
-    Vectors force(n_nodes);
-    for (const SurfaceConstraint &c : constraints)
-      for (const taut::NodeWeight &w : c.*side)
-        force[w.node] = add_scaled(force[w.node], p * c.area, w.weight);
-    return force;
-  }
-
-  /// Consistent loads of a uniform traction on the part from @p begin to @p end of a straight
-  /// surface, whose points are origin + s * direction.
+  /// Consistent loads of a traction from @p begin to @p end of a surface origin + s * direction.
   inline Vectors consistent_loads(const ContactSurface &surface, const Coordinates &origin,
                                   const Coordinates &direction, const double begin,
                                   const double end, const Coordinates &traction)
@@ -126,19 +107,18 @@ namespace contact_meshes
     Vectors load(surface.points.size());
     for (const std::vector<unsigned int> &face : surface.faces)
     {
-      double s[2];
-      for (unsigned int i = 0; i < 2; ++i)
-        s[i] = dot(surface.points[face[i]] - origin, direction);
-      const double low = std::max(begin, std::min(s[0], s[1])),
-                   high = std::min(end, std::max(s[0], s[1]));
+      const double first = dot(surface.points[face[0]] - origin, direction),
+                   second = dot(surface.points[face[1]] - origin, direction),
+                   low = std::max(begin, std::min(first, second)),
+                   high = std::min(end, std::max(first, second));
       if (high <= low)
         continue;
       // Simpson's rule.
-      const double at[3] = {low, .5 * (low + high), high}, weight[3] = {1. / 6., 2. / 3., 1. / 6.};
-      for (unsigned int q = 0; q < 3; ++q)
+      for (const double part : {0., .5, 1.})
       {
-        const double t = (at[q] - s[0]) / (s[1] - s[0]), w = weight[q] * (high - low);
-        const double linear[3] = {1. - t, t, 0.},
+        const double w = (part == .5 ? 2. / 3. : 1. / 6.) * (high - low),
+                     t = (low + part * (high - low) - first) / (second - first),
+                     linear[3] = {1. - t, t, 0.},
                      quadratic[3] = {(1. - t) * (1. - 2. * t), t * (2. * t - 1.),
                                      4. * t * (1. - t)};
         for (unsigned int i = 0; i < face.size(); ++i)
@@ -149,11 +129,27 @@ namespace contact_meshes
     return load;
   }
 
-  inline double largest_difference(const Vectors &a, const Vectors &b)
+  /// Forces of pressure p = N / area on the nodes of one side.
+  inline Vectors forces(const Constraints &constraints,
+                        const std::vector<taut::NodeWeight> SurfaceConstraint::*side,
+                        const std::size_t n_nodes, const double p)
   {
+    Vectors force(n_nodes);
+    for (const SurfaceConstraint &c : constraints)
+      for (const taut::NodeWeight &w : c.*side)
+        force[w.node] = add_scaled(force[w.node], p * c.area, w.weight);
+    return force;
+  }
+
+  /// Largest difference of these forces from what they have to be.
+  inline double error_of_forces(const Constraints &constraints,
+                                const std::vector<taut::NodeWeight> SurfaceConstraint::*side,
+                                const Vectors &expected, const double p = 1.)
+  {
+    const Vectors force = forces(constraints, side, expected.size(), p);
     double largest = 0.;
-    for (std::size_t i = 0; i < a.size(); ++i)
-      largest = std::max(largest, norm(a[i] - b[i]));
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      largest = std::max(largest, norm(force[i] - expected[i]));
     return largest;
   }
 
@@ -171,7 +167,6 @@ namespace contact_meshes
     return d;
   }
 
-  /// Duration of some work [s].
   inline double seconds_of(const std::function<void()> &work)
   {
     const auto start = std::chrono::steady_clock::now();
@@ -179,7 +174,7 @@ namespace contact_meshes
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 
-  inline double total_area(const std::vector<SurfaceConstraint> &constraints)
+  inline double total_area(const Constraints &constraints)
   {
     double sum = 0.;
     for (const SurfaceConstraint &c : constraints)

@@ -5,6 +5,7 @@
 
 #include "contact_meshes.h"
 
+#include <array>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -19,8 +20,7 @@ namespace contact_meshes
   inline const Form forms[] = {{1, false}, {2, false}, {1, true}, {2, true}};
 
   /// n by n squares, or twice as many triangles, of [0, 1]^2, mapped; nodes are shared where they
-  /// coincide after the map. @p shift moves inner lines of the grid at random, by a part of a
-  /// square.
+  /// coincide after the map. @p shift moves inner lines at random, by a part of a square.
   inline void add_patch(ContactSurface &surface, const unsigned int n, const bool triangles,
                         const std::function<Coordinates(double, double)> &map,
                         const Coordinates &outward, const double shift, std::mt19937 &random)
@@ -32,14 +32,12 @@ namespace contact_meshes
       for (unsigned int i = 0; i <= n; ++i)
       {
         const bool is_inner = i > 0 && i < n && j > 0 && j < n;
-        grid[j].push_back(
-            {(i + (is_inner ? part(random) : 0.)) / n, (j + (is_inner ? part(random) : 0.)) / n});
+        const double dx = is_inner ? part(random) : 0., dy = is_inner ? part(random) : 0.;
+        grid[j].push_back({(i + dx) / n, (j + dy) / n});
       }
     std::map<std::tuple<long, long, long>, unsigned int> known;
-    const auto key = [](const Coordinates &x) {
-      return std::make_tuple(std::lround(1e7 * x.x), std::lround(1e7 * x.y),
-                             std::lround(1e7 * x.z));
-    };
+    const auto key = [](const Coordinates &x)
+    { return std::tuple(std::lround(1e7 * x.x), std::lround(1e7 * x.y), std::lround(1e7 * x.z)); };
     for (unsigned int i = 0; i < surface.points.size(); ++i)
       known[key(surface.points[i])] = i;
     std::vector<unsigned int> number((m + 1) * (m + 1));
@@ -62,39 +60,30 @@ namespace contact_meshes
             y += .25 * grid[b][a].second;
           }
         const Coordinates place = map(x, y);
-        const auto found =
-            known.insert({key(place), static_cast<unsigned int>(surface.points.size())});
+        const auto found = known.insert({key(place), unsigned(surface.points.size())});
         if (found.second)
           surface.points.push_back(place);
         number[j * (m + 1) + i] = found.first->second;
       }
-    const auto node = [&number, m](const unsigned int i, const unsigned int j)
-    { return number[j * (m + 1) + i]; };
+    // Places of the nodes of a face in the square: corners of triangles, then middles.
+    using Places = std::vector<std::array<unsigned int, 2>>;
+    Places all;
+    for (unsigned int b = 0; b <= degree; ++b)
+      for (unsigned int a = 0; a <= degree; ++a)
+        all.push_back({a, b});
+    const std::vector<Places> faces =
+        !triangles    ? std::vector<Places>{all}
+        : degree == 1 ? std::vector<Places>{{{0, 0}, {1, 0}, {0, 1}}, {{1, 0}, {1, 1}, {0, 1}}}
+                      : std::vector<Places>{{{0, 0}, {2, 0}, {0, 2}, {1, 0}, {1, 1}, {0, 1}},
+                                            {{2, 0}, {2, 2}, {0, 2}, {2, 1}, {1, 2}, {1, 1}}};
     for (unsigned int j = 0; j < m; j += degree)
       for (unsigned int i = 0; i < m; i += degree)
-      {
-        const unsigned int d = degree;
-        if (!triangles)
+        for (const Places &places : faces)
         {
-          std::vector<unsigned int> face;
-          for (unsigned int b = 0; b <= d; ++b)
-            for (unsigned int a = 0; a <= d; ++a)
-              face.push_back(node(i + a, j + b));
-          surface.faces.push_back(face);
+          surface.faces.emplace_back();
+          for (const auto &[a, b] : places)
+            surface.faces.back().push_back(number[(j + b) * (m + 1) + i + a]);
         }
-        else if (d == 1)
-        {
-          surface.faces.push_back({node(i, j), node(i + 1, j), node(i, j + 1)});
-          surface.faces.push_back({node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)});
-        }
-        else
-        {
-          surface.faces.push_back({node(i, j), node(i + 2, j), node(i, j + 2), node(i + 1, j),
-                                   node(i + 1, j + 1), node(i, j + 1)});
-          surface.faces.push_back({node(i + 2, j), node(i + 2, j + 2), node(i, j + 2),
-                                   node(i + 2, j + 1), node(i + 1, j + 2), node(i + 1, j + 1)});
-        }
-      }
     surface.outward.resize(surface.faces.size(), outward);
   }
 
@@ -111,7 +100,7 @@ namespace contact_meshes
         surface, n, form.triangles,
         [&](const double x, const double y)
         { return add_scaled(add_scaled(origin, x, e1), y, e2); },
-        times(side, vector_product(e1, e2)), .2, random);
+        times(side, cross(e1, e2)), .2, random);
     return surface;
   }
 

@@ -11,9 +11,6 @@ namespace
 {
   using namespace contact_meshes;
   using taut::mortar_constraints;
-  using Constraints = std::vector<SurfaceConstraint>;
-
-  constexpr double exact = 1e-13;
 
   /// What node-to-segment constraints do with a uniform pressure: loads of the master off by more
   /// than a tenth of those of an edge, and linear gaps still exact.
@@ -23,17 +20,12 @@ namespace
     double worst = 0., rounding = 0.;
     for (unsigned int repeat = 0; repeat < 20; ++repeat)
     {
-      const ContactSurface slave =
-                               on_curve(random_grid(4, 0., 1., random), 1, level(0.), true, random),
-                           master = on_curve(random_grid(7, 0., 1., random), 1, level(0.), false,
-                                             random);
+      const auto surface = [&](const unsigned int n, const bool left)
+      { return on_curve(random_grid(n, 0., 1., random), 1, level(0.), left, random); };
+      const ContactSurface slave = surface(4, true), master = surface(7, false);
+      const Vectors loads = consistent_loads(master, {}, {1., 0., 0.}, 0., 1., {0., 1., 0.});
       const auto error = [&](const Constraints &constraints)
-      {
-        const Vectors load =
-            forces(constraints, &SurfaceConstraint::master, master.points.size(), 1.);
-        return 7. * largest_difference(
-                        load, consistent_loads(master, {}, {1., 0., 0.}, 0., 1., {0., 1., 0.}));
-      };
+      { return 7. * error_of_forces(constraints, &SurfaceConstraint::master, loads); };
       const Constraints nodes = node_to_segment_constraints(slave, master);
       EXPECT_EQ(nodes.size(), 5u);
       EXPECT_NEAR(total_area(nodes), 1., exact);
@@ -42,7 +34,6 @@ namespace
     }
     EXPECT_GT(worst, .1);
     EXPECT_LT(rounding, exact);
-    RecordProperty("node_to_segment", std::to_string(worst));
     std::cout << "node-to-segment: " << worst << ", mortar: " << rounding << "\n";
   }
 
@@ -91,7 +82,8 @@ namespace
           inside += dot(x, e1) >= .3;
         const Constraints constraints = node_to_face_constraints(slave, master);
         EXPECT_EQ(constraints.size(), inside);
-        const auto turn = [](const Coordinates &x) { return vector_product({.3, -.2, .5}, x); };
+        const auto turn = [](const Coordinates &x) { return cross({.3, -.2, .5}, x); };
+        const auto rest = [](const Coordinates &) { return Coordinates(); };
         const auto field = [&](const Coordinates &x)
         { return times(.1 + .2 * dot(x, e1) - .3 * dot(x, e2), up); };
         for (const SurfaceConstraint &c : constraints)
@@ -100,10 +92,7 @@ namespace
           EXPECT_GT(c.area, 0.);
           EXPECT_LT(norm(c.normal - up), exact);
           EXPECT_NEAR(gap(c, slave, master, turn, turn), .2, exact);
-          EXPECT_NEAR(
-              gap(
-                  c, slave, master, [](const Coordinates &) { return Coordinates(); }, field),
-              .2 + dot(field(c.point), up), exact);
+          EXPECT_NEAR(gap(c, slave, master, rest, field), .2 + dot(field(c.point), up), exact);
         }
       }
   }
@@ -127,7 +116,7 @@ namespace
         {
           EXPECT_NEAR(c.gap, .2, form.degree == 1 ? .05 : 2e-3);
           EXPECT_GT(dot(c.normal, c.point) * (is_socket ? -1. : 1.), .9);
-          const auto turn = [](const Coordinates &x) { return vector_product({.3, -.2, .5}, x); };
+          const auto turn = [](const Coordinates &x) { return cross({.3, -.2, .5}, x); };
           EXPECT_NEAR(gap(c, slave, master, turn, turn), c.gap, 1e-10);
         }
       }

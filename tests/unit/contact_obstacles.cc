@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: nodal constraints against rigid obstacles have exact distances, positive areas that add up
-// to those of the faces, and the consistent loads of a uniform pressure. Expected: closed forms,
-// and quadrature of the shape functions' own.
+// to those of the faces, and consistent loads of a pressure. Source: closed forms, quadrature.
 #include "common.h"
 #include "contact_meshes_space.h"
 
@@ -11,32 +10,27 @@
 namespace
 {
   using namespace contact_meshes;
-  using Constraints = std::vector<SurfaceConstraint>;
-
-  constexpr double exact = 1e-13;
 
   /// Shape functions of a face, from the powers that they are sums of.
   std::vector<double> shapes(const Form &form, const double x, const double y)
   {
-    const auto lines = [&form](const double t) -> std::vector<double>
+    using Values = std::vector<double>;
+    const double z = 1. - x - y;
+    if (form.triangles && form.degree == 1)
+      return {z, x, y};
+    if (form.triangles)
+      return {z * (2. * z - 1.), x * (2. * x - 1.), y * (2. * y - 1.),
+              4. * z * x,        4. * x * y,        4. * y * z};
+    const auto lines = [&form](const double t)
     {
-      if (form.degree == 1)
-        return {1. - t, t};
-      return {(1. - t) * (1. - 2. * t), 4. * t * (1. - t), t * (2. * t - 1.)};
+      return form.degree == 1
+                 ? Values{1. - t, t}
+                 : Values{(1. - t) * (1. - 2. * t), 4. * t * (1. - t), t * (2. * t - 1.)};
     };
-    std::vector<double> value;
-    if (!form.triangles)
-      for (const double b : lines(y))
-        for (const double a : lines(x))
-          value.push_back(a * b);
-    else
-    {
-      const double z = 1. - x - y;
-      if (form.degree == 1)
-        return {z, x, y};
-      value = {z * (2. * z - 1.), x * (2. * x - 1.), y * (2. * y - 1.),
-               4. * z * x,        4. * x * y,        4. * y * z};
-    }
+    Values value;
+    for (const double b : lines(y))
+      for (const double a : lines(x))
+        value.push_back(a * b);
     return value;
   }
 
@@ -54,19 +48,14 @@ namespace
           const double x = at[i], y = form.triangles ? (1. - at[i]) * at[j] : at[j],
                        w = weight[i] * weight[j] * (form.triangles ? 1. - at[i] : 1.);
           const std::vector<double> phi = shapes(form, x, y);
-          const unsigned int corner = form.degree;
           // Vertices of the face at (0, 0), (1, 0), (0, 1), (1, 1).
-          const unsigned int last = (corner + 1) * (corner + 1) - 1;
+          const unsigned int corner = form.degree, last = (corner + 1) * (corner + 1) - 1;
           const Coordinates a = surface.points[face[0]],
                             b = surface.points[face[form.triangles ? 1 : corner]],
                             c = surface.points[face[form.triangles ? 2 : last - corner]],
-                            d = form.triangles ? a : surface.points[face[last]];
-          const double bend = form.triangles ? 0. : 1.;
-          Coordinates tx = b - a, ty = c - a;
-          const Coordinates mixed = add_scaled(add_scaled(add_scaled(d, -1., b), -1., c), 1., a);
-          tx = add_scaled(tx, bend * y, mixed);
-          ty = add_scaled(ty, bend * x, mixed);
-          const double area = norm(vector_product(tx, ty));
+                            mixed = form.triangles ? Coordinates()
+                                                   : (surface.points[face[last]] - b) - (c - a);
+          const double area = norm(cross(add_scaled(b - a, y, mixed), add_scaled(c - a, x, mixed)));
           for (std::size_t k = 0; k < face.size(); ++k)
             load[face[k]] = add_scaled(load[face[k]], w * area * phi[k], direction);
         }
@@ -81,7 +70,7 @@ namespace
     {
       const ContactSurface surface = square(form, 4, random, {1., 2., 3.}, e1, e2, -1.);
       // The plane is 0.1 away where the body looks.
-      const Coordinates outward = vector_product(e2, e1);
+      const Coordinates outward = cross(e2, e1);
       const taut::PlaneObstacle plane(add_scaled({1., 2., 3.}, .1, outward), times(-1., outward));
       const Constraints constraints = obstacle_constraints(surface, plane);
       ASSERT_EQ(constraints.size(), surface.points.size());
@@ -95,10 +84,8 @@ namespace
             gap(c, surface, surface, [&](const Coordinates &) { return times(.3, outward); }, {}),
             -.2, exact);
       }
-      EXPECT_LT(largest_difference(
-                    forces(constraints, &SurfaceConstraint::slave, surface.points.size(), 1.),
-                    plane_loads(surface, form, out)),
-                exact)
+      const Vectors loads = plane_loads(surface, form, out);
+      EXPECT_LT(error_of_forces(constraints, &SurfaceConstraint::slave, loads), exact)
           << form.degree << form.triangles;
     }
   }
@@ -115,16 +102,13 @@ namespace
     std::vector<unsigned int> number;
     for (std::size_t i = 0; i < more.points.size(); ++i)
     {
-      std::size_t k = 0;
+      unsigned int k = 0;
       while (k < surface.points.size() && norm(surface.points[k] - more.points[i]) > 1e-9)
         ++k;
-      if (k == surface.points.size())
-      {
-        surface.points.push_back(more.points[i]);
-        expected.push_back({});
-      }
+      surface.points.resize(std::max<std::size_t>(surface.points.size(), k + 1), more.points[i]);
+      expected.resize(surface.points.size());
       expected[k] = add_scaled(expected[k], 1., second[i]);
-      number.push_back(static_cast<unsigned int>(k));
+      number.push_back(k);
     }
     EXPECT_LT(surface.points.size(), first.size() + second.size());
     for (std::vector<unsigned int> face : more.faces)
@@ -137,10 +121,7 @@ namespace
     const Constraints constraints =
         obstacle_constraints(surface, taut::PlaneObstacle({}, {0., 0., 2.}));
     EXPECT_NEAR(total_area(constraints), 2., exact);
-    EXPECT_LT(
-        largest_difference(
-            forces(constraints, &SurfaceConstraint::slave, surface.points.size(), 1.), expected),
-        exact);
+    EXPECT_LT(error_of_forces(constraints, &SurfaceConstraint::slave, expected), exact);
     for (const SurfaceConstraint &c : constraints)
       EXPECT_GT(c.area, 0.);
   }
@@ -167,13 +148,12 @@ namespace
       if (form.triangles && form.degree == 1)
       {
         for (const auto &f : surface.faces)
-          faces += .5 * norm(vector_product(surface.points[f[1]] - surface.points[f[0]],
-                                            surface.points[f[2]] - surface.points[f[0]]));
+          faces += .5 * norm(cross(surface.points[f[1]] - surface.points[f[0]],
+                                   surface.points[f[2]] - surface.points[f[0]]));
         EXPECT_NEAR(total_area(constraints), faces, 1e-12);
       }
       EXPECT_NEAR(total_area(constraints) / (16. * pi), 1., form.degree == 1 ? .05 : 1e-3);
-      // A ball that touches from below: only the lower half faces the floor, and with all of its
-      // nodes moved down to it all gaps are closed.
+      // A ball on a floor: its lower half faces it, and moved down to it all gaps are closed.
       const Constraints floor =
           obstacle_constraints(surface, taut::PlaneObstacle({0., 0., -2.}, {0., 0., 1.}));
       for (const SurfaceConstraint &c : floor)
@@ -208,8 +188,7 @@ namespace
     EXPECT_NEAR(ball.distance(point).value, -.5, exact);
   }
 
-  /// Heights whose distances are known: an inclined plane, a circle and a sphere, by differences
-  /// and by derivatives, upwards and downwards.
+  /// Heights whose distances are known: inclined plane, circle, sphere; differences, derivatives.
   TEST(Obstacle, DistancesOfHeights)
   {
     const taut::HeightObstacle incline(
@@ -217,7 +196,6 @@ namespace
     const Coordinates n = times(1. / std::sqrt(1.25), {-.3, 1., .4});
     EXPECT_NEAR(incline.distance(add_scaled({0., 1., 0.}, .7, n)).value, .7, 1e-10);
     EXPECT_LT(norm(incline.distance({5., 6., 7.}).normal - n), 1e-9);
-
     const auto arc = [](const Coordinates &x) { return std::sqrt(4. - x.x * x.x) - 2.; };
     const auto slope = [](const Coordinates &x) {
       return Coordinates{-x.x / std::sqrt(4. - x.x * x.x), 0., 0.};
@@ -266,10 +244,8 @@ namespace
       const Vectors expected = consistent_loads(bottom, {}, {1., 0., 0.}, 0., 1., {0., .5, 0.});
       for (const SurfaceConstraint &c : constraints)
         for (std::size_t i = 0; i < expected.size(); ++i)
-          if (norm(bottom.points[i] - c.point) < 1e-12)
-          {
-            EXPECT_NEAR(c.area, expected[i].y, exact);
-          }
+          EXPECT_TRUE(norm(bottom.points[i] - c.point) >= 1e-12 ||
+                      std::fabs(c.area - expected[i].y) < exact);
     }
   }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: what a program or a scene of a plugin says that makes no sense is one UserError that names
-// the body, the constraint or the item, and what was there before is as it was. Source: the tables
-// below; what is not wrong in them runs.
+// the body, the constraint or the item, and leaves no trace. Source: the tables below.
 #include "common.h"
 #include "fuzz/door_bodies.h"
 
@@ -13,8 +12,7 @@
 
 namespace
 {
-  using verification::error_of;
-  using verification::has;
+  using namespace verification;
   using namespace door;
   using taut::Constraint;
   using taut::Scene;
@@ -26,6 +24,7 @@ namespace
     EXPECT_FALSE(has(message, "\n")) << message;
   }
 
+  using Numbers = std::vector<double>;
   const taut::Coordinates up = {0., 1., 0.};
 
   /// A mass that hangs on a spring, u = -weight / stiffness = -0.0981 m.
@@ -36,10 +35,8 @@ namespace
     taut::Displacement height;
 
     explicit Hanging(const Defect defect = Defect::none)
-        : body(system.add("hanging",
-                          [&] {
-                            return chain_of("hanging", {1., 1.}, {200., 100.}, defect);
-                          }))
+        : body(system.add("hanging", std::bind(chain_of, "hanging", Numbers{1., 1.},
+                                               Numbers{200., 100.}, defect)))
     {
       if (static_cast<int>(defect) < first_of_places)
         height = system.displacement(body, {1.}, up);
@@ -72,6 +69,82 @@ namespace
     const taut::Displacement form;
     const std::function<void(taut::Displacement &, double &)> spoil;
   };
+
+  /// Says that it is not linear and has some of the functions that this asks for.
+  class PartOfBody : public Chain
+  {
+  public:
+    explicit PartOfBody(const int n_functions)
+        : Chain("partial", {1.}, {100.}), n_functions(n_functions)
+    {
+    }
+    bool is_linear() const override { return false; }
+    void internal_force(const std::vector<double> &U, const std::vector<double> &V,
+                        std::vector<double> &f) const override
+    {
+      if (n_functions < 1)
+        return Chain::internal_force(U, V, f);
+      f = {100. * U[0] + 1e3 * U[0] * U[0] * U[0]};
+    }
+    std::unique_ptr<taut::SymmetricMatrix> tangent(const std::vector<double> &U, const double rate,
+                                                   const bool definite) const override
+    {
+      if (n_functions < 2)
+        return Chain::tangent(U, rate, definite);
+      auto result = std::make_unique<taut::CoordinateMatrix>(1);
+      result->add(0, 0, 100. + 3e3 * U[0] * U[0]);
+      return result;
+    }
+    void mean_internal_force(const std::vector<double> &U0, const std::vector<double> &U1,
+                             const double step, std::vector<double> &f) const override
+    {
+      if (n_functions < 3)
+        return Chain::mean_internal_force(U0, U1, step, f);
+      const double a = U0[0], b = U1[0];
+      f = {50. * (a + b) + 250. * (a + b) * (a * a + b * b)};
+    }
+    double strain_energy(const std::vector<double> &U) const override
+    {
+      if (n_functions < 4)
+        return Chain::strain_energy(U);
+      return 50. * U[0] * U[0] + 250. * U[0] * U[0] * U[0] * U[0];
+    }
+
+  private:
+    const int n_functions;
+  };
+
+  /// A wire with a support, a mass on it, a mass on a spring, a stop, a load and a probe.
+  Scene good_scene()
+  {
+    using Kind = taut::Attachment::Kind;
+    Scene scene;
+    taut::Wire wire;
+    wire.name = "wire";
+    wire.b = {10., 0., 0.};
+    wire.mass_per_length = 1.;
+    wire.transverse = taut::TransverseKind::string;
+    wire.tension = 1e3;
+    scene.wires = {wire};
+    const auto add = [](auto &items, const std::string &name) -> auto &
+    {
+      items.emplace_back().name = name;
+      return items.back();
+    };
+    add(scene.supports, "ends").positions = {0., 10.};
+    add(scene.point_masses, "clip").positions = {5.};
+    add(scene.masses, "block").mass = 2.;
+    taut::Spring &spring = add(scene.springs, "spring");
+    spring.to = 0;
+    spring.stiffness = 100.;
+    taut::Link &stop = add(scene.links, "stop");
+    stop.kind = taut::LinkKind::stop;
+    stop.from = {Kind::mass, 0};
+    stop.to = {Kind::wire, 0, 3.};
+    add(scene.loads, "push").target = {Kind::mass, 0};
+    add(scene.probes, "probe").point = {Kind::wire, 0, 5.};
+    return scene;
+  }
 } // namespace
 
 TEST(Door, every_defect_of_a_body_is_named)
@@ -157,53 +230,6 @@ TEST(Door, a_place_that_moves_is_watched)
   }
 }
 
-namespace
-{
-  /// Says that it is not linear and has some of the functions that this asks for.
-  class PartOfBody : public Chain
-  {
-  public:
-    explicit PartOfBody(const int n_functions)
-        : Chain("partial", {1.}, {100.}), n_functions(n_functions)
-    {
-    }
-    bool is_linear() const override { return false; }
-    void internal_force(const std::vector<double> &U, const std::vector<double> &V,
-                        std::vector<double> &f) const override
-    {
-      if (n_functions < 1)
-        return Chain::internal_force(U, V, f);
-      f = {100. * U[0] + 1e3 * U[0] * U[0] * U[0]};
-    }
-    std::unique_ptr<taut::SymmetricMatrix> tangent(const std::vector<double> &U, const double rate,
-                                                   const bool definite) const override
-    {
-      if (n_functions < 2)
-        return Chain::tangent(U, rate, definite);
-      auto result = std::make_unique<taut::CoordinateMatrix>(1);
-      result->add(0, 0, 100. + 3e3 * U[0] * U[0]);
-      return result;
-    }
-    void mean_internal_force(const std::vector<double> &U0, const std::vector<double> &U1,
-                             const double step, std::vector<double> &f) const override
-    {
-      if (n_functions < 3)
-        return Chain::mean_internal_force(U0, U1, step, f);
-      const double a = U0[0], b = U1[0];
-      f = {50. * (a + b) + 250. * (a + b) * (a * a + b * b)};
-    }
-    double strain_energy(const std::vector<double> &U) const override
-    {
-      if (n_functions < 4)
-        return Chain::strain_energy(U);
-      return 50. * U[0] * U[0] + 250. * U[0] * U[0] * U[0] * U[0];
-    }
-
-  private:
-    const int n_functions;
-  };
-} // namespace
-
 TEST(Door, a_body_that_is_not_linear_has_its_own_functions)
 {
   for (int n = 0; n <= 4; ++n)
@@ -220,10 +246,7 @@ TEST(Door, a_body_that_is_not_linear_has_its_own_functions)
           for (int k = 0; k < 3; ++k)
             stepper.advance();
           const double u = stepper.displacement(body)[0];
-          if (n == 4)
-          {
-            EXPECT_NEAR(100. * u + 1e3 * u * u * u, -gravity, 1e-9);
-          }
+          EXPECT_NEAR(100. * u + 1e3 * u * u * u, -gravity, n == 4 ? 1e-9 : INFINITY);
         });
     const std::string expected =
         n == 4 ? "" : "body 'partial' says that it is not linear, and does not override ";
@@ -231,48 +254,6 @@ TEST(Door, a_body_that_is_not_linear_has_its_own_functions)
     EXPECT_EQ(message.empty(), n == 4) << message;
   }
 }
-
-namespace
-{
-  /// A wire with a support, a mass on it, a mass on a spring, a stop, a load and a probe.
-  Scene good_scene()
-  {
-    using Kind = taut::Attachment::Kind;
-    Scene scene;
-    taut::Wire wire;
-    wire.name = "wire";
-    wire.b = {10., 0., 0.};
-    wire.mass_per_length = 1.;
-    wire.transverse = taut::TransverseKind::string;
-    wire.tension = 1e3;
-    scene.wires = {wire};
-    scene.supports.resize(1);
-    scene.supports[0].name = "ends";
-    scene.supports[0].positions = {0., 10.};
-    scene.point_masses.resize(1);
-    scene.point_masses[0].name = "clip";
-    scene.point_masses[0].positions = {5.};
-    scene.masses.resize(1);
-    scene.masses[0].name = "block";
-    scene.masses[0].mass = 2.;
-    scene.springs.resize(1);
-    scene.springs[0].name = "spring";
-    scene.springs[0].to = 0;
-    scene.springs[0].stiffness = 100.;
-    scene.links.resize(1);
-    scene.links[0].name = "stop";
-    scene.links[0].kind = taut::LinkKind::stop;
-    scene.links[0].from = {Kind::mass, 0};
-    scene.links[0].to = {Kind::wire, 0, 3.};
-    scene.loads.resize(1);
-    scene.loads[0].name = "push";
-    scene.loads[0].target = {Kind::mass, 0};
-    scene.probes.resize(1);
-    scene.probes[0].name = "probe";
-    scene.probes[0].point = {Kind::wire, 0, 5.};
-    return scene;
-  }
-} // namespace
 
 TEST(Door, values_of_a_scene_of_a_generator)
 {
@@ -307,7 +288,7 @@ TEST(Door, values_of_a_scene_of_a_generator)
       {"probe 'probe'", [](Scene &s) { s.probes[0].point.index = 1; }},
       {"probe 'probe'", [](Scene &s) { s.probes[0].direction.x = not_a_number; }},
       {"body 'ghost'", [](Scene &s) {
-         s.bodies.push_back({"ghost", "", "none", nullptr});
+         s.bodies = {{"ghost", "", "none", nullptr}};
        }}};
   taut::check(good_scene(), 1.);
   for (const auto &[name, spoil] : list)

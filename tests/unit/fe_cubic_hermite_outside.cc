@@ -26,9 +26,7 @@
 #include <deal.II/numerics/solution_transfer.h>
 #include <deal.II/numerics/vector_tools.h>
 
-#include <cstdlib>
 #include <iostream>
-#include <map>
 #include <type_traits>
 
 namespace
@@ -36,8 +34,7 @@ namespace
   using namespace dealii;
   using taut::FE_CubicHermite;
 
-  /// Cells of length 0.3, 0.5 and 1.2 along the x axis: none of length 1, that of the reference
-  /// cell.
+  /// Cells of length 0.3, 0.5 and 1.2 along the x axis: none of length 1, as the reference cell.
   template <int spacedim>
   void make_wire(Triangulation<1, spacedim> &triangulation)
   {
@@ -144,7 +141,6 @@ namespace
     expect_refused("from Q3", [&] { FETools::get_interpolation_matrix(q, this->fe, small); });
     expect_refused("pair to Q3", [&] { FETools::get_interpolation_matrix(two, two_q, large); });
     expect_refused("pair from Q3", [&] { FETools::get_interpolation_matrix(two_q, two, large); });
-
     DoFHandler<1, spacedim> dofs_q(this->triangulation);
     dofs_q.distribute_dofs(q);
     Vector<double> w_q(dofs_q.n_dofs());
@@ -238,21 +234,16 @@ namespace
         for (unsigned int i = 0; i < 8; ++i)
         {
           const auto [component, j] = system.system_to_component_index(i);
-          if (component == 1)
-          {
-            EXPECT_EQ(values(indices[i]), 0.);
-          }
-          else if (j < 2)
-          {
-            EXPECT_NEAR(values(indices[i]), cubic.value(cell->vertex(j)), 1e-14);
-          }
+          if (component == 0 && j >= 2)
+            continue;
+          const double expected = component == 1 ? 0. : cubic.value(cell->vertex(j));
+          EXPECT_NEAR(values(indices[i]), expected, component == 1 ? 0. : 1e-14);
         }
     }
   }
 
   // Claim: for lines on an axis the matrix-free projection of deal.II would take the shape
-  // functions of the reference cell, and is refused; for lines in space the projection is the
-  // cubic.
+  // functions of the reference cell, and is refused; for lines in space it is the cubic.
   TYPED_TEST(FECubicHermiteOutside, projection_is_right_or_refused)
   {
     constexpr int spacedim = TypeParam::value;
@@ -305,55 +296,45 @@ namespace
     std::map<types::global_dof_index, double> values;
     AffineConstraints<double> constraints;
     using VectorTools::interpolate_boundary_values;
-    const auto check = [&](auto &target)
+    const auto refused = [&](const std::string &what, const auto &...arguments)
     {
-      expect_refused("one", [&] { interpolate_boundary_values(dofs, 0, cubic, target); });
-      expect_refused("all", [&] { interpolate_boundary_values(dofs, functions, target); });
-      expect_refused("mapping, one",
-                     [&] { interpolate_boundary_values(mapping, dofs, 0, cubic, target); });
-      expect_refused("mapping, all",
-                     [&] { interpolate_boundary_values(mapping, dofs, functions, target); });
-      expect_refused("mappings, one",
-                     [&] { interpolate_boundary_values(mappings, dofs, 0, cubic, target); });
-      expect_refused("mappings, all",
-                     [&] { interpolate_boundary_values(mappings, dofs, functions, target); });
+      expect_refused(what, [&] { interpolate_boundary_values(arguments..., values); });
+      expect_refused(what, [&] { interpolate_boundary_values(arguments..., constraints); });
     };
-    check(values);
-    check(constraints);
+    refused("one", dofs, 0, cubic);
+    refused("all", dofs, functions);
+    refused("mapping, one", mapping, dofs, 0, cubic);
+    refused("mapping, all", mapping, dofs, functions);
+    refused("mappings, one", mappings, dofs, 0, cubic);
+    refused("mappings, all", mappings, dofs, functions);
     EXPECT_TRUE(values.empty());
     EXPECT_EQ(constraints.n_constraints(), 0u);
   }
 
-  // Claim: FE_Q has its boundary values as ever, alone and beside the Hermite element if the mask
-  // names FE_Q only.
+  // Claim: FE_Q has its boundary values, alone and in a system if the mask names FE_Q only.
   TYPED_TEST(FECubicHermiteOutside, boundary_values_of_other_elements_stay)
   {
     constexpr int spacedim = TypeParam::value;
     DoFHandler<1, spacedim> dofs(this->triangulation);
     std::map<types::global_dof_index, double> values;
     const double end = Cubic<spacedim>().value(this->triangulation.last_active()->vertex(1));
-    for (const bool in_system : {false, true})
+    const auto expect_end = [&](const Cubic<spacedim> &cubic, const ComponentMask &mask)
     {
       values.clear();
-      if (in_system)
-        dofs.distribute_dofs(FESystem<1, spacedim>(FE_Q<1, spacedim>(2), 1, this->fe, 1));
-      else
-        dofs.distribute_dofs(FE_Q<1, spacedim>(2));
-      if (in_system)
-        VectorTools::interpolate_boundary_values(dofs, 1, Cubic<spacedim>(2), values,
-                                                 ComponentMask(std::vector<bool>{true, false}));
-      else
-        VectorTools::interpolate_boundary_values(dofs, 1, Cubic<spacedim>(), values);
+      VectorTools::interpolate_boundary_values(dofs, 1, cubic, values, mask);
       ASSERT_EQ(values.size(), 1u);
       EXPECT_NEAR(values.begin()->second, end, 1e-14);
-    }
+    };
+    dofs.distribute_dofs(FE_Q<1, spacedim>(2));
+    expect_end(Cubic<spacedim>(), ComponentMask());
+    dofs.distribute_dofs(FESystem<1, spacedim>(FE_Q<1, spacedim>(2), 1, this->fe, 1));
+    expect_end(Cubic<spacedim>(2), ComponentMask(std::vector<bool>{true, false}));
     expect_refused(
         "mask with the Hermite element",
         [&] { VectorTools::interpolate_boundary_values(dofs, 1, Cubic<spacedim>(2), values); });
   }
 
-  /// DoFs that the cells of a wire share in hp mode at its two inner vertices, with two elements in
-  /// turn; then evaluates all of them.
+  /// DoFs that cells share in hp mode at inner vertices, with two elements in turn; evaluates all.
   template <int spacedim>
   unsigned int n_shared(const Triangulation<1, spacedim> &triangulation,
                         const hp::FECollection<1, spacedim> &elements)
@@ -372,8 +353,7 @@ namespace
     return n_cell_dofs - dofs.n_dofs();
   }
 
-  // Claim: in hp mode two Hermite elements share value and slope, the element shares nothing with a
-  // discontinuous one.
+  // Claim: in hp mode two Hermite elements share value and slope; with others it shares none.
   TYPED_TEST(FECubicHermiteOutside, neighbours_in_hp_mode_share_value_and_slope)
   {
     constexpr int spacedim = TypeParam::value;
@@ -386,8 +366,7 @@ namespace
 #endif
   }
 
-  // Claim: beside elements that would share a value it is refused, whatever the order and in
-  // systems, too.
+  // Claim: beside elements that would share a value it is refused, in any order, in systems too.
   TYPED_TEST(FECubicHermiteOutside, continuous_neighbours_in_hp_mode_are_refused)
   {
     constexpr int spacedim = TypeParam::value;

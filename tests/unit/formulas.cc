@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Claim: a formula has the values that deal.II's FunctionParser gives, to the last bit, on any
-// thread. Expected values: deal.II's parser itself.
-#include <taut/base/exceptions.h>
+// Claim: a formula has the values that deal.II's FunctionParser gives, to the last bit, in threads.
+#include "common.h"
+
 #include <taut/scene/expression.h>
 
 #include <deal.II/base/function_parser.h>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <string>
 #include <thread>
-#include <vector>
 
 namespace
 {
@@ -126,28 +121,16 @@ namespace
     EXPECT_EQ(n_wrong, std::vector<int>(n_threads, 0));
   }
 
-  std::string message(const std::string &text, const Expression::Variables variables,
-                      const double s = 0.)
+  std::string message(const std::string &text, const Expression::Variables variables)
   {
-    try
-    {
-      Expression(text, "Load/Magnitude", variables)(s, 2.);
-    }
-    catch (const taut::UserError &error)
-    {
-      return error.what();
-    }
-    return "no error";
+    return verification::error_of([&] { Expression(text, "Load/Magnitude", variables)(0., 2.); });
   }
 
   TEST(Formulas, errors_name_what_is_wrong)
   {
     using V = Expression::Variables;
     const auto has = [](const std::string &text, const std::string &part)
-    {
-      return text.find("Load/Magnitude") != std::string::npos &&
-             text.find(part) != std::string::npos;
-    };
+    { return verification::has(text, "Load/Magnitude") && verification::has(text, part); };
     EXPECT_PRED2(has, message("10*sine(t)", V::time), "Unexpected token");
     EXPECT_PRED2(has, message("10*(", V::time), "cannot evaluate '10*('");
     EXPECT_PRED2(has, message("1;2", V::both), "it is not one formula");

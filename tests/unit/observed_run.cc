@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: a program with a System gets tables, statistics, fields and checkpoints of adaptive steps
-// by adding observers, and goes on from a checkpoint with the same bits. Source: free fall; the run
-// that nobody ended.
+// by adding observers, and goes on from a checkpoint with the same bits. Source: free fall.
 #include "cable/slack_cable.h"
+#include "common.h"
 #include "fuzz/door_bodies.h"
 
 #include <taut/output/energy.h>
@@ -11,17 +11,9 @@
 #include <taut/output/statistics.h>
 #include <taut/simulation/observed_run.h>
 
-#include <gtest/gtest.h>
-
 #include <unistd.h>
 
-#include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <map>
-#include <sstream>
-#include <string>
 
 namespace
 {
@@ -31,10 +23,7 @@ namespace
   {
     std::map<std::string, std::string> files;
     for (const auto &entry : std::filesystem::directory_iterator(folder))
-    {
-      std::ifstream in(entry.path(), std::ios::binary);
-      files[entry.path().filename()] = {std::istreambuf_iterator<char>(in), {}};
-    }
+      files[entry.path().filename()] = verification::file_text(entry.path());
     return files;
   }
 
@@ -49,12 +38,7 @@ namespace
   Result run(const std::string &folder, const double until, const bool goes_on)
   {
     taut::System system;
-    const auto mass = system.add("mass",
-                                 []
-                                 {
-                                   return std::make_unique<door::Chain>(
-                                       "mass", std::vector<double>{2.}, std::vector<double>{0.});
-                                 });
+    const auto mass = system.add("mass", [] { return door::chain_of("mass", {2.}, {0.}); });
     system.add("cable", [] { return std::make_unique<taut::Cable>(verification::slack_cable()); });
     const taut::Displacement up = system.displacement(mass, {}, {0., 1., 0.});
     system.add(taut::Constraint::unilateral("stop", up).gap(height));
@@ -62,7 +46,6 @@ namespace
     options.start = taut::Start::undeformed;
     options.steps.control = "adaptive";
     taut::Stepper stepper(system, options);
-
     std::ostringstream log;
     taut::Checkpoints checkpoints(folder, .05, log);
     if (goes_on)
@@ -105,13 +88,11 @@ TEST(ObservedRun, goes_on_from_a_checkpoint_with_the_same_bits)
   EXPECT_EQ(whole.state.U, parts.state.U);
   EXPECT_EQ(whole.state.V, parts.state.V);
   EXPECT_EQ(whole.impulse, parts.impulse);
-
   // The impact takes the momentum, and the mass lies until the end.
   const double fall = std::sqrt(2. * height / door::gravity);
   const double exact = 2. * door::gravity * fall + 2. * door::gravity * (whole.state.time - fall);
   EXPECT_NEAR(whole.impulse, exact, 1e-2 * exact);
   EXPECT_EQ(whole.uplift, 0.);
-
   const auto files = files_in(folder + "/whole"), others = files_in(folder + "/parts");
   for (const char *name : {"links.csv", "probes.csv", "certificate.csv", "energy.csv",
                            "body_cable.pvd", "body_cable_00000.vtu", "checkpoint"})

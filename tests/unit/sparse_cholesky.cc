@@ -18,8 +18,7 @@ namespace
     taut::SymmetricEntries entries;
   };
 
-  /// K + inertia * (mass at the nodes) of a square of bilinear elements in plane strain with unit
-  /// edges and Lame constants, @p width by @p length, free.
+  /// K + inertia * (mass at the nodes) of @p width by @p length bilinear elements in plane strain.
   Matrix elastic(const unsigned int width, const unsigned int length, const double inertia)
   {
     double element[8][8] = {};
@@ -56,8 +55,7 @@ namespace
     std::mt19937 random(5);
     std::uniform_real_distribution<double> value(-1., 1.);
     std::vector<double> x(n);
-    for (double &v : x)
-      v = value(random);
+    std::generate(x.begin(), x.end(), [&] { return value(random); });
     return x;
   }
 } // namespace
@@ -123,8 +121,8 @@ TEST(SparseCholesky, halves_of_solutions_multiply_to_the_whole)
         for (std::size_t j = 0; j < forms.size(); ++j)
         {
           double product = 0.;
-          for (std::size_t e = 0; e < halves.index.size(); ++e)
-            product += halves.value[lanes * e + i] * halves.value[lanes * e + j];
+          for (std::size_t e = 0; e < halves.value.size(); e += lanes)
+            product += halves.value[e + i] * halves.value[e + j];
           EXPECT_NEAR(product, forms[j].dot(x), 1e-13);
         }
       }

@@ -53,8 +53,7 @@ namespace
     std::vector<double> vector()
     {
       std::vector<double> x(n);
-      for (double &value : x)
-        value = number();
+      std::generate(x.begin(), x.end(), [this] { return number(); });
       return x;
     }
   };
@@ -64,7 +63,6 @@ namespace
     EXPECT_LE(verification::largest_difference(a, b), 1e-12);
   }
 
-  /// The same products of both with some vector.
   void expect_same_products(Pair &F)
   {
     const std::vector<double> x = F.vector();
@@ -121,8 +119,7 @@ TEST(SparseOperator, takes_other_diagonals_inside_and_in_the_border)
 {
   Pair F;
   std::vector<std::size_t> all(n);
-  for (std::size_t i = 0; i < n; ++i)
-    all[i] = i;
+  std::iota(all.begin(), all.end(), 0);
   std::vector<double> y;
   for (const std::size_t i : {std::size_t(3), n - n_border, n - 1})
   {
@@ -172,9 +169,7 @@ TEST(SparseOperator, keeps_what_is_left_under_closed_rows_like_the_dense_one)
     F.dense.condensed_diagonal(wanted, set, 1e-9, y);
     F.dense.ComplementarityOperator::condensed_diagonal(wanted, set, 1e-9, z);
     EXPECT_EQ(y, z);
-    ASSERT_EQ(x.size(), n);
-    for (std::size_t i = 0; i < n; ++i)
-      EXPECT_NEAR(x[i], y[i], 1e-12) << i;
+    expect_near(y, x);
   }
 }
 
