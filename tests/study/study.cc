@@ -13,7 +13,6 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <iterator>
 #include <limits>
 
 namespace

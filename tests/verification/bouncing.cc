@@ -66,7 +66,7 @@ namespace
       for (std::size_t i = 0; i < n; ++i)
       {
         const Contact &c = contacts[i];
-        error = std::max(error, std::fabs(c.impulse / (c.end - c.begin) / 400. - 1.));
+        raise(error, c.impulse / (c.end - c.begin) / 400. - 1.);
       }
       return error;
     }

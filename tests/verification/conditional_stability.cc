@@ -38,8 +38,7 @@ Time/Newmark: Beta = 0.1
     all.insert(all.end(), settings.begin(), settings.end());
     double largest = 0.;
     run_scene(two_masses, all,
-              [&](const taut::StepView &view)
-              { largest = std::max(largest, std::fabs(view.state.U[0][0])); });
+              [&](const taut::StepView &view) { raise(largest, view.state.U[0][0]); });
     return largest;
   }
 } // namespace
@@ -67,7 +66,7 @@ Time/Newmark: Beta = 0.08333333333333333
                                  (1. - (omega * omega * std::cos(Omega * t) -
                                         Omega * Omega * std::cos(omega * t)) /
                                            (omega * omega - Omega * Omega));
-                error = std::max(error, std::fabs(view.state.U[0][0] - u));
+                raise(error, view.state.U[0][0] - u);
               });
     errors.push_back(error / (P / k));
   }

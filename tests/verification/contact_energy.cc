@@ -195,7 +195,7 @@ namespace
         std::vector<double> y = matrix_times(structure[k].stiffness(), x);
         double size = 0.;
         for (std::size_t i = 0; i < n; ++i)
-          size = std::max(size, std::fabs(y[i] /= diagonal[i]));
+          raise(size, y[i] /= diagonal[i]);
         if (size == 0.)
           break;
         for (double &value : y)
@@ -239,7 +239,7 @@ namespace
       const std::vector<double> rates = constraints.motions(stepper.state().V);
       for (std::size_t r = 0; r < constraints.size(); ++r)
         if (constraints[r].cone.is_free())
-          gain.projected = std::max(gain.projected, std::fabs(rates[r]));
+          raise(gain.projected, rates[r]);
     }
     return gain;
   }
@@ -295,9 +295,8 @@ TEST(ContactEnergy, no_rigid_problem_gains_with_gaps_then_velocities)
 TEST(ContactEnergy, many_rigid_problems_gain_with_bdf2)
 {
   const Result result = run_many(1000, 1e-6, [](unsigned int) { return bdf2; });
-  figure("1000 rigid problems, BDF2: problems that gain energy", result.n_gained);
   figure("1000 rigid problems, BDF2: largest gain in a step over the first energy", result.largest);
-  EXPECT_GT(result.n_gained, 300);
+  EXPECT_GT(figure("1000 rigid problems, BDF2: problems that gain energy", result.n_gained), 300);
   EXPECT_GT(result.largest, .05);
 }
 

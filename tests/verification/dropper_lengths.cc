@@ -60,7 +60,7 @@ TEST(DropperLengths, of_start_csv_give_the_same_state_at_rest)
       EXPECT_NEAR(given.stretched[i], found.stretched[i], 1e-9) << i;
     }
     for (std::size_t i = 0; i < found.height.size(); ++i)
-      worst = std::max(worst, std::fabs(given.height[i] - found.height[i]));
+      raise(worst, given.height[i] - found.height[i]);
   }
   figure("line with given lengths, largest distance from the line of found ones", worst, "m");
   EXPECT_LT(worst, 1e-9);

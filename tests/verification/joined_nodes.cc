@@ -77,7 +77,7 @@ Time: Step = 1e-3; End = 0.3
     double off = 0., way = 0.;
     for (std::size_t i = 0; i < fine.places.size(); ++i)
     {
-      off = std::max(off, std::fabs(chosen.places[i] - fine.places[i]));
+      raise(off, chosen.places[i] - fine.places[i]);
       way = std::max(way, .05 + std::fabs(fine.places[i] + .05));
     }
     figure(name + ", error of the motion over its way", off / way);

@@ -91,7 +91,7 @@ Time: Scheme = BDF2; Step = 1e-3; End = 1e-3; Mass redistribution = )" +
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j)
         if (at_stop[i])
-          result.largest_at_stops = std::max(result.largest_at_stops, std::fabs(a[i * n + j]));
+          raise(result.largest_at_stops, a[i * n + j]);
     result.least_pivot = 1e300;
     for (int c = 0; c < n; ++c)
     {

@@ -8,8 +8,6 @@
 
 #include <deal.II/lac/full_matrix.h>
 
-#include <map>
-
 using namespace verification;
 
 namespace
@@ -316,9 +314,9 @@ namespace
     double size = 0., force_size = 0.;
     for (const Vector &u : exact)
       for (std::size_t i = 0; i < u.size(); ++i)
-        size = std::max(size, std::fabs(u[i]));
+        raise(size, u[i]);
     for (const double N : reference.forces)
-      force_size = std::max(force_size, std::fabs(N));
+      raise(force_size, N);
 
     Orders orders;
     for (const Scheme &scheme : schemes)
@@ -343,11 +341,10 @@ namespace
                     const Vector u = flat(view.state.U), rest = flat(view.reference.displacement),
                                  &e = exact[number / ratio];
                     for (std::size_t j = 0; j < u.size(); ++j)
-                      error = std::max(error, std::fabs(u[j] + rest[j] - e[j]));
+                      raise(error, u[j] + rest[j] - e[j]);
                     if (force_size > 0. && number / ratio > coarsest / 2)
-                      force_error =
-                          std::max(force_error, std::fabs(view.state.multiplier[0] -
-                                                          reference.forces[number / ratio]));
+                      raise(force_error,
+                            view.state.multiplier[0] - reference.forces[number / ratio]);
                   });
         errors.push_back(error / size);
         force_errors.push_back(force_size > 0. ? force_error / force_size : 1.);

@@ -178,8 +178,7 @@ namespace
     {
       for (const int wire : {0, 1})
         for (const int k : {0, 1})
-          result[0] =
-              std::max(result[0], std::fabs(found.place[wire][i][k] - span.place[wire][i][k]));
+          raise(result[0], found.place[wire][i][k] - span.place[wire][i][k]);
       result[1] = std::max(result[1], std::fabs(found.tension[i] - span.tension[i]) / size);
     }
     return result;
@@ -223,8 +222,8 @@ TEST(OverheadLineInSpace, without_stagger_and_wind_moves_as_in_the_plane)
     for (std::size_t column = 0; column < plane[i].size(); ++column)
     {
       const int k = column < n_links ? 0 : 1;
-      error[k] = std::max(error[k], std::fabs(plane[i][column] - space[i][column]));
-      size[k] = std::max(size[k], std::fabs(plane[i][column]));
+      raise(error[k], plane[i][column] - space[i][column]);
+      raise(size[k], plane[i][column]);
     }
   }
   EXPECT_LT(error[0], 1e-10 * size[0]);
@@ -243,7 +242,7 @@ TEST(OverheadLineInSpace, droppers_and_stagger_at_rest_are_those_of_ropes_that_t
   span.solve();
   double height = 0.;
   for (const auto &place : span.place[1])
-    height = std::max(height, std::fabs(place[0]));
+    raise(height, place[0]);
   const auto [place, tension] = difference(found, span);
   EXPECT_LT(height, 1e-9); // as prescribed
   EXPECT_LT(place, 1e-9);

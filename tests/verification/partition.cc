@@ -158,8 +158,7 @@ TEST(Partition, metis_balances_the_parts_and_spares_the_droppers)
         }
     }
   }
-  figure("EN 50318 in 16 parts, cuts", n_cuts);
-  EXPECT_LE(n_cuts, 15 * scene.wires.size());
+  EXPECT_LE(figure("EN 50318 in 16 parts, cuts", n_cuts), 15 * scene.wires.size());
   EXPECT_LT(*std::max_element(size.begin(), size.end()), 1.3 * all / 16.);
   EXPECT_GT(*std::min_element(size.begin(), size.end()), 0.7 * all / 16.);
 }

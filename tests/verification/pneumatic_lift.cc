@@ -29,12 +29,9 @@ TEST(PneumaticLift, mean_and_deviation_are_those_of_an_independent_program)
         statistics.record(view);
       });
   const taut::Moments force = statistics.contact_quantities(0).filtered;
-  figure("force at the start without a base spring", start, "N");
-  figure("mean force without a base spring", force.mean, "N");
-  figure("standard deviation without a base spring", force.deviation, "N");
-  EXPECT_NEAR(start, 120., 1e-9);
-  EXPECT_NEAR(force.mean, 120.84, .01);
-  EXPECT_NEAR(force.deviation, 30.94, .01);
+  EXPECT_NEAR(figure("force at the start without a base spring", start, "N"), 120., 1e-9);
+  EXPECT_NEAR(figure("mean force without a base spring", force.mean, "N"), 120.84, .01);
+  EXPECT_NEAR(figure("standard deviation without a base spring", force.deviation, "N"), 30.94, .01);
   EXPECT_FALSE(has(session.log(), "Probes: no equilibrium")) << session.log();
 }
 

@@ -135,8 +135,9 @@ Load push: On = beam @ 5; Direction = 0, 1; Magnitude = -600*sin(20*t)
 Time: Step = 2e-3; End = 0.4
 )";
 
-  void figure(const std::string &name, const double value, const std::string &unit)
+  double figure(const std::string &name, const double value, const std::string &unit)
   {
     std::printf("figure | %s | %.8g %s\n", name.c_str(), value, unit.c_str());
+    return value;
   }
 } // namespace verification

@@ -6,6 +6,7 @@
 
 #include <taut/simulation/simulation.h>
 
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <sstream>
@@ -81,8 +82,15 @@ namespace verification
   /// A beam that falls on stops that stiffen, and hangs in droppers that soften.
   extern const char *const beam_under_laws;
 
-  /// Prints a figure for the ledger: "figure | <name> | <value> <unit>".
-  void figure(const std::string &name, double value, const std::string &unit = "1");
+  /// Raises @p largest to the magnitude of @p value, and for good to not-a-number.
+  inline void raise(double &largest, const double value)
+  {
+    if (std::isnan(value) || std::fabs(value) > largest)
+      largest = std::fabs(value);
+  }
+
+  /// Prints a figure for the ledger, "figure | <name> | <value> <unit>", and returns the value.
+  double figure(const std::string &name, double value, const std::string &unit = "1");
 } // namespace verification
 
 #endif

@@ -37,9 +37,9 @@ Time: Scheme = generalised-alpha; Step = 1e-4; End = 2
               const double r = a * (1. - std::cos(omega * t));
               const double N = k * (at_rest + x - r),
                            u = view.reference.displacement[1][0] + view.state.U[1][0];
-              error = std::max(error, std::fabs(u - at_rest - x));
-              force_error = std::max(force_error, std::fabs(view.state.multiplier[0] - N));
-              largest = std::max(largest, std::fabs(x));
+              raise(error, u - at_rest - x);
+              raise(force_error, view.state.multiplier[0] - N);
+              raise(largest, x);
               least_force = std::min(least_force, view.state.multiplier[0]);
             });
   figure("oscillator shaken by a wavy wire, error of the motion over its largest", error / largest);
@@ -77,7 +77,7 @@ TEST(SlidingContact, constant_force_on_a_mass_redistribution_is_a_moving_force)
               const double exact = 120. * v * t / (20000. * (1. + v / c)),
                            w = displacement(view, 0, v * t);
               error = std::max(error, std::fabs(w - exact) / exact);
-              force_error = std::max(force_error, std::fabs(view.state.multiplier[0] - 120.));
+              raise(force_error, view.state.multiplier[0] - 120.);
               compression = -view.state.geometric_gap[0];
             });
   figure("sliding contact as a moving force, largest relative error under it, 0.1..0.4 s", error);

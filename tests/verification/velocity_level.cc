@@ -49,7 +49,7 @@ Link floor: Type = stop; From = ground; To = ball; Direction = 0, 1; Gap = 0.8
                   flight = 2. * v / 10.;
                   height = std::max(0., v * (t - touch) - 5. * (t - touch) * (t - touch));
                 }
-                error = std::max(error, std::fabs(view.state.geometric_gap[0] - height));
+                raise(error, view.state.geometric_gap[0] - height);
                 largest_gap_error = std::max(largest_gap_error, -view.state.geometric_gap[0]);
               });
     figure("bouncing ball, largest error of the height, step " + number(step), 1e3 * error, "mm");
@@ -82,10 +82,10 @@ Load force: Type = point; On = mass; Magnitude = 60
               [&](const taut::StepView &view)
               {
                 const double t = view.state.time;
-                gap = std::max(gap, std::fabs(view.state.geometric_gap[0]));
+                raise(gap, view.state.geometric_gap[0]);
                 if (t > .01)
-                  force_error = std::max(force_error, std::fabs(view.state.multiplier[0] - 60. +
-                                                                5e-3 * w * w * std::cos(w * t)));
+                  raise(force_error,
+                        view.state.multiplier[0] - 60. + 5e-3 * w * w * std::cos(w * t));
               });
     const std::string name = of_gaps ? ", conditions on gaps" : "";
     figure("rigid contact over waves" + name + ", largest error of the force", force_error, "N");
@@ -143,7 +143,7 @@ TEST(MoreauJean, theta_one_is_backward_euler)
     double distance = 0.;
     ASSERT_EQ(euler.size(), jean.size());
     for (std::size_t i = 0; i < euler.size(); ++i)
-      distance = std::max(distance, std::fabs(euler[i] - jean[i]));
+      raise(distance, euler[i] - jean[i]);
     figure("string on stop, Moreau-Jean (1) of " + conditions +
                " minus backward Euler, largest force",
            distance, "N");
@@ -203,7 +203,7 @@ Link floor: Type = stop; From = ground; To = bar @ 0; Direction = 0, 1
                 shortest = std::min(shortest, step);
                 longest = std::max(longest, step);
               }
-              change = std::max(change, std::fabs(view.state.multiplier[0] / 100. - 1.));
+              raise(change, view.state.multiplier[0] / 100. - 1.);
             });
   figure("bar at rest, conditions on gaps, change of its force as the step changes", change);
   EXPECT_LT(change, 1e-9);

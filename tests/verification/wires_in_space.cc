@@ -53,8 +53,8 @@ namespace
       double error = 0., size = 0.;
       for (std::size_t i = column; i < a.values.size(); i += n)
       {
-        error = std::max(error, std::fabs(a.values[i] - b.values[i]));
-        size = std::max(size, std::fabs(a.values[i]));
+        raise(error, a.values[i] - b.values[i]);
+        raise(size, a.values[i]);
       }
       EXPECT_GT(size, 0.) << "column " << column << " says nothing";
       worst = std::max(worst, error / size);
@@ -533,8 +533,7 @@ Probe ball: Point = ball; Direction = 0, 0, 1
             [&](const taut::StepView &step)
             {
               const double t = step.state.time;
-              worst = std::max(
-                  worst, std::fabs(step.probes.at(0) - a * std::cos(c * std::acos(-1.) * t / L)));
+              raise(worst, step.probes.at(0) - a * std::cos(c * std::acos(-1.) * t / L));
               EXPECT_NEAR(step.probes.at(1), z + v * t - .5 * g * t * t, 1e-3);
             });
   EXPECT_LT(worst, 1e-3 * a);
