@@ -20,30 +20,28 @@ namespace
     double energy_kept = 0.;      ///< kinetic and elastic, end over start
     double least_gap = 0.;        ///< [m]
     double least_force = 0.;      ///< [N]
-    double plateau(double from, double to) const
+    /// The forces in a time.
+    std::vector<double> forces(double from, double to) const
     {
-      double sum = 0.;
-      int n = 0;
+      std::vector<double> result;
       for (std::size_t i = 0; i < time.size(); ++i)
         if (time[i] > from && time[i] < to)
-        {
-          sum += force[i];
-          ++n;
-        }
-      return sum / n;
+          result.push_back(force[i]);
+      return result;
+    }
+    double plateau(double from, double to) const
+    {
+      const std::vector<double> N = forces(from, to);
+      return std::accumulate(N.begin(), N.end(), 0.) / N.size();
     }
     double deviation(double from, double to) const
     {
       const double mean = plateau(from, to);
       double sum = 0.;
-      int n = 0;
-      for (std::size_t i = 0; i < time.size(); ++i)
-        if (time[i] > from && time[i] < to)
-        {
-          sum += (force[i] - mean) * (force[i] - mean);
-          ++n;
-        }
-      return std::sqrt(sum / n);
+      const std::vector<double> N = forces(from, to);
+      for (const double value : N)
+        sum += (value - mean) * (value - mean);
+      return std::sqrt(sum / N.size());
     }
   };
 
@@ -60,27 +58,42 @@ namespace
     run_scene(scene_file(scene), overrides,
               [&](const taut::StepView &view)
               {
-                const double N = view.state.multiplier[0], t = view.state.time;
+                const double N = view.state.multiplier[0], t = view.state.time,
+                             energy = energy_of_bodies(view.structure, view.state);
+                r.momentum_after = momentum(view);
                 if (r.time.empty())
                 {
-                  r.momentum_before = momentum(view);
-                  energy_before = energy_of_bodies(view.structure, view.state);
+                  r.momentum_before = r.momentum_after;
+                  energy_before = energy;
                 }
-                const double dt = r.time.empty() ? 0. : t - r.time.back();
+                r.impulse += r.time.empty() ? 0. : N * (t - r.time.back());
                 r.time.push_back(t);
                 r.force.push_back(N);
-                r.impulse += N * dt;
                 r.least_force = std::min(r.least_force, N);
                 r.least_gap = std::min(r.least_gap, view.state.gap[0]);
-                r.momentum_after = momentum(view);
-                r.energy_kept = energy_of_bodies(view.structure, view.state) / energy_before;
-                if (N > 0. && r.first == 0.)
-                  r.first = t;
+                r.energy_kept = energy / energy_before;
                 if (N > 0.)
                   r.last = t;
+                if (r.first == 0.)
+                  r.first = r.last;
               });
     return r;
   }
+
+  /// Exact motion of prm/oscillator_with_stop.prm.
+  struct Oscillator
+  {
+    const double a = .1, w1 = 20., w2 = std::sqrt(4000.), pi = std::acos(-1.),
+                 period = pi / w1 + pi / w2;
+    double u(double t) const
+    {
+      // Quarter wave down, half wave on the stop, half wave up, ...: the phase counts from the
+      // first touch.
+      const double phase = std::fmod(t + .5 * pi / w1, period);
+      return phase < pi / w1 ? a * std::sin(w1 * phase)
+                             : -a * w1 / w2 * std::sin(w2 * (phase - pi / w1));
+    }
+  };
 } // namespace
 
 // 400 linear elements, BDF2. Exact: contact on 0.5 .. 7/6 s, 300 N, impulse 200 N s, then the
@@ -136,24 +149,6 @@ TEST(StringOnStop, contact_time_force_and_impulse_are_exact_to_one_per_cent)
   EXPECT_GE(r.least_gap, -1e-12);
 }
 
-namespace
-{
-  /// Exact motion of prm/oscillator_with_stop.prm.
-  struct Oscillator
-  {
-    const double a = .1, w1 = 20., w2 = std::sqrt(4000.), pi = std::acos(-1.);
-    const double period = pi / w1 + pi / w2;
-    double u(double t) const
-    {
-      // Quarter wave down, half wave on the stop, half wave up, ...: the phase counts from the
-      // first touch.
-      const double phase = std::fmod(t + .5 * pi / w1, period);
-      return phase < pi / w1 ? a * std::sin(w1 * phase)
-                             : -a * w1 / w2 * std::sin(w2 * (phase - pi / w1));
-    }
-  };
-} // namespace
-
 // Exact: period pi/20 + pi/63.2456 = 0.2067526 s, compression 31.6228 mm, force 227.684 N.
 TEST(OscillatorWithStop, period_compression_and_force_are_exact)
 {
@@ -184,13 +179,9 @@ TEST(OscillatorWithStop, period_compression_and_force_are_exact)
 TEST(OscillatorWithStop, schemes_keep_their_order_through_an_elastic_stop)
 {
   const Oscillator exact;
-  const std::map<std::string, double> orders = {{"Newmark", 2.},
-                                                {"BDF2", 2.},
-                                                {"generalised-alpha", 2.},
-                                                {"HHT", 2.},
-                                                {"backward Euler", 1.}};
-  for (const auto &[scheme, order] : orders)
+  for (const std::string scheme : {"Newmark", "BDF2", "generalised-alpha", "HHT", "backward Euler"})
   {
+    const double order = scheme == "backward Euler" ? 1. : 2.;
     std::vector<double> steps, errors;
     const double coarsest = order == 1. ? 5e-5 : 8e-4;
     for (int i = 0; i < 5; ++i)
