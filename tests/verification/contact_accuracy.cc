@@ -41,12 +41,7 @@ namespace
                 if (problem.wire_point >= 0.)
                   history.back().push_back(displacement(view, 0, problem.wire_point));
                 for (std::size_t m = 0; m < view.scene.masses.size(); ++m)
-                {
-                  std::vector<taut::Term> terms;
-                  view.structure.motion({taut::Attachment::Kind::mass, m, 0.}, false, {0., 1.}, 1.,
-                                        terms);
-                  history.back().push_back(displacement(view, terms));
-                }
+                  history.back().push_back(displacement(view, point_of_mass(view, m)));
               });
     return history;
   }
