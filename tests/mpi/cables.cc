@@ -45,21 +45,17 @@ namespace
                    const bool goes_slack = false)
   {
     SCOPED_TRACE(scene);
-    const taut::Communicator world(MPI_COMM_WORLD);
     const Record one = record(scene, overrides, taut::Communicator()),
-                 many = record(scene, overrides, world);
+                 many = record(scene, overrides, taut::Communicator(MPI_COMM_WORLD));
     ASSERT_FALSE(one.displacement.empty());
-    const double u = relative_difference(one.displacement, many.displacement),
-                 f = relative_difference(one.force, many.force),
-                 p = relative_difference(one.probes, many.probes);
-    EXPECT_LT(u, 1e-9);
-    EXPECT_LT(f, 1e-9);
-    EXPECT_LT(p, 1e-9);
+    const std::string where = scene + ", " + ranks_and_comma();
+    EXPECT_LT(
+        figure(where + "displacement", relative_difference(one.displacement, many.displacement)),
+        1e-9);
+    EXPECT_LT(figure(where + "force", relative_difference(one.force, many.force)), 1e-9);
+    EXPECT_LT(relative_difference(one.probes, many.probes), 1e-9);
     EXPECT_EQ(one.slack, many.slack);
     EXPECT_EQ(!one.slack.empty(), goes_slack);
-    const std::string where = scene + ", " + std::to_string(world.size()) + " ranks, ";
-    figure(where + "displacement", u);
-    figure(where + "force", f);
   }
 } // namespace
 

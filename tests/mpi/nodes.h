@@ -37,6 +37,11 @@ namespace verification
     result.insert(result.end(), own.begin(), own.end());
   }
 
+  inline std::string ranks_and_comma()
+  {
+    return std::to_string(taut::Communicator(MPI_COMM_WORLD).size()) + " ranks, ";
+  }
+
   /// Largest difference over the largest number.
   inline double relative_difference(const std::vector<double> &a, const std::vector<double> &b)
   {
