@@ -192,6 +192,7 @@ namespace
               [&](const taut::StepView &step)
               {
                 ASSERT_EQ(step.scene.links.size(), 91u);
+                ASSERT_EQ(step.probes.size(), 3u);
                 for (std::size_t i = 0; i < 91; ++i)
                   result[0].push_back(step.state.multiplier[step.constraints.index_of_link(i)]);
                 result[1].insert(result[1].end(), step.probes.begin(), step.probes.end());

@@ -6,7 +6,6 @@
 #include "scene_tests.h"
 
 #include <taut/model/form_finding.h>
-#include <taut/output/statistics.h>
 
 using namespace verification;
 
@@ -18,17 +17,14 @@ namespace
 TEST(PneumaticLift, mean_and_deviation_are_those_of_an_independent_program)
 {
   Session session(scene_file("en50318_2002_250"), {no_base_spring});
-  taut::Statistics statistics(session.parameters().statistics, session.simulation().scene(),
-                              session.simulation().constraints());
   double start = 0.;
   session.run(
       [&](const taut::StepView &view)
       {
         if (view.state.time == 0.)
           start = view.state.multiplier.back();
-        statistics.record(view);
       });
-  const taut::Moments force = statistics.contact_quantities(0).filtered;
+  const taut::Moments force = session.simulation().statistics().contact_quantities(0).filtered;
   EXPECT_NEAR(figure("force at the start without a base spring", start, "N"), 120., 1e-9);
   EXPECT_NEAR(figure("mean force without a base spring", force.mean, "N"), 120.84, .01);
   EXPECT_NEAR(figure("standard deviation without a base spring", force.deviation, "N"), 30.94, .01);

@@ -10,7 +10,7 @@
 namespace turning
 {
   using taut::Coordinates;
-  using verification::Overrides;
+  using verification::has, verification::number, verification::operator+, verification::Overrides;
 
   const double pi = std::acos(-1.), g = 9.81;
 
@@ -23,8 +23,6 @@ namespace turning
     double energy = 0.;                       ///< of motion, weight and springs
     Coordinates momentum, moment_of_momentum; ///< the latter about the origin
   };
-
-  using verification::number;
 
   inline std::string text(const Coordinates &c)
   {

@@ -23,7 +23,7 @@ namespace
 
   std::string error_of(const std::string &entries, const Overrides &overrides = {})
   {
-    Scene scene = thrown({{1., {1., 0., 0.}, {}}, {1., {2., 0., 0.}, {}}}, {entries}, .01);
+    const Scene scene = thrown({{1., {1., 0., 0.}, {}}, {1., {2., 0., 0.}, {}}}, {entries}, .01);
     return verification::error_of([&] { at_rest(scene, overrides); });
   }
 } // namespace
@@ -38,7 +38,7 @@ TEST(TurningStatics, weight_on_two_ropes)
         const double a = 1. * size, b = .9 * size, distance = 1.5 * size;
         Scene scene = {{{weight / g, add_scaled({}, size, guess), {}}},
                        {rope("ground @ 0, 0", "m0", a),
-                        rope("m0", "ground @ " + verification::number(distance) + ", 0", b)}};
+                        rope("m0", "ground @ " + number(distance) + ", 0", b)}};
         const Motion m = at_rest(scene);
         const Coordinates expected = below(distance, a, b);
         EXPECT_LT(norm(m.place[0] - expected), 1e-9 * size);
@@ -126,7 +126,7 @@ TEST(TurningStatics, a_scene_that_is_turned_in_space_has_the_same_answers)
 TEST(TurningStatics, what_cannot_turn_is_refused)
 {
   const auto expect = [](const std::string &error, const std::string &part)
-  { EXPECT_TRUE(verification::has(error, part)) << error; };
+  { EXPECT_TRUE(has(error, part)) << error; };
   const std::string ends = "From = ground @ 0, 0; To = m0";
   expect(error_of(ends + "; Type = dropper; Direction = 1, 0"), "leave it empty");
   expect(error_of(ends + "; Type = ball joint"), "no direction from end to end");
