@@ -71,10 +71,7 @@ Wire wire: From = 0, 0; To = 3, 0; Mass per length = 2; Axial stiffness = 900;
         }
     }
     const auto product = [&](const std::vector<double> &x, const std::vector<double> &y)
-    {
-      const std::vector<double> My = matrix_times(body.mass(), y);
-      return std::inner_product(x.begin(), x.end(), My.begin(), 0.);
-    };
+    { return std::inner_product(x.begin(), x.end(), matrix_times(body.mass(), y).begin(), 0.); };
     result.mass = product(one, one);
     result.first = product(one, s);
     result.second = product(s, s);
