@@ -63,80 +63,6 @@ Time: Step = 1e-3; End = 0.38
   }
 
   const taut::Coordinates up = {0., 1., 0.};
-} // namespace
-
-// The roller hides the support, where the wire does not yield: a contact that stays there is
-// compliant, one that leaves it has the light wire alone to push.
-TEST(MovingContacts, have_the_scheme_of_the_most_flexible_place_of_their_way)
-{
-  for (const bool is_beam : {false, true})
-  {
-    const std::string text = roller(is_beam);
-    const Result stays = run(text, {"Network.Link contact.Speed=0", "Time.End=0.01"}),
-                 leaves = run(text);
-    EXPECT_EQ(stays.error + leaves.error, "");
-    EXPECT_TRUE(has(stays.log, "generalised-alpha")) << stays.log;
-    for (const char *const part : {"Moreau-Jean", "'contact' acts as rigid"})
-      EXPECT_TRUE(has(leaves.log, part)) << leaves.log;
-    // By its name the scheme of a compliant contact is refused before the first step.
-    const std::string by_name = run(text, {"Time.Scheme=Newmark"}).error;
-    EXPECT_TRUE(has(by_name, "act as rigid, here 'contact'")) << by_name;
-  }
-}
-
-// Expected: peaks and impulses of another scheme in a sixteenth of the step.
-TEST(MovingContacts, press_a_roller_on_a_wire_from_support_to_support)
-{
-  for (const bool is_beam : {false, true})
-  {
-    const std::string name = is_beam ? "roller on a beam" : "roller on a string",
-                      text = roller(is_beam);
-    const Overrides other = {"Time.Scheme=generalised-alpha", "Time.Allow unsuitable scheme=true",
-                             "Time.Allow energy gain=true"};
-    const Result reference = run(text, other + Overrides{"Time.Step=6.25e-5"}), chosen = run(text),
-                 old = run(text, other);
-    ASSERT_EQ(chosen.error + reference.error, "");
-    for (const auto &[what, r] : {std::pair(", fine, ", &reference),
-                                  {", automatic, ", &chosen},
-                                  {", compliant scheme, ", &old}})
-    {
-      figure(name + what + "largest force", r->peak, "N");
-      figure(name + what + "part of the time open", r->open / end);
-      figure(name + what + "impulse", r->impulse, "N s");
-      figure(name + what + "height of the roller", r->height, "m");
-    }
-    EXPECT_NEAR(chosen.peak, reference.peak, .06 * reference.peak);
-    EXPECT_NEAR(chosen.impulse, reference.impulse, .02 * reference.impulse);
-    EXPECT_NEAR(chosen.height, reference.height, .02 * reference.height);
-  }
-}
-
-// The scheme suits the first step, and steps that the tolerance lets grow are longer. Expected:
-// the motion of the fine run, or an error that names the contact and asks for a step.
-TEST(MovingContacts, in_steps_that_grow_are_right_or_end_the_run)
-{
-  const std::string text = roller(false);
-  const Result reference = run(text, {"Time.Scheme=Moreau-Jean", "Time.Step=6.25e-5"});
-  ASSERT_EQ(reference.error, "");
-  for (const std::string first : {"1e-3", "1e-4", "2e-5"})
-    for (const std::string tolerance : {"1e-3", "1e-5"})
-    {
-      const Result r = run(text, {"Time.Step control=adaptive", "Time.Step=" + first,
-                                  "Time.Adaptive step.Tolerance=" + tolerance});
-      if (r.error.empty())
-      {
-        EXPECT_NEAR(r.impulse, reference.impulse, .02 * reference.impulse) << first << tolerance;
-        EXPECT_NEAR(r.height, reference.height, .02 * reference.height) << first << tolerance;
-        continue;
-      }
-      for (const char *const part :
-           {"Network/Link contact", "'contact' acts as rigid at t = ", "Take 'Moreau-Jean'"})
-        EXPECT_TRUE(has(r.error, part)) << r.error;
-    }
-}
-
-namespace
-{
 
   /// A mass that a force pushes along y.
   class Roller : public taut::Substructure
@@ -251,6 +177,76 @@ namespace
     return result;
   }
 } // namespace
+
+// The roller hides the support, where the wire does not yield: a contact that stays there is
+// compliant, one that leaves it has the light wire alone to push.
+TEST(MovingContacts, have_the_scheme_of_the_most_flexible_place_of_their_way)
+{
+  for (const bool is_beam : {false, true})
+  {
+    const std::string text = roller(is_beam);
+    const Result stays = run(text, {"Network.Link contact.Speed=0", "Time.End=0.01"}),
+                 leaves = run(text);
+    EXPECT_EQ(stays.error + leaves.error, "");
+    EXPECT_TRUE(has(stays.log, "generalised-alpha")) << stays.log;
+    for (const char *const part : {"Moreau-Jean", "'contact' acts as rigid"})
+      EXPECT_TRUE(has(leaves.log, part)) << leaves.log;
+    // By its name the scheme of a compliant contact is refused before the first step.
+    const std::string by_name = run(text, {"Time.Scheme=Newmark"}).error;
+    EXPECT_TRUE(has(by_name, "act as rigid, here 'contact'")) << by_name;
+  }
+}
+
+// Expected: peaks and impulses of another scheme in a sixteenth of the step.
+TEST(MovingContacts, press_a_roller_on_a_wire_from_support_to_support)
+{
+  for (const bool is_beam : {false, true})
+  {
+    const std::string name = is_beam ? "roller on a beam" : "roller on a string",
+                      text = roller(is_beam);
+    const Overrides other = {"Time.Scheme=generalised-alpha", "Time.Allow unsuitable scheme=true",
+                             "Time.Allow energy gain=true"};
+    const Result reference = run(text, other + Overrides{"Time.Step=6.25e-5"}), chosen = run(text),
+                 old = run(text, other);
+    ASSERT_EQ(chosen.error + reference.error, "");
+    for (const auto &[what, r] : {std::pair(", fine, ", &reference),
+                                  {", automatic, ", &chosen},
+                                  {", compliant scheme, ", &old}})
+    {
+      figure(name + what + "largest force", r->peak, "N");
+      figure(name + what + "part of the time open", r->open / end);
+      figure(name + what + "impulse", r->impulse, "N s");
+      figure(name + what + "height of the roller", r->height, "m");
+    }
+    EXPECT_NEAR(chosen.peak, reference.peak, .06 * reference.peak);
+    EXPECT_NEAR(chosen.impulse, reference.impulse, .02 * reference.impulse);
+    EXPECT_NEAR(chosen.height, reference.height, .02 * reference.height);
+  }
+}
+
+// The scheme suits the first step, and steps that the tolerance lets grow are longer. Expected:
+// the motion of the fine run, or an error that names the contact and asks for a step.
+TEST(MovingContacts, in_steps_that_grow_are_right_or_end_the_run)
+{
+  const std::string text = roller(false);
+  const Result reference = run(text, {"Time.Scheme=Moreau-Jean", "Time.Step=6.25e-5"});
+  ASSERT_EQ(reference.error, "");
+  for (const std::string first : {"1e-3", "1e-4", "2e-5"})
+    for (const std::string tolerance : {"1e-3", "1e-5"})
+    {
+      const Result r = run(text, {"Time.Step control=adaptive", "Time.Step=" + first,
+                                  "Time.Adaptive step.Tolerance=" + tolerance});
+      if (r.error.empty())
+      {
+        EXPECT_NEAR(r.impulse, reference.impulse, .02 * reference.impulse) << first << tolerance;
+        EXPECT_NEAR(r.height, reference.height, .02 * reference.height) << first << tolerance;
+        continue;
+      }
+      for (const char *const part :
+           {"Network/Link contact", "'contact' acts as rigid at t = ", "Take 'Moreau-Jean'"})
+        EXPECT_TRUE(has(r.error, part)) << r.error;
+    }
+}
 
 // A program that does not say how far it goes, and a place that follows the motion.
 TEST(MovingContacts, end_a_run_where_their_scheme_does_not_suit_any_more)
