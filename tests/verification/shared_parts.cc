@@ -13,6 +13,8 @@ using namespace verification;
 
 namespace
 {
+  using taut::Scene;
+
   const Overrides short_run = {"Catenary/Number of spans=3",
                                "Catenary/Uplift positions=90",
                                "Catenary/Contact wire/Element size=2",
@@ -38,7 +40,7 @@ namespace
     return values;
   }
 
-  taut::Scene line(const Overrides &overrides = {})
+  Scene line(const Overrides &overrides = {})
   {
     taut::Parameters parameters;
     parameters.read(scene_file("en50318_2002_250"), short_run + overrides);
@@ -46,9 +48,9 @@ namespace
   }
 
   /// One of each part, with a time load.
-  taut::Scene one_of_each()
+  Scene one_of_each()
   {
-    taut::Scene scene;
+    Scene scene;
     scene.wires.resize(1);
     scene.supports.resize(1);
     scene.point_masses.resize(1);
@@ -58,6 +60,66 @@ namespace
     scene.loads.resize(1);
     scene.probes.resize(1);
     return scene;
+  }
+
+  template <typename... T>
+  auto pointers(T &...members)
+  {
+    return std::vector{&members...};
+  }
+
+  auto numbers_of(Scene &s)
+  {
+    taut::Wire &wire = s.wires[0];
+    taut::Mass &mass = s.masses[0];
+    taut::Link &link = s.links[0];
+    return pointers(
+        s.gravity.y, wire.a.x, wire.a.y, wire.b.z, wire.mass_per_length, wire.axial_stiffness,
+        wire.tension, wire.bending_stiffness, wire.element_size, wire.damping.mass,
+        wire.damping.stiffness, s.supports[0].stiffness, s.supports[0].damping,
+        s.point_masses[0].mass, mass.position.x, mass.mass, mass.inertia, mass.displacement[1],
+        mass.displacement[3], mass.velocity[2], mass.velocity[3], s.springs[0].direction.x,
+        s.springs[0].stiffness, s.springs[0].damping, link.to.position, link.to.place.x,
+        link.unstressed_length, link.direction.x, link.stiffness, link.damping, link.gap,
+        link.speed, link.form.prescribed_displacement, link.form.axial_stiffness,
+        link.form.mass_per_length, link.length, link.sideways.direction.z, link.sideways.stiffness,
+        link.sideways.gap, s.loads[0].direction.x, s.loads[0].speed, s.probes[0].direction.x);
+  }
+
+  auto switches_of(Scene &s)
+  {
+    taut::Wire &wire = s.wires[0];
+    taut::Mass &mass = s.masses[0];
+    taut::Link &link = s.links[0];
+    return pointers(wire.has_axial, wire.has_lateral, wire.weight, s.supports[0].fixed,
+                    s.point_masses[0].weight, mass.moves[2], mass.moves[3], mass.weight,
+                    s.springs[0].rotational, link.to.has_place, link.turns, link.rotational,
+                    link.form.find_length, link.form.find_direction, s.loads[0].rotational,
+                    s.loads[0].acts_while_built, s.probes[0].rotational);
+  }
+
+  auto texts_of(Scene &s)
+  {
+    return pointers(s.wires[0].name, s.wires[0].origin, s.supports[0].name, s.supports[0].origin,
+                    s.point_masses[0].name, s.point_masses[0].origin, s.masses[0].name,
+                    s.masses[0].origin, s.springs[0].name, s.springs[0].origin, s.links[0].name,
+                    s.links[0].origin, s.loads[0].name, s.loads[0].origin, s.probes[0].name,
+                    s.probes[0].origin);
+  }
+
+  auto indices_of(Scene &s)
+  {
+    return pointers(s.supports[0].wire, s.point_masses[0].wire, s.springs[0].from, s.springs[0].to,
+                    s.links[0].from.index, s.loads[0].target.index, s.probes[0].point.index);
+  }
+
+  auto formulas_of(Scene &s)
+  {
+    taut::Wire &wire = s.wires[0];
+    return pointers(wire.axial_start.displacement, wire.axial_start.velocity,
+                    wire.transverse_start.displacement, wire.transverse_start.velocity,
+                    wire.lateral_start.displacement, wire.lateral_start.velocity,
+                    s.supports[0].prescribed, s.links[0].profile, s.loads[0].magnitude);
   }
 } // namespace
 
@@ -131,7 +193,7 @@ TEST(SharedParts, wires_and_forms_are_made_once)
   const auto bodies = [&](const Overrides &overrides)
   {
     shared.begin();
-    taut::Scene scene = line(overrides);
+    Scene scene = line(overrides);
     return taut::SceneBodies(scene, taut::whole(scene), taut::Communicator(), &shared);
   };
   const taut::SceneBodies first = bodies({}),
@@ -150,71 +212,6 @@ TEST(SharedParts, wires_and_forms_are_made_once)
   shared.begin();
   EXPECT_EQ(shared.wires.size(), 2u) << "what the last run did not ask for is forgotten";
 }
-
-namespace
-{
-  using taut::Scene;
-
-  template <typename... T>
-  auto pointers(T &...members)
-  {
-    return std::vector{&members...};
-  }
-
-  auto numbers_of(Scene &s)
-  {
-    taut::Wire &wire = s.wires[0];
-    taut::Mass &mass = s.masses[0];
-    taut::Link &link = s.links[0];
-    return pointers(
-        s.gravity.y, wire.a.x, wire.a.y, wire.b.z, wire.mass_per_length, wire.axial_stiffness,
-        wire.tension, wire.bending_stiffness, wire.element_size, wire.damping.mass,
-        wire.damping.stiffness, s.supports[0].stiffness, s.supports[0].damping,
-        s.point_masses[0].mass, mass.position.x, mass.mass, mass.inertia, mass.displacement[1],
-        mass.displacement[3], mass.velocity[2], mass.velocity[3], s.springs[0].direction.x,
-        s.springs[0].stiffness, s.springs[0].damping, link.to.position, link.to.place.x,
-        link.unstressed_length, link.direction.x, link.stiffness, link.damping, link.gap,
-        link.speed, link.form.prescribed_displacement, link.form.axial_stiffness,
-        link.form.mass_per_length, link.length, link.sideways.direction.z, link.sideways.stiffness,
-        link.sideways.gap, s.loads[0].direction.x, s.loads[0].speed, s.probes[0].direction.x);
-  }
-
-  auto switches_of(Scene &s)
-  {
-    taut::Wire &wire = s.wires[0];
-    taut::Mass &mass = s.masses[0];
-    taut::Link &link = s.links[0];
-    return pointers(wire.has_axial, wire.has_lateral, wire.weight, s.supports[0].fixed,
-                    s.point_masses[0].weight, mass.moves[2], mass.moves[3], mass.weight,
-                    s.springs[0].rotational, link.to.has_place, link.turns, link.rotational,
-                    link.form.find_length, link.form.find_direction, s.loads[0].rotational,
-                    s.loads[0].acts_while_built, s.probes[0].rotational);
-  }
-
-  auto texts_of(Scene &s)
-  {
-    return pointers(s.wires[0].name, s.wires[0].origin, s.supports[0].name, s.supports[0].origin,
-                    s.point_masses[0].name, s.point_masses[0].origin, s.masses[0].name,
-                    s.masses[0].origin, s.springs[0].name, s.springs[0].origin, s.links[0].name,
-                    s.links[0].origin, s.loads[0].name, s.loads[0].origin, s.probes[0].name,
-                    s.probes[0].origin);
-  }
-
-  auto indices_of(Scene &s)
-  {
-    return pointers(s.supports[0].wire, s.point_masses[0].wire, s.springs[0].from, s.springs[0].to,
-                    s.links[0].from.index, s.loads[0].target.index, s.probes[0].point.index);
-  }
-
-  auto formulas_of(Scene &s)
-  {
-    taut::Wire &wire = s.wires[0];
-    return pointers(wire.axial_start.displacement, wire.axial_start.velocity,
-                    wire.transverse_start.displacement, wire.transverse_start.velocity,
-                    wire.lateral_start.displacement, wire.lateral_start.velocity,
-                    s.supports[0].prescribed, s.links[0].profile, s.loads[0].magnitude);
-  }
-} // namespace
 
 // A value that is missing in the key would make two different wires one.
 TEST(SharedParts, every_value_of_a_scene_is_in_its_values)
