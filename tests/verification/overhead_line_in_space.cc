@@ -184,7 +184,7 @@ namespace
                     contact_wind = "Catenary.Contact wire.Wind=",
                     messenger_wind = "Catenary.Messenger wire.Wind=";
 
-  /// Multipliers of the links and motions of probes of all steps of the line in the plane.
+  /// Multipliers of the links, and motions of the probes, in all steps of the line of EN 50318.
   std::array<std::vector<double>, 2> motions(const Overrides &overrides)
   {
     std::array<std::vector<double>, 2> result;
