@@ -158,7 +158,6 @@ namespace
       throw std::runtime_error("injected into a collective call");
     }
   }
-
 } // namespace
 
 void *operator new(const std::size_t size)

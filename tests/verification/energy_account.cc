@@ -75,7 +75,6 @@ namespace
     return {stepper.measures().summary(), stepper.measures().warnings(),
             stepper.measures().error()};
   }
-
 } // namespace
 
 TEST(EnergyAccount, energy_from_nowhere_is_an_error)

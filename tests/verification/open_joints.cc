@@ -8,7 +8,6 @@ using namespace verification;
 
 namespace
 {
-
   const std::string pendulum = R"(Gravity = 0, -9.81; Start = given
 Mass m: Position = 0, -1; Motions = x, y; Mass = 2
 Link rod: Type = joint; From = ground @ 0, 0; To = m

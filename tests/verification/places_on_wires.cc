@@ -58,7 +58,6 @@ Time: Scheme = BDF2; Step = 1e-2; End = 0.1
               });
     return result;
   }
-
 } // namespace
 
 TEST(PlacesOnWires, written_with_different_numbers_of_digits_are_one)

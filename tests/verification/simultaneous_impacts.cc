@@ -8,7 +8,6 @@ using namespace verification;
 
 namespace
 {
-
   /// Newton's cradle: five equal masses along x, the first with 1 m/s, 10 mm from the second; the
   /// others apart by a gap [m].
   std::string cradle(const double gap)
