@@ -158,7 +158,6 @@ namespace
       throw std::runtime_error("injected into a collective call");
     }
   }
-
 } // namespace
 
 void *operator new(const std::size_t size)
@@ -256,14 +255,7 @@ extern "C"
                : syscall(SYS_openat, AT_FDCWD, path, flags, mode);
   }
 
-  int open64(const char *path, int flags, ...)
-  {
-    va_list rest;
-    va_start(rest, flags);
-    const mode_t mode = (flags & O_CREAT) != 0 ? va_arg(rest, mode_t) : 0;
-    va_end(rest);
-    return open(path, flags, mode);
-  }
+  int open64(const char *path, int flags, ...) __attribute__((alias("open")));
 
   FILE *fopen(const char *path, const char *mode)
   {
@@ -273,10 +265,7 @@ extern "C"
                : next<FILE *(const char *, const char *)>("fopen")(path, mode);
   }
 
-  FILE *fopen64(const char *path, const char *mode)
-  {
-    return fopen(path, mode);
-  }
+  FILE *fopen64(const char *path, const char *mode) __attribute__((alias("fopen")));
 
   ssize_t write(const int file, const void *bytes, const std::size_t size)
   {
@@ -309,10 +298,8 @@ extern "C"
                         { return syscall(SYS_pwrite64, file, bytes, n, position); });
   }
 
-  ssize_t pwrite64(const int file, const void *bytes, const std::size_t size, const off_t position)
-  {
-    return pwrite(file, bytes, size, position);
-  }
+  ssize_t pwrite64(int file, const void *bytes, std::size_t size, off_t position)
+      __attribute__((alias("pwrite")));
 
   int fsync(const int file)
   {
@@ -335,10 +322,7 @@ extern "C"
     return file_fails("truncate", file, false) ? -1 : syscall(SYS_ftruncate, file, length);
   }
 
-  int ftruncate64(const int file, const off_t length)
-  {
-    return ftruncate(file, length);
-  }
+  int ftruncate64(int file, off_t length) __attribute__((alias("ftruncate")));
 
   int truncate(const char *path, const off_t length)
   {
@@ -347,10 +331,7 @@ extern "C"
                : syscall(SYS_truncate, path, length);
   }
 
-  int truncate64(const char *path, const off_t length)
-  {
-    return truncate(path, length);
-  }
+  int truncate64(const char *path, off_t length) __attribute__((alias("truncate")));
 
   int rename(const char *from, const char *to)
   {

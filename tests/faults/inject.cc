@@ -51,7 +51,6 @@ namespace faults
     const long n = ++numbers->counted;
     return fault.error != 0 && (n == at || (fault.stays && n >= at));
   }
-
 } // namespace faults
 
 namespace

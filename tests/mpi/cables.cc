@@ -6,12 +6,6 @@ using namespace verification;
 
 namespace
 {
-  struct Record
-  {
-    std::vector<double> force, displacement, probes;
-    std::string slack; ///< what the log says of it
-  };
-
   std::string lines_with(const std::string &word, const std::string &log)
   {
     std::istringstream lines(log);
@@ -22,44 +16,22 @@ namespace
     return result;
   }
 
-  /// Links, and all nodes of the cables, in each step.
-  Record record(const std::string &scene, Overrides overrides, const taut::Communicator &processes)
-  {
-    Record result;
-    overrides.push_back("Output/Field interval=0"); // each rank has a folder of its own here
-    Session session(scene_file(scene), overrides, processes);
-    std::vector<std::size_t> n_nodes;
-    session.run(
-        [&](const taut::StepView &view)
-        {
-          result.force.insert(result.force.end(), view.state.multiplier.begin(),
-                              view.state.multiplier.end());
-          result.probes.insert(result.probes.end(), view.probes.begin(), view.probes.end());
-          add_displacements(view, n_nodes, result.displacement);
-        });
-    result.slack = lines_with("Slack:", session.log());
-    return result;
-  }
-
   void expect_same(const std::string &scene, const Overrides &overrides = {},
                    const bool goes_slack = false)
   {
     SCOPED_TRACE(scene);
-    const taut::Communicator world(MPI_COMM_WORLD);
-    const Record one = record(scene, overrides, taut::Communicator()),
-                 many = record(scene, overrides, world);
+    const NodeRecord one = record_nodes(scene, overrides, taut::Communicator()),
+                     many = record_nodes(scene, overrides, taut::Communicator(MPI_COMM_WORLD));
     ASSERT_FALSE(one.displacement.empty());
-    const double u = relative_difference(one.displacement, many.displacement),
-                 f = relative_difference(one.force, many.force),
-                 p = relative_difference(one.probes, many.probes);
-    EXPECT_LT(u, 1e-9);
-    EXPECT_LT(f, 1e-9);
-    EXPECT_LT(p, 1e-9);
-    EXPECT_EQ(one.slack, many.slack);
-    EXPECT_EQ(!one.slack.empty(), goes_slack);
-    const std::string where = scene + ", " + std::to_string(world.size()) + " ranks, ";
-    figure(where + "displacement", u);
-    figure(where + "force", f);
+    const std::string where = scene + ", " + ranks_and_comma();
+    EXPECT_LT(
+        figure(where + "displacement", relative_difference(one.displacement, many.displacement)),
+        1e-9);
+    EXPECT_LT(figure(where + "force", relative_difference(one.force, many.force)), 1e-9);
+    EXPECT_LT(relative_difference(one.probes, many.probes), 1e-9);
+    const std::string slack = lines_with("Slack:", one.log);
+    EXPECT_EQ(slack, lines_with("Slack:", many.log));
+    EXPECT_EQ(!slack.empty(), goes_slack);
   }
 } // namespace
 

@@ -37,6 +37,42 @@ namespace verification
     result.insert(result.end(), own.begin(), own.end());
   }
 
+  /// What must not depend on ranks and parts, in each step: of links and contacts, of the nodes of
+  /// all bodies, and of probes.
+  struct NodeRecord
+  {
+    std::vector<double> force, gap, displacement, probes;
+    std::string log;
+  };
+
+  inline NodeRecord record_nodes(const std::string &scene, const Overrides &overrides,
+                                 const taut::Communicator &processes)
+  {
+    NodeRecord result;
+    // Each rank has a folder of its own here.
+    Session session(scene_file(scene), overrides + Overrides{"Output/Field interval=0"}, processes);
+    std::vector<std::size_t> n_nodes;
+    session.run(
+        [&](const taut::StepView &view)
+        {
+          for (std::size_t i = 0; i < view.constraints.size(); ++i)
+            if (view.constraints[i].is_link() || view.constraints[i].contact != taut::no_contact)
+            {
+              result.force.push_back(view.state.multiplier[i]);
+              result.gap.push_back(view.state.geometric_gap[i]);
+            }
+          result.probes.insert(result.probes.end(), view.probes.begin(), view.probes.end());
+          add_displacements(view, n_nodes, result.displacement);
+        });
+    result.log = session.log();
+    return result;
+  }
+
+  inline std::string ranks_and_comma()
+  {
+    return std::to_string(taut::Communicator(MPI_COMM_WORLD).size()) + " ranks, ";
+  }
+
   /// Largest difference over the largest number.
   inline double relative_difference(const std::vector<double> &a, const std::vector<double> &b)
   {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Claim: answers do not depend on the number of ranks and parts. Source: the run of one process
 // without cuts.
-#include "common.h"
-#include "verification/scene_tests.h"
+#include "nodes.h"
 
 #include <array>
 #include <limits>
@@ -31,11 +30,11 @@ namespace
   void add_displacements(const taut::StepView &view, const taut::BodyVectors &U,
                          std::vector<double> &result)
   {
-    constexpr unsigned int n = 200;
     std::vector<double> shares;
     for (std::size_t w = 0; w < view.scene.wires.size(); ++w)
-      for (unsigned int i = 0; i <= n; ++i)
-        shares.push_back(evaluate(point_on_wire(view, w, view.scene.wires[w].length() * i / n), U));
+      for (unsigned int i = 0; i <= 200; ++i)
+        shares.push_back(
+            evaluate(point_on_wire(view, w, view.scene.wires[w].length() * i / 200), U));
     view.structure.communicator().sum(shares);
     result.insert(result.end(), shares.begin(), shares.end());
   }
@@ -92,12 +91,6 @@ namespace
             "Output/Field interval=0"};
   }
 
-  /// So many that the wires have moved by more than rounding.
-  unsigned int n_steps(const double step)
-  {
-    return step < 1e-4 ? 400 : 20;
-  }
-
   /// Largest eigenvalue of a symmetric positive operator, from below, by the power method.
   double largest_eigenvalue(taut::BodyVectors x,
                             const std::function<void(taut::BodyVectors &)> &apply)
@@ -131,21 +124,24 @@ namespace
     taut::BodyVectors root = bodies.zero(), start = bodies.zero();
     for (std::size_t k = 0; k < bodies.size(); ++k)
     {
-      const std::vector<taut::ScaledMatrix> summands = {{mass, &bodies[k].mass()},
-                                                        {velocity, &bodies[k].damping()},
-                                                        {1., &bodies[k].stiffness()}};
-      for (const auto &[factor, matrix] : summands)
-        matrix->visit(
-            [&, factor = factor](const unsigned int i, const unsigned int j, const double value)
+      const auto add = [&](const double factor, const taut::SymmetricMatrix &matrix)
+      {
+        matrix.visit(
+            [&](const unsigned int i, const unsigned int j, const double value)
             {
               if (i == j)
                 root[k][i] += factor * value;
             });
-      for (double &r : root[k])
-        r = std::sqrt(r);
+      };
+      add(mass, bodies[k].mass());
+      add(velocity, bodies[k].damping());
+      add(1., bodies[k].stiffness());
       // Neither smooth nor rough, so that no mode is missed.
       for (std::size_t i = 0; i < start[k].size(); ++i)
+      {
+        root[k][i] = std::sqrt(root[k][i]);
         start[k][i] = 1. + std::sin(double(i * i));
+      }
       for (const taut::ConstrainedDof &constraint : bodies[k].constraints())
         start[k][constraint.dof] = 0.;
     }
@@ -155,49 +151,44 @@ namespace
         for (std::size_t i = 0; i < x[k].size(); ++i)
           x[k][i] = root[k][i] == 0. ? 0. : divide ? x[k][i] / root[k][i] : x[k][i] * root[k][i];
     };
-    const double largest =
-        largest_eigenvalue(start,
-                           [&](taut::BodyVectors &x)
-                           {
-                             scale(x, true);
-                             taut::BodyVectors y = bodies.zero();
-                             for (std::size_t k = 0; k < x.size(); ++k)
-                             {
-                               bodies[k].mass().vmult_add(mass, x[k].data(), y[k].data());
-                               bodies[k].damping().vmult_add(velocity, x[k].data(), y[k].data());
-                               bodies[k].stiffness().vmult_add(1., x[k].data(), y[k].data());
-                               for (const auto &c : bodies[k].constraints())
-                                 y[k][c.dof] = 0.;
-                             }
-                             x = std::move(y);
-                             scale(x, true);
-                           });
-    const double inverse = largest_eigenvalue(start,
-                                              [&](taut::BodyVectors &x)
-                                              {
-                                                scale(x, false);
-                                                solvers.solve(x);
-                                                scale(x, false);
-                                              });
-    return largest * inverse;
+    const auto apply = [&](taut::BodyVectors &x)
+    {
+      scale(x, true);
+      taut::BodyVectors y = bodies.zero();
+      for (std::size_t k = 0; k < x.size(); ++k)
+      {
+        bodies[k].mass().vmult_add(mass, x[k].data(), y[k].data());
+        bodies[k].damping().vmult_add(velocity, x[k].data(), y[k].data());
+        bodies[k].stiffness().vmult_add(1., x[k].data(), y[k].data());
+        for (const auto &c : bodies[k].constraints())
+          y[k][c.dof] = 0.;
+      }
+      x = std::move(y);
+      scale(x, true);
+    };
+    const auto apply_inverse = [&](taut::BodyVectors &x)
+    {
+      scale(x, false);
+      solvers.solve(x);
+      scale(x, false);
+    };
+    return largest_eigenvalue(start, apply) * largest_eigenvalue(start, apply_inverse);
   }
 
   /// @p bound is the error that rounding can make, which only steps towards statics come near.
   void expect_same(const std::string &where, const Record &one, const Record &many,
                    const double bound)
   {
-    const double tolerance = std::max(1e-9, bound);
-    const double way = largest(one.displacement);
-    const double u = largest_difference(one.displacement, many.displacement) / way,
-                 d = largest_difference(one.gap, many.gap) / std::max(way, largest(one.gap)),
-                 f = largest_difference(one.force, many.force) / largest(one.force);
-    EXPECT_LT(u, tolerance);
-    EXPECT_LT(d, tolerance);
-    EXPECT_LT(f, 100. * tolerance);
+    const double tolerance = std::max(1e-9, bound), way = largest(one.displacement);
+    EXPECT_LT(
+        figure(where + "displacement", relative_difference(one.displacement, many.displacement)),
+        tolerance);
+    EXPECT_LT(figure(where + "gap",
+                     largest_difference(one.gap, many.gap) / std::max(way, largest(one.gap))),
+              tolerance);
+    EXPECT_LT(figure(where + "force", relative_difference(one.force, many.force)),
+              100. * tolerance);
     EXPECT_EQ(n_other_states(one, many), 0u);
-    figure(where + "displacement", u);
-    figure(where + "gap", d);
-    figure(where + "force", f);
     figure(where + "rounding unit times condition", bound);
   }
 
@@ -211,11 +202,9 @@ namespace
     const Records one = record(scene, overrides, taut::Communicator());
     for (const unsigned int n : numbers)
     {
-      Overrides cut = overrides;
-      cut.insert(cut.end(), for_cut_runs.begin(), for_cut_runs.end());
-      cut.push_back("Partition/Number of substructures=" + std::to_string(n));
-      const std::string where = title + ", " + std::to_string(n) + " parts, " +
-                                std::to_string(world().size()) + " ranks, ";
+      const Overrides cut = overrides + for_cut_runs +
+                            Overrides{"Partition/Number of substructures=" + std::to_string(n)};
+      const std::string where = title + ", " + std::to_string(n) + " parts, " + ranks_and_comma();
       SCOPED_TRACE(where);
       const Records many = record(scene, cut, world());
       expect_same(where + "rest, ", one.rest, many.rest, static_bound);
@@ -235,12 +224,13 @@ TEST(Ranks, the_reference_line_is_the_same)
 // Claim: so are probes and forces of supports, each of which one rank knows. Expected: as above.
 TEST(Ranks, probes_and_forces_of_supports_are_the_same)
 {
-  const auto record =
-      [](Overrides overrides, const unsigned int n_parts, const taut::Communicator &processes)
+  const auto record = [](const unsigned int n_parts, const taut::Communicator &processes)
   {
-    overrides.push_back("Partition/Number of substructures=" + std::to_string(n_parts));
     std::array<std::vector<double>, 2> result;
-    Session session(scene_file("en50318_2002_250"), overrides, processes);
+    Session session(scene_file("en50318_2002_250"),
+                    line(5, 2e-3, 50, .75) +
+                        Overrides{"Partition/Number of substructures=" + std::to_string(n_parts)},
+                    processes);
     session.run(
         [&](const taut::StepView &view)
         {
@@ -249,15 +239,13 @@ TEST(Ranks, probes_and_forces_of_supports_are_the_same)
         });
     return result;
   };
-  const Overrides overrides = line(5, 2e-3, 50, .75);
-  const auto one = record(overrides, 1, taut::Communicator()), many = record(overrides, 7, world());
-  const std::string where = std::to_string(world().size()) + " ranks, ";
+  const auto one = record(1, taut::Communicator()), many = record(7, world());
   for (const int i : {0, 1})
   {
     ASSERT_GT(largest(one[i]), 0.);
-    const double error = largest_difference(one[i], many[i]) / largest(one[i]);
-    EXPECT_LT(error, i == 0 ? 1e-9 : 1e-7);
-    figure(where + (i == 0 ? "probes" : "forces of supports"), error);
+    EXPECT_LT(figure(ranks_and_comma() + (i == 0 ? "probes" : "forces of supports"),
+                     relative_difference(one[i], many[i])),
+              i == 0 ? 1e-9 : 1e-7);
   }
 }
 
@@ -265,15 +253,15 @@ TEST(Ranks, probes_and_forces_of_supports_are_the_same)
 // part, of which there are 64.
 TEST(Ranks, degrees_of_freedom_are_shared_evenly)
 {
-  Overrides overrides = line(5, 2e-3, 50, .75);
-  overrides.push_back("Partition/Number of substructures=64");
-  Session session(scene_file("en50318_2002_250"), overrides, world());
+  Session session(scene_file("en50318_2002_250"),
+                  line(5, 2e-3, 50, .75) + Overrides{"Partition/Number of substructures=64"},
+                  world());
   const std::vector<std::size_t> shares = world().gather(session.simulation().structure().n_dofs());
   const double all = std::accumulate(shares.begin(), shares.end(), 0.);
   const auto [least, most] = std::minmax_element(shares.begin(), shares.end());
   // Parts differ in size themselves.
   EXPECT_LT(*most - *least, 1.5 * all / 64);
-  figure(std::to_string(world().size()) + " ranks, largest share of the DoFs over the mean",
+  figure(ranks_and_comma() + "largest share of the DoFs over the mean",
          *most * shares.size() / all);
 }
 
@@ -290,10 +278,10 @@ TEST(Ranks, all_interface_operators_answer_the_same)
 // as above, the same number of steps.
 TEST(Ranks, adaptive_steps_are_the_same)
 {
-  Overrides overrides = line(5, 2e-3, 100, .75);
-  overrides.insert(overrides.end(), {"Time/Step control=adaptive", "Time/Scheme=BDF2",
-                                     "Time/Adaptive step/Tolerance=1e-5"});
-  expect_same("5 spans, adaptive", 2e-3, overrides, {7});
+  expect_same("5 spans, adaptive", 2e-3,
+              line(5, 2e-3, 100, .75) + Overrides{"Time/Step control=adaptive", "Time/Scheme=BDF2",
+                                                  "Time/Adaptive step/Tolerance=1e-5"},
+              {7});
 }
 
 // Claim: so with a rigid moving contact, whose velocities are projected in every step, with both
@@ -301,13 +289,11 @@ TEST(Ranks, adaptive_steps_are_the_same)
 TEST(Ranks, gaps_then_velocities_are_the_same)
 {
   for (const std::string form : {"assembled dense", "matrix-free"})
-  {
-    Overrides overrides = line(5, 2e-3, 50, .75);
-    overrides.push_back("Catenary/Pantograph pantograph/Contact stiffness=rigid");
-    overrides.push_back("Time/Scheme=Moreau-Jean");
-    expect_same("5 spans, rigid contact, " + form, 2e-3, overrides, {7},
-                {"Solver/Interface operator=" + form});
-  }
+    expect_same("5 spans, rigid contact, " + form, 2e-3,
+                line(5, 2e-3, 50, .75) +
+                    Overrides{"Catenary/Pantograph pantograph/Contact stiffness=rigid",
+                              "Time/Scheme=Moreau-Jean"},
+                {7}, {"Solver/Interface operator=" + form});
 }
 
 // Claim: so with links that follow laws. Expected: as above.
@@ -316,9 +302,9 @@ TEST(Ranks, laws_of_links_are_the_same)
   const std::string end = "Time/End=0.1";
   for (const std::string form : {"assembled dense", "assembled sparse", "matrix-free"})
   {
-    const std::string where = "laws, " + form + ", " + std::to_string(world().size()) + " ranks, ";
-    const Records one = record(verification::beam_under_laws, {end}, taut::Communicator()),
-                  many = record(verification::beam_under_laws,
+    const std::string where = "laws, " + form + ", " + ranks_and_comma();
+    const Records one = record(beam_under_laws, {end}, taut::Communicator()),
+                  many = record(beam_under_laws,
                                 {end, "Partition/Number of substructures=5",
                                  "Solver/Interface operator=" + form},
                                 world());
@@ -332,13 +318,13 @@ TEST(Ranks, laws_of_links_are_the_same)
 TEST(Ranks, every_step_size_on_the_reference_line_is_the_same)
 {
   for (const double step : {1e-5, 1e-3, 1e-1, 1., 10.})
-    expect_same("10 spans, step " + std::to_string(step), step, line(10, step, n_steps(step), .5),
-                {1, 2, 7, 64, 256});
+    expect_same("10 spans, step " + std::to_string(step), step,
+                line(10, step, step < 1e-4 ? 400 : 20, .5), {1, 2, 7, 64, 256});
 }
 
 TEST(Ranks, every_step_size_on_a_hundred_spans_is_the_same)
 {
   for (const double step : {1e-5, 1e-3, 1e-1, 10.})
     expect_same("100 spans, step " + std::to_string(step), step,
-                line(100, step, n_steps(step) / 4, 1.), {1, 2, 7, 64, 256});
+                line(100, step, step < 1e-4 ? 100 : 5, 1.), {1, 2, 7, 64, 256});
 }

@@ -7,54 +7,23 @@ using namespace verification;
 
 namespace
 {
-  struct Record
-  {
-    std::vector<double> force, gap, displacement;
-  };
-
-  /// Links, contacts, and the nodes on the boundary of each body in each step.
-  Record record(const std::string &scene, Overrides overrides, const unsigned int n_parts,
-                const taut::Communicator &processes)
-  {
-    Record result;
-    overrides.push_back("Partition/Number of substructures=" + std::to_string(n_parts));
-    overrides.push_back("Output/Field interval=0"); // each rank has a folder of its own here
-    Session session(scene_file(scene), overrides, processes);
-    std::vector<std::size_t> n_nodes;
-    session.run(
-        [&](const taut::StepView &view)
-        {
-          for (std::size_t i = 0; i < view.constraints.size(); ++i)
-            if (view.constraints[i].is_link() || view.constraints[i].contact != taut::no_contact)
-            {
-              result.force.push_back(view.state.multiplier[i]);
-              result.gap.push_back(view.state.geometric_gap[i]);
-            }
-          add_displacements(view, n_nodes, result.displacement);
-        });
-    return result;
-  }
-
   void expect_same(const std::string &scene, const Overrides &overrides)
   {
-    const taut::Communicator world(MPI_COMM_WORLD);
-    const Record one = record(scene, overrides, 1, taut::Communicator());
+    const NodeRecord one = record_nodes(scene, overrides, taut::Communicator());
     ASSERT_FALSE(one.force.empty());
     ASSERT_FALSE(one.displacement.empty());
     for (const unsigned int n : {1u, 2u, 7u, 64u})
     {
-      const std::string where =
-          scene + ", " + std::to_string(n) + " parts, " + std::to_string(world.size()) + " ranks, ";
+      const std::string where = scene + ", " + std::to_string(n) + " parts, " + ranks_and_comma();
       SCOPED_TRACE(where);
-      const Record many = record(scene, overrides, n, world);
-      const double u = relative_difference(one.displacement, many.displacement),
-                   f = relative_difference(one.force, many.force),
-                   d = relative_difference(one.gap, many.gap);
-      EXPECT_LT(u, 1e-9);
-      EXPECT_LT(f, 1e-7);
-      figure(where + "displacement", u);
-      figure(where + "force", f);
-      figure(where + "gap", d);
+      const NodeRecord many = record_nodes(
+          scene, overrides + Overrides{"Partition/Number of substructures=" + std::to_string(n)},
+          taut::Communicator(MPI_COMM_WORLD));
+      EXPECT_LT(
+          figure(where + "displacement", relative_difference(one.displacement, many.displacement)),
+          1e-9);
+      EXPECT_LT(figure(where + "force", relative_difference(one.force, many.force)), 1e-7);
+      figure(where + "gap", relative_difference(one.gap, many.gap));
     }
   }
 } // namespace

@@ -31,16 +31,12 @@ Time/Newmark: Beta = 0.1
   }
 
   /// Largest motion of the first mass over 4000 steps.
-  double largest_motion(const double step, const std::vector<std::string> &settings = {})
+  double largest_motion(const double step, const Overrides &settings = {})
   {
-    std::vector<std::string> all = {"Time/Step=" + std::to_string(step),
-                                    "Time/End=" + std::to_string(4000 * step)};
-    all.insert(all.end(), settings.begin(), settings.end());
-    double largest = 0.;
-    run_scene(two_masses, all,
-              [&](const taut::StepView &view)
-              { largest = std::max(largest, std::fabs(view.state.U[0][0])); });
-    return largest;
+    return largest(history_of(two_masses,
+                              settings + Overrides{"Time/Step=" + std::to_string(step),
+                                                   "Time/End=" + std::to_string(4000 * step)},
+                              [](const taut::StepView &view) { return view.state.U[0][0]; }));
   }
 } // namespace
 
@@ -58,18 +54,17 @@ Time/Newmark: Beta = 0.08333333333333333
   std::vector<double> errors;
   for (const char *const step : {"0.02", "0.01", "0.005"})
   {
-    double error = 0.;
-    run_scene(scene, {std::string("Time/Step=") + step},
-              [&](const taut::StepView &view)
-              {
-                const double t = view.state.time;
-                const double u = P / k *
-                                 (1. - (omega * omega * std::cos(Omega * t) -
-                                        Omega * Omega * std::cos(omega * t)) /
-                                           (omega * omega - Omega * Omega));
-                error = std::max(error, std::fabs(view.state.U[0][0] - u));
-              });
-    errors.push_back(error / (P / k));
+    errors.push_back(largest(history_of(scene, {std::string("Time/Step=") + step},
+                                        [&](const taut::StepView &view)
+                                        {
+                                          const double t = view.state.time,
+                                                       u = P / k *
+                                                           (1. -
+                                                            (omega * omega * std::cos(Omega * t) -
+                                                             Omega * Omega * std::cos(omega * t)) /
+                                                                (omega * omega - Omega * Omega));
+                                          return (view.state.U[0][0] - u) / (P / k);
+                                        })));
   }
   figure("Newmark with beta 1/12, a forced oscillator, error at 16 steps a period", errors[0]);
   for (std::size_t i = 1; i < errors.size(); ++i)
@@ -94,7 +89,7 @@ TEST(ConditionalStability, unstable_steps_are_refused_and_no_others)
     EXPECT_EQ(e.entry(), "Time/Step");
     EXPECT_TRUE(has(e.what(), "stable for steps up to"));
   }
-  const std::vector<std::string> anyway = {"Time/Allow unsuitable scheme=true"};
+  const Overrides anyway = {"Time/Allow unsuitable scheme=true"};
   EXPECT_LT(largest_motion(.999 * limit, anyway), .04);
   EXPECT_THROW(largest_motion(1.01 * limit, anyway), taut::UserError); // beyond 1e100
   EXPECT_LT(largest_motion(3. * limit, {"Time/Newmark/Beta=0.25"}), .04);

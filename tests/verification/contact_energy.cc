@@ -11,11 +11,11 @@ using namespace verification;
 
 namespace
 {
+  using Coefficients = std::function<taut::StepCoefficients(double, double)>;
+
   /// A scheme by its coefficients.
-  class Scheme : public taut::TimeIntegrator
+  struct Scheme : taut::TimeIntegrator
   {
-  public:
-    using Coefficients = std::function<taut::StepCoefficients(double, double)>;
     explicit Scheme(Coefficients c) : c(std::move(c)) {}
     taut::StepCoefficients coefficients(const double step) const override { return c(step, step); }
     taut::StepCoefficients after_change(const double step, const double last) const override
@@ -23,9 +23,7 @@ namespace
       return c(step, last);
     }
     std::string description() const override { return "of the test"; }
-
-  private:
-    Coefficients c;
+    const Coefficients c;
   };
 
   Scheme gaps_then_velocities(const double restitution = 0.)
@@ -33,8 +31,6 @@ namespace
     return Scheme([restitution](const double step, double)
                   { return taut::gaps_then_velocities(step, restitution); });
   }
-
-  const Scheme bdf2([](const double step, const double last) { return taut::bdf2(step, last); });
 
   /// Masses on springs of random size and direction in one or two bodies, 2 to 40 DoFs, and 1 to 20
   /// links, some of them twice, that are closed or nearly so.
@@ -109,12 +105,10 @@ namespace
       }
     }
 
-    taut::Attachment attachment(const std::size_t i)
+    taut::Attachment attachment(const std::size_t i) const
     {
-      taut::Attachment result;
-      if (i < scene.masses.size())
-        result = {taut::Attachment::Kind::mass, i, 0.};
-      return result;
+      return i < scene.masses.size() ? taut::Attachment{taut::Attachment::Kind::mass, i, 0.}
+                                     : taut::Attachment();
     }
 
     void add_links(const bool has_elastic_links)
@@ -190,20 +184,17 @@ namespace
           });
       for (std::size_t i = 0; i < n; ++i)
         x[i] = 1. + .1 * i;
-      for (int iteration = 0; iteration < 50; ++iteration)
+      double size = 1.;
+      for (int iteration = 0; iteration < 50 && size > 0.; ++iteration)
       {
         std::vector<double> y = matrix_times(structure[k].stiffness(), x);
-        double size = 0.;
+        size = 0.;
         for (std::size_t i = 0; i < n; ++i)
-          size = std::max(size, std::fabs(y[i] /= diagonal[i]));
-        if (size == 0.)
-          break;
-        for (double &value : y)
-          value /= size;
-        x = y;
-        if (iteration == 49)
-          largest = std::max(largest, size);
+          raise(size, y[i] /= diagonal[i]);
+        for (std::size_t i = 0; i < n && size > 0.; ++i)
+          x[i] = y[i] / size;
       }
+      largest = std::max(largest, size);
     }
     return largest > 0. ? 2. * std::acos(-1.) / std::sqrt(largest) : 1.;
   }
@@ -239,7 +230,7 @@ namespace
       const std::vector<double> rates = constraints.motions(stepper.state().V);
       for (std::size_t r = 0; r < constraints.size(); ++r)
         if (constraints[r].cone.is_free())
-          gain.projected = std::max(gain.projected, std::fabs(rates[r]));
+          raise(gain.projected, rates[r]);
     }
     return gain;
   }
@@ -260,14 +251,11 @@ namespace
       try
       {
         const Gain gain = run(problem, of(seed));
-        result.largest = std::max(result.largest, gain.largest);
-        result.joints = std::max(result.joints, gain.projected);
-        if (gain.largest > rounding)
-        {
-          ++result.n_gained;
-          if (rounding < 1e-9)
-            std::printf("problem %d gains %g\n", seed, gain.largest);
-        }
+        raise(result.largest, gain.largest);
+        raise(result.joints, gain.projected);
+        result.n_gained += gain.largest > rounding;
+        if (gain.largest > rounding && rounding < 1e-9)
+          std::printf("problem %d gains %g\n", seed, gain.largest);
       }
       catch (const std::exception &e)
       {
@@ -282,23 +270,23 @@ namespace
 TEST(ContactEnergy, no_rigid_problem_gains_with_gaps_then_velocities)
 {
   const Result result = run_many(1000, 1e-10, [](unsigned int) { return gaps_then_velocities(); });
-  figure("1000 rigid problems, gaps, then velocities: largest gain in a step over the first energy",
-         result.largest);
-  figure("1000 rigid problems, gaps, then velocities: largest velocity of a joint", result.joints,
-         "m/s");
-  EXPECT_EQ(result.n_gained, 0);
-  EXPECT_EQ(result.n_failed, 0);
-  EXPECT_LT(result.joints, 1e-9);
+  const std::string name = "1000 rigid problems, gaps, then velocities: largest ";
+  figure(name + "gain in a step over the first energy", result.largest);
+  EXPECT_EQ(result.n_gained + result.n_failed, 0);
+  EXPECT_LT(figure(name + "velocity of a joint", result.joints, "m/s"), 1e-9);
 }
 
 // The same problems: the test can fail.
 TEST(ContactEnergy, many_rigid_problems_gain_with_bdf2)
 {
-  const Result result = run_many(1000, 1e-6, [](unsigned int) { return bdf2; });
-  figure("1000 rigid problems, BDF2: problems that gain energy", result.n_gained);
-  figure("1000 rigid problems, BDF2: largest gain in a step over the first energy", result.largest);
-  EXPECT_GT(result.n_gained, 300);
-  EXPECT_GT(result.largest, .05);
+  const Result result =
+      run_many(1000, 1e-6,
+               [](unsigned int)
+               { return Scheme([](double step, double last) { return taut::bdf2(step, last); }); });
+  EXPECT_GT(figure("1000 rigid problems, BDF2: problems that gain energy", result.n_gained), 300);
+  EXPECT_GT(figure("1000 rigid problems, BDF2: largest gain in a step over the first energy",
+                   result.largest),
+            .05);
 }
 
 // A spring's compression holds energy, too.
@@ -307,8 +295,7 @@ TEST(ContactEnergy, no_problem_with_elastic_links_gains)
   const Result result = run_many(
       300, 1e-10, [](unsigned int) { return gaps_then_velocities(); }, true);
   figure("300 problems with rigid and elastic links: largest gain in a step", result.largest);
-  EXPECT_EQ(result.n_gained, 0);
-  EXPECT_EQ(result.n_failed, 0);
+  EXPECT_EQ(result.n_gained + result.n_failed, 0);
 }
 
 // Newton's law alone gives energy where several links are hit: the part of it that does not.
@@ -323,7 +310,6 @@ TEST(ContactEnergy, no_rigid_problem_gains_with_restitution)
     figure(std::string("100 rigid problems, restitution ") + (elastic ? "1" : "0.01 to 1") +
                ": largest gain in a step",
            result.largest);
-    EXPECT_EQ(result.n_gained, 0);
-    EXPECT_EQ(result.n_failed, 0);
+    EXPECT_EQ(result.n_gained + result.n_failed, 0);
   }
 }

@@ -71,14 +71,13 @@ namespace
     return number(force / width) + "*(abs(s-" + number(middle) + ")<" + number(.5 * width) + ")";
   }
 
-  std::string error_of(const std::string &kind, const std::string &formula,
-                       const std::vector<double> &times)
+  std::string error_of(const std::string &kind, const std::string &formula, const double last)
   {
     return verification::error_of(
         [&]
         {
           LoadedWire wire(kind, formula);
-          for (const double t : times)
+          for (double t = 0.; t <= last; t += 1e-2)
             wire.force(t);
         });
   }
@@ -108,11 +107,11 @@ namespace
                     const double moment, const double size, double &worst, const double t = 0.)
   {
     LoadedWire wire(kind, formula);
-    const double of_force = std::fabs(wire.force(t) - force) / size,
-                 of_moment = std::fabs(wire.moment(t) - moment) / (size * length);
-    worst = std::max({worst, of_force, of_moment});
-    EXPECT_LE(of_force, bound) << kind << ", " << formula << ", t = " << t;
-    EXPECT_LE(of_moment, bound) << kind << ", " << formula << ", t = " << t;
+    double error = 0.;
+    raise(error, (wire.force(t) - force) / size);
+    raise(error, (wire.moment(t) - moment) / (size * length));
+    raise(worst, error);
+    EXPECT_LE(error, bound) << kind << ", " << formula << ", t = " << t;
   }
 } // namespace
 
@@ -124,21 +123,16 @@ TEST(DistributedLoads, narrow_ones_give_their_force_and_moment)
   for (const std::string &kind : kinds)
   {
     const double width = element / 50.;
+    std::vector<double> middles = {length - .5 * width};
     for (int k = -13; k <= 13; ++k)
-    {
-      const double middle = 10 * element + .05 * k * width;
-      expect_force(kind, block(10., middle, width), 10., 10. * middle, 10., worst);
-    }
+      middles.push_back(10 * element + .05 * k * width);
     for (int k = 0; k < 40; ++k)
-    {
-      const double middle = 3. + .137 * k;
+      middles.push_back(3. + .137 * k);
+    for (const double middle : middles)
       expect_force(kind, block(10., middle, width), 10., 10. * middle, 10., worst);
-    }
     for (const double apart : {.02, .1, .5, 3.})
       expect_force(kind, block(10., 5., width) + "-" + block(10., 5. + apart, width), 0.,
                    -10. * apart, 20., worst);
-    expect_force(kind, block(10., length - .5 * width, width), 10., 10. * (length - .5 * width),
-                 10., worst);
     expect_force(kind, "3*(s>4)*(s<11.3)", 21.9, 21.9 * 7.65, 21.9, worst);
     expect_force(kind, "4*sin(300*s)^2", 2. * length - std::sin(600. * length) / 300.,
                  length * length - length * std::sin(600. * length) / 300. -
@@ -241,21 +235,19 @@ TEST(DistributedLoads, narrow_one_that_swells_in_place)
 
 TEST(DistributedLoads, what_cannot_be_integrated_is_refused)
 {
-  std::vector<double> times;
-  for (int k = 0; k < 100; ++k)
-    times.push_back(1e-2 * k);
   for (const std::string &kind : kinds)
   {
-    const std::string narrow = error_of(kind, "100*(abs(s-20*t-0.03)<0.01)", times);
-    EXPECT_TRUE(has(narrow, "load 'load' is 0.02 m wide")) << narrow;
-    EXPECT_TRUE(has(narrow, "0.14 m wide, a fifth of an element")) << narrow;
+    const std::string narrow = error_of(kind, "100*(abs(s-20*t-0.03)<0.01)", .995);
+    for (const char *const part :
+         {"load 'load' is 0.02 m wide", "0.14 m wide, a fifth of an element"})
+      EXPECT_TRUE(has(narrow, part)) << narrow;
     for (const std::string factor : {"", "(1+t)*"})
     {
       const std::string noise =
-          error_of(kind, factor + "(sin(1e9*s)*43758.5453-rint(sin(1e9*s)*43758.5453))", {.5});
+          error_of(kind, factor + "(sin(1e9*s)*43758.5453-rint(sin(1e9*s)*43758.5453))", .5);
       EXPECT_TRUE(has(noise, "load 'load' cannot be integrated to 1e-06")) << noise;
     }
-    EXPECT_TRUE(has(error_of(kind, "rand(1)", {0.}), "random"));
+    EXPECT_TRUE(has(error_of(kind, "rand(1)", 0.), "random"));
   }
 }
 

@@ -31,13 +31,12 @@ namespace
             for (const std::size_t wire : {0, 1})
               result.height.push_back(displacement(step, wire, x));
         });
-    auto start = read_table(session.folder() + "/start.csv");
-    for (std::size_t i = 0; i < 9; ++i)
-    {
-      result.force.push_back(start.at("force [N or N m]").at(i));
-      result.length.push_back(start.at("length [m]").at(i));
-      result.stretched.push_back(start.at("stretched length [m]").at(i));
-    }
+    const auto start = read_table(session.folder() + "/start.csv");
+    const auto column = [&](const std::string &title)
+    { return std::vector<double>(start.at(title).begin(), start.at(title).begin() + 9); };
+    result.force = column("force [N or N m]");
+    result.length = column("length [m]");
+    result.stretched = column("stretched length [m]");
     return result;
   }
 } // namespace
@@ -59,8 +58,7 @@ TEST(DropperLengths, of_start_csv_give_the_same_state_at_rest)
       EXPECT_NEAR(given.length[i], found.length[i], 1e-15) << i;
       EXPECT_NEAR(given.stretched[i], found.stretched[i], 1e-9) << i;
     }
-    for (std::size_t i = 0; i < found.height.size(); ++i)
-      worst = std::max(worst, std::fabs(given.height[i] - found.height[i]));
+    raise(worst, largest_difference(found.height, given.height));
   }
   figure("line with given lengths, largest distance from the line of found ones", worst, "m");
   EXPECT_LT(worst, 1e-9);

@@ -2,12 +2,11 @@
 #ifndef taut_verification_elastic_pendulum_h
 #define taut_verification_elastic_pendulum_h
 
+#include "common.h"
+
 #include <taut/substructure/substructure.h>
 
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <vector>
+#include <deal.II/base/tensor.h>
 
 namespace verification
 {
@@ -42,54 +41,32 @@ namespace verification
     void internal_force(const std::vector<double> &U, const std::vector<double> &,
                         std::vector<double> &f) const override
     {
-      f.resize(3);
-      const double l = stretch(U);
-      for (unsigned int i = 0; i < 3; ++i)
-        f[i] = EA * (1. - 1. / l) * (at[i] + U[i]) / length;
+      set_force(EA * (1. - 1. / stretch(U)), place(U, U), f);
     }
-    void mean_internal_force(const std::vector<double> &U0, const std::vector<double> &U1, double,
-                             std::vector<double> &f) const override
+    void mean_internal_force(const std::vector<double> &U0, const std::vector<double> &U1,
+                             const double step, std::vector<double> &f) const override
     {
-      f.resize(3);
-      const double stress = EA * (1. - 2. / (stretch(U0) + stretch(U1)));
-      for (unsigned int i = 0; i < 3; ++i)
-        f[i] = stress * (at[i] + .5 * (U0[i] + U1[i])) / length;
+      set_force(EA * (1. - 2. / (stretch(U0) + stretch(U1))), place(U0, U1), f);
+      if (change_force)
+        change_force(U0, U1, step, f);
     }
     std::unique_ptr<taut::SymmetricMatrix> tangent(const std::vector<double> &U, double,
                                                    const bool definite) const override
     {
-      auto result = std::make_unique<taut::CoordinateMatrix>(3);
-      const double l = stretch(U);
-      double geometric = EA * (1. - 1. / l) / length;
-      if (definite)
-        geometric = std::max(0., geometric);
-      for (unsigned int i = 0; i < 3; ++i)
-        for (unsigned int j = 0; j <= i; ++j)
-        {
-          const double t = (at[i] + U[i]) * (at[j] + U[j]) / (l * l * length * length) *
-                           (EA / length - geometric);
-          result->add(i, j, t + (i == j ? geometric : 0.));
-        }
-      return result;
+      const double l = stretch(U), geometric = bounded(EA * (1. - 1. / l) / length, definite);
+      return matrix((EA / length - geometric) / (l * l * length * length), place(U, U), geometric);
     }
     std::unique_ptr<taut::SymmetricMatrix> mean_tangent(const std::vector<double> &U0,
-                                                        const std::vector<double> &U1, double,
+                                                        const std::vector<double> &U1,
+                                                        const double rate,
                                                         const bool definite) const override
     {
-      auto result = std::make_unique<taut::CoordinateMatrix>(3);
       const double sum = stretch(U0) + stretch(U1);
-      double geometric = EA * (1. - 2. / sum) / length;
-      if (definite)
-        geometric = std::max(0., geometric);
-      const double axial = 4. * EA / (sum * sum * stretch(U1) * length * length * length);
-      for (unsigned int i = 0; i < 3; ++i)
-        for (unsigned int j = 0; j <= i; ++j)
-        {
-          const double mi = at[i] + .5 * (U0[i] + U1[i]), mj = at[j] + .5 * (U0[j] + U1[j]),
-                       t = axial * mi * mj;
-          result->add(i, j, t + (i == j ? geometric : 0.));
-        }
-      return result;
+      auto K = matrix(4. * EA / (sum * sum * stretch(U1) * length * length * length), place(U0, U1),
+                      bounded(EA * (1. - 2. / sum) / length, definite));
+      if (change_tangent)
+        change_tangent(U0, rate, *K);
+      return K;
     }
     taut::LinearForm displacement(const taut::Coordinates &,
                                   const taut::Coordinates &direction) const override
@@ -100,6 +77,13 @@ namespace verification
       return form;
     }
 
+    /// Change the mean force and its tangent, for pendulums that are not as they should be.
+    std::function<void(const std::vector<double> &U0, const std::vector<double> &U1, double step,
+                       std::vector<double> &f)>
+        change_force;
+    std::function<void(const std::vector<double> &U0, double rate, taut::SymmetricMatrix &K)>
+        change_tangent;
+
     double energy(const std::vector<double> &U, const std::vector<double> &V) const
     {
       return strain_energy(U) + bob * gravity * (at[2] + U[2]) +
@@ -108,12 +92,36 @@ namespace verification
     double x(const std::vector<double> &U) const { return at[0] + U[0]; }
 
   private:
-    double stretch(const std::vector<double> &U) const
+    using Place = dealii::Tensor<1, 3>;
+
+    /// Mean place of two times.
+    Place place(const std::vector<double> &U0, const std::vector<double> &U1) const
     {
-      double sum = 0.;
+      Place result;
       for (unsigned int i = 0; i < 3; ++i)
-        sum += (at[i] + U[i]) * (at[i] + U[i]);
-      return std::sqrt(sum) / length;
+        result[i] = at[i] + .5 * (U0[i] + U1[i]);
+      return result;
+    }
+    double stretch(const std::vector<double> &U) const { return place(U, U).norm() / length; }
+    static double bounded(const double geometric, const bool definite)
+    {
+      return definite ? std::max(0., geometric) : geometric;
+    }
+    static void set_force(const double stress, const Place &x, std::vector<double> &f)
+    {
+      f.resize(3);
+      for (unsigned int i = 0; i < 3; ++i)
+        f[i] = stress * x[i] / length;
+    }
+    /// @p axial x x^T and @p geometric times the identity.
+    static std::unique_ptr<taut::SymmetricMatrix> matrix(const double axial, const Place &x,
+                                                         const double geometric)
+    {
+      auto result = std::make_unique<taut::CoordinateMatrix>(3);
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int j = 0; j <= i; ++j)
+          result->add(i, j, axial * x[i] * x[j] + (i == j ? geometric : 0.));
+      return result;
     }
     double at[3], EA;
   };

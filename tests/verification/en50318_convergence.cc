@@ -27,14 +27,14 @@ namespace
   /// Columns of the tables, and the entries of "Expected ranges" that go with them.
   const char *const heads[n_figures] = {"mean N", "s N",   "mean+3s N", "mean-3s N",
                                         "max N",  "min N", "uplift mm", "loss %"};
-  const char *const entries[n_figures] = {"Mean",
-                                          "Standard deviation",
-                                          "Mean + 3 standard deviations",
-                                          "Mean - 3 standard deviations",
-                                          "Maximum",
-                                          "Minimum",
-                                          "Uplift",
-                                          "Contact loss"};
+  const std::string entries[] = {"Mean",
+                                 "Standard deviation",
+                                 "Mean + 3 standard deviations",
+                                 "Mean - 3 standard deviations",
+                                 "Maximum",
+                                 "Minimum",
+                                 "Uplift",
+                                 "Contact loss"};
 
   /// A pantograph on a line.
   struct Case
@@ -117,13 +117,11 @@ namespace
     parameters.output.overwrite = true;
     std::ostringstream log;
     taut::Simulation simulation(parameters, log);
-    taut::Statistics statistics(parameters.statistics, simulation.scene(),
-                                simulation.constraints());
     Switches switches;
-    simulation.observe(statistics);
     simulation.observe(switches);
     simulation.run();
 
+    const taut::Statistics &statistics = simulation.statistics();
     Run result;
     double uplift = 0.;
     for (std::size_t i = 0; i < simulation.scene().probes.size(); ++i)
@@ -211,15 +209,14 @@ namespace
     return text.str();
   }
 
-  void print_head(const std::string &first)
+  /// A line of a table: a cell of each figure, and more at its end.
+  void print_row(const std::string &first, const std::function<std::string(std::size_t)> &cell,
+                 const std::string &more = " | ")
   {
     std::cout << "| " << first;
-    for (const char *head : heads)
-      std::cout << " | " << head;
-    std::cout << " | switches | s |\n|---";
-    for (std::size_t i = 0; i < n_figures + 2; ++i)
-      std::cout << "|---";
-    std::cout << "|\n";
+    for (std::size_t i = 0; i < n_figures; ++i)
+      std::cout << " | " << cell(i);
+    std::cout << " | " << more << " |\n";
   }
 
   /// The refinement of one scheme for one pantograph, and its limit.
@@ -235,87 +232,69 @@ namespace
     Refinement refinement;
     for (std::size_t l = 0; l < runs.size(); ++l)
     {
-      refinement.figures.push_back(runs[l].figures[contact]);
-      std::cout << "| " << scheme << ", " << 1e3 * levels[l].step << " ms, " << levels[l].size
-                << " m";
-      for (const double x : refinement.figures.back())
-        std::cout << " | " << number(x, 3);
-      std::cout << " | " << runs[l].n_switches << " | " << number(runs[l].seconds, 0) << " |\n";
+      const Figures &now = runs[l].figures[contact];
+      refinement.figures.push_back(now);
+      std::ostringstream first;
+      first << scheme << ", " << 1e3 * levels[l].step << " ms, " << levels[l].size << " m";
+      print_row(
+          first.str(), [&](const std::size_t i) { return number(now[i], 3); },
+          std::to_string(runs[l].n_switches) + " | " + number(runs[l].seconds, 0));
     }
     for (std::size_t l = 1; l < runs.size(); ++l)
-    {
-      std::cout << "| change " << l;
-      for (std::size_t i = 0; i < n_figures; ++i)
-      {
-        const double change = refinement.figures[l][i] - refinement.figures[l - 1][i];
-        std::cout << " | " << (change >= 5e-4 ? "+" : "") << number(change, 3);
-      }
-      std::cout << " | | |\n";
-    }
-    std::vector<std::string> orders, limits;
+      print_row("change " + std::to_string(l),
+                [&](const std::size_t i)
+                {
+                  const double change = refinement.figures[l][i] - refinement.figures[l - 1][i];
+                  return (change >= 5e-4 ? "+" : "") + number(change, 3);
+                });
     for (std::size_t i = 0; i < n_figures; ++i)
     {
       std::vector<double> f;
       for (const Figures &figures : refinement.figures)
         f.push_back(figures[i]);
       refinement.limit[i] = extrapolate(f);
-      orders.push_back(
-          std::isnan(refinement.limit[i].order) ? "-" : number(refinement.limit[i].order, 1));
-      limits.push_back("**" + number(refinement.limit[i].value, 3) + "** +- " +
-                       number(refinement.limit[i].error, 3));
     }
-    for (const auto &constraint :
-         {std::make_pair("observed order", orders), std::make_pair("limit", limits)})
-    {
-      std::cout << "| " << constraint.first;
-      for (const std::string &text : constraint.second)
-        std::cout << " | " << text;
-      std::cout << " | | |\n";
-    }
+    const auto &limit = refinement.limit;
+    print_row("observed order", [&](const std::size_t i)
+              { return std::isnan(limit[i].order) ? "-" : number(limit[i].order, 1); });
+    print_row("limit", [&](const std::size_t i)
+              { return "**" + number(limit[i].value, 3) + "** +- " + number(limit[i].error, 3); });
     return refinement;
   }
 
   /// The limit of the first scheme, its error no less than the distance to the second's limit; how
   /// far the levels of the others are from it.
-  void print_comparison(const std::map<std::string, Refinement> &refinements,
+  void print_comparison(const Refinement *a, const Refinement *b, const Refinement *first,
                         const std::vector<Level> &levels)
   {
-    const auto a = refinements.find("generalised-alpha"), b = refinements.find("BDF2"),
-               first = refinements.find("backward Euler");
-    if (a == refinements.end())
-      return;
-    if (b != refinements.end())
+    if (a != nullptr && b != nullptr)
+      print_row("converged",
+                [&](const std::size_t i)
+                {
+                  const Estimate &x = a->limit[i], &y = b->limit[i];
+                  return "**" + number(x.value, 2) + "** +- " +
+                         number(std::max(x.error, std::fabs(x.value - y.value)), 2);
+                });
+    for (std::size_t l = 0; a != nullptr && first != nullptr && l < levels.size(); ++l)
     {
-      std::cout << "| converged";
-      for (std::size_t i = 0; i < n_figures; ++i)
-      {
-        const Estimate &x = a->second.limit[i], &y = b->second.limit[i];
-        std::cout << " | **" << number(x.value, 2) << "** +- "
-                  << number(std::max(x.error, std::fabs(x.value - y.value)), 2);
-      }
-      std::cout << " | | |\n";
+      std::ostringstream step;
+      step << "backward Euler's deviation, " << 1e3 * levels[l].step << " ms";
+      print_row(step.str(), [&](const std::size_t i)
+                { return number(first->figures[l][i] - a->limit[i].value, 2); });
     }
-    if (first != refinements.end())
-      for (std::size_t l = 0; l < levels.size(); ++l)
-      {
-        std::cout << "| backward Euler's deviation, " << 1e3 * levels[l].step << " ms";
-        for (std::size_t i = 0; i < n_figures; ++i)
-          std::cout << " | " << number(first->second.figures[l][i] - a->second.limit[i].value, 2);
-        std::cout << " | | |\n";
-      }
   }
 
   void print_ranges(const std::map<std::string, std::vector<double>> &expected)
   {
-    std::cout << "| range of the standard";
-    for (const char *entry : entries)
-    {
-      const auto range = expected.find(entry);
-      std::cout << " | ";
-      if (range != expected.end() && range->second.size() == 2)
-        std::cout << range->second[0] << " to " << range->second[1];
-    }
-    std::cout << " | | |\n";
+    print_row("range of the standard",
+              [&](const std::size_t i)
+              {
+                const auto range = expected.find(entries[i]);
+                std::ostringstream text;
+                if (range != expected.end() && range->second.size() == 2)
+                  text << range->second[0] << " to " << range->second[1];
+                return text.str();
+              });
   }
 
   /**
@@ -435,7 +414,10 @@ int main(int argc, char **argv)
         continue;
       std::map<std::string, Refinement> refinements;
       std::cout << "\n### " << c.name << " (" << c.file << ")\n\n";
-      print_head("scheme, step, elements");
+      print_row(
+          "scheme, step, elements", [](const std::size_t i) { return heads[i]; }, "switches | s");
+      print_row(
+          "---", [](std::size_t) { return "---"; }, "--- | ---");
       for (const std::string &scheme : schemes)
       {
         std::vector<Run> &runs = done[c.file + scheme];
@@ -446,7 +428,11 @@ int main(int argc, char **argv)
         refinements[scheme] = print_ladder(scheme, c.contact, levels, runs);
         std::cout << std::flush;
       }
-      print_comparison(refinements, levels);
+      const auto find = [&](const std::string &scheme)
+      { return refinements.count(scheme) > 0 ? &refinements[scheme] : nullptr; };
+      const Refinement *const a = find("generalised-alpha"), *const b = find("BDF2"),
+                              *const first = find("backward Euler");
+      print_comparison(a, b, first, levels);
       print_ranges(done[c.file + schemes.front()].front().expected);
       if (arguments.count("tables-only"))
         continue;
@@ -456,19 +442,13 @@ int main(int argc, char **argv)
           check_changes(c, scheme, refinement, claims);
           check_limit(c, scheme, refinement, claims);
         }
-      const auto a = refinements.find("generalised-alpha"), b = refinements.find("BDF2"),
-                 first = refinements.find("backward Euler");
-      if (a != refinements.end() && b != refinements.end())
-        check_agreement(c, a->second, b->second, claims);
-      if (a != refinements.end() && first != refinements.end())
-        check_first_order(c, first->second, a->second, claims);
+      if (a != nullptr && b != nullptr)
+        check_agreement(c, *a, *b, claims);
+      if (a != nullptr && first != nullptr)
+        check_first_order(c, *first, *a, claims);
     }
     std::cout << '\n';
     return arguments.count("tables-only") ? 0 : claims.report();
-  }
-  catch (const taut::UserError &e)
-  {
-    std::cerr << "en50318_convergence: " << e.what() << '\n';
   }
   catch (const std::exception &e)
   {

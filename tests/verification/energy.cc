@@ -49,9 +49,9 @@ namespace
     double largest = 0., size = 0.;
     for (const std::vector<double> &constraint : table)
     {
-      largest = std::max(largest, std::fabs(constraint[error]));
+      raise(largest, constraint[error]);
       for (int i = kinetic; i < error; ++i)
-        size = std::max(size, std::fabs(constraint[i]));
+        raise(size, constraint[i]);
     }
     return largest / size;
   }

@@ -16,31 +16,27 @@ namespace
            "; Element size = 0.25; Initial axial velocity = -1\n";
   }
 
-  /// A bar that falls on its end, with what the joint there holds.
-  std::string scene(const std::string &names, const std::string &sections, const std::string &joint)
+  /// A bar that falls on its end, with what is joined to it there.
+  std::string scene(const std::string &other = "", const std::string &joint = "")
   {
-    return R"(Gravity = 0, 0; Start = given
-)" + names +
-           "\n" + bar("bar", "10", "1", "10000") + "\n" + sections + R"(
-Link floor: Type = stop; From = ground; To = bar @ 0; Direction = 0, 1; Gap = 0.05
-)" +
+    return "Gravity = 0, 0; Start = given\nTime: Step = 1e-3; End = 0.3\n" +
+           bar("bar", "10", "1", "10000") +
+           "Link floor: Type = stop; From = ground; To = bar @ 0; Direction = 0, 1; Gap = 0.05\n" +
+           other +
            (joint.empty()
                 ? ""
-                : "Link joint: Type = joint; To = bar @ 0; Direction = 0, 1; " + joint + "\n") +
-           R"(
-Time: Step = 1e-3; End = 0.3
-)";
+                : "Link joint: Type = joint; To = bar @ 0; Direction = 0, 1; " + joint + "\n");
   }
 
   std::string with_wire(const std::string &mass, const std::string &stiffness)
   {
-    return scene("", bar("other", "6", mass, stiffness), "From = other @ 0");
+    return scene(bar("other", "6", mass, stiffness), "From = other @ 0");
   }
 
   std::string with_mass(const double stiffness)
   {
     return scene(
-        "", "Mass block: Position = 0, 0; Motions = y; Mass = 5; Initial velocity = 0, -1, 0\n",
+        "Mass block: Position = 0, 0; Motions = y; Mass = 5; Initial velocity = 0, -1, 0\n",
         "From = block; Stiffness = " + number(stiffness));
   }
 
@@ -77,7 +73,7 @@ Time: Step = 1e-3; End = 0.3
     double off = 0., way = 0.;
     for (std::size_t i = 0; i < fine.places.size(); ++i)
     {
-      off = std::max(off, std::fabs(chosen.places[i] - fine.places[i]));
+      raise(off, chosen.places[i] - fine.places[i]);
       way = std::max(way, .05 + std::fabs(fine.places[i] + .05));
     }
     figure(name + ", error of the motion over its way", off / way);
@@ -94,7 +90,7 @@ Time: Step = 1e-3; End = 0.3
 // The test can fail: nothing is joined to the node.
 TEST(JoinedNodes, a_node_alone_gives_its_mass)
 {
-  const Motion motion = run(scene("", "", ""), {});
+  const Motion motion = run(scene(), {});
   EXPECT_TRUE(has(motion.log, "under 'floor' gave their mass")) << motion.log;
 }
 

@@ -13,9 +13,15 @@ namespace
 {
   constexpr double pi = 3.14159265358979323846;
 
-  double exact_period(const double amplitude)
+  /// @p n steps, of which each ends where it has to.
+  void advance(taut::Stepper &stepper, const double step, const int n)
   {
-    return 4. * std::sqrt(length / gravity) * boost::math::ellint_1(std::sin(.5 * amplitude));
+    for (int i = 1; i <= n; ++i)
+    {
+      stepper.advance();
+      EXPECT_NEAR(stepper.time(), i * step, 1e-12);
+      EXPECT_LT(stepper.certificate().balance, 1e-9);
+    }
   }
 
   struct Swing
@@ -28,7 +34,9 @@ namespace
   {
     const OneBody<ElasticPendulum> one("pendulum", amplitude, 1e6);
     const ElasticPendulum *const pendulum = one.body;
-    const double period = exact_period(amplitude), step = period / n;
+    const double period = 4. * std::sqrt(length / gravity) *
+                          boost::math::ellint_1(std::sin(.5 * amplitude)),
+                 step = period / n;
     taut::Stepper stepper(one.system, steps_of(step, taut::Start::undeformed, scheme));
     std::vector<double> U(3, 0.), V(3, 0.);
     const double start = pendulum->energy(U, V), scale = bob * gravity * length;
@@ -108,49 +116,22 @@ TEST(LargeMotions, rigid_wall_takes_the_energy_and_gives_none)
 // rounding of its stiffness: each is made in two, and none of these in more.
 TEST(LargeMotions, step_that_cannot_be_prepared_leaves_the_shorter_one)
 {
-  class ImpatientPendulum : public ElasticPendulum
-  {
-  public:
-    ImpatientPendulum(int &refused, double &shortest)
-        : ElasticPendulum(pi / 3., 1e5), n_refused(refused), shortest(shortest)
-    {
-    }
-    void mean_internal_force(const std::vector<double> &U0, const std::vector<double> &U1,
-                             const double step, std::vector<double> &f) const override
-    {
-      shortest = std::min(shortest, step);
-      ElasticPendulum::mean_internal_force(U0, U1, step, f);
-    }
-    std::unique_ptr<taut::SymmetricMatrix> mean_tangent(const std::vector<double> &U0,
-                                                        const std::vector<double> &U1,
-                                                        const double rate,
-                                                        const bool definite) const override
-    {
-      auto K = ElasticPendulum::mean_tangent(U0, U1, rate, definite);
-      if (U0[0] != 0. && rate < 2. / .015)
-      {
-        ++n_refused;
-        K->add(0, 0, std::nan("")); // which has no factor
-      }
-      return K;
-    }
-
-  private:
-    int &n_refused;
-    double &shortest;
-  };
-
   int n_refused = 0;
   double shortest = 1.;
-  const OneBody<ImpatientPendulum> one("pendulum", n_refused, shortest);
+  const OneBody<ElasticPendulum> one("pendulum", pi / 3., 1e5);
+  one.body->change_force = [&](const auto &, const auto &, const double step, auto &)
+  { shortest = std::min(shortest, step); };
+  one.body->change_tangent = [&](const auto &U0, const double rate, taut::SymmetricMatrix &K)
+  {
+    if (U0[0] != 0. && rate < 2. / .015)
+    {
+      ++n_refused;
+      K.add(0, 0, std::nan("")); // which has no factor
+    }
+  };
   constexpr double step = .02;
   taut::Stepper stepper(one.system, steps_of(step, taut::Start::undeformed));
-  for (int n = 1; n <= 20; ++n)
-  {
-    stepper.advance();
-    EXPECT_NEAR(stepper.time(), n * step, 1e-12);
-    EXPECT_LT(stepper.certificate().balance, 1e-9);
-  }
+  advance(stepper, step, 20);
   EXPECT_GT(n_refused, 18);
   EXPECT_EQ(shortest, .5 * step);
 }
@@ -159,37 +140,20 @@ TEST(LargeMotions, step_that_cannot_be_prepared_leaves_the_shorter_one)
 // would have ended, with the energy of the start.
 TEST(LargeMotions, step_that_a_body_refuses_is_made_in_parts)
 {
-  constexpr double farthest = .02;
-  class CarefulPendulum : public ElasticPendulum
-  {
-  public:
-    explicit CarefulPendulum(int &refused) : ElasticPendulum(pi / 3., 1e5), n_refused(refused) {}
-    void mean_internal_force(const std::vector<double> &U0, const std::vector<double> &U1,
-                             const double step, std::vector<double> &f) const override
-    {
-      for (unsigned int i = 0; i < 3; ++i)
-        if (std::fabs(U1[i] - U0[i]) > farthest)
-        {
-          ++n_refused;
-          throw taut::UserError("too far");
-        }
-      ElasticPendulum::mean_internal_force(U0, U1, step, f);
-    }
-
-  private:
-    int &n_refused;
-  };
-
   int n_refused = 0;
-  const OneBody<CarefulPendulum> one("pendulum", n_refused);
-  const CarefulPendulum *const pendulum = one.body;
+  const OneBody<ElasticPendulum> one("pendulum", pi / 3., 1e5);
+  one.body->change_force = [&](const auto &U0, const auto &U1, double, auto &)
+  {
+    if (largest_difference(U0, U1) > .02)
+    {
+      ++n_refused;
+      throw taut::UserError("too far");
+    }
+  };
+  const ElasticPendulum *const pendulum = one.body;
   constexpr double step = .01;
   taut::Stepper stepper(one.system, steps_of(step, taut::Start::undeformed));
-  for (int n = 1; n <= 100; ++n)
-  {
-    stepper.advance();
-    EXPECT_NEAR(stepper.time(), n * step, 1e-12);
-  }
+  advance(stepper, step, 100);
   EXPECT_GT(n_refused, 0);
   const std::vector<double> start(3, 0.);
   EXPECT_NEAR(pendulum->energy(stepper.displacement(0), stepper.state().V[0]),

@@ -22,13 +22,11 @@ namespace
     scene.start = taut::Start::given;
     for (int i = 0; i < n_masses; ++i)
     {
-      taut::Mass mass;
+      scene.masses.emplace_back();
+      taut::Mass &mass = scene.masses.back();
       mass.name = "mass " + std::to_string(i);
       mass.position = {double(i), .05};
       mass.mass = 1.;
-      mass.moves[0] = false;
-      mass.moves[1] = true;
-      scene.masses.push_back(mass);
     }
     for (int i = 0; i < n_masses * n_stops; ++i)
     {

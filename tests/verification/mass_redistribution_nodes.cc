@@ -14,20 +14,15 @@ namespace
   /// A wire of unequal elements with stops at one end and inside, and what moves with it rigidly.
   std::string wire(const std::string &components, const int degree, const std::string &massless)
   {
+    const std::string stop = std::string("; Type = stop; From = ground; Gap = 1; Direction = ") +
+                             (components == "bar" ? "1, 0" : "0, 1");
     return R"(Gravity = 0, 0; Start = given
-Wire wire: From = 0, 0; To = 3, 0; Components = )" +
-           components + R"(;
-  Degree = )" +
-           std::to_string(degree) + R"(; Mass per length = 2; Axial stiffness = 900;
-  Tension = 900; Bending stiffness = 5; Element size = 0.3
-Link end: Type = stop; From = ground; To = wire @ 0;
-  Direction = )" +
-           (components == "bar" ? "1, 0" : "0, 1") + R"(; Gap = 1
-Link middle: Type = stop; From = ground; To = wire @ 1.3;
-  Direction = )" +
-           (components == "bar" ? "1, 0" : "0, 1") + R"(; Gap = 1
-Time: Scheme = BDF2; Step = 1e-3; End = 1e-3; Mass redistribution = )" +
-           massless;
+Wire wire: From = 0, 0; To = 3, 0; Mass per length = 2; Axial stiffness = 900;
+  Tension = 900; Bending stiffness = 5; Element size = 0.3; Degree = )" +
+           std::to_string(degree) + "; Components = " + components + "\nLink end: To = wire @ 0" +
+           stop + "\nLink middle: To = wire @ 1.3" + stop +
+           "\nTime: Scheme = BDF2; Step = 1e-3; End = 1e-3; Mass redistribution = " + massless +
+           "\n";
   }
 
   /// Mass, first and second moment about s = 0, least eigenvalue-like pivot, mass of the stops.
@@ -76,35 +71,27 @@ Time: Scheme = BDF2; Step = 1e-3; End = 1e-3; Mass redistribution = )" +
         }
     }
     const auto product = [&](const std::vector<double> &x, const std::vector<double> &y)
-    {
-      const std::vector<double> My = matrix_times(body.mass(), y);
-      return std::inner_product(x.begin(), x.end(), My.begin(), 0.);
-    };
+    { return std::inner_product(x.begin(), x.end(), matrix_times(body.mass(), y).begin(), 0.); };
     result.mass = product(one, one);
     result.first = product(one, s);
     result.second = product(s, s);
 
     // Cholesky on the DoFs away from the stops.
-    std::vector<double> a(n * n, 0.);
+    std::vector<double> a(n * n, 0.), diagonal(n);
     body.mass().visit([&](unsigned int i, unsigned int j, double value)
                       { a[i * n + j] = a[j * n + i] = value; });
     for (int i = 0; i < n; ++i)
+      diagonal[i] = a[i * n + i];
+    for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j)
         if (at_stop[i])
-          result.largest_at_stops = std::max(result.largest_at_stops, std::fabs(a[i * n + j]));
+          raise(result.largest_at_stops, a[i * n + j]);
     result.least_pivot = 1e300;
     for (int c = 0; c < n; ++c)
     {
       if (at_stop[c] || (!beam && c > static_cast<int>(degree) * 11))
         continue;
-      const double diagonal = [&]
-      {
-        double m = 0.;
-        body.mass().visit([&](unsigned int i, unsigned int j, double value)
-                          { m = i == j && static_cast<int>(i) == c ? value : m; });
-        return m;
-      }();
-      result.least_pivot = std::min(result.least_pivot, a[c * n + c] / diagonal);
+      result.least_pivot = std::min(result.least_pivot, a[c * n + c] / diagonal[c]);
       for (int r = c + 1; r < n; ++r)
         for (int k = c + 1; k < n; ++k)
           a[r * n + k] -= a[r * n + c] * a[c * n + k] / a[c * n + c];
@@ -143,13 +130,13 @@ TEST(MasslessContact, mass_its_centre_and_its_inertia_stay)
                   without = inertia(components, degree, "inertia"),
                   total = inertia(components, degree, "mass");
     const std::string name = components + " of degree " + std::to_string(degree);
-    // rho L, rho L^2/2, rho L^3/3
-    EXPECT_NEAR(with.mass, 6., 1e-12) << name;
-    EXPECT_NEAR(with.first, 9., 1e-12) << name;
-    EXPECT_NEAR(with.second, 18., 1e-12) << name;
-    EXPECT_NEAR(without.mass, 6., 1e-12) << name;
-    EXPECT_NEAR(without.first, 9., 1e-12) << name;
-    EXPECT_NEAR(without.second, 18., 1e-12) << name;
+    for (const Inertia *i : {&with, &without})
+    {
+      // rho L, rho L^2/2, rho L^3/3
+      EXPECT_NEAR(i->mass, 6., 1e-12) << name;
+      EXPECT_NEAR(i->first, 9., 1e-12) << name;
+      EXPECT_NEAR(i->second, 18., 1e-12) << name;
+    }
     EXPECT_GT(with.largest_at_stops, .05) << name;
     EXPECT_EQ(without.largest_at_stops, 0.) << name;
     EXPECT_GT(without.least_pivot, 1e-3) << name;
@@ -182,7 +169,5 @@ TEST(MasslessContact, an_impact_makes_no_peak_that_grows_as_the_step_falls)
 
 TEST(MasslessContact, stops_that_leave_no_node_to_take_the_mass_are_named)
 {
-  std::string text = wire("bar", 1, "mass");
-  text.replace(text.find("Element size = 0.3"), 18, "Element size = 3  ");
-  EXPECT_THROW(Session{text}, taut::EntryError);
+  EXPECT_THROW(Session(wire("bar", 1, "mass") + "Wire wire: Element size = 3\n"), taut::EntryError);
 }

@@ -4,11 +4,10 @@
 // messages; the place where a joint holds.
 #include "scene_tests.h"
 
+using namespace verification;
+
 namespace
 {
-  using verification::has;
-  using verification::Overrides;
-
   const std::string pendulum = R"(Gravity = 0, -9.81; Start = given
 Mass m: Position = 0, -1; Motions = x, y; Mass = 2
 Link rod: Type = joint; From = ground @ 0, 0; To = m
@@ -21,14 +20,9 @@ Time: End = 0.02; Step = 1e-3
     double y = 0.;
     try
     {
-      verification::run_scene(
-          pendulum, overrides,
-          [&](const taut::StepView &view)
-          {
-            std::vector<taut::Term> terms;
-            view.structure.motion({taut::Attachment::Kind::mass, 0}, false, {0., 1.}, 1., terms);
-            y = evaluate(terms, view.reference.displacement) + evaluate(terms, view.state.U);
-          });
+      run_scene(pendulum, overrides,
+                [&](const taut::StepView &view)
+                { y = displacement(view, point_of_mass(view, 0)); });
     }
     catch (const taut::EntryError &e)
     {

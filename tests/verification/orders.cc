@@ -7,41 +7,23 @@
 #include "scene_tests.h"
 
 #include <deal.II/lac/full_matrix.h>
-
-#include <map>
+#include <deal.II/lac/vector.h>
 
 using namespace verification;
 
 namespace
 {
-  using Vector = std::vector<double>;
+  using Vector = dealii::Vector<double>;
+  using Matrix = dealii::FullMatrix<double>;
 
-  /// A dense matrix, constraint by constraint.
-  struct Matrix
+  /// All bodies in one vector.
+  Vector flat(const taut::BodyVectors &U)
   {
-    int n;
-    Vector a;
-    explicit Matrix(const int n) : n(n), a(n * n, 0.) {}
-    double &operator()(int i, int j) { return a[i * n + j]; }
-    double operator()(int i, int j) const { return a[i * n + j]; }
-    Vector times(const Vector &x) const
-    {
-      Vector y(n, 0.);
-      for (int i = 0; i < n; ++i)
-        for (int j = 0; j < n; ++j)
-          y[i] += a[i * n + j] * x[j];
-      return y;
-    }
-    Matrix inverse() const
-    {
-      dealii::FullMatrix<double> full(n, n, a.data());
-      full.gauss_jordan();
-      Matrix result(n);
-      for (int i = 0; i < n; ++i)
-        std::copy(full.begin(i), full.end(i), result.a.begin() + i * n);
-      return result;
-    }
-  };
+    std::vector<double> all;
+    for (const std::vector<double> &block : U)
+      all.insert(all.end(), block.begin(), block.end());
+    return Vector(all.begin(), all.end());
+  }
 
   /// Motion of a moving support and its derivatives.
   struct Given
@@ -60,15 +42,10 @@ namespace
   public:
     Reference(const taut::Structure &structure, const taut::Constraints &constraints,
               const Motion &motion)
-        : structure(structure), motion(motion), M(n_all(structure)), C(n_all(structure)),
-          K(n_all(structure)), T(n_all(structure)), M_inverse(0)
+        : structure(structure), motion(motion), n(structure.n_dofs()), M(n), C(n), K(n),
+          T(dealii::IdentityMatrix(n)), M_inverse(n), constrained(n, 0), moving(n, 0)
     {
-      const int n = M.n;
-      constrained.assign(n, 0);
-      moving.assign(n, 0);
-      for (int i = 0; i < n; ++i)
-        T(i, i) = 1.;
-      int offset = 0;
+      unsigned int offset = 0;
       for (std::size_t k = 0; k < structure.size(); ++k)
       {
         offsets.push_back(offset);
@@ -89,7 +66,12 @@ namespace
       }
       for (std::size_t r = 0; r < constraints.size(); ++r)
         add_joint(constraints[r]);
-      reduce();
+      M_inverse.triple_product(M, T, T, true);
+      for (unsigned int i = 0; i < n; ++i)
+        if (is_eliminated(i))
+          for (unsigned int j = 0; j < n; ++j)
+            M_inverse(i, j) = M_inverse(j, i) = i == j;
+      M_inverse.gauss_jordan();
     }
 
     /// Displacements at multiples of @p step from given U and V, all bodies in one vector.
@@ -97,14 +79,10 @@ namespace
                               const int n_steps)
     {
       const double dt = step / substeps;
-      const auto a = [&](double t, const Vector &U, const Vector &V)
-      { return acceleration(t, U, V); };
-      const auto combine = [](const Vector &x, double f, const Vector &y)
+      const auto sum = [](Vector x, double f, const Vector &y)
       {
-        Vector z(x);
-        for (std::size_t i = 0; i < x.size(); ++i)
-          z[i] += f * y[i];
-        return z;
+        x.add(f, y);
+        return x;
       };
       std::vector<Vector> result = {u};
       forces = {multiplier(0., u, v)};
@@ -114,17 +92,16 @@ namespace
         for (int k = 0; k < substeps; ++k)
         {
           t = i * step + k * dt;
-          const Vector a1 = a(t, u, v);
-          const Vector u2 = combine(u, .5 * dt, v), v2 = combine(v, .5 * dt, a1),
-                       a2 = a(t + .5 * dt, u2, v2);
-          const Vector u3 = combine(u, .5 * dt, v2), v3 = combine(v, .5 * dt, a2),
-                       a3 = a(t + .5 * dt, u3, v3);
-          const Vector u4 = combine(u, dt, v3), v4 = combine(v, dt, a3), a4 = a(t + dt, u4, v4);
-          for (std::size_t j = 0; j < u.size(); ++j)
-          {
-            u[j] += dt / 6. * (v[j] + 2. * v2[j] + 2. * v3[j] + v4[j]);
-            v[j] += dt / 6. * (a1[j] + 2. * a2[j] + 2. * a3[j] + a4[j]);
-          }
+          const Vector a1 = acceleration(t, u, v);
+          const Vector u2 = sum(u, .5 * dt, v), v2 = sum(v, .5 * dt, a1),
+                       a2 = acceleration(t + .5 * dt, u2, v2);
+          const Vector u3 = sum(u, .5 * dt, v2), v3 = sum(v, .5 * dt, a2),
+                       a3 = acceleration(t + .5 * dt, u3, v3);
+          const Vector v4 = sum(v, dt, a3), a4 = acceleration(t + dt, sum(u, dt, v3), v4);
+          u.add(dt / 6., v, dt / 3., v2);
+          u.add(dt / 3., v3, dt / 6., v4);
+          v.add(dt / 6., a1, dt / 3., a2);
+          v.add(dt / 3., a3, dt / 6., a4);
           set_given(t + dt, u, v);
         }
         result.push_back(u);
@@ -134,61 +111,40 @@ namespace
     }
 
     /// Force of the rigid joint at the times of the last solve().
-    Vector forces;
+    std::vector<double> forces;
 
   private:
-    static int n_all(const taut::Structure &structure) { return structure.n_dofs(); }
+    bool is_eliminated(const unsigned int i) const
+    {
+      return constrained[i] || static_cast<int>(i) == pivot;
+    }
 
     void add_joint(const taut::ConstraintData &constraint)
     {
-      Vector b(M.n, 0.);
+      Vector b(n);
       for (const taut::Term &term : constraint.terms)
         for (std::size_t i = 0; i < term.form.index.size(); ++i)
           b[offsets[term.substructure] + term.form.index[i]] += term.form.value[i];
       if (!constraint.spring.is_rigid())
       {
-        for (int i = 0; i < M.n; ++i)
-          for (int j = 0; j < M.n; ++j)
-          {
-            K(i, j) += constraint.spring.stiffness * b[i] * b[j];
-            C(i, j) += constraint.spring.damping * b[i] * b[j];
-          }
+        Matrix bb(n);
+        bb.outer_product(b, b);
+        K.add(constraint.spring.stiffness, bb);
+        C.add(constraint.spring.damping, bb);
         return;
       }
-      int p = 0;
-      for (int i = 0; i < M.n; ++i)
-        if (std::fabs(b[i]) > std::fabs(b[p]) && !constrained[i])
-          p = i;
-      for (int i = 0; i < M.n; ++i)
-        T(p, i) = i == p ? 0. : -b[i] / b[p];
-      pivot = p;
-      pivot_factor = b[p];
-    }
-
-    void reduce()
-    {
-      const int n = M.n;
-      Matrix reduced(n);
-      for (int i = 0; i < n; ++i)
-        for (int j = 0; j < n; ++j)
-          for (int k = 0; k < n; ++k)
-            if (T(k, i) != 0.)
-              for (int l = 0; l < n; ++l)
-                if (T(l, j) != 0.)
-                  reduced(i, j) += T(k, i) * M(k, l) * T(l, j);
-      for (int i = 0; i < n; ++i)
-        if (constrained[i] || i == pivot)
-        {
-          for (int j = 0; j < n; ++j)
-            reduced(i, j) = reduced(j, i) = 0.;
-          reduced(i, i) = 1.;
-        }
-      M_inverse = reduced.inverse();
+      pivot = 0;
+      for (unsigned int i = 0; i < n; ++i)
+        if (std::fabs(b[i]) > std::fabs(b[pivot]) && !constrained[i])
+          pivot = i;
+      pivot_factor = b[pivot];
+      for (unsigned int i = 0; i < n; ++i)
+        T(pivot, i) = static_cast<int>(i) == pivot ? 0. : -b[i] / pivot_factor;
     }
 
     void set_given(const double t, Vector &u, Vector &v) const
     {
-      for (int i = 0; i < M.n; ++i)
+      for (unsigned int i = 0; i < n; ++i)
         if (moving[i])
         {
           u[i] = motion(t).u;
@@ -199,32 +155,33 @@ namespace
     /// P - C v - K u, and minus M times the acceleration of moving supports.
     Vector balance(const double t, const Vector &u, const Vector &v) const
     {
-      Vector r(M.n, 0.), given(M.n, 0.), P;
+      Vector r(n), given(n), product(n);
+      std::vector<double> P;
       for (std::size_t k = 0; k < structure.size(); ++k)
       {
         structure[k].external_force(t, P);
         std::copy(P.begin(), P.end(), r.begin() + offsets[k]);
       }
-      for (int i = 0; i < M.n; ++i)
-        if (moving[i])
-          given[i] = motion(t).a;
-      const Vector Cv = C.times(v), Ku = K.times(u), Ma = M.times(given);
-      for (int i = 0; i < M.n; ++i)
-        r[i] -= Cv[i] + Ku[i] + Ma[i];
+      for (unsigned int i = 0; i < n; ++i)
+        given[i] = moving[i] ? motion(t).a : 0.;
+      C.vmult(product, v);
+      K.vmult(product, u, true);
+      M.vmult(product, given, true);
+      r -= product;
       return r;
     }
 
     Vector acceleration(const double t, Vector u, Vector v) const
     {
       set_given(t, u, v);
-      const Vector r = balance(t, u, v);
-      Vector reduced(M.n, 0.);
-      for (int i = 0; i < M.n; ++i)
-        if (!constrained[i] && i != pivot)
-          for (int k = 0; k < M.n; ++k)
-            reduced[i] += T(k, i) * r[k];
-      Vector a = T.times(M_inverse.times(reduced));
-      for (int i = 0; i < M.n; ++i)
+      Vector reduced(n), y(n), a(n);
+      T.Tvmult(reduced, balance(t, u, v));
+      for (unsigned int i = 0; i < n; ++i)
+        if (is_eliminated(i))
+          reduced[i] = 0.;
+      M_inverse.vmult(y, reduced);
+      T.vmult(a, y);
+      for (unsigned int i = 0; i < n; ++i)
         if (constrained[i])
           a[i] = moving[i] ? motion(t).a : 0.;
       return a;
@@ -234,15 +191,16 @@ namespace
     {
       if (pivot < 0)
         return 0.;
-      Vector a = acceleration(t, u, v);
-      const Vector r = balance(t, u, v), Ma = M.times(a);
-      return (Ma[pivot] - r[pivot]) / pivot_factor;
+      Vector Ma(n);
+      M.vmult(Ma, acceleration(t, u, v));
+      return (Ma[pivot] - balance(t, u, v)[pivot]) / pivot_factor;
     }
 
     const taut::Structure &structure;
-    Motion motion;
+    const Motion motion;
+    const unsigned int n;
     Matrix M, C, K, T, M_inverse;
-    std::vector<int> offsets;
+    std::vector<unsigned int> offsets;
     std::vector<char> constrained, moving;
     int pivot = -1;
     double pivot_factor = 1.;
@@ -275,14 +233,6 @@ namespace
        2.,
        1.}};
 
-  Vector flat(const taut::BodyVectors &U)
-  {
-    Vector result;
-    for (const Vector &block : U)
-      result.insert(result.end(), block.begin(), block.end());
-    return result;
-  }
-
   struct Orders
   {
     std::map<std::string, double> displacement, force;
@@ -297,7 +247,6 @@ namespace
   {
     Session session(scene, {"Time.Step=1e-3", "Time.End=1e-3"});
     const taut::Structure &structure = session.simulation().structure();
-    taut::BodyVectors U = structure.zero(), V = structure.zero();
     Vector start_u, start_v;
     session.run(
         [&](const taut::StepView &view)
@@ -305,25 +254,21 @@ namespace
           if (view.state.time > 0.)
             return;
           start_u = flat(view.state.U);
+          start_u += flat(view.reference.displacement);
           start_v = flat(view.state.V);
-          const Vector rest = flat(view.reference.displacement);
-          for (std::size_t i = 0; i < rest.size(); ++i)
-            start_u[i] += rest[i];
         });
     Reference reference(structure, session.simulation().constraints(), motion);
     const std::vector<Vector> exact =
         reference.solve(start_u, start_v, end / coarsest, 16 << (refinements - 1), coarsest);
-    double size = 0., force_size = 0.;
+    const double force_size = largest(reference.forces);
+    double size = 0.;
     for (const Vector &u : exact)
-      for (std::size_t i = 0; i < u.size(); ++i)
-        size = std::max(size, std::fabs(u[i]));
-    for (const double N : reference.forces)
-      force_size = std::max(force_size, std::fabs(N));
+      size = std::max(size, u.linfty_norm());
 
     Orders orders;
     for (const Scheme &scheme : schemes)
     {
-      Vector steps, errors, force_errors;
+      std::vector<double> steps, errors, force_errors;
       for (int k = 0; k < refinements; ++k)
       {
         // Backward Euler reaches its order at shorter steps only.
@@ -340,14 +285,13 @@ namespace
                     const int number = i++;
                     if (number % ratio != 0)
                       return;
-                    const Vector u = flat(view.state.U), rest = flat(view.reference.displacement),
-                                 &e = exact[number / ratio];
-                    for (std::size_t j = 0; j < u.size(); ++j)
-                      error = std::max(error, std::fabs(u[j] + rest[j] - e[j]));
+                    Vector u = flat(view.state.U);
+                    u += flat(view.reference.displacement);
+                    u -= exact[number / ratio];
+                    raise(error, u.linfty_norm());
                     if (force_size > 0. && number / ratio > coarsest / 2)
-                      force_error =
-                          std::max(force_error, std::fabs(view.state.multiplier[0] -
-                                                          reference.forces[number / ratio]));
+                      raise(force_error,
+                            view.state.multiplier[0] - reference.forces[number / ratio]);
                   });
         errors.push_back(error / size);
         force_errors.push_back(force_size > 0. ? force_error / force_size : 1.);
@@ -369,43 +313,29 @@ namespace
     return orders;
   }
 
-  std::string beam(const std::string &name, const double from, const double to,
-                   const std::string &more, const double element_size = 1.)
-  {
-    std::ostringstream text;
-    text << "Wire " << name << ": From = " << from << ", 0; To = " << to
-         << ", 0; Components = beam; Mass per length = 1.5; Tension = 60; Bending stiffness = 20; "
-            "Element size = "
-         << element_size << "; " << more << "\n";
-    return text.str();
-  }
-
-  const std::string ends = "Support ends: Wire = beam; Positions = 0, 4\n";
-
-  std::string network(const std::string &start, const std::string &items)
-  {
-    return "Gravity = 0, 0; Start = " + start + "\n" + items;
-  }
+  /// A beam of 4 m on supports at its ends.
+  const std::string beam = R"(Gravity = 0, 0
+Wire beam: To = 4, 0; Components = beam; Mass per length = 1.5; Tension = 60;
+  Bending stiffness = 20; Element size = 1
+Support ends: Wire = beam; Positions = 0, 4
+)";
 } // namespace
 
 TEST(Orders, free_vibration_from_a_given_displacement_and_velocity)
 {
-  measure(
-      "free vibration of a beam",
-      network("given",
-              ends + beam("beam", 0., 4.,
-                          "Initial transverse displacement = 0.01*sin(pi*s/4)+0.004*sin(pi*s/2); "
-                          "Initial transverse velocity = 0.1*sin(pi*s/4)",
-                          .5)),
-      2.);
+  measure("free vibration of a beam", beam + R"(Start = given
+Wire beam: Initial transverse displacement = 0.01*sin(pi*s/4)+0.004*sin(pi*s/2);
+  Initial transverse velocity = 0.1*sin(pi*s/4); Element size = 0.5
+)",
+          2.);
 }
 
 TEST(Orders, rayleigh_damped_beam)
 {
-  measure("Rayleigh-damped beam",
-          network("given", ends + beam("beam", 0., 4.,
-                                       "Mass damping = 1.5; Stiffness damping = 0.01; Initial "
-                                       "transverse displacement = 0.01*sin(pi*s/4)")),
+  measure("Rayleigh-damped beam", beam + R"(Start = given
+Wire beam: Mass damping = 1.5; Stiffness damping = 0.01;
+  Initial transverse displacement = 0.01*sin(pi*s/4)
+)",
           2.);
 }
 
@@ -413,33 +343,31 @@ TEST(Orders, moving_force)
 {
   // Enters at a quarter of the span, smoothly: a force that is switched on excites modes that no
   // step here resolves.
-  measure("moving force on a beam",
-          network("undeformed", ends + "\n" + beam("beam", 0., 4., "") + R"(
+  measure("moving force on a beam", beam + R"(Start = undeformed
 Load force: Type = moving; On = beam @ 1; Speed = 1; Magnitude = -10*sin(pi*t/4)^4
-)"),
+)",
           2., {}, 3200, 4);
 }
 
 TEST(Orders, load_that_changes_from_an_equilibrium)
 {
-  measure("load from equilibrium",
-          network("equilibrium", ends + "\n" + beam("beam", 0., 4., "") + R"(
+  measure("load from equilibrium", beam + R"(Start = equilibrium
 Load force: Type = point; On = beam @ 1.5; Magnitude = 10+5*sin(4*t)^2
-)"),
+)",
           2.);
 }
 
 TEST(Orders, rigid_joint_between_two_bodies)
 {
-  const Orders orders = measure("rigid joint of two beams",
-                                network("undeformed",
-                                        R"(Support ends: Wire = beam; Positions = 0
+  const Orders orders = measure("rigid joint of two beams", beam + R"(Start = undeformed
+Wire beam: To = 2, 0
+Support ends: Positions = 0
+Wire other: From = 2, 0; To = 4, 0; Components = beam; Mass per length = 1.5; Tension = 60;
+  Bending stiffness = 20; Element size = 1
 Support far end: Wire = other; Positions = 2
-)" + beam("beam", 0., 2., "") + "\n" + beam("other", 2., 4., "") +
-                                            R"(
 Link joint: Type = joint; From = beam @ 2; To = other @ 0; Direction = 0, 1
 Load force: Type = point; On = beam @ 1; Magnitude = 10*sin(2*t)^4
-)"),
+)",
                                 2.);
   for (const Scheme &scheme : schemes)
     EXPECT_NEAR(orders.force.at(scheme.name), scheme.force_order, .2) << scheme.name;
@@ -453,35 +381,33 @@ TEST(Orders, moving_support)
     const double s = std::sin(3. * t), c = std::cos(3. * t);
     return Given{.01 * s * s * s, .09 * s * s * c, .27 * (2. * s * c * c - s * s * s)};
   };
-  measure("moving support",
-          network("equilibrium", R"(Support ends: Wire = beam; Positions = 4
+  measure("moving support", beam + R"(Start = equilibrium
+Wire beam: Mass damping = 0.5; Stiffness damping = 1e-3
+Support ends: Positions = 4
 Support moving: Wire = beam; Positions = 0; Displacement = 0.01*sin(3*t)^3
-)" + beam("beam", 0., 4., "Mass damping = 0.5; Stiffness damping = 1e-3") +
-                                     "\n"),
+)",
           2., motion);
 }
 
 TEST(Orders, damped_link_under_a_load)
 {
-  measure("Kelvin-Voigt link of mass and beam",
-          network("equilibrium", ends + "\n" + beam("beam", 0., 4., "") + R"(
+  measure("Kelvin-Voigt link of mass and beam", beam + R"(Start = equilibrium
 Mass mass: Position = 1, -1; Mass = 2; Motions = y
 Link link: Type = joint; From = mass; To = beam @ 1; Direction = 0, 1; Stiffness = 400;
   Damping = 20
 Load force: Type = point; On = mass; Magnitude = 10*sin(2*t)^4
-)"),
+)",
           2.);
 }
 
 TEST(Orders, damped_link_of_bodies_that_move_at_the_start)
 {
-  measure("Kelvin-Voigt link of moving masses",
-          network("given",
-                  R"(Mass one: Position = 0, 0; Mass = 2; Motions = y; Initial velocity = 0, 0.5, 0;
+  measure("Kelvin-Voigt link of moving masses", R"(Gravity = 0, 0; Start = given
+Mass one: Position = 0, 0; Mass = 2; Motions = y; Initial velocity = 0, 0.5, 0;
   Initial displacement = 0, 0.02, 0
 Mass two: Position = 0, 1; Mass = 3; Motions = y; Initial velocity = 0, -0.3, 0
 Spring spring: From = ground; To = one; Stiffness = 100
 Link link: Type = joint; From = one; To = two; Direction = 0, 1; Stiffness = 400; Damping = 20
-)"),
+)",
           2.);
 }

@@ -30,7 +30,7 @@ Time: Scheme = Newmark; Step = 2e-4; End = 2
               const std::vector<double> &u = view.state.U[0];
               error = std::max({error, std::fabs(u[0] - (middle - m2 / (m1 + m2) * distance)),
                                 std::fabs(u[1] - (middle + m1 / (m1 + m2) * distance))});
-              size = std::max(size, std::fabs(distance));
+              raise(size, distance);
             });
   figure("two masses on a spring and damper, largest error over the largest elongation",
          error / size);
@@ -58,11 +58,9 @@ Time: Scheme = Newmark; Step = 2e-4; End = 2
                            u = a * (1. - (Omega * Omega * std::cos(omega * t) -
                                           omega * omega * std::cos(Omega * t)) /
                                              (Omega * Omega - omega * omega));
-              error = std::max(error, std::fabs(view.state.U[1][0] - u));
-              force_error =
-                  std::max(force_error, std::fabs(view.state.multiplier[0] - k * (u - support)));
-              gap_error = std::max(gap_error, std::fabs(view.state.geometric_gap[0] -
-                                                        (support - view.state.U[1][0])));
+              raise(error, view.state.U[1][0] - u);
+              raise(force_error, view.state.multiplier[0] - k * (u - support));
+              raise(gap_error, view.state.geometric_gap[0] - (support - view.state.U[1][0]));
             });
   figure("mass on a support that moves, largest error over the way of the support", error / a);
   figure("mass on a support that moves, largest error of the force", force_error, "N");

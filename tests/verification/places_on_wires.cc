@@ -41,6 +41,7 @@ Time: Scheme = BDF2; Step = 1e-2; End = 0.1
     std::vector<double> values; ///< of the last step
     std::size_t n_nodes = 0;
   };
+  const std::vector<std::string> one_place(4, "3.333333");
 
   Answers answers(const std::string &text, const std::string &parts)
   {
@@ -57,7 +58,6 @@ Time: Scheme = BDF2; Step = 1e-2; End = 0.1
               });
     return result;
   }
-
 } // namespace
 
 TEST(PlacesOnWires, written_with_different_numbers_of_digits_are_one)
@@ -66,8 +66,7 @@ TEST(PlacesOnWires, written_with_different_numbers_of_digits_are_one)
   for (const std::string components : {"string", "beam"})
     for (const std::string parts : {"1", "4"})
     {
-      const Answers equal =
-          answers(scene(components, {"3.333333", "3.333333", "3.333333", "3.333333"}, "10"), parts);
+      const Answers equal = answers(scene(components, one_place, "10"), parts);
       for (const auto &places :
            {std::vector<std::string>{"3.333333", "3.3333333333", "3.33333333333333", "3.3333333"},
             {"3.33333333333333", "3.333333", "3.3333333333", "3.33333335"}})
@@ -92,8 +91,7 @@ TEST(PlacesOnWires, that_are_too_close_are_named)
 {
   for (const std::string components : {"string", "beam"})
   {
-    const std::string text =
-        scene(components, {"3.333333", "3.333333", "3.333333", "3.333333"}, "10");
+    const std::string text = scene(components, one_place, "10");
     const std::string held_twice =
         error_of(text + "Support spring: -Type; -Stiffness; Positions = 3.333333, 3.3333333333\n");
     EXPECT_TRUE(has(held_twice, "is held there already, at 3.333333 m")) << held_twice;

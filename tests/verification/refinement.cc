@@ -26,10 +26,9 @@ namespace
     {
       const Mass &m = masses[i];
       text << "Mass m" << i << ": Position = 0, " << i << "; Motions = y; Mass = " << m.mass
-           << "; Initial displacement = 0, " << m.displacement << ", 0\n";
-      text << "Spring m" << i << ": From = ground; To = m" << i
-           << "; Direction = 0, 1; Stiffness = " << m.stiffness << "\n";
-      text << "Load m" << i << ": On = m" << i << "; Direction = 0, 1; Magnitude = " << m.load
+           << "; Initial displacement = 0, " << m.displacement << ", 0\nSpring m" << i
+           << ": From = ground; To = m" << i << "; Direction = 0, 1; Stiffness = " << m.stiffness
+           << "\nLoad m" << i << ": On = m" << i << "; Direction = 0, 1; Magnitude = " << m.load
            << "\n";
     }
     const bool is_pair = masses.size() > 1;
@@ -62,7 +61,7 @@ TEST(Refinement, a_stop_that_lets_go_does_not_pull)
               {
                 EXPECT_GT(view.state.multiplier[0], 3e4);
               }
-              for (int k = 0; k < 2; ++k)
+              for (int k : {0, 1})
               {
                 u[k] = view.state.U[k][0];
                 v[k] = view.state.V[k][0];

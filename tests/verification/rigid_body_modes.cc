@@ -13,47 +13,48 @@ using namespace verification;
 
 namespace
 {
-  /// Mass, length and axial stiffness of the bar are 1 or as given, in kg, m, N.
-  struct Bar
+  /// Steps of backward Euler in parts, and what gives the multipliers.
+  struct Steps
   {
-    double element_size = 1e-3, axial_stiffness = 1., load = 1., gap = 0., step = 10.;
-    unsigned int n_steps = 1, n_parts = 1;
+    double load, gap, step;
+    unsigned int n_steps = 3, n_parts = 1;
     std::string form = "assembled dense", method = "semismooth Newton";
   };
 
-  /// A load pushes at x = 0, a rigid stop waits at a distance of x = 1.
-  std::string text(const Bar &bar)
+  /// A free wire from x = 0 to @p end, where a rigid stop waits; a load pushes at x = 0.
+  std::string text(const std::string &wire, const std::string &end, const Steps &steps)
   {
     std::ostringstream out;
     out.precision(17);
-    out << "Gravity = 0, 0; Start = undeformed\n"
-           "Wire bar: To = 1, 0; Components = bar; Mass per length = 1; Degree = 1; Axial "
-           "stiffness = "
-        << bar.axial_stiffness << "; Element size = " << bar.element_size
-        << "\nLoad push: On = bar @ 0; Direction = 1, 0; Magnitude = " << bar.load
-        << "\nLink stop: Type = stop; From = bar @ 1; To = ground; Direction = 1, 0; Gap = "
-        << bar.gap << "\nTime: Scheme = backward Euler; Step = " << bar.step
-        << "; End = " << bar.n_steps * bar.step
-        << "\nPartition: Number of substructures = " << bar.n_parts
-        << "\nSolver: Interface operator = " << bar.form << "; Complementarity = " << bar.method;
+    out << "Gravity = 0, 0; Start = undeformed\nWire wire: To = " << end << ", 0; " << wire
+        << "\nLoad push: On = wire @ 0; Magnitude = " << steps.load
+        << "\nLink stop: Type = stop; Gap = " << steps.gap
+        << "\nTime: Scheme = backward Euler; Step = " << steps.step
+        << "; End = " << steps.n_steps * steps.step
+        << "\nPartition: Number of substructures = " << steps.n_parts
+        << "\nSolver: Interface operator = " << steps.form
+        << "; Complementarity = " << steps.method;
     return out.str();
   }
 
-  /// A free beam of 2 m and 3 kg under a load at x = 0, a rigid stop at x = 2.
-  std::string beam(const double load, const double gap, const double step,
-                   const unsigned int n_parts)
+  /// Mass, length and axial stiffness of the bar are 1 or as given, in kg, m, N.
+  std::string bar(const Steps &steps, const std::string &element_size = "1e-3",
+                  const std::string &axial_stiffness = "1")
   {
-    std::ostringstream out;
-    out.precision(17);
-    out << "Gravity = 0, 0; Start = undeformed\n"
-           "Wire beam: To = 2, 0; Components = beam; Mass per length = 1.5; Bending stiffness = "
-           "1e3; Element size = 0.25\n"
-           "Load push: On = beam @ 0; Direction = 0, 1; Magnitude = "
-        << load
-        << "\nLink stop: Type = stop; From = ground; To = beam @ 2; Direction = 0, 1; Gap = " << gap
-        << "\nTime: Scheme = backward Euler; Step = " << step << "; End = " << 3 * step
-        << "\nPartition: Number of substructures = " << n_parts;
-    return out.str();
+    return text("Components = bar; Mass per length = 1; Degree = 1; Axial stiffness = " +
+                    axial_stiffness + "; Element size = " + element_size,
+                "1", steps) +
+           "\nLoad push: Direction = 1, 0\nLink stop: From = wire @ 1; To = ground; Direction = 1, "
+           "0\n";
+  }
+
+  /// A free beam of 2 m and 3 kg.
+  std::string beam(const Steps &steps)
+  {
+    return text("Components = beam; Mass per length = 1.5; Bending stiffness = 1e3; Element size = "
+                "0.25",
+                "2", steps) +
+           "\nLoad push: Direction = 0, 1\nLink stop: To = wire @ 2; Direction = 0, 1\n";
   }
 
   bool has_rigid_body_modes(const taut::Structure &structure, const taut::StepCoefficients &c)
@@ -78,12 +79,10 @@ TEST(RigidBodyModes, a_step_of_a_free_bar_is_that_of_its_differential_equation)
       {
         const double lambda = 1. / step, far = 1. / (lambda * std::sinh(lambda)),
                      near = std::cosh(lambda) * far;
-        Bar bar;
-        bar.step = step;
-        bar.gap = part_of_way * far;
-        (way == "energy-ordered" ? bar.method : bar.form) = way;
-        SCOPED_TRACE(text(bar));
-        Session session(text(bar));
+        Steps steps = {1., part_of_way * far, step, 1};
+        (way == "energy-ordered" ? steps.method : steps.form) = way;
+        SCOPED_TRACE(bar(steps));
+        Session session(bar(steps));
         EXPECT_TRUE(
             has_rigid_body_modes(session.simulation().structure(), taut::backward_euler(step)));
         session.run(
@@ -91,9 +90,9 @@ TEST(RigidBodyModes, a_step_of_a_free_bar_is_that_of_its_differential_equation)
             {
               if (view.state.time == 0.)
                 return;
-              const double N = std::max(0., (far - bar.gap) / near),
+              const double N = std::max(0., (far - steps.gap) / near),
                            // far N and near nearly cancel: (near^2 - far^2)/near = tanh/lambda
-                  u = N > 0. ? std::tanh(lambda) / lambda + bar.gap * far / near : near;
+                  u = N > 0. ? std::tanh(lambda) / lambda + steps.gap * far / near : near;
               const double found = displacement(view, 0, 0., {1., 0.});
               expect_near(view.state.multiplier[0], N, 1e-7);
               expect_near(found, u, 1e-7);
@@ -108,24 +107,16 @@ TEST(RigidBodyModes, a_bar_flies_stops_and_is_pressed_as_momentum_says)
 {
   // 3e-6 N move 1 kg by 3 m in the first step of 1000 s and by 6 m in the second, of which 2 are
   // left: the stop takes the velocity of one step after the other.
-  Bar bar;
-  bar.element_size = .05;
-  bar.axial_stiffness = 1e7;
-  bar.load = 3e-6;
-  bar.gap = 5.;
-  bar.step = 1e3;
-  bar.n_steps = 5;
   const std::vector<double> U = {0., 3., 5., 5., 5., 5.}, N = {0., 0., 4e-6, 5e-6, 3e-6, 3e-6};
   for (const unsigned int n_parts : {1u, 2u, 3u})
   {
-    bar.n_parts = n_parts;
-    SCOPED_TRACE(text(bar));
+    const std::string scene = bar({3e-6, 5., 1e3, 5, n_parts}, "0.05", "1e7");
+    SCOPED_TRACE(scene);
     Overrides overrides;
     if (n_parts == 2)
-      overrides = {"Partition/Method=given", "Partition/Cuts=bar @ 0.5"};
-    Session session(text(bar), overrides);
-    EXPECT_TRUE(
-        has_rigid_body_modes(session.simulation().structure(), taut::backward_euler(bar.step)));
+      overrides = {"Partition/Method=given", "Partition/Cuts=wire @ 0.5"};
+    Session session(scene, overrides);
+    EXPECT_TRUE(has_rigid_body_modes(session.simulation().structure(), taut::backward_euler(1e3)));
     std::size_t i = 0;
     session.run(
         [&](const taut::StepView &view)
@@ -153,8 +144,9 @@ TEST(RigidBodyModes, a_beam_turns_about_the_stop_at_its_end)
   for (const double gap : {0., .5, 1e3})
     for (const unsigned int n_parts : {1u, 2u, 4u})
     {
-      SCOPED_TRACE(beam(load, gap, step, n_parts));
-      Session session(beam(load, gap, step, n_parts));
+      const std::string scene = beam({load, gap, step, 3, n_parts});
+      SCOPED_TRACE(scene);
+      Session session(scene);
       EXPECT_TRUE(
           has_rigid_body_modes(session.simulation().structure(), taut::backward_euler(step)));
       double left = 0., right = 0., left_before = 0., right_before = 0.;
@@ -183,10 +175,8 @@ TEST(RigidBodyModes, a_beam_turns_about_the_stop_at_its_end)
 
 TEST(RigidBodyModes, the_matrix_free_form_names_those_that_have_them)
 {
-  Bar bar;
-  bar.step = 1e6;
-  bar.form = "matrix-free";
-  const std::string refusal = verification::error_of([&] { run_scene(text(bar), {}, {}); });
+  const std::string scene = bar({1., 0., 1e6, 1, 1, "matrix-free"}),
+                    refusal = error_of([&] { run_scene(scene, {}); });
   EXPECT_TRUE(has(refusal, "Solver/Interface operator = assembled")) << refusal;
 }
 

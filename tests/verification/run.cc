@@ -78,6 +78,23 @@ namespace verification
     Session(file_or_text, overrides).run(callback);
   }
 
+  std::string log_of(const std::string &file_or_text, const Overrides &overrides,
+                     const Callback &callback)
+  {
+    Session session(file_or_text, overrides);
+    session.run(callback);
+    return session.log();
+  }
+
+  std::vector<double> history_of(const std::string &file_or_text, const Overrides &overrides,
+                                 const std::function<double(const taut::StepView &)> &value)
+  {
+    std::vector<double> result;
+    run_scene(file_or_text, overrides,
+              [&](const taut::StepView &view) { result.push_back(value(view)); });
+    return result;
+  }
+
   std::vector<taut::Term> point_on_wire(const taut::StepView &view, const std::size_t wire,
                                         const double s, const taut::Coordinates &direction,
                                         const bool rotational)
@@ -85,6 +102,14 @@ namespace verification
     std::vector<taut::Term> terms;
     view.structure.motion({taut::Attachment::Kind::wire, wire, s}, rotational, direction, 1.,
                           terms);
+    return terms;
+  }
+
+  std::vector<taut::Term> point_of_mass(const taut::StepView &view, const std::size_t mass,
+                                        const taut::Coordinates &direction)
+  {
+    std::vector<taut::Term> terms;
+    view.structure.motion({taut::Attachment::Kind::mass, mass}, false, direction, 1., terms);
     return terms;
   }
 
@@ -135,8 +160,9 @@ Load push: On = beam @ 5; Direction = 0, 1; Magnitude = -600*sin(20*t)
 Time: Step = 2e-3; End = 0.4
 )";
 
-  void figure(const std::string &name, const double value, const std::string &unit)
+  double figure(const std::string &name, const double value, const std::string &unit)
   {
     std::printf("figure | %s | %.8g %s\n", name.c_str(), value, unit.c_str());
+    return value;
   }
 } // namespace verification

@@ -6,6 +6,7 @@
 
 #include <taut/simulation/simulation.h>
 
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <sstream>
@@ -58,12 +59,24 @@ namespace verification
 
   /// Runs a scene once.
   void run_scene(const std::string &file_or_text, const Overrides &overrides,
-                 const Callback &callback);
+                 const Callback &callback = {});
+
+  /// The log of a run.
+  std::string log_of(const std::string &file_or_text, const Overrides &overrides = {},
+                     const Callback &callback = {});
+
+  /// What @p value gives at the start and after each step.
+  std::vector<double> history_of(const std::string &file_or_text, const Overrides &overrides,
+                                 const std::function<double(const taut::StepView &)> &value);
 
   /// Linear forms of the displacement, or slope, of a point of a wire or of a mass.
   std::vector<taut::Term> point_on_wire(const taut::StepView &view, std::size_t wire, double s,
                                         const taut::Coordinates &direction = {0., 1.},
                                         bool rotational = false);
+
+  /// The same of a mass.
+  std::vector<taut::Term> point_of_mass(const taut::StepView &view, std::size_t mass,
+                                        const taut::Coordinates &direction = {0., 1.});
 
   /// Displacement from the undeformed structure.
   double displacement(const taut::StepView &view, const std::vector<taut::Term> &terms);
@@ -81,8 +94,15 @@ namespace verification
   /// A beam that falls on stops that stiffen, and hangs in droppers that soften.
   extern const char *const beam_under_laws;
 
-  /// Prints a figure for the ledger: "figure | <name> | <value> <unit>".
-  void figure(const std::string &name, double value, const std::string &unit = "1");
+  /// Raises @p largest to the magnitude of @p value, and for good to not-a-number.
+  inline void raise(double &largest, const double value)
+  {
+    if (std::isnan(value) || std::fabs(value) > largest)
+      largest = std::fabs(value);
+  }
+
+  /// Prints a figure for the ledger, "figure | <name> | <value> <unit>", and returns the value.
+  double figure(const std::string &name, double value, const std::string &unit = "1");
 } // namespace verification
 
 #endif

@@ -117,10 +117,10 @@ TEST(Series, binary_tables_have_the_same_numbers)
   {
     const Overrides settings = {std::string("Output.Link interval=") + interval,
                                 std::string("Output.Interval=") + interval};
-    Session text_session(scene, settings);
-    run(text_session);
-    Session binary_session(scene, settings + Overrides{"Output.Tables=binary"});
-    run(binary_session);
+    Session text_session(scene, settings),
+        binary_session(scene, settings + Overrides{"Output.Tables=binary"});
+    text_session.run();
+    binary_session.run();
     for (const std::string name : {"/links", "/probes", "/certificate"})
     {
       Table expected = read_table(text_session.folder() + name + ".csv"),
@@ -128,8 +128,7 @@ TEST(Series, binary_tables_have_the_same_numbers)
       ASSERT_GT(expected.size(), 1u);
       const std::vector<double> time = expected.at("time [s]");
       ASSERT_EQ(found["time [s]"].size(), time.size());
-      for (std::size_t i = 0; i < time.size(); ++i)
-        EXPECT_NEAR(found["time [s]"][i], time[i], 1e-14);
+      EXPECT_LE(largest_difference(time, found["time [s]"]), 1e-14);
       found["time [s]"] = time;
       EXPECT_EQ(found, expected) << name;
       EXPECT_EQ(file_text(binary_session.folder() + name + ".csv"), "") << "of one kind only";

@@ -4,12 +4,10 @@
 // was. Expected values: Newton's law for each contact or for all at once.
 #include "scene_tests.h"
 
+using namespace verification;
+
 namespace
 {
-  using verification::has;
-  using verification::Overrides;
-  using verification::Session;
-
   /// Newton's cradle: five equal masses along x, the first with 1 m/s, 10 mm from the second; the
   /// others apart by a gap [m].
   std::string cradle(const double gap)
@@ -24,7 +22,7 @@ namespace
       if (i > 0)
         text += std::string("Link ") + names[i - 1] + names[i] +
                 ": Type = stop; Direction = 1, 0; From = " + names[i - 1] + "; To = " + names[i] +
-                "; Gap = " + verification::number(i == 1 ? .01 : gap) + "\n";
+                "; Gap = " + number(i == 1 ? .01 : gap) + "\n";
     }
     return text;
   }
@@ -38,19 +36,14 @@ namespace
   Outcome run(const std::string &scene, const Overrides &overrides = {})
   {
     Outcome result;
-    Session session(scene, overrides);
-    session.run(
+    result.log = log_of(
+        scene, overrides,
         [&](const taut::StepView &view)
         {
           result.velocity.clear();
           for (std::size_t i = 0; i < view.scene.masses.size(); ++i)
-          {
-            std::vector<taut::Term> terms;
-            view.structure.motion({taut::Attachment::Kind::mass, i}, false, {1., 0.}, 1., terms);
-            result.velocity.push_back(evaluate(terms, view.state.V));
-          }
+            result.velocity.push_back(evaluate(point_of_mass(view, i, {1., 0.}), view.state.V));
         });
-    result.log = session.log();
     return result;
   }
 

@@ -37,9 +37,9 @@ Time: Scheme = generalised-alpha; Step = 1e-4; End = 2
               const double r = a * (1. - std::cos(omega * t));
               const double N = k * (at_rest + x - r),
                            u = view.reference.displacement[1][0] + view.state.U[1][0];
-              error = std::max(error, std::fabs(u - at_rest - x));
-              force_error = std::max(force_error, std::fabs(view.state.multiplier[0] - N));
-              largest = std::max(largest, std::fabs(x));
+              raise(error, u - at_rest - x);
+              raise(force_error, view.state.multiplier[0] - N);
+              raise(largest, x);
               least_force = std::min(least_force, view.state.multiplier[0]);
             });
   figure("oscillator shaken by a wavy wire, error of the motion over its largest", error / largest);
@@ -54,21 +54,20 @@ Time: Scheme = generalised-alpha; Step = 1e-4; End = 2
 TEST(SlidingContact, constant_force_on_a_mass_redistribution_is_a_moving_force)
 {
   const double v = 250. / 3.6;
-  std::ostringstream scene;
-  scene.precision(17);
-  scene << "Gravity = 0, 0; Start = equilibrium\n"
-           "Wire string: To = 60, 0; Components = string; Mass per length = 1.35; Tension = 20000; "
-           "Element size = 0.05; Degree = 2\n"
-           "Support ends: Wire = string; Positions = 0, 60\n"
-           "Mass mass: Mass = 0.001; Motions = y\n"
-           "Link contact: Type = sliding contact; From = mass; To = string @ 0; Direction = 0, 1; "
-           "Stiffness = 50000; Damping = 20; Speed = "
-        << v
-        << "\nLoad force: Type = point; On = mass; Magnitude = 120\n"
-           "Time: Scheme = BDF2; Step = 5e-4; End = 0.4\n";
+  const std::string scene = R"(Gravity = 0, 0; Start = equilibrium
+Wire string: To = 60, 0; Components = string; Mass per length = 1.35; Tension = 20000;
+  Element size = 0.05; Degree = 2
+Support ends: Wire = string; Positions = 0, 60
+Mass mass: Mass = 0.001; Motions = y
+Link contact: Type = sliding contact; From = mass; To = string @ 0; Direction = 0, 1;
+  Stiffness = 50000; Damping = 20; Speed = )" +
+                            number(v) + R"(
+Load force: Type = point; On = mass; Magnitude = 120
+Time: Scheme = BDF2; Step = 5e-4; End = 0.4
+)";
   const double c = std::sqrt(20000. / 1.35);
   double error = 0., force_error = 0., compression = 0.;
-  run_scene(scene.str(), {},
+  run_scene(scene, {},
             [&](const taut::StepView &view)
             {
               const double t = view.state.time;
@@ -77,14 +76,12 @@ TEST(SlidingContact, constant_force_on_a_mass_redistribution_is_a_moving_force)
               const double exact = 120. * v * t / (20000. * (1. + v / c)),
                            w = displacement(view, 0, v * t);
               error = std::max(error, std::fabs(w - exact) / exact);
-              force_error = std::max(force_error, std::fabs(view.state.multiplier[0] - 120.));
+              raise(force_error, view.state.multiplier[0] - 120.);
               compression = -view.state.geometric_gap[0];
             });
-  figure("sliding contact as a moving force, largest relative error under it, 0.1..0.4 s", error);
-  figure("sliding contact as a moving force, largest error of the force", force_error, "N");
-  figure("sliding contact as a moving force, compression of the contact spring at 0.4 s",
-         1e3 * compression, "mm");
-  EXPECT_LT(error, 2e-3);
-  EXPECT_LT(force_error, 1.);
-  EXPECT_NEAR(compression, 120. / 50000., .1 * 120. / 50000.);
+  const std::string name = "sliding contact as a moving force, ";
+  EXPECT_LT(figure(name + "largest relative error under it, 0.1..0.4 s", error), 2e-3);
+  EXPECT_LT(figure(name + "largest error of the force", force_error, "N"), 1.);
+  EXPECT_NEAR(figure(name + "compression of the contact spring at 0.4 s", 1e3 * compression, "mm"),
+              2.4, .24);
 }

@@ -9,7 +9,6 @@ using namespace turning;
 namespace
 {
   using verification::error_of;
-  using verification::has;
   const Coordinates start = {.6, -.5, .2}, speed = {.3, 1., -.4};
   constexpr double mass = 3.;
 
@@ -62,14 +61,14 @@ TEST(TurningLibrary, pendulums_are_those_of_a_parameter_file)
         : is_elastic
             ? Constraint::rope("link", pivot, pendulum.bob, length).stiffness(500.).damping(4.)
             : Constraint::rope("link", pivot, pendulum.bob, length);
-    const std::size_t number = pendulum.system.add(link);
+    const std::size_t row = pendulum.system.add(link);
     constexpr double step = 2e-3;
     taut::Stepper stepper(pendulum.system, verification::steps_of(step, taut::Start::given));
 
     Scene scene = thrown({{mass, start, speed}},
                          {"From = ground @ " + text(pivot.position) + "; To = m0; Type = " +
                           (is_elastic ? "dropper; Stiffness = 500; Damping = 4" : type) +
-                          "; Length = " + verification::number(length)},
+                          "; Length = " + number(length)},
                          1.5, step);
     double largest = 0.;
     scene.run(
@@ -79,8 +78,8 @@ TEST(TurningLibrary, pendulums_are_those_of_a_parameter_file)
             stepper.advance();
           EXPECT_NEAR(stepper.time(), m.time, 1e-12);
           EXPECT_LT(norm(pendulum.place(stepper) - m.place[0]), 1e-11) << type << m.time;
-          EXPECT_NEAR(stepper.multiplier(number), m.multiplier[0], 1e-7) << type << m.time;
-          EXPECT_NEAR(stepper.gap(number), m.gap[0], 1e-11) << type << m.time;
+          EXPECT_NEAR(stepper.multiplier(row), m.multiplier[0], 1e-7) << type << m.time;
+          EXPECT_NEAR(stepper.gap(row), m.gap[0], 1e-11) << type << m.time;
           largest = std::max(largest, m.multiplier[0]);
         });
     EXPECT_GT(largest, 10.) << type;

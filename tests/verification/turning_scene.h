@@ -2,8 +2,7 @@
 #ifndef taut_verification_turning_scene_h
 #define taut_verification_turning_scene_h
 
-#include "common.h"
-#include "run.h"
+#include "scene_tests.h"
 
 #include <taut/mechanism/mechanism.h>
 
@@ -11,7 +10,7 @@
 namespace turning
 {
   using taut::Coordinates;
-  using verification::Overrides;
+  using verification::has, verification::number, verification::operator+, verification::Overrides;
 
   const double pi = std::acos(-1.), g = 9.81;
 
@@ -27,15 +26,13 @@ namespace turning
 
   inline std::string text(const Coordinates &c)
   {
-    return verification::number(c.x) + ", " + verification::number(c.y) + ", " +
-           verification::number(c.z);
+    return number(c.x) + ", " + number(c.y) + ", " + number(c.z);
   }
 
   /// A link of a rope of a given length.
   inline std::string rope(const std::string &from, const std::string &to, const double length)
   {
-    return "Type = dropper; From = " + from + "; To = " + to +
-           "; Length = " + verification::number(length);
+    return "Type = dropper; From = " + from + "; To = " + to + "; Length = " + number(length);
   }
 
   struct Mass
@@ -56,15 +53,14 @@ namespace turning
     {
       std::ostringstream out;
       out << "Gravity = " << text(gravity) << "; Start = " << start
-          << "\nTime: Step = " << verification::number(step)
-          << "; End = " << verification::number(end) << "\n";
+          << "\nTime: Step = " << number(step) << "; End = " << number(end) << "\n";
       for (std::size_t i = 0; i < masses.size(); ++i)
       {
         const Coordinates &v = masses[i].velocity;
         out << "Mass m" << i << ": Position = " << text(masses[i].place)
-            << "; Mass = " << verification::number(masses[i].mass)
-            << "; Motions = x, y, z; Initial velocity = " << verification::number(v.x) << ", "
-            << verification::number(v.y) << ", 0, " << verification::number(v.z) << "\n";
+            << "; Mass = " << number(masses[i].mass)
+            << "; Motions = x, y, z; Initial velocity = " << number(v.x) << ", " << number(v.y)
+            << ", 0, " << number(v.z) << "\n";
       }
       for (std::size_t i = 0; i < links.size(); ++i)
         out << "Link l" << i << ": Turns = true; " << links[i] << "\n";
@@ -80,9 +76,8 @@ namespace turning
         double u[3], v[3];
         for (unsigned int c = 0; c < 3; ++c)
         {
-          std::vector<taut::Term> terms;
-          view.structure.motion({taut::Attachment::Kind::mass, i}, false,
-                                {c == 0 ? 1. : 0., c == 1 ? 1. : 0., c == 2 ? 1. : 0.}, 1., terms);
+          const auto terms = verification::point_of_mass(
+              view, i, {c == 0 ? 1. : 0., c == 1 ? 1. : 0., c == 2 ? 1. : 0.});
           u[c] = verification::displacement(view, terms);
           v[c] = evaluate(terms, view.state.V);
         }

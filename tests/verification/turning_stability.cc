@@ -14,7 +14,7 @@ namespace
                    const double of_length)
   {
     return "Type = " + type + "; From = " + from + "; To = " + to +
-           "; Length = " + verification::number(of_length);
+           "; Length = " + number(of_length);
   }
 
   /// Weights one above the other on props, or rods.
@@ -40,9 +40,9 @@ namespace
       {
         const std::string name = axis + std::to_string(i), section = "Network/Spring " + name;
         names += (names.empty() ? "" : ", ") + name;
-        result.push_back(section + "/To=m" + std::to_string(i));
-        result.push_back(section + "/Direction=" + (*axis == 'x' ? "1, 0" : "0, 0, 1"));
-        result.push_back(section + "/Stiffness=" + verification::number(k));
+        result.insert(result.end(), {section + "/To=m" + std::to_string(i),
+                                     section + "/Direction=" + (*axis == 'x' ? "1, 0" : "0, 0, 1"),
+                                     section + "/Stiffness=" + number(k)});
       }
     result.push_back("Network/Springs=" + names);
     return result;
@@ -51,32 +51,28 @@ namespace
   /// The error; empty: they stand, where the scene has them and with a force @p N of link 0.
   std::string error_of(const Scene &scene, const Overrides &overrides, const double N)
   {
-    try
-    {
-      scene.run(
-          [&](const Motion &m)
-          {
-            EXPECT_NEAR(m.multiplier[0], N, 1e-9 * N);
-            for (std::size_t i = 0; i < m.place.size(); ++i)
-            {
-              EXPECT_NEAR(m.place[i].x, scene.masses[i].place.x, 1e-9);
-              EXPECT_NEAR(m.place[i].z, scene.masses[i].place.z, 1e-9);
-            }
-          },
-          overrides);
-    }
-    catch (const taut::EntryError &e)
-    {
-      return e.what();
-    }
-    return "";
+    return verification::error_of(
+        [&]
+        {
+          scene.run(
+              [&](const Motion &m)
+              {
+                EXPECT_NEAR(m.multiplier[0], N, 1e-9 * N);
+                for (std::size_t i = 0; i < m.place.size(); ++i)
+                {
+                  EXPECT_NEAR(m.place[i].x, scene.masses[i].place.x, 1e-9);
+                  EXPECT_NEAR(m.place[i].z, scene.masses[i].place.z, 1e-9);
+                }
+              },
+              overrides);
+        });
   }
 
   void expect_refused(const std::string &error, const std::string &name)
   {
     for (const std::string &part :
          {"Network/Link " + name, "link '" + name + "' with", std::string("Hold its ends")})
-      EXPECT_TRUE(verification::has(error, part)) << part << " in: " << error;
+      EXPECT_TRUE(has(error, part)) << part << " in: " << error;
   }
 
   /// At this part of the critical stiffness the weights are refused, and at the inverse they stand.
@@ -99,9 +95,10 @@ TEST(TurningStability, critical_stiffness_of_a_prop)
   {
     const auto error = [type = type, form = form](const double along_x, const double along_z)
     {
-      Overrides overrides = springs(1, along_x, along_z);
-      overrides.push_back("Solver/Interface operator=" + std::string(form));
-      return error_of(tower(1, type), overrides, weight);
+      return error_of(tower(1, type),
+                      springs(1, along_x, along_z) +
+                          Overrides{"Solver/Interface operator=" + std::string(form)},
+                      weight);
     };
     EXPECT_EQ(error(critical / below, critical / below), "");
     expect_refused(error(critical * below, critical / below), "l0");
@@ -114,7 +111,7 @@ TEST(TurningStability, elastic_prop_gets_shorter)
 {
   constexpr double stiffness = 1000.;
   Scene scene = tower(1);
-  scene.links[0] += "; Stiffness = " + verification::number(stiffness);
+  scene.links[0] += "; Stiffness = " + number(stiffness);
   const double critical = weight / (length - weight / stiffness);
   EXPECT_EQ(error_of(scene, springs(1, critical / below, critical / below), weight), "");
   expect_refused(error_of(scene, springs(1, critical * below, critical * below), weight), "l0");
@@ -143,7 +140,7 @@ TEST(TurningStability, guys_hold_a_mast)
     for (const Coordinates &foot :
          {Coordinates{length, 0., 0.}, {-length, 0., 0.}, {0., 0., length}, {0., 0., -length}})
       scene.links.push_back(rope("ground @ " + text(foot), "m0", rope_length - tension / k) +
-                            "; Stiffness = " + verification::number(k));
+                            "; Stiffness = " + number(k));
     const std::string error = error_of(scene, {}, weight + 4. * tension / std::sqrt(2.));
     if (part < 1.)
       expect_refused(error, "l0");

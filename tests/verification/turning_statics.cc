@@ -23,7 +23,7 @@ namespace
 
   std::string error_of(const std::string &entries, const Overrides &overrides = {})
   {
-    Scene scene = thrown({{1., {1., 0., 0.}, {}}, {1., {2., 0., 0.}, {}}}, {entries}, .01);
+    const Scene scene = thrown({{1., {1., 0., 0.}, {}}, {1., {2., 0., 0.}, {}}}, {entries}, .01);
     return verification::error_of([&] { at_rest(scene, overrides); });
   }
 } // namespace
@@ -38,7 +38,7 @@ TEST(TurningStatics, weight_on_two_ropes)
         const double a = 1. * size, b = .9 * size, distance = 1.5 * size;
         Scene scene = {{{weight / g, add_scaled({}, size, guess), {}}},
                        {rope("ground @ 0, 0", "m0", a),
-                        rope("m0", "ground @ " + verification::number(distance) + ", 0", b)}};
+                        rope("m0", "ground @ " + number(distance) + ", 0", b)}};
         const Motion m = at_rest(scene);
         const Coordinates expected = below(distance, a, b);
         EXPECT_LT(norm(m.place[0] - expected), 1e-9 * size);
@@ -94,10 +94,8 @@ TEST(TurningStatics, chain_of_elastic_ropes)
 
 TEST(TurningStatics, a_scene_that_is_turned_in_space_has_the_same_answers)
 {
-  const auto turned = [](const Coordinates &a, const bool is_turned)
+  const auto turned = [](const Coordinates &a)
   {
-    if (!is_turned)
-      return a;
     const double c = std::cos(1.1), s = std::sin(1.1), d = std::cos(.7), e = std::sin(.7);
     const Coordinates first = {c * a.x - s * a.y, s * a.x + c * a.y, a.z};
     return Coordinates{first.x, d * first.y - e * first.z, e * first.y + d * first.z};
@@ -105,18 +103,19 @@ TEST(TurningStatics, a_scene_that_is_turned_in_space_has_the_same_answers)
   std::vector<Motion> found[2];
   for (const bool is_turned : {false, true})
   {
-    Scene scene = thrown({{2., turned({1., -.4, .1}, is_turned), turned({.5, 1., -.3}, is_turned)},
-                          {1., turned({1.8, -.9, 0.}, is_turned), turned({0., 2., .4}, is_turned)}},
-                         {rope("ground @ " + text(turned({.1, 0., 0.}, is_turned)), "m0", 1.2),
-                          rope("m0", "m1", 1.1) + "; Stiffness = 3000; Damping = 5"},
-                         .8, 1e-3, turned({0., -g, 0.}, is_turned));
+    const auto of = [&](const Coordinates &a) { return is_turned ? turned(a) : a; };
+    const Scene scene = thrown(
+        {{2., of({1., -.4, .1}), of({.5, 1., -.3})}, {1., of({1.8, -.9, 0.}), of({0., 2., .4})}},
+        {rope("ground @ " + text(of({.1, 0., 0.})), "m0", 1.2),
+         rope("m0", "m1", 1.1) + "; Stiffness = 3000; Damping = 5"},
+        .8, 1e-3, of({0., -g, 0.}));
     scene.run([&](const Motion &m) { found[is_turned].push_back(m); });
   }
   double largest = 0.;
   for (std::size_t n = 0; n < found[0].size(); ++n)
     for (std::size_t i = 0; i < 2; ++i)
     {
-      EXPECT_LT(norm(turned(found[0][n].place[i], true) - found[1][n].place[i]), 1e-10);
+      EXPECT_LT(norm(turned(found[0][n].place[i]) - found[1][n].place[i]), 1e-10);
       largest = std::max(largest, found[0][n].multiplier[i]);
       EXPECT_NEAR(found[0][n].multiplier[i], found[1][n].multiplier[i], 1e-6);
     }
@@ -126,7 +125,7 @@ TEST(TurningStatics, a_scene_that_is_turned_in_space_has_the_same_answers)
 TEST(TurningStatics, what_cannot_turn_is_refused)
 {
   const auto expect = [](const std::string &error, const std::string &part)
-  { EXPECT_TRUE(verification::has(error, part)) << error; };
+  { EXPECT_TRUE(has(error, part)) << error; };
   const std::string ends = "From = ground @ 0, 0; To = m0";
   expect(error_of(ends + "; Type = dropper; Direction = 1, 0"), "leave it empty");
   expect(error_of(ends + "; Type = ball joint"), "no direction from end to end");

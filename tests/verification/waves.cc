@@ -18,24 +18,22 @@ namespace
     return std::max(0., F * beta * (c * t - x) / (T * (1. - beta * beta)));
   }
 
-  std::string scene(const double h, const double tau, const std::string &scheme, const int degree)
+  std::string scene(const double h, const double tau, const int degree)
   {
-    std::ostringstream text;
-    text.precision(17);
-    text << "Gravity = 0, 0; Start = undeformed\n"
-            "Wire string: To = 60, 0; Components = string; Mass per length = 1.35; Tension = "
-            "20000; Degree = "
-         << degree << "; Element size = " << h
-         << "\nSupport ends: Wire = string; Positions = 0, 60\n"
-            "Load force: Type = moving; On = string @ 0; Magnitude = 120; Speed = "
-         << v << "\nTime: Scheme = " << scheme << "; Step = " << tau << "; End = 0.4\n";
-    return text.str();
+    return R"(Gravity = 0, 0; Start = undeformed
+Wire string: To = 60, 0; Components = string; Mass per length = 1.35; Tension = 20000
+Support ends: Wire = string; Positions = 0, 60
+Load force: Type = moving; On = string @ 0; Magnitude = 120; Speed = )" +
+           number(v) + "\nWire string: Degree = " + std::to_string(degree) +
+           "; Element size = " + number(h) +
+           "\nTime: Scheme = generalised-alpha; End = 0.4; Step = " + number(tau) + "\n";
   }
 
-  std::string text(const double x)
+  /// Sizes of elements and steps in a figure.
+  std::string grid(const double h, const double tau)
   {
     std::ostringstream out;
-    out << x;
+    out << "h = " << 1e3 * h << " mm, tau = " << 1e6 * tau << " us";
     return out.str();
   }
 
@@ -44,10 +42,10 @@ namespace
     double at_load = 0., behind = 0., ahead = 0., w = 0.; ///< relative; w [m] at t = 0.3 s
   };
 
-  Errors run(const double h, const double tau, const std::string &scheme, const int degree)
+  Errors run(const double h, const double tau, const int degree)
   {
     Errors e;
-    run_scene(scene(h, tau, scheme, degree), {},
+    run_scene(scene(h, tau, degree), {},
               [&](const taut::StepView &view)
               {
                 const double t = view.state.time;
@@ -60,11 +58,8 @@ namespace
                 if (std::lround(t / tau) % 10 != 0)
                   return;
                 for (double x = .25; x < L; x += .25)
-                {
-                  double &error = x <= v * t ? e.behind : e.ahead;
-                  error =
-                      std::max(error, std::fabs(displacement(view, 0, x) - exact(x, t)) / w_load);
-                }
+                  raise(x <= v * t ? e.behind : e.ahead,
+                        (displacement(view, 0, x) - exact(x, t)) / w_load);
               });
     return e;
   }
@@ -78,13 +73,12 @@ TEST(MovingForceOnString, displacement_at_the_load_is_exact_to_a_thousandth)
   for (const double h : {.2, .1, .05, .025})
   {
     const double tau = h / 100.;
-    e = run(h, tau, "generalised-alpha", 2);
-    figure("moving force, quadratic elements, largest relative error at the load in 0.1..0.4 s, "
-           "h = " +
-               text(1e3 * h) + " mm, tau = " + text(1e6 * tau) + " us",
-           e.at_load);
+    e = run(h, tau, 2);
     sizes.push_back(h);
-    errors.push_back(e.at_load);
+    errors.push_back(figure(
+        "moving force, quadratic elements, largest relative error at the load in 0.1..0.4 s, " +
+            grid(h, tau),
+        e.at_load));
   }
   const double order = fitted_order(sizes, errors);
   figure("moving force, quadratic elements, displacement at the load at 0.3 s, h = 25 mm",
@@ -97,38 +91,39 @@ TEST(MovingForceOnString, displacement_at_the_load_is_exact_to_a_thousandth)
 
 TEST(MovingForceOnString, whole_profile_is_exact_to_a_thousandth)
 {
-  std::vector<double> sizes, at_load, behind, ahead;
-  for (const double h : {.05, .025, .0125, .00625})
+  struct Part
   {
-    const double tau = h / 200.;
-    const Errors e = run(h, tau, "generalised-alpha", 1);
-    const std::string grid = ", h = " + text(1e3 * h) + " mm, tau = " + text(1e6 * tau) + " us";
-    figure("moving force, linear elements, relative error at the load" + grid, e.at_load);
-    figure("moving force, linear elements, error behind the load, relative to it" + grid, e.behind);
-    figure("moving force, linear elements, error ahead of the load, relative to it" + grid,
-           e.ahead);
-    sizes.push_back(h);
-    at_load.push_back(e.at_load);
-    behind.push_back(e.behind);
-    ahead.push_back(e.ahead);
+    std::string error, name;
+    double Errors::*of;
+    double order;
+    std::vector<double> errors = {};
+  };
+  Part parts[] = {
+      {"relative error at the load", "at the load", &Errors::at_load, .95},
+      {"error behind the load, relative to it", "behind the load", &Errors::behind, .9},
+      // The front of the wave is a kink, O(h^(2/3)).
+      {"error ahead of the load, relative to it", "ahead of the load", &Errors::ahead, .6}};
+  const std::vector<double> sizes = {.05, .025, .0125, .00625};
+  const std::string name = "moving force, linear elements, ";
+  for (const double h : sizes)
+  {
+    const Errors e = run(h, h / 200., 1);
+    for (Part &part : parts)
+      part.errors.push_back(figure(name + part.error + ", " + grid(h, h / 200.), e.*part.of));
   }
-  figure("moving force, linear elements, order at the load", fitted_order(sizes, at_load));
-  figure("moving force, linear elements, order behind the load", fitted_order(sizes, behind));
-  figure("moving force, linear elements, order ahead of the load", fitted_order(sizes, ahead));
-  EXPECT_LT(at_load.back(), 1e-3);
-  EXPECT_LT(behind.back(), 1e-3);
-  EXPECT_LT(ahead.back(), 1e-3);
-  EXPECT_GT(fitted_order(sizes, at_load), .95);
-  EXPECT_GT(fitted_order(sizes, behind), .9);
-  EXPECT_GT(fitted_order(sizes, ahead), .6) << "the front of the wave is a kink, O(h^(2/3))";
+  for (const Part &part : parts)
+  {
+    EXPECT_GT(figure(name + "order " + part.name, fitted_order(sizes, part.errors)), part.order);
+    EXPECT_LT(part.errors.back(), 1e-3) << part.name;
+  }
 }
 
 // A damper of sqrt(T m) at its end ends a string as if it went on: a wave that arrives there is
 // swallowed.
 TEST(Damper, of_the_wave_impedance_swallows_a_wave)
 {
-  double energy_before = 0., energy_after = 0.;
-  run_scene(R"(Gravity = 0, 0; Start = given
+  const std::vector<double> energy = history_of(
+      R"(Gravity = 0, 0; Start = given
 Wire string: To = 20, 0; Components = string; Mass per length = 1; Tension = 400;
   Element size = 0.05; Initial transverse displacement = 0.01*exp(-(s-10)^2);
   Initial transverse velocity = 0.4*(s-10)*exp(-(s-10)^2)
@@ -136,15 +131,10 @@ Support left: Wire = string; Positions = 0
 Support right: Wire = string; Positions = 20; Type = elastic; Damping = 20
 Time: Scheme = Newmark; Step = 5e-4; End = 0.9
 )",
-            {},
-            [&](const taut::StepView &view)
-            {
-              energy_after = energy_of_bodies(view.structure, view.state);
-              if (energy_before == 0.)
-                energy_before = energy_after;
-            });
-  figure("string on a damper of its impedance, energy left over", energy_after / energy_before);
-  EXPECT_LT(energy_after, 1e-5 * energy_before);
+      {}, [](const taut::StepView &view) { return energy_of_bodies(view.structure, view.state); });
+  EXPECT_LT(figure("string on a damper of its impedance, energy left over",
+                   energy.back() / energy.front()),
+            1e-5);
 }
 
 // A string that is struck all along moves by v t until the waves from its ends arrive. A velocity

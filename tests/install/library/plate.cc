@@ -118,10 +118,8 @@ int main()
     inverse.vmult(U, right);
     for (unsigned int i = 0; i < n; ++i)
     {
-      const double old = V[i];
       acceleration[i] = 4. / (step * step) * U[i] - a[i];
       V[i] = 2. / step * U[i] - v[i];
-      (void)old;
     }
     const double own = stepper.displacement(corner);
     std::fprintf(table, "%.3f,%.15e\n", stepper.time(), own);
