@@ -72,7 +72,9 @@ namespace taut
 
   std::size_t TableLaw::segment(const double at) const
   {
-    return std::max<std::ptrdiff_t>(std::upper_bound(u.begin(), u.end(), at) - u.begin(), 1) - 1;
+    if (at < u[1])
+      return 0;
+    return std::upper_bound(u.begin(), u.end(), at) - u.begin() - 1;
   }
 
   double TableLaw::value(const double at) const

@@ -92,6 +92,16 @@ namespace taut
       return std::equal(p, p + matrix->nrow + 1, q) && std::equal(i, i + p[matrix->nrow], j);
     }
 
+    /// A simplicial solve transposes its workspace, and CHOLMOD would allocate another one for the
+    /// next solve: its memory is that of four rows.
+    void restore_workspace()
+    {
+      if (!workspace_y || factors->is_super)
+        return;
+      workspace_y->nrow = workspace_y->d = 4;
+      workspace_y->ncol = workspace_y->nzmax / 4;
+    }
+
     /// The row of the first pivot that is too small, or the number of rows.
     std::size_t first_bad_pivot(const double smallest_pivot) const
     {
@@ -279,6 +289,7 @@ namespace taut
     rhs.x = x.data();
     rhs.xtype = CHOLMOD_REAL;
     rhs.dtype = CHOLMOD_DOUBLE;
+    w.restore_workspace();
     if (!cholmod_solve2(CHOLMOD_A, w.factors, &rhs, nullptr, &w.result, nullptr, &w.workspace_y,
                         &w.workspace_e, &w.common))
     {

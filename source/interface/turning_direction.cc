@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "motion_along.h"
+
 #include <taut/base/text.h>
-#include <taut/interface/turning_direction.h>
 
 #include <algorithm>
 #include <cmath>
@@ -55,30 +56,42 @@ namespace taut
   std::vector<Term> TurningDirection::along(const Coordinates &direction) const
   {
     std::vector<Term> terms;
+    set_motion_along(*this, direction, terms);
+    return terms;
+  }
+
+  void set_motion_along(const TurningDirection &link, const Coordinates &direction,
+                        std::vector<Term> &terms)
+  {
+    std::size_t n = 0;
     for (const bool of_first : {false, true})
     {
       // A form on one body is that of one place, so that its columns have single elements.
-      const auto begin = static_cast<std::ptrdiff_t>(terms.size());
+      const std::size_t begin = n;
       for (unsigned int c = 0; c < 3; ++c)
       {
-        const auto middle = motion[c].end() - static_cast<std::ptrdiff_t>(first.motion[c].size());
-        for (auto own = of_first ? middle : motion[c].begin();
-             own != (of_first ? motion[c].end() : middle); ++own)
+        const std::vector<Term> &motion = link.motion[c];
+        const std::size_t middle = motion.size() - link.first.motion[c].size();
+        for (std::size_t e = of_first ? middle : 0; e < (of_first ? motion.size() : middle); ++e)
         {
-          auto term =
-              std::find_if(terms.begin() + begin, terms.end(),
-                           [&](const Term &t) { return t.substructure == own->substructure; });
-          if (term == terms.end())
+          const Term &own = motion[e];
+          std::size_t place = begin;
+          while (place < n && terms[place].substructure != own.substructure)
+            ++place;
+          if (place == n)
           {
-            terms.push_back({own->substructure, {}});
-            term = terms.end() - 1;
+            terms.resize(std::max(++n, terms.size()));
+            terms[place].substructure = own.substructure;
+            terms[place].body = nullptr;
+            terms[place].form.index.clear();
+            terms[place].form.value.clear();
           }
-          for (std::size_t j = 0; j < own->form.index.size(); ++j)
-            term->form.add(own->form.index[j], direction[c] * own->form.value[j]);
+          for (std::size_t j = 0; j < own.form.index.size(); ++j)
+            terms[place].form.add(own.form.index[j], direction[c] * own.form.value[j]);
         }
       }
     }
-    return terms;
+    terms.resize(n);
   }
 
   std::array<Coordinates, 2> across(const Coordinates &d)

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The rows of constraints that turn: places of their ends, directions, and springs across them.
+#include "motion_along.h"
+
 #include <taut/interface/constraints.h>
 
 #include <cmath>
@@ -9,11 +11,13 @@ namespace taut
   std::vector<Coordinates> Constraints::differences(const BodyVectors &U) const
   {
     std::vector<double> sums;
+    sums.reserve(3 * turning_rows().size());
     for (const std::size_t i : turning_rows())
       for (const std::vector<Term> &motion : turning(i).motion)
         sums.push_back(evaluate(motion, U));
     structure.communicator().sum(sums);
     std::vector<Coordinates> result;
+    result.reserve(turning_rows().size());
     for (std::size_t k = 0; k < sums.size(); k += 3)
       result.push_back({sums[k], sums[k + 1], sums[k + 2]});
     return result;
@@ -50,8 +54,8 @@ namespace taut
     {
       const TurningDirection &link = turning(first_turning + i);
       const Coordinates &d = directions[i];
-      constraints[first_turning + i].terms =
-          link.along({link.sign * d.x, link.sign * d.y, link.sign * d.z});
+      set_motion_along(link, {link.sign * d.x, link.sign * d.y, link.sign * d.z},
+                       constraints[first_turning + i].terms);
     }
     append_varying();
   }

@@ -3,6 +3,8 @@
 
 #include <taut/base/exceptions.h>
 
+#include <boost/container/small_vector.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -13,6 +15,9 @@ namespace taut
   {
     /// Smallest independent part of a row of G, and smallest pivot over the largest pivot.
     constexpr double independent = 1e-10, smallest_pivot = 1e-15;
+
+    /// Of the coordinates: a rigid body has twelve, which need no memory of their own.
+    using ReducedVector = boost::container::small_vector<double, 12>;
   } // namespace
 
   void ConstrainedSolver::factor(const std::vector<ScaledMatrix> &summands,
@@ -129,17 +134,17 @@ namespace taut
   void ConstrainedSolver::solve(std::vector<double> &x) const
   {
     const unsigned int r = rows.size(), f = n - r;
-    std::vector<double> b(x.begin(), x.begin() + n), q(n, 0.), w(n, 0.);
+    ReducedVector b(x.begin(), x.begin() + n), q(n, 0.), w(n, 0.);
     for (unsigned int i = 0; i < n; ++i)
       if (is_held[i])
         b[i] = 0.;
-    const auto add_product = [&](std::vector<double> &y, const std::vector<double> &z)
+    const auto add_product = [&](ReducedVector &y, const ReducedVector &z)
     {
       for (unsigned int i = 0; i < n; ++i)
         for (unsigned int k = 0; k < n; ++k)
           y[i] -= A[i * n + k] * z[k];
     };
-    const auto component = [&](const std::vector<double> &y, const unsigned int j)
+    const auto component = [&](const ReducedVector &y, const unsigned int j)
     {
       double sum = 0.;
       for (unsigned int i = 0; i < n; ++i)
@@ -156,10 +161,10 @@ namespace taut
       for (unsigned int i = 0; i < n; ++i)
         q[i] += w[k] * Q[i * n + k];
     }
-    std::vector<double> left = b;
+    ReducedVector left = b;
     add_product(left, q);
     // The part of the solution that G allows.
-    std::vector<double> y(f);
+    ReducedVector y(f);
     for (unsigned int i = 0; i < f; ++i)
     {
       y[i] = component(left, r + i);

@@ -36,24 +36,24 @@ namespace taut
         throw EntryError(entry, "the first number is the smaller one; swap them");
     }
 
-    /// All entries by path, with their values or defaults.
-    std::map<std::string, std::string> values_in(const dealii::ParameterHandler &prm,
-                                                 const std::string &which = "value")
+    /// Calls @p see with path, value and default of each entry.
+    template <typename See>
+    void visit_entries(const dealii::ParameterHandler &prm, const See &see)
     {
       std::ostringstream json;
       prm.print_parameters(json, dealii::ParameterHandler::JSON);
-      std::map<std::string, std::string> values;
       const std::function<void(const nlohmann::json &, const std::string &)> walk =
           [&](const nlohmann::json &node, const std::string &path)
       {
-        for (const auto &[name, child] : node.items())
-          if (child.is_object() && child.contains("pattern_description"))
-            values[path + name] = child.at(which).get<std::string>();
-          else if (child.is_object())
-            walk(child, path + name + "/");
+        for (auto entry = node.begin(); entry != node.end(); ++entry)
+          if (!entry->is_object())
+            continue;
+          else if (entry->contains("pattern_description"))
+            see(path + entry.key(), entry->at("value"), entry->at("default_value"));
+          else
+            walk(*entry, path + entry.key() + "/");
       };
       walk(nlohmann::json::parse(json.str()), "");
-      return values;
     }
 
     /// The part of a deal.II exception for the user.
@@ -233,8 +233,8 @@ namespace taut
     const auto read_leniently = [&](dealii::ParameterHandler &prm)
     {
       prm.parse_input_from_string(text, "", true);
-      for (const auto &[path, value] : values_in(prm))
-        declared.structural.insert(path);
+      visit_entries(prm, [&](const std::string &path, const std::string &, const std::string &)
+                    { declared.structural.insert(path); });
     };
     {
       dealii::ParameterHandler prm;
@@ -297,8 +297,15 @@ namespace taut
 
   void Parameters::keep_values()
   {
-    entry_values = values_in(*declared.entries);
-    declared.defaults = values_in(*declared.entries, "default_value");
+    entry_values.clear();
+    declared.defaults.clear();
+    visit_entries(
+        *declared.entries,
+        [&](const std::string &path, const std::string &value, const std::string &standard)
+        {
+          entry_values[path] = value;
+          declared.defaults[path] = standard;
+        });
   }
 
   void Parameters::set_defaults()

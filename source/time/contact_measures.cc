@@ -152,6 +152,7 @@ namespace taut
   {
     for (Force &f : forces)
     {
+      forget_past(f);
       archive &f.impulses &f.impulse &f.mean &f.peak &f.mean_peak &f.event_impulse;
       archive &f.largest_impulse &f.gap &f.motion;
     }
@@ -172,6 +173,14 @@ namespace taut
     energies.load(archive);
   }
 
+  /// Drops the impulses before the window.
+  void ContactMeasures::forget_past(Force &force)
+  {
+    force.impulses.erase(force.impulses.begin(),
+                         force.impulses.begin() + static_cast<std::ptrdiff_t>(force.first));
+    force.first = 0;
+  }
+
   void ContactMeasures::add_force(Force &force, const double t, const double dt, const double value)
   {
     force.event_impulse = value > 0. ? force.event_impulse + value * dt : 0.;
@@ -181,12 +190,15 @@ namespace taut
     if (force.window > 0.)
     {
       force.impulses.push_back({t, force.impulse});
-      while (force.impulses.size() > 2 && force.impulses[1].first <= t - force.window)
-        force.impulses.pop_front();
+      while (force.first + 2 < force.impulses.size() &&
+             force.impulses[force.first + 1].first <= t - force.window)
+        ++force.first;
+      if (2 * force.first > force.impulses.size())
+        forget_past(force);
     }
     if (force.window > dt)
     {
-      const auto &first = force.impulses[0], &second = force.impulses[1];
+      const auto &first = force.impulses[force.first], &second = force.impulses[force.first + 1];
       const double begin = std::max(first.first, t - force.window),
                    before = first.second + (second.second - first.second) * (begin - first.first) /
                                                (second.first - first.first);

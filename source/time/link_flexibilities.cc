@@ -78,16 +78,14 @@ namespace taut
       result[j] += sums[j];
   }
 
-  std::vector<double> flexibilities_of_whole_bodies(const Constraints &constraints,
-                                                    const std::vector<std::size_t> &wanted,
-                                                    ComplementarityOperator &F)
+  const std::vector<double> &WholeBodies::flexibilities(const std::vector<std::size_t> &wanted,
+                                                        ComplementarityOperator &F)
   {
-    std::vector<std::size_t> bilateral;
+    joints.clear();
     for (std::size_t i = 0; i < constraints.size(); ++i)
       if (constraints[i].cone.is_free() && constraints[i].spring.is_rigid() && F.diagonal(i) > 0.)
-        bilateral.push_back(i);
-    std::vector<double> result;
-    F.condensed_diagonal(wanted, bilateral, shift_of_dependent_rows, result);
+        joints.push_back(i);
+    F.condensed_diagonal(wanted, joints, shift_of_dependent_rows, result);
     return result;
   }
 } // namespace taut

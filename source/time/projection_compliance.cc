@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <taut/time/contact_resolution.h>
 #include <taut/time/projection_compliance.h>
 
 #include <algorithm>
@@ -19,7 +18,7 @@ namespace taut
   } // namespace
 
   ProjectionCompliance::ProjectionCompliance(const Constraints &constraints)
-      : constraints(constraints)
+      : constraints(constraints), bodies(constraints)
   {
     for (std::vector<double> *v : {&flexibility, &of_mass, &relative, &softening})
       v->assign(constraints.size(), 0.);
@@ -57,7 +56,7 @@ namespace taut
                                                 const std::vector<double> &S,
                                                 ComplementarityOperator &F)
   {
-    const std::vector<double> diagonal = flexibilities_of_whole_bodies(constraints, rows, F);
+    const std::vector<double> &diagonal = bodies.flexibilities(rows, F);
     for (const std::size_t i : rows)
       flexibility[i] = (diagonal[i] - S[i]) / theta;
   }
@@ -96,8 +95,7 @@ namespace taut
   void ProjectionCompliance::find_mass_flexibilities(const std::vector<std::size_t> &rows,
                                                      SchurComplement &f)
   {
-    const std::vector<double> diagonal =
-        flexibilities_of_whole_bodies(constraints, rows, f.matrix());
+    const std::vector<double> &diagonal = bodies.flexibilities(rows, f.matrix());
     for (const std::size_t i : rows)
       of_mass[i] = diagonal[i];
   }

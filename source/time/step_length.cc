@@ -41,7 +41,7 @@ namespace taut
     ComplementarityOperator &F = step.equations().interface().matrix();
     for (const std::size_t i : constraints.sliding_rows())
       if (constraints[i].cone.may_open() && S[i] > 0. && F.diagonal(i) > 2. * S[i] &&
-          flexibilities_of_whole_bodies(constraints, {i}, F)[i] > 2. * S[i])
+          WholeBodies(constraints).flexibilities({i}, F)[i] > 2. * S[i])
       {
         throw EntryError(
             constraints.origin(i),

@@ -10,7 +10,7 @@
 #include <taut/time/motion_record.h>
 #include <taut/time/state.h>
 
-#include <deque>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -111,9 +111,9 @@ namespace taut
     /// History of the force of a constraint.
     struct Force
     {
-      double window = 0.; ///< [s]; 0: one step
-      std::deque<std::pair<double, double>>
-          impulses; ///< time and impulse until then, in the window
+      double window = 0.;                              ///< [s]; 0: one step
+      std::vector<std::pair<double, double>> impulses; ///< time and impulse until then
+      std::size_t first = 0;                           ///< of the impulses in the window
       double impulse = 0., mean = 0., peak = 0., mean_peak = 0.;
       double event_impulse = 0., largest_impulse = 0.;
       double gap = 0., motion = 0.; ///< largest, and of a step [m, rad]
@@ -122,6 +122,7 @@ namespace taut
     template <typename Archive>
     void store(Archive &archive);
     void add_force(Force &force, double t, double dt, double value);
+    static void forget_past(Force &force);
     void add_gains(const State &state, const StepCoefficients &c);
     void find_contact_energy(Summary &result) const;
     void find_momentum(Summary &result) const;

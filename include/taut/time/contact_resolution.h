@@ -75,12 +75,25 @@ namespace taut
     std::vector<Row> of;
   };
 
-  /// F_ii - F_ib F_bb^-1 F_bi of the constraints @p wanted, with the rigid bilateral constraints b
-  /// closed, so that bodies that are cut in parts respond as a whole; 0 for the other constraints.
-  /// Called by all ranks together [m/N, rad/(N m)].
-  std::vector<double> flexibilities_of_whole_bodies(const Constraints &constraints,
-                                                    const std::vector<std::size_t> &wanted,
-                                                    ComplementarityOperator &F);
+  /// Flexibilities of bodies at single constraints, where bodies that are cut in parts respond as a
+  /// whole.
+  class WholeBodies
+  {
+  public:
+    /// The argument is kept by reference.
+    explicit WholeBodies(const Constraints &constraints) : constraints(constraints) {}
+
+    /// F_ii - F_ib F_bb^-1 F_bi of the constraints @p wanted, with the rigid bilateral constraints
+    /// b closed; 0 for the other constraints. Valid until the next call, by all ranks together
+    /// [m/N, rad/(N m)].
+    const std::vector<double> &flexibilities(const std::vector<std::size_t> &wanted,
+                                             ComplementarityOperator &F);
+
+  private:
+    const Constraints &constraints;
+    std::vector<std::size_t> joints;
+    std::vector<double> result;
+  };
 } // namespace taut
 
 #endif

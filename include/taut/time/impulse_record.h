@@ -41,12 +41,12 @@ namespace taut
 
   private:
     void keep_every_second_end();
-    std::vector<std::vector<double>> at(const std::vector<double> &instants) const;
+    std::vector<double> at(const std::vector<double> &instants) const;
 
-    std::vector<double> impulse, multiplier;   ///< impulse so far; multiplier of the last step
-    std::vector<double> times;                 ///< ends of steps with recorded impulses [s]
-    std::vector<std::vector<double>> impulses; ///< impulses at these times [N s]
-    long stride = 1, n_steps = 0;              ///< one of so many ends is kept; steps so far
+    std::vector<double> impulse, multiplier; ///< impulse so far; multiplier of the last step
+    std::vector<double> times;               ///< ends of steps with recorded impulses [s]
+    std::vector<double> impulses;            ///< of all constraints, time after time [N s]
+    long stride = 1, n_steps = 0;            ///< one of so many ends is kept; steps so far
   };
 } // namespace taut
 

@@ -3,6 +3,7 @@
 #define taut_projection_compliance_h
 
 #include <taut/interface/schur_complement.h>
+#include <taut/time/contact_resolution.h>
 #include <taut/time/integrator.h>
 
 #include <vector>
@@ -51,6 +52,7 @@ namespace taut
     void set(SchurComplement &f);
 
     const Constraints &constraints;
+    WholeBodies bodies;
     double theta = 1.; ///< weight of forces in the balance
 
     /// F_ii of constraints that do not slide, for coefficients of an earlier call.
