@@ -84,7 +84,8 @@ namespace taut
             if (processes().is_root())
               std::filesystem::create_directories(folder);
           });
-    const RunView run = {folder, interval, processes(), checkpoints && checkpoints->is_found()};
+    const RunView run = {folder, interval, processes(), motion.costs(),
+                         checkpoints && checkpoints->is_found()};
     each([&](Observer &observer) { observer.begin(run); });
   }
 
@@ -97,13 +98,15 @@ namespace taut
       checkpoints->go_on();
     else
       show(motion.start().state);
+    first_time = time();
   }
 
   void ObservedRun::advance()
   {
-    const auto before = Clock::now();
+    StepCosts &costs = motion.costs();
+    costs.begin_step();
     motion.advance();
-    seconds += std::chrono::duration<double>(Clock::now() - before).count();
+    costs.end_step();
     show(motion.state());
   }
 
@@ -149,7 +152,8 @@ namespace taut
             motion.coefficients(),
             motion.measures(),
             probe_values,
-            reactions.forces()};
+            reactions.forces(),
+            motion.costs().sums()};
   }
 
   void ObservedRun::show(const State &state)
@@ -181,18 +185,20 @@ namespace taut
   {
     for (const Observer *observer : observers)
       observer->report(log, failed);
-    if (!failed && motion.has_moved())
+    if (!failed && motion.costs().sums().n_steps > 0)
       print_cost(log);
   }
 
   void ObservedRun::print_cost(std::ostream &log) const
   {
     const TimeStepper &stepper = motion.time_stepper();
-    const long n_steps = stepper.n_steps_done();
+    const StepCosts::Sums &costs = motion.costs().sums();
+    const double n_steps = static_cast<double>(costs.n_steps), seconds = costs.stepping,
+                 simulated = time() - first_time;
     const double all = std::chrono::duration<double>(last - first).count();
-    log << n_steps << " steps in " << all << " s, " << time() / all
+    log << costs.n_steps << " steps in " << all << " s, " << simulated / all
         << " x real time; without output " << 1e6 * seconds / n_steps << " us a step, "
-        << time() / seconds << " x real time\n";
+        << simulated / seconds << " x real time\n";
     if (!stepper.is_linear())
       log << "Newton's method: " << static_cast<double>(stepper.n_newton_iterations()) / n_steps
           << " solves a step\n";
@@ -203,5 +209,6 @@ namespace taut
           << " systems a step, "
           << static_cast<double>(solves.n_local_solves) / solves.n_applications
           << " bodies solved a product\n";
+    motion.costs().print(log);
   }
 } // namespace taut

@@ -118,10 +118,12 @@ namespace taut
       own.nonlinear.begin(state, own.c, own.length);
       own.turning.begin(own.c);
       own.turn();
+      step.costs().lap(StepPart::nonlinear);
       if (!own.tangents_are_kept)
         own.linearise(step.equations());
       else if (!own.turning.empty())
         step.equations().interface().update_moving();
+      step.costs().lap(own.tangents_are_kept ? StepPart::moving_rows : StepPart::factors);
       step.set_loads(state);
       own.loads = step.history().loads();
     }
@@ -138,7 +140,10 @@ namespace taut
       ++own.iterations;
       ++n;
       before = change;
-      return change = own.set_guess(step, state);
+      change = own.set_guess(step, state);
+      step.costs().count_newton();
+      step.costs().lap(StepPart::nonlinear);
+      return change;
     }
 
     void go_on() override
@@ -150,6 +155,7 @@ namespace taut
         own.linearise(step.equations());
         for (const std::size_t k : own.nonlinear.indices())
           own.nonlinear.set_tangent(k, step.equations().bodies().stiffness(k));
+        step.costs().lap(StepPart::factors);
       }
       else if (!own.turning.empty())
         step.equations().interface().update_moving();

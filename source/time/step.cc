@@ -96,11 +96,13 @@ namespace taut
     const std::vector<double> &old = own_conditions.forces_at_previous_place(before);
     if (!old.empty())
       constraints.add_forces(old, own_history.loads());
+    own_costs.lap(StepPart::loads);
   }
 
   void Step::find_increments(State &state, Certificate &certificate)
   {
     own_conditions.set_problem(state, equations(), own_history.loads(), own_history.lift());
+    own_costs.lap(StepPart::free_gaps);
     if (constraints.size() > 0 || equations().has_modes())
     {
       const Certificate before = certificate;
@@ -108,8 +110,10 @@ namespace taut
       certificate.iterations += before.iterations;
       certificate.fallback = certificate.fallback || before.fallback;
     }
+    own_costs.lap(StepPart::contacts);
     equations().find_increments(own_conditions.applied().multiplier,
                                 own_conditions.applied().mode_amplitude, own_history.increments());
+    own_costs.lap(StepPart::bodies);
   }
 
   void Step::accept(State &state)
@@ -127,6 +131,7 @@ namespace taut
             [&](const std::size_t k, const std::size_t begin, const std::size_t end)
             { own_history.accept(c, k, begin, end, state); });
     own_conditions.update(state);
+    own_costs.lap(StepPart::state);
   }
 
   void Step::measure_balance(State &state, Certificate &certificate)
@@ -182,5 +187,6 @@ namespace taut
     certificate.drift = own_conditions.drift(state);
     own_check.check_constraints(certificate);
     own_check.check_balance(certificate, own_balance.residual());
+    own_costs.lap(StepPart::certificate);
   }
 } // namespace taut

@@ -83,10 +83,12 @@ namespace taut
   void SteppedMotion::advance()
   {
     control->advance(*stepper);
+    costs().lap(StepPart::control);
     if (!options.allow_unsuitable_scheme)
       stepper->check_moving_contacts();
     last = stepper->scheme();
     contact_measures.record(stepper->state(), last);
+    costs().lap(StepPart::measures);
   }
 
   void SteppedMotion::save(OutputArchive &archive)

@@ -98,7 +98,10 @@ namespace taut
     store_sizes();
     const double end = clock.advance(current.last_step);
     if (const StepCoefficients c = clock.coefficients(current.last_step); c != coefficients)
+    {
       attempt([&] { prepare(c); });
+      costs().lap(StepPart::factors);
+    }
     begin_step(end);
     attempt([this] { solve(); });
   }
@@ -117,8 +120,10 @@ namespace taut
                              current.time);
         });
     constraints.update(current.time);
+    costs().lap(StepPart::places);
     if (nonlinear.constraints().empty())
       step.equations().interface().update_moving();
+    costs().lap(StepPart::moving_rows);
   }
 
   /// Finds the new state and its certificate.
@@ -135,9 +140,14 @@ namespace taut
     step.certify(current, last);
     structure.communicator().agree([&] { nonlinear.bodies().set_own_force(current); });
     face_new_directions();
+    costs().lap(StepPart::nonlinear);
     if (coefficients.velocity_projection)
+    {
       project_velocities();
+      costs().lap(StepPart::projection);
+    }
     measure_energy();
+    costs().lap(StepPart::energy);
   }
 
   /// Gives turning constraints the directions of the new state.

@@ -14,7 +14,8 @@ from checks import entries, errors, largest_difference, on_ranks, parse
 arguments = parse(__doc__, "program", "mpiexec", "prm")
 
 # Times of the computer, residuals of rounding, where mpirun has its say.
-VOLATILE = re.compile(r"real time|Results in|residual|Certificate|^\s*\d+ %|with output|without output")
+VOLATILE = re.compile(r"real time|Results in|residual|Certificate|^\s*\d+ %|with output|without output|us a step|"
+                      r"^  [a-zA-Z ]+ \d+\.\d\d +\d+\.\d %$")
 SHORT = {  # what makes a long scene short
     "bouncing_bar": ["Time/End=1.3"],
     "real_line": ["Time/End=0.02"],

@@ -11,6 +11,7 @@
 #include <taut/time/contact_measures.h>
 #include <taut/time/integrator.h>
 #include <taut/time/state.h>
+#include <taut/time/step_costs.h>
 
 #include <iosfwd>
 #include <string>
@@ -43,6 +44,9 @@ namespace taut
 
     /// Force of each of the support_points() on its wire [N, N m].
     const std::vector<double> &supports;
+
+    /// Times of this rank until the step, without the output of the step.
+    const StepCosts::Sums &costs;
   };
 
   /// Data of a run before the first record.
@@ -51,6 +55,7 @@ namespace taut
     const std::string &folder; ///< of the results, exists
     double interval;           ///< Output/Interval: least time between two lines of a table [s]
     const Communicator &communicator;
+    StepCosts &costs;     ///< of the steps to come
     bool resumes = false; ///< files continue from the checkpoint, see Observer::resume()
   };
 

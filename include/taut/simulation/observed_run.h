@@ -91,7 +91,10 @@ namespace taut
     void resume(const std::vector<std::string> &stored);
 
     double time() const { return motion.state().time; }
-    double stepping_seconds() const { return seconds; } ///< for the steps, without observers
+
+    /// For the steps of this process, without observers [s].
+    double stepping_seconds() const { return motion.costs().sums().stepping; }
+
     const Scene &scene() const { return named; }
     const SceneBodies &structure() const { return bodies; }
     const Constraints &constraints() const { return motion.links(); }
@@ -125,7 +128,7 @@ namespace taut
     std::function<int()> stop_asked;
     int stop_signal = 0; ///< the same on all ranks; 0: go on
     bool is_open = false;
-    double seconds = 0.;
+    double first_time = 0.;        ///< of the state at begin() [s]
     Clock::time_point first, last; ///< times of begin() and finish()
   };
 } // namespace taut

@@ -6,6 +6,7 @@
 #include <taut/time/certificate.h>
 #include <taut/time/contact_conditions.h>
 #include <taut/time/step_check.h>
+#include <taut/time/step_costs.h>
 #include <taut/time/step_equations.h>
 #include <taut/time/step_history.h>
 
@@ -75,6 +76,8 @@ namespace taut
     StepHistory &history() { return own_history; }
     const BalanceCertificate &balance() const { return own_balance; }
     StepCheck &check() { return own_check; }
+    StepCosts &costs() { return own_costs; }
+    const StepCosts &costs() const { return own_costs; }
 
     /// Counts of the interface operator over all steps.
     InterfaceStatistics interface_statistics() const;
@@ -105,6 +108,7 @@ namespace taut
     StepHistory own_history;
     BalanceCertificate own_balance;
     StepCheck own_check;
+    StepCosts own_costs;
   };
 } // namespace taut
 

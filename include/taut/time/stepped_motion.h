@@ -98,6 +98,10 @@ namespace taut
 
     /// Parts of a prepared motion.
     const TimeStepper &time_stepper() const { return *stepper; }
+
+    /// Where the time of the steps goes; those of a prepared motion differ from those before.
+    StepCosts &costs() { return stepper ? stepper->costs() : no_costs; }
+    const StepCosts &costs() const { return stepper ? stepper->costs() : no_costs; }
     RunInSteps run_in_steps(long n_steps);
 
     /// For checkpoints, as in TimeStepper: @p state has the vectors of the bodies.
@@ -122,6 +126,7 @@ namespace taut
     std::unique_ptr<TimeStepper> stepper;
     std::unique_ptr<StepControl> control;
     StepCoefficients last;
+    StepCosts no_costs; ///< of a motion that is not prepared
   };
 } // namespace taut
 

@@ -94,6 +94,10 @@ namespace taut
     std::string interface_description() const { return step.equations().interface().description(); }
     InterfaceStatistics interface_statistics() const { return step.interface_statistics(); }
 
+    /// Where the time of the steps goes.
+    StepCosts &costs() { return step.costs(); }
+    const StepCosts &costs() const { return step.costs(); }
+
   private:
     void prepare(StepCoefficients c);
     template <typename Archive>

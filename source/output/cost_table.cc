@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/archive.h>
+#include <taut/output/cost_table.h>
+
+namespace taut
+{
+  void CostTable::begin(const RunView &run)
+  {
+    interval = run.interval;
+    run.costs.measure_all();
+    if (!run.communicator.is_root())
+      return;
+    std::vector<std::string> columns = {"time [s]", "steps [1]"};
+    for (std::size_t i = 0; i < n_step_parts; ++i)
+      columns.push_back(std::string(name_of(static_cast<StepPart>(i))) + " [us]");
+    columns.insert(columns.end(), {"Newton iterations [1]", "active-set iterations [1]"});
+    file = std::make_unique<TableFile>(run.folder + "/cost.csv", columns, run.resumes);
+  }
+
+  void CostTable::record(const StepView &step)
+  {
+    const StepCosts::Sums &now = step.costs;
+    if (now.n_steps == before.n_steps) // the start
+      return;
+    time = step.state.time;
+    of_line.n_steps += now.n_steps - before.n_steps;
+    of_line.measured += now.measured - before.measured;
+    of_line.n_newton += now.n_newton - before.n_newton;
+    for (std::size_t i = 0; i < n_step_parts; ++i)
+      of_line.parts[i] += now.parts[i] - before.parts[i];
+    iterations += step.certificate.iterations;
+    before = now;
+    if (time >= next - 1e-9 * interval)
+      write_line();
+  }
+
+  void CostTable::write_line()
+  {
+    next = time + interval;
+    const double n = static_cast<double>(of_line.n_steps);
+    std::vector<double> values = {n};
+    for (std::size_t i = 0; i < n_step_parts; ++i)
+      values.push_back(1e6 * StepCosts::mean(of_line, static_cast<StepPart>(i)));
+    values.push_back(static_cast<double>(of_line.n_newton) / n);
+    values.push_back(iterations / n);
+    if (file)
+      file->add_line(time, values);
+    of_line = {};
+    iterations = 0.;
+  }
+
+  void CostTable::finish()
+  {
+    if (of_line.n_steps > 0)
+      write_line();
+    if (file)
+      file->close();
+  }
+
+  void CostTable::save(OutputArchive &archive)
+  {
+    const std::size_t length = file ? file->save() : 0;
+    archive << next << time << iterations << of_line.n_steps << of_line.measured
+            << of_line.n_newton;
+    for (const double seconds : of_line.parts)
+      archive << seconds;
+    archive << length;
+  }
+
+  void CostTable::resume(InputArchive &archive, const StepView &step)
+  {
+    std::size_t length = 0;
+    archive >> next >> time >> iterations >> of_line.n_steps >> of_line.measured >>
+        of_line.n_newton;
+    for (double &seconds : of_line.parts)
+      archive >> seconds;
+    archive >> length;
+    before = step.costs;
+    if (file)
+      file->resume(length);
+  }
+
+  namespace
+  {
+    const Register<Observer, CostTable>
+        registration("cost", "cost.csv: wall time of each part of a step, Newton iterations and "
+                             "active-set iterations, means of the steps since the line before, as "
+                             "often as Interval says");
+  }
+} // namespace taut
