@@ -204,15 +204,15 @@ namespace taut
    */
   void AccuracySearch::ask_second_scheme(const Levels &centre)
   {
-    Levels finer = centre;
-    ++finer[0];
+    Levels coarser = centre;
+    --coarser[0];
     second_scheme.clear();
     for (const std::string scheme : {"BDF2", "generalised-alpha", "Moreau-Jean"})
       if (scheme != runs.parameters().scheme && second_scheme.empty())
         try
         {
-          const MeasuredRun first = runs.with_scheme(centre, scheme),
-                            second = runs.with_scheme(finer, scheme);
+          const MeasuredRun first = runs.with_scheme(coarser, scheme),
+                            second = runs.with_scheme(centre, scheme);
           second_scheme = scheme;
           for (std::size_t i = 0; i < study.references.size(); ++i)
           {
