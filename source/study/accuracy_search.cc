@@ -43,6 +43,7 @@ namespace taut
     {
       prepare_study_folder(runs.parameters().study_folder(), overwrite);
       runs.name_quantities();
+      check_quantities(runs.parameters());
       study.quantity_names = runs.parameters().study.quantities.names;
       const StudySetting &best = search();
       keep_results();

@@ -35,6 +35,14 @@ namespace taut
     };
   } // namespace
 
+  void check_quantities(const Parameters &parameters)
+  {
+    std::ostringstream silent;
+    const Simulation simulation(parameters, silent);
+    const QuantityRecorder recorder(parameters.study, parameters.statistics, simulation.scene(),
+                                    simulation.constraints());
+  }
+
   MeasuredRun measure_run(const Parameters &parameters, const bool with_quantities,
                           const std::function<int()> &stop_asked)
   {

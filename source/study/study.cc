@@ -3,7 +3,6 @@
 #include <taut/base/interruption.h>
 #include <taut/base/memory.h>
 #include <taut/output/table_file.h>
-#include <taut/simulation/simulation.h>
 #include <taut/study/study.h>
 #include <taut/study/study_report.h>
 
@@ -50,7 +49,7 @@ namespace taut
     try
     {
       make_settings();
-      check_quantities();
+      check_quantities(parameters);
       prepare_study_folder(parameters.study_folder(), overwrite);
       find_references();
     }
@@ -144,14 +143,6 @@ namespace taut
       }
       result.settings.push_back(std::move(setting));
     }
-  }
-
-  void Study::check_quantities() const
-  {
-    std::ostringstream silent;
-    const Simulation simulation(parameters, silent);
-    const QuantityRecorder recorder(parameters.study, parameters.statistics, simulation.scene(),
-                                    simulation.constraints());
   }
 
   std::vector<std::string> Study::reference_values(const unsigned int level) const

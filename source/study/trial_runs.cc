@@ -6,6 +6,7 @@
 #include <taut/study/trial_runs.h>
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 
 namespace taut
@@ -56,10 +57,12 @@ namespace taut
     CaseRunner runner(file, overrides);
     runner.stop_if([this]() { return ask(); });
     std::vector<Statistics::NamedQuantity> known;
-    for (Levels levels(all_dials.size(), 0); known.empty(); ++levels[0])
+    bool has_run = false;
+    for (Levels levels(all_dials.size(), 0); !has_run; ++levels[0])
       try
       {
         known = runner.run(entries(levels)).quantities;
+        has_run = true;
       }
       catch (const UserError &)
       {
@@ -104,6 +107,9 @@ namespace taut
     try
     {
       trial.run = run_once(entries(levels));
+      for (const StudyQuantity &quantity : trial.run.quantities)
+        if (!std::isfinite(quantity.value))
+          trial.message = "the quantities are not finite";
     }
     catch (const UserError &e)
     {

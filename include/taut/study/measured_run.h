@@ -19,6 +19,9 @@ namespace taut
     long n_steps = 0;
   };
 
+  /// Throws EntryError if the scene cannot be built, or lacks a quantity of its section Study.
+  void check_quantities(const Parameters &parameters);
+
   /// Runs a scene with fixed steps. Without @p with_quantities it measures the cost alone.
   /// @p stop_asked as for Simulation::stop_if(). Throws UserError and Interrupted.
   MeasuredRun measure_run(const Parameters &parameters, bool with_quantities,

@@ -73,7 +73,6 @@ namespace taut
     void measure_settings();
     void keep_measured_settings();
     void write_results();
-    void check_quantities() const;
     void find_references();
     std::vector<std::string> reference_values(unsigned int level) const;
     MeasuredRun run_once(const std::vector<std::string> &values, bool with_output,
