@@ -141,7 +141,9 @@ TEST_F(AccuracyTest, mistakes_are_named)
   expect_fragments(
       error(.1, {"Study/Quantity end/Scale=0", "Network/Mass block/Initial displacement=0, 0, 0"}),
       {"Quantity end/Scale", "give a scale"});
-  expect_fragments(error(.1, {"Output/Probe place/Direction=1, 0"}), {"cannot move along it"});
+  const std::string fixed = error(.1, {"Output/Probe place/Direction=1, 0"});
+  expect_fragments(fixed, {"cannot move along it"});
+  EXPECT_FALSE(has(fixed, "no setting")) << fixed;
   search(.1);
   const std::string twice =
       error_of([&]() { taut::AccuracySearch("scene.prm", {}, .1, false, log).run(); });
