@@ -8,6 +8,7 @@
 #include <taut/output/progress.h>
 #include <taut/output/scene_report.h>
 #include <taut/simulation/simulation.h>
+#include <taut/study/accuracy_search.h>
 #include <taut/study/study.h>
 #include <taut/study/sweep.h>
 
@@ -97,11 +98,23 @@ namespace
     }
   }
 
+  void find_accuracy(const po::variables_map &arguments, const std::string &file,
+                     const Names &overrides, const taut::Communicator &processes)
+  {
+    exclude(arguments, "accuracy", {"study", "sweep", "check", "sketch", "resume"});
+    if (processes.size() > 1)
+      throw taut::UserError("--accuracy measures one process; run it without mpirun");
+    taut::AccuracySearch search(file, overrides, arguments["accuracy"].as<double>(),
+                                arguments.count("overwrite") > 0, std::cout);
+    search.stop_if(taut::interruption);
+    search.run();
+  }
+
   void run(const po::variables_map &arguments, const taut::Communicator &processes)
   {
     const std::string file = arguments["file"].as<std::string>();
     const Names overrides = arguments.count("set") ? arguments["set"].as<Names>() : Names();
-    exclude(arguments, "sweep", {"study", "check", "sketch"});
+    exclude(arguments, "sweep", {"study", "accuracy", "check", "sketch"});
     if (arguments.count("sweep"))
     {
       exclude(arguments, "resume", {"overwrite"});
@@ -114,6 +127,11 @@ namespace
     }
     if (arguments.count("jobs"))
       throw taut::UserError("--jobs are the workers of a --sweep; a run takes 'mpirun -np N taut'");
+    if (arguments.count("accuracy"))
+    {
+      find_accuracy(arguments, file, overrides, processes);
+      return;
+    }
     exclude(arguments, "resume", {"study", "check", "overwrite"});
     if (!arguments.count("study"))
     {
@@ -172,10 +190,12 @@ namespace
           "draw the undeformed scene before the check or the run")(
           "study",
           "run the scene with all settings of its section Study and measure cost and error of "
-          "each")("sweep",
-                  "run the scene once for each case of its section Sweep and write a "
-                  "table of quantities")("jobs,j", po::value<unsigned int>()->value_name("N"),
-                                         "workers of a sweep: starts itself with 'mpirun -np N'")(
+          "each")("accuracy", po::value<double>()->value_name("ERROR"),
+                  "find step and mesh for this relative error, such as 0.01, and store them for "
+                  "Study/Accuracy")(
+          "sweep", "run the scene once for each case of its section Sweep and write a "
+                   "table of quantities")("jobs,j", po::value<unsigned int>()->value_name("N"),
+                                          "workers of a sweep: starts itself with 'mpirun -np N'")(
           "set,s", po::value<std::vector<std::string>>()->composing()->value_name("ENTRY=VALUE"),
           "change an entry of the file: Section.Entry=value (or Section/Entry=value); may be "
           "repeated")("overwrite", "replace the results of an earlier run in the same folder")(

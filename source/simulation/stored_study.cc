@@ -22,9 +22,9 @@ namespace taut
     {
       std::ifstream in(file);
       if (!in)
-        throw EntryError(entry_name,
-                         "there is no study '" + file +
-                             "'; make it with 'taut --study', or name its folder in Study/Folder");
+        throw EntryError(entry_name, "there is no study '" + file +
+                                         "'; make it with 'taut --study' or '--accuracy', or name "
+                                         "its folder in Study/Folder");
       try
       {
         return json::parse(in);

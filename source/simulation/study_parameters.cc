@@ -67,10 +67,11 @@ namespace taut
   {
     declare_names(prm);
     prm.enter_subsection("Study");
-    prm.add_parameter("Folder", folder,
-                      "Where 'taut --study' writes and where Accuracy looks for study.json; "
-                      "empty: the folder 'study' in that of the results",
-                      Anything());
+    prm.add_parameter(
+        "Folder", folder,
+        "Where 'taut --study' and '--accuracy' write and where Accuracy looks for study.json; "
+        "empty: the folder 'study' in that of the results",
+        Anything());
     prm.add_parameter("Accuracy", accuracy,
                       "Largest relative error wanted of the quantities: the run takes the cheapest "
                       "setting of the stored study of this scene that has it; 0: as written [1]",
@@ -84,6 +85,9 @@ namespace taut
                       "Most refinements of the reference; it ends earlier when its error is below "
                       "a tenth of the least of Accuracies [1]",
                       Integer(1, 20));
+    prm.add_parameter("Budget", budget,
+                      "Longest wall time that 'taut --accuracy' takes to find a setting [s]",
+                      Double(0., Double::max_double_value));
     parameter_list_items.declare_parameters(prm);
     quantities.declare_parameters(prm);
     prm.leave_subsection();

@@ -3,13 +3,11 @@
 #include <taut/base/interruption.h>
 #include <taut/base/memory.h>
 #include <taut/output/table_file.h>
-#include <taut/simulation/simulation.h>
 #include <taut/study/study.h>
 #include <taut/study/study_report.h>
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <filesystem>
 #include <limits>
 #include <ostream>
@@ -19,43 +17,12 @@ namespace taut
 {
   namespace
   {
-    /// Processor time from the start of a run to its last step [s].
-    class Stopwatch : public Observer
-    {
-    public:
-      explicit Stopwatch(const long n_steps) : n_steps(n_steps) {}
-      void record(const StepView &) override
-      {
-        if (n_done == 0)
-          begin = std::clock();
-        if (n_done++ == n_steps)
-          end = std::clock();
-      }
-      /// At least one tick of the clock.
-      double seconds() const
-      {
-        return static_cast<double>(std::max<std::clock_t>(end - begin, 1)) / CLOCKS_PER_SEC;
-      }
-
-    private:
-      long n_steps, n_done = 0;
-      std::clock_t begin = 0, end = 0;
-    };
-
     std::string on_one_line(std::string text)
     {
       std::replace(text.begin(), text.end(), '\n', ' ');
       return text;
     }
   } // namespace
-
-  /// The result of one run.
-  struct Study::Run
-  {
-    std::vector<StudyQuantity> quantities;
-    double seconds = 0., certificate = 0.;
-    long n_steps = 0;
-  };
 
   Study::Study(const std::string &file, const std::vector<std::string> &overrides,
                const bool overwrite, std::ostream &log)
@@ -82,8 +49,8 @@ namespace taut
     try
     {
       make_settings();
-      check_quantities();
-      prepare_folder();
+      check_quantities(parameters);
+      prepare_study_folder(parameters.study_folder(), overwrite);
       find_references();
     }
     catch (const EntryError &e)
@@ -157,20 +124,6 @@ namespace taut
     log << "Study in " << parameters.study_folder() << '\n';
   }
 
-  void Study::prepare_folder() const
-  {
-    namespace fs = std::filesystem;
-    const std::string folder = parameters.study_folder();
-    std::error_code error;
-    if (fs::exists(folder + "/study.json", error) && !overwrite)
-      throw EntryError("Study/Folder", "'" + folder +
-                                           "' holds a study; name another folder, or run with "
-                                           "--overwrite");
-    fs::create_directories(folder, error);
-    if (error)
-      throw EntryError("Study/Folder", "cannot make '" + folder + "': " + error.message());
-  }
-
   void Study::make_settings()
   {
     constexpr std::size_t most_settings = 10000;
@@ -190,14 +143,6 @@ namespace taut
       }
       result.settings.push_back(std::move(setting));
     }
-  }
-
-  void Study::check_quantities() const
-  {
-    std::ostringstream silent;
-    const Simulation simulation(parameters, silent);
-    const QuantityRecorder recorder(parameters.study, parameters.statistics, simulation.scene(),
-                                    simulation.constraints());
   }
 
   std::vector<std::string> Study::reference_values(const unsigned int level) const
@@ -238,7 +183,7 @@ namespace taut
       log << "Reference:";
       for (std::size_t k = 0; k < values.size(); ++k)
         log << (k > 0 ? ", " : " ") << result.parameter_lists[k].name << " = " << values[k];
-      const Run run = run_once(values, false, true);
+      const MeasuredRun run = run_once(values, false, true);
       bool done = level > 0;
       for (std::size_t i = 0; i < n; ++i)
       {
@@ -275,8 +220,8 @@ namespace taut
     }
   }
 
-  Study::Run Study::run_once(const std::vector<std::string> &values, const bool with_output,
-                             const bool with_quantities) const
+  MeasuredRun Study::run_once(const std::vector<std::string> &values, const bool with_output,
+                              const bool with_quantities) const
   {
     std::vector<std::string> all = overrides;
     for (std::size_t k = 0; k < values.size(); ++k)
@@ -291,29 +236,7 @@ namespace taut
       chosen.output.field_interval = 0.;
     }
     chosen.output.overwrite = true;
-    std::ostringstream silent;
-    try
-    {
-      if (chosen.step_parameters.adaptive())
-        throw EntryError("Time/Step control", "a study compares fixed steps; set 'fixed'");
-      Simulation simulation(chosen, silent);
-      QuantityRecorder recorder(chosen.study, chosen.statistics, simulation.scene(),
-                                simulation.constraints());
-      Stopwatch stopwatch(simulation.n_steps());
-      simulation.stop_if(stop_asked);
-      simulation.observe(stopwatch);
-      if (with_quantities)
-        simulation.observe(recorder);
-      simulation.run();
-      const Certificate &worst = recorder.worst_certificate();
-      return {with_quantities ? recorder.quantities() : std::vector<StudyQuantity>(),
-              stopwatch.seconds(), std::max(worst.complementarity, worst.balance),
-              simulation.n_steps()};
-    }
-    catch (const EntryError &e)
-    {
-      throw UserError(chosen.explain(e));
-    }
+    return measure_run(chosen, with_quantities, stop_asked);
   }
 
   void Study::run_setting(StudySetting &setting, const bool first) const
@@ -322,7 +245,7 @@ namespace taut
       return;
     try
     {
-      const Run run = run_once(setting.values, first, first);
+      const MeasuredRun run = run_once(setting.values, first, first);
       if (!first)
       {
         setting.seconds.push_back(run.seconds);

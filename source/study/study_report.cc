@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
 #include <taut/base/version.h>
 #include <taut/base/write_file.h>
 #include <taut/output/table_file.h>
@@ -8,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <filesystem>
 #include <iomanip>
 #include <limits>
 #include <ostream>
@@ -103,6 +105,19 @@ namespace taut
       out << '\n';
     }
   } // namespace
+
+  void prepare_study_folder(const std::string &folder, const bool overwrite)
+  {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    if (fs::exists(folder + "/study.json", error) && !overwrite)
+      throw EntryError("Study/Folder", "'" + folder +
+                                           "' holds a study; name another folder, or run with "
+                                           "--overwrite");
+    fs::create_directories(folder, error);
+    if (error)
+      throw EntryError("Study/Folder", "cannot make '" + folder + "': " + error.message());
+  }
 
   void print_study(const StudyResult &result, const std::vector<double> &accuracies,
                    std::ostream &out)

@@ -231,7 +231,7 @@ def check_bad(folder):
 
     result = run(complete, scene)
     expect("a plain start tells of --resume", result.returncode == 1 and "--resume" in result.stderr, result.stderr)
-    for other in ("--overwrite", "--check", "--study"):
+    for other in ("--overwrite", "--check", "--study", "--accuracy=0.1"):
         result = run(complete, [*scene, "--resume", other])
         expect(f"--resume {other}", result.returncode == 1 and "exclude each other" in result.stderr, result.stderr)
 

@@ -213,6 +213,7 @@ def check_mistakes(folder):
             ("the folder", {"m": {"Entries": "Sweep/Folder", "Values": "1"}}, {}, (), "not part of the scene"),
             ("--study", {"m": one}, {}, ("--study",), "exclude each other"),
             ("--check", {"m": one}, {}, ("--check",), "exclude each other"),
+            ("--accuracy", {"m": one}, {}, ("--accuracy=0.1",), "exclude each other"),
             ("both", {"m": one}, {}, ("--resume", "--overwrite"), "exclude each other")):
         name = scene(folder, "mistake.prm", parameters, **entries)
         result = taut(folder, name, "--sweep", *options)

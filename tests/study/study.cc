@@ -2,35 +2,25 @@
 // Claim: a study measures errors that are the real ones (free oscillator, u = cos(w t)), its
 // refined reference is as far from the exact value as it says, a setting that fails is a row, and
 // Accuracy takes the cheapest setting of a study of the same scene and of no other.
-#include "common.h"
-#include "verification/scene_builder.h"
+#include "study/in_folder.h"
 
 #include <taut/simulation/simulation.h>
 #include <taut/study/study.h>
 
 #include <nlohmann/json.hpp>
 
-#include <unistd.h>
-
-#include <filesystem>
 #include <limits>
 
 namespace
 {
   namespace fs = std::filesystem;
-  using Texts = std::vector<std::string>;
+  using studies::expect_fragments;
+  using studies::Texts;
   using verification::error_of;
   using verification::has;
-  using verification::prm;
 
   // w = 10 1/s; at t = 1.3 s the mass is at cos(13) m.
-  const std::string bare_oscillator = R"(Gravity = 0, 0; Start = given
-Mass block: Motions = y; Mass = 2; Initial displacement = 0, 1, 0
-Spring spring: To = block; Stiffness = 200
-Time: Scheme = Newmark; Step = 0.01; End = 1.3
-Output: Folder = results; Field interval = 0
-Probe place: Point = block
-)";
+  const std::string &bare_oscillator = studies::oscillator;
   const std::string parameters_of_the_study = R"(Study: Repeats = 1; Reference levels = 5
 Parameter step: Entries = Time/Step; Values = 0.02, 0.01, 0.005, 0.0025; Refined = true
 Parameter scheme: Entries = Time/Scheme; Values = Newmark, backward Euler; Reference = Newmark
@@ -40,37 +30,16 @@ Parameter scheme: Entries = Time/Scheme; Values = Newmark, backward Euler; Refer
 Quantity motion: Of = place; Quantity = history
 )";
 
-  class StudyTest : public testing::Test
+  class StudyTest : public studies::InFolder
   {
   protected:
-    void SetUp() override
-    {
-      folder = fs::temp_directory_path() / ("taut_study_" + std::to_string(getpid()));
-      fs::create_directories(folder);
-      fs::current_path(folder);
-      std::ofstream("scene.prm") << prm(oscillator);
-    }
-    void TearDown() override
-    {
-      fs::current_path(fs::temp_directory_path());
-      fs::remove_all(folder);
-    }
+    StudyTest() { write(oscillator); }
 
     taut::StudyResult study(const Texts &overrides = {}, const bool overwrite = false)
     {
       log.str("");
       return taut::Study("scene.prm", overrides, overwrite, log).run();
     }
-
-    static void expect_fragments(const std::string &message, const Texts &fragments)
-    {
-      for (const std::string &fragment : fragments)
-        EXPECT_TRUE(has(message, fragment)) << "'" << fragment << "' is not in '" << message << "'";
-      EXPECT_FALSE(has(message, "\n")) << message;
-    }
-
-    fs::path folder;
-    std::ostringstream log;
   };
 
   taut::StudyQuantity number(const double value)
@@ -327,11 +296,11 @@ TEST_F(StudyTest, mistakes_are_named_before_anything_runs)
     expect_fragments(error_of([&, o = overrides]() { study(o); }), fragments);
     EXPECT_FALSE(fs::exists("results/study/study.json"));
   }
-  std::ofstream("scene.prm") << prm(bare_oscillator);
+  write(bare_oscillator);
   expect_fragments(error_of([&]() { study(); }), {"Study/Parameters", "one or more lists"});
-  std::ofstream("scene.prm") << prm(bare_oscillator + parameters_of_the_study);
+  write(bare_oscillator + parameters_of_the_study);
   expect_fragments(error_of([&]() { study(); }), {"Study/Quantities", "one or more quantities"});
-  std::ofstream("scene.prm") << prm(oscillator);
+  write(oscillator);
   study();
   expect_fragments(error_of([&]() { study(); }), {"Study/Folder", "--overwrite"});
   EXPECT_EQ(error_of([&]() { study({}, true); }), "");

@@ -28,6 +28,7 @@ namespace taut
     double accuracy = 0.; ///< relative; 0: the scene runs as written
     std::vector<double> accuracies = {0.05, 0.01, 0.001};
     unsigned int repeats = 3, reference_levels = 5;
+    double budget = 600.; ///< wall time of a search for an accuracy [s]
 
     struct ParameterListItem
     {

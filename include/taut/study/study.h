@@ -3,6 +3,7 @@
 #define taut_study_h
 
 #include <taut/simulation/parameters.h>
+#include <taut/study/measured_run.h>
 #include <taut/study/refined_reference.h>
 
 #include <functional>
@@ -68,17 +69,14 @@ namespace taut
     const StudyResult &run();
 
   private:
-    struct Run;
-    void prepare_folder() const;
     void make_settings();
     void measure_settings();
     void keep_measured_settings();
     void write_results();
-    void check_quantities() const;
     void find_references();
     std::vector<std::string> reference_values(unsigned int level) const;
-    Run run_once(const std::vector<std::string> &values, bool with_output,
-                 bool with_quantities) const;
+    MeasuredRun run_once(const std::vector<std::string> &values, bool with_output,
+                         bool with_quantities) const;
     void run_setting(StudySetting &setting, bool first) const;
     void compare(StudySetting &setting, const std::vector<StudyQuantity> &quantities) const;
 

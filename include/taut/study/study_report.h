@@ -11,6 +11,10 @@
 
 namespace taut
 {
+  /// Makes the folder of a study. Throws EntryError on Study/Folder if it cannot be made, or holds
+  /// a study and @p overwrite is false.
+  void prepare_study_folder(const std::string &folder, bool overwrite);
+
   /// The settings on the front from cheap to accurate, how many failed and why, and the cheapest
   /// setting for each accuracy; a Markdown table.
   void print_study(const StudyResult &result, const std::vector<double> &accuracies,

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/output/table_file.h>
+#include <taut/study/dials.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace taut
+{
+  namespace
+  {
+    constexpr int most_coarser = 3;
+
+    bool ends(const std::string &path, const std::string &tail)
+    {
+      return path.size() >= tail.size() &&
+             path.compare(path.size() - tail.size(), tail.size(), tail) == 0;
+    }
+
+    /// How often the size of a group can be doubled.
+    int coarser(const Dial::Group &group)
+    {
+      if (group.kind == Dial::Kind::size)
+        return most_coarser;
+      const int value = static_cast<int>(group.value);
+      if (group.kind == Dial::Kind::halvings)
+        return std::min(value, most_coarser);
+      int n = 0;
+      while (n < most_coarser && value % (2 << n) == 0)
+        ++n;
+      return n;
+    }
+
+    void add(Dial &dial, const Dial::Kind kind, const std::string &path, const std::string &text)
+    {
+      const double value = std::stod(text);
+      for (Dial::Group &group : dial.groups)
+        if (group.kind == kind && group.value == value)
+        {
+          group.entries.push_back(path);
+          return;
+        }
+      const std::size_t n = dial.groups.size() + 1;
+      dial.groups.push_back({n > 1 ? "mesh " + std::to_string(n) : "mesh", kind, value, {path}});
+    }
+  } // namespace
+
+  std::string Dial::Group::halved(const int n) const
+  {
+    if (kind == Kind::size)
+      return csv_number(std::ldexp(value, -n));
+    return std::to_string(std::lround(kind == Kind::count ? std::ldexp(value, n) : value + n));
+  }
+
+  std::vector<std::string> Dial::values(const int level) const
+  {
+    std::vector<std::string> list;
+    for (const Group &group : groups)
+      list.push_back(group.halved(level - n_coarser));
+    return list;
+  }
+
+  std::vector<Dial> find_dials(const std::map<std::string, std::string> &scene)
+  {
+    const Dial step{{{"step", Dial::Kind::size, std::stod(scene.at("Time/Step")), {"Time/Step"}}},
+                    most_coarser};
+    Dial mesh{{}, most_coarser};
+    for (const auto &[path, text] : scene)
+      if (ends(path, "/Element size"))
+        add(mesh, Dial::Kind::size, path, text);
+      else if (ends(path, "/Elements"))
+        add(mesh, Dial::Kind::count, path, text);
+      else if (ends(path, "/Mesh/Refinements"))
+        add(mesh, Dial::Kind::halvings, path, text);
+    if (mesh.groups.empty())
+      return {step};
+    for (const Dial::Group &group : mesh.groups)
+      mesh.n_coarser = std::min(mesh.n_coarser, coarser(group));
+    return {step, mesh};
+  }
+} // namespace taut

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
+#include <taut/base/interruption.h>
+#include <taut/study/case_runner.h>
+#include <taut/study/default_quantities.h>
+#include <taut/study/trial_runs.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+
+namespace taut
+{
+  TrialRuns::TrialRuns(std::string file, std::vector<std::string> overrides)
+      : file(std::move(file)), overrides(std::move(overrides))
+  {
+    this->overrides.push_back("Study/Accuracy=0");
+    file_parameters.read(this->file, this->overrides);
+    const auto refuse = [&](const std::string &entry, const std::string &message)
+    { throw UserError(file_parameters.explain(EntryError(entry, message))); };
+    if (!(file_parameters.end_time > 0.))
+      refuse("Time/End", "an accuracy is found from runs in time; take a later end");
+    if (file_parameters.step_parameters.adaptive())
+      refuse("Time/Step control", "a search compares fixed steps; set 'fixed'");
+    all_dials = find_dials(file_parameters.values());
+  }
+
+  double TrialRuns::elapsed() const
+  {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  }
+
+  int TrialRuns::ask() const
+  {
+    const int signal = stop_asked ? stop_asked() : 0;
+    return signal == 0 && elapsed() > file_parameters.study.budget ? SIGALRM : signal;
+  }
+
+  /// The entries at these levels. Steps are not checked by other runs: the search does more.
+  std::vector<std::string> TrialRuns::entries(const Levels &levels) const
+  {
+    std::vector<std::string> list = {"Time/Check steps=no"};
+    for (std::size_t d = 0; d < all_dials.size(); ++d)
+    {
+      const std::vector<std::string> values = all_dials[d].values(levels[d]);
+      for (std::size_t g = 0; g < values.size(); ++g)
+        for (const std::string &entry : all_dials[d].groups[g].entries)
+          list.push_back(entry + "=" + values[g]);
+    }
+    return list;
+  }
+
+  void TrialRuns::name_quantities()
+  {
+    if (!file_parameters.study.quantities.names.empty())
+      return;
+    CaseRunner runner(file, overrides);
+    runner.stop_if([this]() { return ask(); });
+    std::vector<Statistics::NamedQuantity> known;
+    bool has_run = false;
+    for (Levels levels(all_dials.size(), 0); !has_run; ++levels[0])
+      try
+      {
+        known = runner.run(entries(levels)).quantities;
+        has_run = true;
+      }
+      catch (const UserError &)
+      {
+        if (levels[0] == all_dials[0].n_coarser)
+          throw;
+        for (std::size_t d = 1; d < levels.size(); ++d)
+          levels[d] = std::min(levels[d] + 1, all_dials[d].n_coarser);
+      }
+    try
+    {
+      const std::vector<std::string> names = default_quantities(known);
+      overrides.insert(overrides.end(), names.begin(), names.end());
+    }
+    catch (const EntryError &e)
+    {
+      throw UserError(file_parameters.explain(e));
+    }
+    file_parameters.read(file, overrides);
+  }
+
+  MeasuredRun TrialRuns::run_once(const std::vector<std::string> &entries) const
+  {
+    if (const int signal = ask())
+      throw Interrupted(signal, "");
+    std::vector<std::string> all = overrides;
+    all.insert(all.end(), entries.begin(), entries.end());
+    Parameters chosen;
+    chosen.read(file, all);
+    chosen.output.writes = false;
+    chosen.output.field_interval = chosen.output.checkpoint_interval = 0.;
+    chosen.output.observers.clear();
+    return measure_run(chosen, true, [this]() { return ask(); });
+  }
+
+  const TrialRuns::Trial &TrialRuns::at(const Levels &levels)
+  {
+    const auto known = trials.find(levels);
+    if (known != trials.end())
+      return known->second;
+    Trial trial;
+    const double start = elapsed();
+    try
+    {
+      trial.run = run_once(entries(levels));
+      for (const StudyQuantity &quantity : trial.run.quantities)
+        if (!std::isfinite(quantity.value))
+          trial.message = "the quantities are not finite";
+    }
+    catch (const UserError &e)
+    {
+      trial.message = e.what();
+      std::replace(trial.message.begin(), trial.message.end(), '\n', ' ');
+    }
+    trial.wall_seconds = elapsed() - start;
+    return trials[levels] = std::move(trial);
+  }
+
+  MeasuredRun TrialRuns::with_scheme(const Levels &levels, const std::string &scheme) const
+  {
+    std::vector<std::string> list = entries(levels);
+    list.push_back("Time/Scheme=" + scheme);
+    return run_once(list);
+  }
+} // namespace taut
