@@ -99,8 +99,10 @@ namespace taut
       if (!constraints[i].cone.may_open())
         continue;
       Row &row = rows[i];
-      const double N = state.multiplier[i],
-                   rate = std::fabs(state.gap[i] - row.gap) / state.last_step;
+      // A closed elastic constraint moves with its spring. Rounding of the gap has no speed.
+      const double moved = std::fabs(state.gap[i] - row.gap) +
+                           std::fabs(state.link_springs[i].u - row.u),
+                   N = state.multiplier[i], rate = std::max(moved, row.noise) / state.last_step;
       if (row.multiplier > 0. || N > 0.)
       {
         if (!(row.multiplier > 0.))
