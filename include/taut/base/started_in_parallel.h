@@ -3,6 +3,7 @@
 #define taut_started_in_parallel_h
 
 #include <cstdlib>
+#include <initializer_list>
 
 namespace taut
 {
