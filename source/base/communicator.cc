@@ -95,15 +95,6 @@ namespace taut
         });
   }
 
-  bool started_in_parallel()
-  {
-    // Starting MPI costs as much as a short run.
-    for (const char *name : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "PMI_SIZE"})
-      if (std::getenv(name))
-        return true;
-    return false;
-  }
-
   Communicator::Communicator(const MPI_Comm processes) : processes(processes)
   {
     int value = 0;

@@ -13,6 +13,11 @@ set(CMAKE_CXX_FLAGS_DEBUG "-O0 -g")
 
 function(taut_setup_target target)
   deal_ii_setup_target(${target})
+  taut_set_flags(${target})
+endfunction()
+
+# Of a target without deal.II.
+function(taut_set_flags target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -fopenmp-simd)
   if(TAUT_NATIVE)
     target_compile_options(${target} PRIVATE -march=native)

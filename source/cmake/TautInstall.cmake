@@ -5,8 +5,9 @@ include(CMakePackageConfigHelpers)
 # The installed program finds the installed library wherever the two are moved to together; the folders of the
 # libraries below deal.II that the loader does not search by itself are added.
 file(RELATIVE_PATH library_from_program ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
-set_target_properties(taut taut-program PROPERTIES INSTALL_RPATH_USE_LINK_PATH TRUE)
+set_target_properties(taut PROPERTIES INSTALL_RPATH_USE_LINK_PATH TRUE)
 set_target_properties(taut-program PROPERTIES INSTALL_RPATH "$ORIGIN/${library_from_program}")
+set_target_properties(taut_run PROPERTIES INSTALL_RPATH "$ORIGIN" INSTALL_RPATH_USE_LINK_PATH TRUE)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/taut)
 configure_package_config_file(${CMAKE_CURRENT_SOURCE_DIR}/source/cmake/tautConfig.cmake.in
@@ -15,7 +16,8 @@ write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/package/tautConfigV
   COMPATIBILITY SameMinorVersion)
 
 # A Debug build adds its library, libtaut.g, to what a Release build installed.
-install(TARGETS taut-program taut_memory CONFIGURATIONS Release)
+install(TARGETS taut-program taut_memory taut_run CONFIGURATIONS Release
+  RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS taut EXPORT taut)
 install(EXPORT taut NAMESPACE taut:: FILE tautTargets.cmake DESTINATION ${package_folder})
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/package/tautConfig.cmake

@@ -196,23 +196,29 @@ namespace taut
     }
   } // namespace
 
-  void check_entries(const ParameterFile &file, dealii::ParameterHandler &prm)
+  nlohmann::json listing_of(const dealii::ParameterHandler &prm)
   {
-    std::stringstream listing;
-    prm.print_parameters(listing, dealii::ParameterHandler::JSON);
-    const nlohmann::json root = nlohmann::json::parse(listing);
+    std::stringstream text;
+    // To sort the entries takes deal.II longer than all else here; JSON sorts them itself.
+    prm.print_parameters(text, dealii::ParameterHandler::JSON |
+                                   dealii::ParameterHandler::KeepDeclarationOrder);
+    return nlohmann::json::parse(text);
+  }
+
+  void check_entries(const ParameterFile &file, const nlohmann::json &listing)
+  {
     for (const ParameterFile::Entry &section : file.sections())
-      find_section(root, section, section.path.size());
+      find_section(listing, section, section.path.size());
     for (const ParameterFile::Entry &entry : file.entries())
     {
-      const nlohmann::json &node = find_section(root, entry, entry.path.size() - 1);
+      const nlohmann::json &node = find_section(listing, entry, entry.path.size() - 1);
       const std::string &name = entry.path.back();
       if (!node.contains(name) || !node[name].contains("pattern_description"))
         throw UserError(
             entry.place + ": there is no entry '" + name + "'" +
             (entry.path.size() > 1 ? " in '" + entry.path[entry.path.size() - 2] + "'" : "") +
             suggestion(name, names_in(node, false)) + sections_here(name, node) +
-            elsewhere(root, name, false));
+            elsewhere(listing, name, false));
       // A description that a shortage of memory cut off, before or here, gives a null pointer.
       check_memory();
       const MemoryGuard guard;

@@ -4,6 +4,8 @@
 
 #include <taut/simulation/parameter_file.h>
 
+#include <nlohmann/json_fwd.hpp>
+
 namespace dealii
 {
   class ParameterHandler;
@@ -11,9 +13,13 @@ namespace dealii
 
 namespace taut
 {
-  /// Throws UserError about the first section or entry of @p file that @p prm does not declare, or
+  /// Sections within each other, and of each entry value, default_value, documentation and
+  /// pattern_description.
+  nlohmann::json listing_of(const dealii::ParameterHandler &prm);
+
+  /// Throws UserError about the first section or entry of @p file that is not in @p listing, or
   /// whose value does not match its pattern. The message has place, expectation and similar names.
-  void check_entries(const ParameterFile &file, dealii::ParameterHandler &prm);
+  void check_entries(const ParameterFile &file, const nlohmann::json &listing);
 } // namespace taut
 
 #endif

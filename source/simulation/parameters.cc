@@ -16,7 +16,6 @@
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <sstream>
 
 namespace taut
@@ -36,24 +35,32 @@ namespace taut
         throw EntryError(entry, "the first number is the smaller one; swap them");
     }
 
-    /// Calls @p see with path, value and default of each entry.
+    /// Calls @p see with path and node of each entry in a listing, or below @p section of it.
     template <typename See>
-    void visit_entries(const dealii::ParameterHandler &prm, const See &see)
+    void visit_entries(const nlohmann::json &listing, const See &see,
+                       const std::string &section = "")
     {
-      std::ostringstream json;
-      prm.print_parameters(json, dealii::ParameterHandler::JSON);
-      const std::function<void(const nlohmann::json &, const std::string &)> walk =
-          [&](const nlohmann::json &node, const std::string &path)
-      {
-        for (auto entry = node.begin(); entry != node.end(); ++entry)
-          if (!entry->is_object())
-            continue;
-          else if (entry->contains("pattern_description"))
-            see(path + entry.key(), entry->at("value"), entry->at("default_value"));
-          else
-            walk(*entry, path + entry.key() + "/");
-      };
-      walk(nlohmann::json::parse(json.str()), "");
+      for (const auto &[name, child] : listing.items())
+        if (!child.is_object())
+          continue;
+        else if (child.contains("pattern_description"))
+          see(section + name, child);
+        else
+          visit_entries(child, see, section + name + "/");
+    }
+
+    /// Values and defaults of all entries in a listing, by their paths.
+    void keep_values(const nlohmann::json &listing, std::map<std::string, std::string> &values,
+                     std::map<std::string, std::string> &defaults)
+    {
+      values.clear();
+      defaults.clear();
+      visit_entries(listing,
+                    [&](const std::string &path, const nlohmann::json &entry)
+                    {
+                      values[path] = entry.at("value");
+                      defaults[path] = entry.at("default_value");
+                    });
     }
 
     /// The part of a deal.II exception for the user.
@@ -210,9 +217,14 @@ namespace taut
     try
     {
       declare_in_passes(file.text());
-      check_entries(file, *declared.entries);
+      const nlohmann::json listing = listing_of(*declared.entries);
+      check_entries(file, listing);
+      keep_values(listing, entry_values, declared.defaults);
       declared.entries->parse_input_from_string(file.text());
-      keep_values();
+      // The file alone changes values.
+      for (const ParameterFile::Entry &entry : file.entries())
+        entry_values[entry.name()] =
+            declared.entries->get({entry.path.begin(), entry.path.end() - 1}, entry.path.back());
       check_values();
     }
     catch (const EntryError &e)
@@ -233,7 +245,7 @@ namespace taut
     const auto read_leniently = [&](dealii::ParameterHandler &prm)
     {
       prm.parse_input_from_string(text, "", true);
-      visit_entries(prm, [&](const std::string &path, const std::string &, const std::string &)
+      visit_entries(listing_of(prm), [&](const std::string &path, const nlohmann::json &)
                     { declared.structural.insert(path); });
     };
     {
@@ -295,25 +307,12 @@ namespace taut
     declare(*declared.entries);
   }
 
-  void Parameters::keep_values()
-  {
-    entry_values.clear();
-    declared.defaults.clear();
-    visit_entries(
-        *declared.entries,
-        [&](const std::string &path, const std::string &value, const std::string &standard)
-        {
-          entry_values[path] = value;
-          declared.defaults[path] = standard;
-        });
-  }
-
   void Parameters::set_defaults()
   {
     load_registered();
     generator = Registry<SceneGenerator>::instance().create(generator_name);
     begin_entries();
-    keep_values();
+    keep_values(listing_of(*declared.entries), entry_values, declared.defaults);
   }
 
   std::string Parameters::file_name() const

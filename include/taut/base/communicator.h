@@ -14,9 +14,6 @@ namespace taut
   /// Initialises MPI unless it is initialised already; MPI then ends with the program.
   void start_mpi();
 
-  /// True if mpirun or a similar program started this program.
-  bool started_in_parallel();
-
   /**
    * The processes (ranks) that run a scene together, by value. Bodies are distributed over the
    * ranks. Vectors with one number per constraint are on all ranks: each rank has the share of its

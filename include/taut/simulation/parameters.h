@@ -173,7 +173,6 @@ namespace taut
                       const Communicator &processes);
     void check_values() const;
     void begin_entries();
-    void keep_values();
     void load_registered();
     void declare_in_passes(const std::string &text);
     void declare(dealii::ParameterHandler &prm);
