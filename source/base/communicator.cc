@@ -125,14 +125,12 @@ namespace taut
     return both[1] > 0. ? std::numeric_limits<double>::quiet_NaN() : both[0];
   }
 
-  std::vector<std::size_t> Communicator::gather(const std::size_t value) const
+  void Communicator::gather(const std::size_t value, std::vector<std::size_t> &all) const
   {
-    if (n_ranks == 1)
-      return {value};
-    unsigned long own = value;
-    std::vector<unsigned long> all(n_ranks);
-    MPI_Allgather(&own, 1, MPI_UNSIGNED_LONG, all.data(), 1, MPI_UNSIGNED_LONG, processes);
-    return {all.begin(), all.end()};
+    static_assert(sizeof(std::size_t) == sizeof(unsigned long), "MPI knows it by this type");
+    all.assign(n_ranks, value);
+    if (n_ranks > 1)
+      MPI_Allgather(&value, 1, MPI_UNSIGNED_LONG, all.data(), 1, MPI_UNSIGNED_LONG, processes);
   }
 
   std::vector<std::string> Communicator::gather(const std::string &text) const

@@ -332,12 +332,20 @@ namespace taut
     frames->turn(f);
   }
 
+  std::unique_ptr<SymmetricMatrix> Cable::zero_matrix() const
+  {
+    if (!spare)
+      return make_block_tridiagonal(CableElements::dofs_per_node, element.n_dofs());
+    spare->set_zero();
+    return std::move(spare);
+  }
+
   std::unique_ptr<SymmetricMatrix> Cable::tangent(const std::vector<double> &U, const double rate,
                                                   const bool definite) const
   {
     if (is_linear())
       return Substructure::tangent(U, rate, definite);
-    auto A = make_block_tridiagonal(CableElements::dofs_per_node, element.n_dofs());
+    std::unique_ptr<SymmetricMatrix> A = zero_matrix();
     set_positions(U, work);
     element.add_tangent(work, definite, *A);
     element.add_damping(work, rate, *A);
@@ -350,7 +358,7 @@ namespace taut
   {
     if (is_linear())
       return Substructure::mean_tangent(U0, U1, rate, definite);
-    auto A = make_block_tridiagonal(CableElements::dofs_per_node, element.n_dofs());
+    std::unique_ptr<SymmetricMatrix> A = zero_matrix();
     set_positions(U0, work_0);
     set_positions(U1, work);
     element.add_mean_tangent(work_0, work, definite, *A);

@@ -100,7 +100,7 @@ namespace taut
                                          const std::vector<std::size_t> &set, const double shift,
                                          std::vector<double> &result)
   {
-    std::vector<double> column(n), x;
+    column.resize(n);
     result.assign(n, 0.);
     for (const std::size_t i : wanted)
     {
@@ -109,10 +109,10 @@ namespace taut
         continue;
       for (std::size_t j = 0; j < n; ++j)
         column[j] = (*this)(i, j);
-      if (!solve(set, column, 0., x))
-        solve(set, column, shift, x);
+      if (!solve(set, column, 0., solution))
+        solve(set, column, shift, solution);
       for (const std::size_t b : set)
-        result[i] -= column[b] * x[b];
+        result[i] -= column[b] * solution[b];
     }
   }
 } // namespace taut

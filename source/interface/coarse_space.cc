@@ -27,7 +27,8 @@ namespace taut
       null_spaces.push_back(solvers.structure()[k].null_space().vectors);
       n_own += null_spaces.back().size();
     }
-    const std::vector<std::size_t> sizes = processes.gather(n_own);
+    std::vector<std::size_t> sizes;
+    processes.gather(n_own, sizes);
     const auto own = sizes.begin() + processes.rank();
     const std::size_t before = std::accumulate(sizes.begin(), own, std::size_t(0));
     n_columns = std::accumulate(own, sizes.end(), before);

@@ -55,7 +55,8 @@ namespace taut
   void Constraints::move(const std::size_t i, const double t)
   {
     ConstraintData &constraint = constraints[i];
-    constraint.terms = place(i).terms(t);
+    constraint.terms.clear();
+    place(i).append_terms(t, constraint.terms);
     constraint.gap = place(i).gap(t);
     check_terms(constraint, constraint.terms, structure);
     if (!std::isfinite(constraint.gap))
@@ -176,7 +177,10 @@ namespace taut
   {
     to.resize(size() - first_sliding);
     for (const std::size_t i : sliding_rows())
-      to[i - first_sliding] = place(i).course();
+    {
+      to[i - first_sliding].clear();
+      place(i).append_course(to[i - first_sliding]);
+    }
   }
 
   void Constraints::set_courses(const std::vector<std::vector<double>> &courses)
@@ -188,7 +192,8 @@ namespace taut
   double Constraints::share_of_convection(const std::size_t i, const double t,
                                           const BodyVectors &reference, const BodyVectors &U) const
   {
-    const std::vector<Term> slope = place(i).rates(t);
+    slope.clear();
+    place(i).append_rates(t, slope);
     check_terms(constraints[i], slope, structure);
     return evaluate(slope, reference) + evaluate(slope, U);
   }

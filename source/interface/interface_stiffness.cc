@@ -53,7 +53,8 @@ namespace taut
     std::size_t n_own = 0;
     for (const Block &block : blocks)
       n_own += block.dofs.size();
-    const std::vector<std::size_t> sizes = processes.gather(n_own);
+    std::vector<std::size_t> sizes;
+    processes.gather(n_own, sizes);
     std::size_t first =
         std::accumulate(sizes.begin(), sizes.begin() + processes.rank(), std::size_t(0));
     n_constrained = std::accumulate(sizes.begin(), sizes.end(), std::size_t(0));

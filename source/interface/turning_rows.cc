@@ -8,31 +8,50 @@
 
 namespace taut
 {
-  std::vector<Coordinates> Constraints::differences(const BodyVectors &U) const
+  void Constraints::copy_differences(const BodyVectors &U, std::vector<Coordinates> &to) const
   {
-    std::vector<double> sums;
-    sums.reserve(3 * turning_rows().size());
+    sums.clear();
     for (const std::size_t i : turning_rows())
       for (const std::vector<Term> &motion : turning(i).motion)
         sums.push_back(evaluate(motion, U));
     structure.communicator().sum(sums);
-    std::vector<Coordinates> result;
-    result.reserve(turning_rows().size());
+    to.clear();
     for (std::size_t k = 0; k < sums.size(); k += 3)
-      result.push_back({sums[k], sums[k + 1], sums[k + 2]});
+      to.push_back({sums[k], sums[k + 1], sums[k + 2]});
+  }
+
+  void Constraints::copy_differences(const BodyVectors &reference, const BodyVectors &U,
+                                     std::vector<Coordinates> &to) const
+  {
+    to.clear();
+    if (turning_rows().empty())
+      return;
+    sums.clear();
+    for (const BodyVectors *const X : {&reference, &U})
+      for (const std::size_t i : turning_rows())
+        for (const std::vector<Term> &motion : turning(i).motion)
+          sums.push_back(evaluate(motion, *X));
+    structure.communicator().sum(sums);
+    for (const std::size_t i : turning_rows())
+    {
+      const double *const r = sums.data() + 3 * turning_index(i), *const u = r + sums.size() / 2;
+      to.push_back(
+          add_scaled(add_scaled(turning(i).start, 1., {r[0], r[1], r[2]}), 1., {u[0], u[1], u[2]}));
+    }
+  }
+
+  std::vector<Coordinates> Constraints::differences(const BodyVectors &U) const
+  {
+    std::vector<Coordinates> result;
+    copy_differences(U, result);
     return result;
   }
 
   std::vector<Coordinates> Constraints::differences(const BodyVectors &reference,
                                                     const BodyVectors &U) const
   {
-    if (turning_rows().empty())
-      return {};
-    std::vector<Coordinates> result = differences(reference);
-    const std::vector<Coordinates> motion = differences(U);
-    for (std::size_t i = 0; i < result.size(); ++i)
-      result[i] =
-          add_scaled(add_scaled(turning(first_turning + i).start, 1., result[i]), 1., motion[i]);
+    std::vector<Coordinates> result;
+    copy_differences(reference, U, result);
     return result;
   }
 

@@ -3,8 +3,6 @@
 
 #include <taut/base/exceptions.h>
 
-#include <boost/container/small_vector.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -15,9 +13,6 @@ namespace taut
   {
     /// Smallest independent part of a row of G, and smallest pivot over the largest pivot.
     constexpr double independent = 1e-10, smallest_pivot = 1e-15;
-
-    /// Of the coordinates: a rigid body has twelve, which need no memory of their own.
-    using ReducedVector = boost::container::small_vector<double, 12>;
   } // namespace
 
   void ConstrainedSolver::factor(const std::vector<ScaledMatrix> &summands,
@@ -60,7 +55,7 @@ namespace taut
     Q.assign(n * n, 0.);
     for (unsigned int i = 0; i < n; ++i)
       Q[i * n + i] = 1.;
-    std::vector<double> g(n), v(n);
+    ReducedVector g(n), v(n);
     for (unsigned int row = 0; row < m; ++row)
     {
       const unsigned int r = rows.size();
@@ -99,7 +94,7 @@ namespace taut
   void ConstrainedSolver::factor_reduced()
   {
     const unsigned int r = rows.size(), f = n - r;
-    std::vector<double> AT(n * f, 0.);
+    AT.assign(n * f, 0.);
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int k = 0; k < n; ++k)
         if (A[i * n + k] != 0.)

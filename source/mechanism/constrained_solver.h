@@ -4,6 +4,8 @@
 
 #include <taut/substructure/local_solver.h>
 
+#include <boost/container/small_vector.hpp>
+
 #include <vector>
 
 namespace taut
@@ -31,6 +33,9 @@ namespace taut
     double flexibility(const LinearForm &rhs) const override;
 
   private:
+    /// Of the coordinates: a rigid body has twelve, which need no memory of their own.
+    using ReducedVector = boost::container::small_vector<double, 12>;
+
     void find_bases();
     void factor_reduced();
 
@@ -39,8 +44,9 @@ namespace taut
     std::vector<double> A, G;       ///< n x n and m x n, row after row
     std::vector<double> Q;          ///< columns: motions that G prescribes, then allowed motions
     std::vector<unsigned int> rows; ///< of G, independent of each other
-    std::vector<std::vector<double>> triangle; ///< these rows of G Q
-    std::vector<double> cholesky;              ///< of A on the motions that G allows
+    std::vector<ReducedVector> triangle; ///< these rows of G Q
+    std::vector<double> cholesky;        ///< of A on the motions that G allows
+    std::vector<double> AT;              ///< A times these motions, in factor_reduced()
   };
 } // namespace taut
 

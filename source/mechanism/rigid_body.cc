@@ -288,11 +288,19 @@ namespace taut
     return part * std::max(force, inner_force) / (length * data.mass);
   }
 
+  std::unique_ptr<SymmetricMatrix> RigidBody::zero_matrix() const
+  {
+    if (!spare)
+      return std::make_unique<CompressedMatrix>(n_coordinates + n_conditions);
+    spare->set_zero();
+    return std::move(spare);
+  }
+
   std::unique_ptr<SymmetricMatrix> RigidBody::tangent(const std::vector<double> &U,
                                                       const double rate, const bool definite) const
   {
     const bool at_rest = rate == 0.;
-    auto A = std::make_unique<CompressedMatrix>(n_coordinates + n_conditions);
+    std::unique_ptr<SymmetricMatrix> A = zero_matrix();
     add_conditions(directors(U), 1., *A);
     add_geometric(U, definite || at_rest, *A);
     if (at_rest)
@@ -305,19 +313,20 @@ namespace taut
                                                            const std::vector<double> &U1,
                                                            const double, const bool definite) const
   {
-    std::vector<double> U = U1;
+    middle = U1;
     for (unsigned int i = 0; i < n_coordinates; ++i)
-      U[i] = .5 * (U0[i] + U1[i]);
-    auto A = std::make_unique<CompressedMatrix>(n_coordinates + n_conditions);
-    add_conditions(directors(U), 2., *A);
-    add_geometric(U, definite, *A);
+      middle[i] = .5 * (U0[i] + U1[i]);
+    std::unique_ptr<SymmetricMatrix> A = zero_matrix();
+    add_conditions(directors(middle), 2., *A);
+    add_geometric(middle, definite, *A);
     A->find_repetitions();
     return A;
   }
 
   std::unique_ptr<SymmetricMatrix> RigidBody::mass_at(const std::vector<double> &U) const
   {
-    auto A = M->clone();
+    std::unique_ptr<SymmetricMatrix> A = zero_matrix();
+    A->add(1., *M);
     add_conditions(directors(U), 1., *A);
     A->find_repetitions();
     return A;

@@ -195,12 +195,13 @@ namespace taut
                                   const Coordinates &direction, const double factor,
                                   const bool derivative, std::vector<Term> &terms) const
   {
-    const auto append = [&](const std::size_t k, const double f, LinearForm form)
+    const auto append = [&](const std::size_t k, const double f, const LinearForm &of_body)
     {
-      for (double &v : form.value)
+      if (of_body.index.empty())
+        return;
+      terms.push_back({k, of_body});
+      for (double &v : terms.back().form.value)
         v *= f;
-      if (!form.index.empty())
-        terms.push_back({k, std::move(form)});
     };
     LinearForm form;
     if (point.kind == Attachment::Kind::mass)

@@ -12,14 +12,13 @@ namespace taut
 {
   namespace
   {
-    /// B_i of a link with its `to` end at an attachment.
-    std::vector<Term> link_terms(const SceneBodies &bodies, const Link &link, const Attachment &to)
+    /// Appends B_i of a link with its `to` end at an attachment.
+    void append_link(const SceneBodies &bodies, const Link &link, const Attachment &to,
+                     std::vector<Term> &terms)
     {
       const double sign = link.kind == LinkKind::dropper ? -1. : 1.;
-      std::vector<Term> terms;
       bodies.motion(to, link.rotational, link.direction, sign, terms);
       bodies.motion(link.from, link.rotational, link.direction, -sign, terms);
-      return terms;
     }
 
     LinkEnd link_end(const Scene &scene, const SceneBodies &bodies, const Attachment &at)
@@ -68,23 +67,20 @@ namespace taut
 
       double position(const double t) const override { return link.to.position + link.speed * t; }
 
-      std::vector<Term> terms(const double t) const override
+      void append_terms(const double t, std::vector<Term> &terms) const override
       {
         if (is_on_wire())
         {
           check(t);
-          return link_terms(bodies, link, place(t));
+          append_link(bodies, link, place(t), terms);
         }
-        std::vector<Term> result;
-        bodies.communicator().agree([&] { result = terms_on_cable(t); });
-        return result;
+        else
+          bodies.communicator().agree([&] { append_on_cable(t, terms); });
       }
 
-      std::vector<Term> rates(const double t) const override
+      void append_rates(const double t, std::vector<Term> &terms) const override
       {
-        std::vector<Term> slope;
-        bodies.slope(place(t), link.direction, speed(), slope);
-        return slope;
+        bodies.slope(place(t), link.direction, speed(), terms);
       }
 
       /// A contact on a cable: displacements count from the shape at rest, whose height the contact
@@ -111,11 +107,11 @@ namespace taut
       }
 
       /// Only the cable knows its length.
-      std::vector<Term> terms_on_cable(const double t) const
+      void append_on_cable(const double t, std::vector<Term> &terms) const
       {
         try
         {
-          return link_terms(bodies, link, place(t));
+          append_link(bodies, link, place(t), terms);
         }
         catch (const UserError &e)
         {
@@ -214,10 +210,10 @@ namespace taut
         is_known = true;
       }
 
-      std::vector<double> course() const override
+      void append_course(std::vector<double> &course) const override
       {
-        return is_known ? std::vector<double>{known.origin, known.time, known.position, known.speed}
-                        : std::vector<double>();
+        if (is_known)
+          course.insert(course.end(), {known.origin, known.time, known.position, known.speed});
       }
 
       void set_course(const std::vector<double> &course) override
@@ -241,9 +237,9 @@ namespace taut
       }
 
       /// Position along the path of a place of the cable at a time [m].
-      double reached(const Motion &motion, const double s, const double t) const
+      double reached(const Motion &motion, const double s, const double t)
       {
-        std::vector<Term> form;
+        form.clear();
         bodies.motion(SceneBodies::moved(link.to, s), false, along, 1., form);
         return dot(along, rest(s)) + motion(form, t);
       }
@@ -258,7 +254,8 @@ namespace taut
                     "earlier, lengthen the cable, or take a smaller step"));
       }
 
-      Coordinates along; ///< direction of the path
+      Coordinates along;      ///< direction of the path
+      std::vector<Term> form; ///< in reached()
       double length = 0., element_length = 0.;
 
       struct Course
@@ -288,7 +285,7 @@ namespace taut
       else if (link.turns)
         constraint.geometry = turning_direction(scene, bodies, link);
       else
-        constraint.terms = link_terms(bodies, link, link.to);
+        append_link(bodies, link, link.to, constraint.terms);
       constraints.push_back(std::move(constraint));
     }
     for (const Link &link : scene.links)

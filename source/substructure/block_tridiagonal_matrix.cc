@@ -29,6 +29,13 @@ namespace taut
     repetitions.clear();
   }
 
+  template <int b>
+  void BlockTridiagonalMatrix<b>::set_zero()
+  {
+    entries.set_zero();
+    repetitions.clear();
+  }
+
   /// A(i, i + offset), at the third node and before the last two.
   template <int b>
   double BlockTridiagonalMatrix<b>::entry(const std::size_t i, const int offset) const

@@ -28,6 +28,7 @@ namespace taut
     unsigned int size() const override { return n; }
     unsigned int block_size() const override { return b; }
     void add(unsigned int i, unsigned int j, double value) override;
+    void set_zero() override;
     void find_repetitions() override;
     void vmult_add(double factor, const double *x, double *y) const override;
     void vmult_rows(std::size_t begin, std::size_t end, const double *x, double *y) const override;

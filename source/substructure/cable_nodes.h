@@ -4,6 +4,7 @@
 
 #include "decoupled_block.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <type_traits>
 #include <vector>
@@ -21,6 +22,12 @@ namespace taut
 
     /// @p n rows.
     explicit CableNodes(const std::size_t n) : nodes(n / b + 1) {} // with a last one of zeros
+
+    void set_zero()
+    {
+      std::fill(nodes.begin(), nodes.end(), Entries());
+      couplings.clear();
+    }
 
     bool decouples() const { return couplings.empty(); }
 

@@ -4,6 +4,7 @@
 
 #include "blocks.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -23,6 +24,12 @@ namespace taut
     {
       for (auto &entries : diagonals)
         entries.assign(n + width, 0.);
+    }
+
+    void set_zero()
+    {
+      for (auto &entries : diagonals)
+        std::fill(entries.begin(), entries.end(), 0.);
     }
 
     /// Adds to the entry (@p row, @p column) with column <= row, and to its mirror image.

@@ -96,7 +96,10 @@ namespace taut
         motions(structure.size())
   {
     for (std::size_t k = 0; k < structure.size(); ++k)
+    {
       solvers.push_back(solver_of(structure[k]));
+      constrained.push_back(structure[k].constrained_dofs());
+    }
   }
 
   std::unique_ptr<LocalSolver> FactoredStructure::solver_of(const Substructure &body) const
@@ -105,15 +108,26 @@ namespace taut
     return own ? std::move(own) : make_local_solver(solver_name, body.stiffness());
   }
 
+  void FactoredStructure::set_tangent(const std::size_t k, std::unique_ptr<SymmetricMatrix> tangent)
+  {
+    if (tangents[k].swap(tangent); tangent)
+      bodies[k].take_back(std::move(tangent));
+  }
+
+  /// Sets the summands of A_k.
+  void FactoredStructure::copy_summands(const std::size_t k, std::vector<ScaledMatrix> &A) const
+  {
+    A.clear();
+    if (kind == Kind::step)
+      A = {{mass_factor, &bodies[k].mass()}, {damping_factor, &bodies[k].damping()}};
+    A.emplace_back(1., kind == Kind::mass && !tangents[k] ? &bodies[k].mass() : &stiffness(k));
+  }
+
   std::vector<ScaledMatrix> FactoredStructure::summands(const std::size_t k) const
   {
-    if (kind == Kind::stiffness)
-      return {{1., &stiffness(k)}};
-    if (kind == Kind::mass)
-      return {{1., tangents[k] ? tangents[k].get() : &bodies[k].mass()}};
-    return {{mass_factor, &bodies[k].mass()},
-            {damping_factor, &bodies[k].damping()},
-            {1., &stiffness(k)}};
+    std::vector<ScaledMatrix> A;
+    copy_summands(k, A);
+    return A;
   }
 
   void FactoredStructure::factor(const std::size_t k, LocalSolver &solver,
@@ -138,18 +152,19 @@ namespace taut
                                         const std::vector<ScaledMatrix> &summands) const
   {
     const Substructure &body = bodies[k];
-    std::vector<double> rigid(body.n_dofs()), x(body.n_dofs(), 0.);
-    for (std::size_t i = 0; i < rigid.size(); ++i)
-      rigid[i] = body.kind(i) == 0;
-    for (const ConstrainedDof &constraint : body.constraints())
-      rigid[constraint.dof] = 0.;
+    translation.resize(body.n_dofs());
+    image.assign(body.n_dofs(), 0.);
+    for (std::size_t i = 0; i < translation.size(); ++i)
+      translation[i] = body.kind(i) == 0;
+    for (const unsigned int dof : constrained[k])
+      translation[dof] = 0.;
     for (const auto &[factor, matrix] : summands)
-      matrix->vmult_add(factor, rigid.data(), x.data());
-    solver.solve(x);
+      matrix->vmult_add(factor, translation.data(), image.data());
+    solver.solve(image);
     double loss = 0.;
-    for (std::size_t i = 0; i < rigid.size(); ++i)
-      if (body.kind(i) == 0 && !(std::fabs(x[i] - rigid[i]) <= loss))
-        loss = std::fabs(x[i] - rigid[i]);
+    for (std::size_t i = 0; i < translation.size(); ++i)
+      if (body.kind(i) == 0 && !(std::fabs(image[i] - translation[i]) <= loss))
+        loss = std::fabs(image[i] - translation[i]);
     return loss;
   }
 
@@ -187,13 +202,13 @@ namespace taut
 
   void FactoredStructure::factor_body(const std::size_t k, const bool use_amplitudes)
   {
-    const std::vector<ScaledMatrix> A = summands(k);
+    copy_summands(k, its_summands);
     double loss = 0.;
     motions[k] = {};
     try
     {
-      factor(k, *solvers[k], A, bodies[k].constrained_dofs());
-      loss = lost_digits(k, *solvers[k], A);
+      factor(k, *solvers[k], its_summands, constrained[k]);
+      loss = lost_digits(k, *solvers[k], its_summands);
     }
     catch (const BodyNotHeld &)
     {
@@ -235,7 +250,7 @@ namespace taut
     std::vector<ScaledMatrix> A = summands(k);
     A.back().second = held.get();
     auto solver = solver_of(body);
-    factor(k, *solver, A, body.constrained_dofs());
+    factor(k, *solver, A, constrained[k]);
 
     RigidBodyModes own;
     own.fixing_dofs = null_space.fixing_dofs;
@@ -313,7 +328,7 @@ namespace taut
       motions[k].resistance.assign(null_space.vectors.size(), 0.);
       motions[k].vectors = std::move(null_space.vectors);
       motions[k].fixing_dofs = std::move(null_space.fixing_dofs);
-      factor(k, *solvers[k], {{1., held.get()}}, bodies[k].constrained_dofs());
+      factor(k, *solvers[k], {{1., held.get()}}, constrained[k]);
       check_digits(k, lost_digits(k, *solvers[k], {{1., held.get()}}));
     }
   }
@@ -325,7 +340,7 @@ namespace taut
     motions.assign(solvers.size(), {});
     for (std::size_t k = 0; k < solvers.size(); ++k)
     {
-      std::vector<unsigned int> held = bodies[k].constrained_dofs();
+      std::vector<unsigned int> held = constrained[k];
       if (!tangents[k])
       {
         const std::vector<unsigned int> without_mass = bodies[k].dofs_without_mass();
@@ -356,24 +371,20 @@ namespace taut
   FactoredStructure::solver_with_held(const std::size_t k,
                                       const std::vector<unsigned int> &held) const
   {
-    std::vector<unsigned int> all = bodies[k].constrained_dofs();
+    std::vector<unsigned int> all = constrained[k];
     all.insert(all.end(), held.begin(), held.end());
     std::sort(all.begin(), all.end());
     all.erase(std::unique(all.begin(), all.end()), all.end());
-    auto solver = solver_of(bodies[k]);
+    std::vector<ScaledMatrix> A = summands(k);
+    std::unique_ptr<SymmetricMatrix> sprung;
     if (kind == Kind::stiffness || !motions[k].vectors.empty())
-    {
-      const Substructure::NullSpace null_space = bodies[k].null_space();
-      if (!are_held(null_space.vectors, held))
+      if (const auto null_space = bodies[k].null_space(); !are_held(null_space.vectors, held))
       {
-        const auto sprung = with_springs(stiffness(k), null_space.fixing_dofs);
-        std::vector<ScaledMatrix> A = summands(k);
+        sprung = with_springs(stiffness(k), null_space.fixing_dofs);
         A.back().second = sprung.get();
-        factor(k, *solver, A, all);
-        return solver;
       }
-    }
-    factor(k, *solver, summands(k), all);
+    auto solver = solver_of(bodies[k]);
+    factor(k, *solver, A, all);
     return solver;
   }
 

@@ -243,7 +243,7 @@ namespace taut
           std::lower_bound(constrained.begin(), constrained.end(), own,
                            [](const ConstrainedDof &c, const unsigned int i) { return c.dof < i; });
       if (!has_dof(dof) || found == constrained.end() || found->dof != own ||
-          forms[own].index != std::vector<unsigned int>{own})
+          forms[own].index != decltype(LinearForm::index){own})
         throw UserError("body '" + name() + "': no constraint prescribes DoF " +
                         std::to_string(dof));
       found->motion = motion;

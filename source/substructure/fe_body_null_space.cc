@@ -156,7 +156,7 @@ namespace taut
     for (unsigned int i = 0; i < forms.size(); ++i)
       if (!is_constrained[i])
         kept.push_back(i);
-      else if (forms[i].index == std::vector<unsigned int>{i})
+      else if (forms[i].index == decltype(LinearForm::index){i})
         prescribed.push_back(i);
 
     unsigned int dof = 0;

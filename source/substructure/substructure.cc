@@ -148,9 +148,9 @@ namespace taut
     form.add_to(magnitude, constant_force);
   }
 
-  void Substructure::add_force(LinearForm form, std::function<double(double)> magnitude)
+  void Substructure::add_force(const LinearForm &form, std::function<double(double)> magnitude)
   {
-    auto load = std::make_unique<PointLoad>(std::move(form), std::move(magnitude));
+    auto load = std::make_unique<PointLoad>(form, std::move(magnitude));
     check_load(*this, load->fault(constant_force.size()));
     time_loads.push_back(std::move(load));
   }

@@ -11,6 +11,12 @@ namespace taut
     entries[{std::max(i, j), std::min(i, j)}] += value;
   }
 
+  void CoordinateMatrix::set_zero()
+  {
+    for (auto &[position, value] : entries)
+      value = 0.;
+  }
+
   void CoordinateMatrix::vmult_add(const double factor, const double *x, double *y) const
   {
     for (const auto &[position, value] : entries)
@@ -44,7 +50,28 @@ namespace taut
 
   void CompressedMatrix::add(const unsigned int i, const unsigned int j, const double v)
   {
-    added.add(std::max(i, j), std::min(i, j), v);
+    double *const entry = find(i, j);
+    if (!entry)
+      return added.add(i, j, v);
+    *entry += v;
+    if (i != j)
+      *find(j, i) += v;
+  }
+
+  void CompressedMatrix::set_zero()
+  {
+    std::fill(value.begin(), value.end(), 0.);
+    added = {};
+  }
+
+  /// The entry (i, j) of the rows, or nullptr.
+  double *CompressedMatrix::find(const unsigned int i, const unsigned int j)
+  {
+    if (begin_row.empty())
+      return nullptr;
+    const auto begin = column.begin() + begin_row[i], end = column.begin() + begin_row[i + 1],
+               found = std::lower_bound(begin, end, j);
+    return found != end && *found == j ? &value[found - column.begin()] : nullptr;
   }
 
   void CompressedMatrix::compress() const

@@ -157,7 +157,8 @@ namespace taut
   void LinkEnergies::measure_scale(const State &state)
   {
     const std::size_t n = energies.size();
-    std::vector<double> sums(3 * n, 0.), springs(n, 0.);
+    sums.assign(3 * n, 0.);
+    springs.assign(n, 0.);
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       const Substructure &body = structure[k];

@@ -75,7 +75,7 @@ namespace taut
         }
       motion = state.V_old[k];
       const PerKind v = largest_of(k, motion);
-      motion = displacement(reference, state, k);
+      copy_displacement(reference, state, k, motion);
       const PerKind u = largest_of(k, motion);
       for (int kind = 0; kind < 2; ++kind)
         size[kind] = std::max(size[kind], u[kind] + state.last_step * v[kind]);

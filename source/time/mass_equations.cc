@@ -42,8 +42,11 @@ namespace taut
         [&]
         {
           for (const std::size_t k : with_constraints)
-            solvers.set_tangent(k, dynamic_cast<const ConstrainedBody &>(structure[k])
-                                       .mass_at(taut::displacement(reference, state, k)));
+          {
+            copy_displacement(reference, state, k, displacement);
+            solvers.set_tangent(
+                k, dynamic_cast<const ConstrainedBody &>(structure[k]).mass_at(displacement));
+          }
           if (!set_up)
             solvers.factor_mass();
           else

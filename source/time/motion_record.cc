@@ -79,7 +79,9 @@ namespace taut
       for (std::size_t i = 0; i < work.size(); ++i)
         start_load[k][i] -= work[i];
     }
-    energies.push_back(energies_of(start));
+    places.reserve(n * dofs.size());
+    energies.reserve((n + 1) * groups.n_groups());
+    add_energies(start);
     speed.assign(groups.n_groups(), 0.);
   }
 
@@ -103,7 +105,8 @@ namespace taut
   void MotionRecord::add_places(const State &state, const double part)
   {
     const double left = 1. - part, h = state.last_step;
-    std::vector<double> &sample = places.emplace_back(dofs.size());
+    places.resize(places.size() + dofs.size());
+    double *const sample = places.data() + n_recorded++ * dofs.size();
     for (const auto &[k, first, end, has_inner] : bodies)
     {
       const double *const U = state.U[k].data(), *const dU = state.dU[k].data(),
@@ -119,9 +122,10 @@ namespace taut
   }
 
   /// Kinetic energy; strain energy minus work of the initial loads, plus link springs.
-  MotionRecord::Energies MotionRecord::energies_of(const State &state)
+  void MotionRecord::add_energies(const State &state)
   {
-    Energies result(groups.n_groups(), {0., 0.});
+    energies.resize(energies.size() + groups.n_groups(), {0., 0.});
+    const auto result = energies.end() - static_cast<std::ptrdiff_t>(groups.n_groups());
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
       const Substructure &body = structure[k];
@@ -133,15 +137,16 @@ namespace taut
       if (body.is_linear())
         energy[1] += .5 * dot_in_lanes(state.U[k], state.KU[k]);
       else
-        energy[1] += body.strain_energy(displacement(reference, state, k)) -
-                     dot(state.U[k], reference.force[k]);
+      {
+        copy_displacement(reference, state, k, work);
+        energy[1] += body.strain_energy(work) - dot(state.U[k], reference.force[k]);
+      }
     }
     if (structure.communicator().is_root())
       for (std::size_t i = 0; i < constraints.size(); ++i)
         if (!constraints[i].spring.is_rigid())
           result[groups.of_constraint(i)][1] +=
               constraints[i].spring.energy(state.link_springs[i].u);
-    return result;
   }
 
   void MotionRecord::record(const State &state)
@@ -149,15 +154,17 @@ namespace taut
     impulses.record(state);
     add_speeds(state);
     const double early = rounding_of_times * state.last_step;
-    if (places.size() == n || time_of(places.size()) > state.time + early)
-      return;
-    const Energies at_end = energies_of(state);
-    while (places.size() < n && time_of(places.size()) <= state.time + early)
+    for (bool is_first = true; n_recorded < n && time_of(n_recorded) <= state.time + early;
+         is_first = false)
     {
-      const double until_end = state.time - time_of(places.size()),
+      const double until_end = state.time - time_of(n_recorded),
                    part = until_end > early ? 1. - until_end / state.last_step : 1.;
       add_places(state, part);
-      energies.push_back(at_end);
+      if (is_first)
+        add_energies(state);
+      else
+        for (std::size_t g = 0; g < groups.n_groups(); ++g)
+          energies.push_back(energies[energies.size() - groups.n_groups()]);
     }
   }
 
@@ -165,9 +172,9 @@ namespace taut
   struct MotionRecord::Sizes
   {
     std::vector<double> place, energy;
-    std::vector<double> impulse;    ///< below which impulses are not compared [N s]
-    std::vector<double> late;       ///< tolerated shift of an impact [s]
-    std::vector<Energies> energies; ///< of the samples, over all ranks
+    std::vector<double> impulse; ///< below which impulses are not compared [N s]
+    std::vector<double> late;    ///< tolerated shift of an impact [s]
+    Energies energies;           ///< over all ranks
   };
 
   MotionRecord::Sizes MotionRecord::sizes() const
@@ -178,7 +185,7 @@ namespace taut
       for (std::size_t j = 0; j < dofs.size(); ++j)
       {
         const auto &[k, i, g] = dofs[j];
-        const double u = places[s][j];
+        const double u = places[s * dofs.size() + j];
         place[g] = std::max(place[g], std::fabs(u));
         whole[g] =
             std::max(whole[g], std::fabs(u + start_of_dofs[j] + reference.displacement[k][i]));
@@ -186,20 +193,19 @@ namespace taut
     Sizes result;
     result.impulse.assign(n_groups, 0.);
     result.energies = energies;
-    for (Energies &of_groups : result.energies)
-      for (std::array<double, 2> &energy : of_groups)
-        structure.communicator().sum(energy.data(), 2);
+    for (std::array<double, 2> &energy : result.energies)
+      structure.communicator().sum(energy.data(), 2);
     for (std::size_t g = 0; g < n_groups; ++g)
     {
       const Communicator &all = structure.communicator();
       const double largest = all.max(place[g]), fastest = all.max(speed[g]);
       result.place.push_back(largest > rounding_of_places * all.max(whole[g]) ? largest : 0.);
-      double least = result.energies[0][g][1], most = least;
-      for (const Energies &sample : result.energies)
+      double least = result.energies[g][1], most = least;
+      for (std::size_t e = g; e < result.energies.size(); e += n_groups)
       {
-        kinetic[g] = std::max(kinetic[g], sample[g][0]);
-        least = std::min(least, sample[g][1]);
-        most = std::max(most, sample[g][1]);
+        kinetic[g] = std::max(kinetic[g], result.energies[e][0]);
+        least = std::min(least, result.energies[e][1]);
+        most = std::max(most, result.energies[e][1]);
       }
       result.energy.push_back(std::max(kinetic[g], most - least));
       result.late.push_back(
@@ -218,8 +224,8 @@ namespace taut
       for (std::size_t j = 0; j < dofs.size(); ++j)
       {
         const double of_group = size.place[dofs[j].group],
-                     d = of_group > 0. ? std::fabs(places[s][j] - other.places[s][j]) / of_group
-                                       : 0.;
+                     change = places[s * dofs.size() + j] - other.places[s * dofs.size() + j],
+                     d = of_group > 0. ? std::fabs(change) / of_group : 0.;
         if (!(d > largest) && d == d)
           continue;
         largest = d;
@@ -236,13 +242,14 @@ namespace taut
   void MotionRecord::compare_energies(const Sizes &other, MotionDifference &result) const
   {
     const Sizes own = sizes();
-    const std::size_t n_both = std::min(own.energies.size(), other.energies.size());
-    const auto change = [](const Sizes &of, const std::size_t s, const std::size_t g)
+    const std::size_t n_groups = groups.n_groups(),
+                      n_both = std::min(own.energies.size(), other.energies.size()) / n_groups;
+    const auto change = [=](const Sizes &of, const std::size_t s, const std::size_t g)
     {
-      const std::array<double, 2> &now = of.energies[s][g], &start = of.energies[0][g];
+      const std::array<double, 2> &now = of.energies[s * n_groups + g], &start = of.energies[g];
       return now[0] + now[1] - start[0] - start[1];
     };
-    for (std::size_t g = 0; g < groups.n_groups(); ++g)
+    for (std::size_t g = 0; g < n_groups; ++g)
     {
       const double window = std::max(1., std::floor(other.late[g] / interval));
       const std::size_t w = static_cast<std::size_t>(std::min<double>(window, n_both));
@@ -271,9 +278,8 @@ namespace taut
   MotionRecord::PlacesOfBodies MotionRecord::places_of_bodies() const
   {
     PlacesOfBodies result;
-    for (const std::vector<double> &sample : places)
-      for (std::size_t j = 0; j < dofs.size(); ++j)
-        result[structure.number(dofs[j].body)].push_back(sample[j]);
+    for (std::size_t p = 0; p < places.size(); ++p)
+      result[structure.number(dofs[p % dofs.size()].body)].push_back(places[p]);
     return result;
   }
 
@@ -289,34 +295,29 @@ namespace taut
       unarchive(text, [&](InputArchive &stored) { stored >> of_rank; });
       of_all.insert(of_rank.begin(), of_rank.end());
     }
-    std::vector<Energies> sums = energies;
-    for (Energies &of_groups : sums)
-      for (std::array<double, 2> &energy : of_groups)
-        all.sum(energy.data(), 2);
+    Energies sums = energies;
+    for (std::array<double, 2> &energy : sums)
+      all.sum(energy.data(), 2);
     std::vector<double> fastest;
     for (const double v : speed)
       fastest.push_back(all.max(v));
-    const std::size_t n_stored = places.size();
-    archive << n_stored << of_all << sums << fastest;
+    archive << n_recorded << of_all << sums << fastest;
     impulses.store(archive);
   }
 
   void MotionRecord::load(InputArchive &archive)
   {
-    std::size_t n_stored = 0;
     PlacesOfBodies of_all;
-    archive >> n_stored >> of_all >> energies >> speed;
+    archive >> n_recorded >> of_all >> energies >> speed;
     impulses.store(archive);
-    places.assign(n_stored, std::vector<double>(dofs.size()));
+    places.resize(n_recorded * dofs.size());
     std::map<std::size_t, std::size_t> next; // sample of each body
-    for (std::vector<double> &sample : places)
-      for (std::size_t j = 0; j < dofs.size(); ++j)
-      {
-        const std::size_t number = structure.number(dofs[j].body);
-        sample[j] = of_all[number].at(next[number]++);
-      }
+    for (std::size_t p = 0; p < places.size(); ++p)
+    {
+      const std::size_t number = structure.number(dofs[p % dofs.size()].body);
+      places[p] = of_all[number].at(next[number]++);
+    }
     if (!structure.communicator().is_root())
-      for (Energies &of_groups : energies)
-        of_groups.assign(of_groups.size(), {0., 0.});
+      energies.assign(energies.size(), {0., 0.});
   }
 } // namespace taut

@@ -64,12 +64,12 @@ namespace taut
   {
     const Substructure &body = (*structure)[k];
     const Step &own = steps[k];
-    std::vector<double> U = own.U0;
-    for (std::size_t i = 0; i < U.size(); ++i)
-      U[i] += own.dU[i];
-    std::unique_ptr<SymmetricMatrix> K = c.mean_force
-                                             ? body.mean_tangent(own.U0, U, c.velocity, attempt > 0)
-                                             : body.tangent(U, c.velocity, attempt > 0);
+    end_U = own.U0;
+    for (std::size_t i = 0; i < end_U.size(); ++i)
+      end_U[i] += own.dU[i];
+    std::unique_ptr<SymmetricMatrix> K =
+        c.mean_force ? body.mean_tangent(own.U0, end_U, c.velocity, attempt > 0)
+                     : body.tangent(end_U, c.velocity, attempt > 0);
     if (attempt > 1)
       K->add(first_shift * std::pow(growth_of_shift, attempt - 2) * largest_on_diagonal(*K) /
                  largest_on_diagonal(body.mass()),
@@ -171,7 +171,8 @@ namespace taut
 
   const std::vector<double> &NonlinearBodies::end_of_step(const std::size_t k, const State &state)
   {
-    return steps[k].U1 = displacement(*reference, state, k);
+    copy_displacement(*reference, state, k, steps[k].U1);
+    return steps[k].U1;
   }
 
   double NonlinearBodies::energy_surplus(const std::size_t k, const double part_of_end,

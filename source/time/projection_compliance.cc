@@ -123,7 +123,7 @@ namespace taut
     }
     if (elastic.empty())
       return;
-    std::vector<std::size_t> softened;
+    softened.clear();
     for (std::size_t i = 0; i < constraints.size(); ++i)
       if (relative[i] > 0. && (constraints.slides(i) || of_mass[i] == 0.))
         softened.push_back(i);

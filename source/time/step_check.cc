@@ -23,7 +23,7 @@ namespace taut
     throw EntryError(entry, when() + what + ".");
   }
 
-  void StepCheck::solve(const std::function<void()> &work) const
+  void StepCheck::named(const std::function<void()> &work) const
   {
     try
     {

@@ -117,10 +117,10 @@ namespace taut
     for (const FactoredStructure::RigidBodyModes &modes : solvers.rigid_body_modes())
       n_own += modes.vectors.size();
     const Communicator &processes = structure.communicator();
-    const std::vector<std::size_t> n = processes.gather(n_own);
-    n_modes = std::accumulate(n.begin(), n.end(), std::size_t(0));
-    first_of_body.assign(1,
-                         std::accumulate(n.begin(), n.begin() + processes.rank(), std::size_t(0)));
+    processes.gather(n_own, n_of_ranks);
+    n_modes = std::accumulate(n_of_ranks.begin(), n_of_ranks.end(), std::size_t(0));
+    first_of_body.assign(1, std::accumulate(n_of_ranks.begin(),
+                                            n_of_ranks.begin() + processes.rank(), std::size_t(0)));
     for (const FactoredStructure::RigidBodyModes &modes : solvers.rigid_body_modes())
       first_of_body.push_back(first_of_body.back() + modes.vectors.size());
   }
@@ -186,7 +186,7 @@ namespace taut
       certificate.fallback = result.used_fallback;
       solution = &result.solution;
     };
-    check.solve(std::ref(find)); // a reference allocates nothing
+    check.solve(find);
     return *solution;
   }
 

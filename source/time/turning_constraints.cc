@@ -44,7 +44,7 @@ namespace taut
   {
     if (empty())
       return;
-    start = constraints.differences(reference.displacement, state.U);
+    constraints.copy_differences(reference.displacement, state.U, start);
     face_start();
   }
 
@@ -68,7 +68,7 @@ namespace taut
                                        const std::vector<double> &N,
                                        const std::vector<double> &history)
   {
-    const std::vector<Coordinates> motion = constraints.differences(dU);
+    constraints.copy_differences(dU, motion);
     end.resize(motion.size());
     used = next;
     offsets = next_offsets;

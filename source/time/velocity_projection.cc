@@ -145,15 +145,13 @@ namespace taut
   /// Solves for P - p.
   void VelocityProjection::solve(const ContactConditions &conditions, const State &state)
   {
-    const auto impulses = [&]()
+    const auto find = [&](std::vector<double> &impulses)
     {
-      std::vector<double> P =
-          complementarity.solve(problem, masses.interface().matrix()).solution.multiplier;
-      for (std::size_t i = 0; i < P.size(); ++i)
-        P[i] -= p[i];
-      return P;
+      impulses = complementarity.solve(problem, masses.interface().matrix()).solution.multiplier;
+      for (std::size_t i = 0; i < impulses.size(); ++i)
+        impulses[i] -= p[i];
     };
-    q = impulses();
+    find(q);
     bool rebounds = false;
     for (std::size_t i = 0; i < constraints.size(); ++i)
       if (takes_part[i] && constraints[i].cone.may_open() &&
@@ -164,7 +162,8 @@ namespace taut
       }
     if (!rebounds)
       return;
-    std::vector<double> difference = impulses();
+    std::vector<double> difference;
+    find(difference);
     for (std::size_t i = 0; i < q.size(); ++i)
       difference[i] -= q[i];
     const double s = largest_part(conditions, state, q, difference);

@@ -4,8 +4,6 @@
 #include <taut/base/interruption.h>
 #include <taut/simulation/simulation.h>
 
-#include <verification/run.h>
-
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
@@ -89,6 +87,12 @@ namespace allocations
         verification::scene_file(scene),
         verification::Overrides{"Output/Field interval=0", "Output/Checkpoint interval=0"} +
             overrides);
+    return run_counted(session, steps, n_callers);
+  }
+
+  CountedRun run_counted(verification::Session &session, const Steps &steps,
+                         const std::size_t n_callers)
+  {
     const long n_steps = session.simulation().n_steps();
     Steps fitting = steps;
     fitting.warm_up = std::min(steps.warm_up, n_steps / 3);

@@ -4,6 +4,8 @@
 
 #include "allocation_hook.h"
 
+#include <verification/run.h>
+
 #include <string>
 #include <vector>
 
@@ -32,8 +34,12 @@ namespace allocations
   /// Names of the scenes of prm/ that move.
   std::vector<std::string> moving_scenes();
 
-  /// Runs a scene of prm/ up to the last counted step. A short scene has a third of its steps as
-  /// warm-up. With @p n_callers the sites are told apart by so many functions.
+  /// Runs a scene up to the last counted step. A short scene has a third of its steps as warm-up.
+  /// With @p n_callers the sites are told apart by so many functions.
+  CountedRun run_counted(verification::Session &session, const Steps &steps,
+                         std::size_t n_callers = 0);
+
+  /// The same of a scene of prm/.
   CountedRun run_counted(const std::string &scene, const Steps &steps, std::size_t n_callers = 0,
                          const std::vector<std::string> &overrides = {});
 } // namespace allocations

@@ -8,6 +8,11 @@
 #include <string>
 #include <vector>
 
+namespace verification
+{
+  class Session;
+}
+
 namespace extremes
 {
   /// A scene with what its run needs; small enough for the extended model, or not.
@@ -54,6 +59,9 @@ namespace extremes
     double elastic_force = 0., elastic_moment = 0., row_motion = 0., row_turn = 0.;
     unsigned int iterations = 0, n_fallbacks = 0;
   };
+
+  /// A case, ready to run through the whole program, which keeps a reference to it.
+  verification::Session session_of(const Case &c);
 
   /// Runs a case through the whole program, from parameters to certificates. A UserError is an
   /// answer's error; anything else that is thrown is a failure of the test.

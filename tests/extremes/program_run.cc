@@ -48,9 +48,8 @@ namespace extremes
     }
   } // namespace
 
-  Answer program_answer(const Case &c)
+  verification::Session session_of(const Case &c)
   {
-    Answer answer;
     scene_of_next_run = &c.scene;
     const char *const starts[] = {"equilibrium", "undeformed", "given"};
     verification::Overrides overrides = {
@@ -69,6 +68,12 @@ namespace extremes
         "Solver.Interface operator=" + c.interface_operator,
         "Solver.Complementarity=" + c.complementarity,
         "Partition.Number of substructures=" + std::to_string(c.n_parts)};
+    return verification::Session("set Generator = extremes\n\n", overrides);
+  }
+
+  Answer program_answer(const Case &c)
+  {
+    Answer answer;
     const std::vector<ObservedPoint> points = observed_points(c.scene);
     const std::vector<std::size_t> group = groups_of_links(c.scene);
     const auto record = [&](const taut::StepView &view)
@@ -82,8 +87,7 @@ namespace extremes
       answer.iterations = std::max(answer.iterations, view.certificate.iterations);
       answer.n_fallbacks += view.certificate.fallback;
     };
-    answer.error = verification::error_of(
-        [&] { verification::Session("set Generator = extremes\n\n", overrides).run(record); });
+    answer.error = verification::error_of([&] { session_of(c).run(record); });
     return answer;
   }
 } // namespace extremes

@@ -24,8 +24,8 @@ namespace door
   public:
     StandingPlace(Displacement form, const double height) : form(std::move(form)), height(height) {}
     double position(double) const override { return 0.; }
-    std::vector<taut::Term> terms(double) const override { return form; }
-    std::vector<taut::Term> rates(double) const override { return {}; }
+    void append_terms(double, Displacement &terms) const override { terms = form; }
+    void append_rates(double, Displacement &) const override {}
     double gap(double) const override { return height; }
 
   private:

@@ -54,8 +54,11 @@ namespace
     {
     }
     double position(double) const override { return 0.; }
-    std::vector<taut::Term> terms(const double t) const override { return at(t).first; }
-    std::vector<taut::Term> rates(double) const override { return {}; }
+    void append_terms(const double t, taut::Displacement &terms) const override
+    {
+      terms = at(t).first;
+    }
+    void append_rates(double, taut::Displacement &) const override {}
     double gap(const double t) const override { return at(t).second; }
 
   private:

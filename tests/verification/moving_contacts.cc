@@ -100,20 +100,19 @@ Time: Step = 1e-3; End = 0.38
     {
       return start_of_way + speed * (follows ? std::min(t, known) : t);
     }
-    std::vector<taut::Term> terms(const double t) const override
+    void append_terms(const double t, std::vector<taut::Term> &terms) const override
     {
-      taut::Displacement result = system.displacement(wire, {position(t)}, up);
+      terms = system.displacement(wire, {position(t)}, up);
       for (const taut::Term &term : system.displacement(roller, {}, {0., -1., 0.}))
-        result.push_back(term);
-      return result;
+        terms.push_back(term);
     }
-    std::vector<taut::Term> rates(const double) const override { return {}; }
+    void append_rates(double, std::vector<taut::Term> &) const override {}
     double gap(const double) const override { return 0.; }
     void follow(const Motion &, const double, const double end_of_step) override
     {
       known = end_of_step;
     }
-    std::vector<double> course() const override { return {known}; }
+    void append_course(std::vector<double> &course) const override { course.push_back(known); }
     void set_course(const std::vector<double> &course) override
     {
       known = course.empty() ? 0. : course[0];

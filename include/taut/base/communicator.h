@@ -44,8 +44,8 @@ namespace taut
     /// True if @p is_true is true on any rank.
     bool any(const bool is_true) const { return max(is_true ? 1. : 0.) > 0.; }
 
-    /// The value of each rank, in order.
-    std::vector<std::size_t> gather(std::size_t value) const;
+    /// Sets @p all to the value of each rank, in order.
+    void gather(std::size_t value, std::vector<std::size_t> &all) const;
 
     /// The texts of all ranks, in order, on all of them.
     std::vector<std::string> gather(const std::string &text) const;

@@ -13,7 +13,8 @@ namespace taut
   {
     if (processes.size() == 1)
       return;
-    const std::vector<std::size_t> sizes = processes.gather(entries.size());
+    std::vector<std::size_t> sizes;
+    processes.gather(entries.size(), sizes);
     std::size_t first = 0, all = 0;
     for (std::size_t rank = 0; rank < sizes.size(); ++rank)
     {

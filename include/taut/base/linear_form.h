@@ -2,6 +2,8 @@
 #ifndef taut_linear_form_h
 #define taut_linear_form_h
 
+#include <boost/container/small_vector.hpp>
+
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -9,11 +11,19 @@
 
 namespace taut
 {
-  /// A linear form: a few entries of a long vector. Indices may repeat: their values add.
+#if __GNUC__ >= 11
+  // GCC 12 takes a small vector with memory of its own for one without, where it is moved.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wstringop-overread"
+#endif
+
+  /// A linear form: a few entries of a long vector. Indices may repeat: their values add. As many
+  /// entries as an element of a cable has need no memory of their own.
   struct LinearForm
   {
-    std::vector<unsigned int> index;
-    std::vector<double> value;
+    static constexpr std::size_t n_inside = 12;
+    boost::container::small_vector<unsigned int, n_inside> index;
+    boost::container::small_vector<double, n_inside> value;
 
     void add(unsigned int i, double v)
     {
@@ -53,6 +63,10 @@ namespace taut
         y[index[k]] += factor * value[k];
     }
   };
+
+#if __GNUC__ >= 11
+#pragma GCC diagnostic pop
+#endif
 
   /// Consecutive entries first, first + 1, ... of a long vector that is zero (to working precision)
   /// elsewhere.

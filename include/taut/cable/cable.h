@@ -149,6 +149,10 @@ namespace taut
     std::unique_ptr<SymmetricMatrix> mean_tangent(const std::vector<double> &U0,
                                                   const std::vector<double> &U1, double rate,
                                                   bool definite) const override;
+    void take_back(std::unique_ptr<SymmetricMatrix> tangent) const override
+    {
+      spare = std::move(tangent);
+    }
 
     /// Node k of the surface is the node between elements k - 1 and k.
     LinearForm node_displacement(unsigned int node, const Coordinates &direction) const override;
@@ -174,6 +178,7 @@ namespace taut
     std::function<double(double)> tension_at(const std::vector<double> &q) const;
     void set_positions(const std::vector<double> &U, std::vector<double> &q) const;
     void set_way(const std::vector<double> &U) const;
+    std::unique_ptr<SymmetricMatrix> zero_matrix() const;
 
     CableData data;
     CableElements element;
@@ -185,7 +190,8 @@ namespace taut
     std::vector<double> linear_at, force_there;
     double energy_there = 0.;
     std::unique_ptr<EndFrames> frames;
-    mutable std::vector<double> work_0, work; ///< positions, and displacements
+    mutable std::vector<double> work_0, work;       ///< positions, and displacements
+    mutable std::unique_ptr<SymmetricMatrix> spare; ///< a tangent that came back
   };
 } // namespace taut
 

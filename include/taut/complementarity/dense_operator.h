@@ -52,7 +52,8 @@ namespace taut
 
   private:
     std::size_t n = 0;
-    std::vector<double> entries;    ///< n x n, row-major; only the lower triangle is used
+    std::vector<double> entries;          ///< n x n, row-major; only the lower triangle is used
+    std::vector<double> column, solution; ///< in condensed_diagonal()
     std::vector<std::size_t> first; ///< column of the first entry of each row of the lower triangle
 
     /// A shifted and an unshifted factor, so that a redundant set does not refactor both in every

@@ -106,7 +106,7 @@ namespace taut
     void follow(const BodyVectors &reference, const BodyVectors &U, const BodyVectors &V,
                 double start, double end);
 
-    /// MovingPlace::course() of each sliding constraint.
+    /// What MovingPlace::append_course() says of each sliding constraint.
     std::vector<std::vector<double>> courses() const;
     void copy_courses(std::vector<std::vector<double>> &to) const;
     void set_courses(const std::vector<std::vector<double>> &courses);
@@ -115,6 +115,9 @@ namespace taut
     /// part linear in U. Called by all ranks together [m].
     std::vector<Coordinates> differences(const BodyVectors &reference, const BodyVectors &U) const;
     std::vector<Coordinates> differences(const BodyVectors &U) const;
+    void copy_differences(const BodyVectors &reference, const BodyVectors &U,
+                          std::vector<Coordinates> &to) const;
+    void copy_differences(const BodyVectors &U, std::vector<Coordinates> &to) const;
 
     /// Ends of a turning constraint at U = @p reference + @p U [m]. Called by all ranks together.
     std::array<Coordinates, 2> ends(std::size_t i, const BodyVectors &reference,
@@ -212,6 +215,9 @@ namespace taut
     };
     std::vector<Size> sizes; ///< of fixed constraints by body and kind, then of others
     std::size_t n_fixed_sizes = 0;
+
+    mutable std::vector<Term> slope;  ///< in share_of_convection()
+    mutable std::vector<double> sums; ///< in copy_differences()
   };
 } // namespace taut
 

@@ -43,12 +43,13 @@ namespace taut
     /// Position on its body at time @p t [s], for tables [m].
     virtual double position(double t) const = 0;
 
-    /// B_i at time @p t [s]. Throws an EntryError if the constraint has no place then.
-    virtual std::vector<Term> terms(double t) const = 0;
+    /// Appends the terms of B_i at time @p t [s] to @p terms. Throws an EntryError if the
+    /// constraint has no place then.
+    virtual void append_terms(double t, std::vector<Term> &terms) const = 0;
 
-    /// Time derivative of B_i: the part of D' by motion of the place, without that of the gap
-    /// [1/s].
-    virtual std::vector<Term> rates(double t) const = 0;
+    /// Appends the time derivative of B_i: the part of D' by motion of the place, without that of
+    /// the gap [1/s].
+    virtual void append_rates(double t, std::vector<Term> &terms) const = 0;
 
     /// D at U = 0, N = 0 [m].
     virtual double gap(double t) const = 0;
@@ -60,8 +61,8 @@ namespace taut
     /// the bodies. Called by all ranks together.
     virtual void follow(const Motion &, double /*start*/, double /*end*/) {}
 
-    /// Result of follow(), for checkpoints and repeated steps; empty: none yet.
-    virtual std::vector<double> course() const { return {}; }
+    /// Appends the result of follow(), for checkpoints and repeated steps; nothing: none yet.
+    virtual void append_course(std::vector<double> &) const {}
     virtual void set_course(const std::vector<double> &) {}
   };
 } // namespace taut

@@ -89,6 +89,10 @@ namespace taut
                                                   const std::vector<double> &U1, double rate,
                                                   bool definite) const override;
     std::unique_ptr<SymmetricMatrix> mass_at(const std::vector<double> &U) const override;
+    void take_back(std::unique_ptr<SymmetricMatrix> tangent) const override
+    {
+      spare = std::move(tangent);
+    }
     std::unique_ptr<LocalSolver> make_solver() const override;
 
     void initial_state(std::vector<double> &U, std::vector<double> &V) const override;
@@ -109,9 +113,12 @@ namespace taut
     void add_conditions(const Directors &d, double part, SymmetricMatrix &A) const;
     void add_geometric(const std::vector<double> &U, bool definite, SymmetricMatrix &A) const;
     double resistance_at_rest(const std::vector<double> &U) const;
+    std::unique_ptr<SymmetricMatrix> zero_matrix() const;
 
     RigidBodyData data;
-    double length = 0., scale = 0.; ///< l [m], Lambda [N m]
+    double length = 0., scale = 0.;                 ///< l [m], Lambda [N m]
+    mutable std::vector<double> middle;             ///< in mean_tangent()
+    mutable std::unique_ptr<SymmetricMatrix> spare; ///< a tangent that came back
   };
 } // namespace taut
 

@@ -80,10 +80,7 @@ namespace taut
 
     /// Sets another K_k, for a body that is not linear. The factor of A_k is kept until the next
     /// factor().
-    void set_tangent(std::size_t k, std::unique_ptr<SymmetricMatrix> tangent)
-    {
-      tangents[k] = std::move(tangent);
-    }
+    void set_tangent(std::size_t k, std::unique_ptr<SymmetricMatrix> tangent);
 
     /// Factors A_k of one body again, with the factors of the last factor().
     void factor_again(std::size_t k) { factor_body(k, use_amplitudes); }
@@ -115,6 +112,7 @@ namespace taut
 
   private:
     std::unique_ptr<LocalSolver> solver_of(const Substructure &body) const;
+    void copy_summands(std::size_t k, std::vector<ScaledMatrix> &A) const;
     std::vector<ScaledMatrix> summands(std::size_t k) const;
     void factor(std::size_t k, LocalSolver &solver, const std::vector<ScaledMatrix> &summands,
                 const std::vector<unsigned int> &held) const;
@@ -140,6 +138,9 @@ namespace taut
     std::vector<std::unique_ptr<SymmetricMatrix>> tangents; ///< of bodies that are not linear
     std::vector<std::unique_ptr<LocalSolver>> solvers;
     std::vector<RigidBodyModes> motions;
+    std::vector<std::vector<unsigned int>> constrained; ///< DoFs of each body
+    std::vector<ScaledMatrix> its_summands;             ///< in factor_body()
+    mutable std::vector<double> translation, image;     ///< in lost_digits()
   };
 } // namespace taut
 

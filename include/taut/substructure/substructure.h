@@ -97,7 +97,7 @@ namespace taut
     /// Adds a force along @p form, constant or of magnitude(t) [N]. Throws UserError for a form
     /// that does not fit the DoFs, for no magnitude, and for a magnitude that is not finite.
     void add_force(const LinearForm &form, double magnitude);
-    void add_force(LinearForm form, std::function<double(double)> magnitude);
+    void add_force(const LinearForm &form, std::function<double(double)> magnitude);
 
     /// Kind of DoF i: 0 a displacement, 1 a slope or rotation.
     unsigned int kind(unsigned int i) const
@@ -201,6 +201,10 @@ namespace taut
                                                           const std::vector<double> &U1,
                                                           double rate, bool definite) const;
 
+    /// Takes back a tangent of this body that nobody uses any more: the next one may have its
+    /// memory.
+    virtual void take_back(std::unique_ptr<SymmetricMatrix>) const {}
+
     /// Store and read, for a checkpoint, the state of the body beside displacements, velocities and
     /// accelerations. The default state is empty.
     virtual void save(OutputArchive &) const {}
@@ -236,8 +240,8 @@ namespace taut
   class PointLoad : public TimeLoad
   {
   public:
-    PointLoad(LinearForm shape, std::function<double(double)> magnitude)
-        : shape(std::move(shape)), magnitude(std::move(magnitude))
+    PointLoad(const LinearForm &shape, std::function<double(double)> magnitude)
+        : shape(shape), magnitude(std::move(magnitude))
     {
     }
     void add(double t, std::vector<double> &P) const override { shape.add_to(magnitude(t), P); }

@@ -30,6 +30,9 @@ namespace taut
     /// Adds @p value to the entry (i, j) and, if i != j, to (j, i): call it once per pair.
     virtual void add(unsigned int i, unsigned int j, double value) = 0;
 
+    /// Sets all entries to zero, and keeps their memory for the next ones.
+    virtual void set_zero() = 0;
+
     /// Call it after the last add(): products then read repeated rows once. A later add() undoes
     /// it.
     virtual void find_repetitions() {}
@@ -71,6 +74,7 @@ namespace taut
     unsigned int size() const override { return n; }
     unsigned int block_size() const override { return 0; }
     void add(unsigned int i, unsigned int j, double value) override;
+    void set_zero() override;
     void vmult_add(double factor, const double *x, double *y) const override;
     void vmult_rows(std::size_t begin, std::size_t end, const double *x, double *y) const override;
     void visit(const Visitor &visitor) const override;
@@ -92,6 +96,7 @@ namespace taut
     unsigned int size() const override { return n; }
     unsigned int block_size() const override { return 0; }
     void add(unsigned int i, unsigned int j, double value) override;
+    void set_zero() override;
     void find_repetitions() override { compress(); }
     void vmult_add(double factor, const double *x, double *y) const override;
     void vmult_rows(std::size_t begin, std::size_t end, const double *x, double *y) const override;
@@ -100,6 +105,7 @@ namespace taut
 
   private:
     void compress() const;
+    double *find(unsigned int i, unsigned int j);
 
     unsigned int n;
     mutable SymmetricEntries added;             ///< not yet in the rows

@@ -115,6 +115,7 @@ namespace taut
     std::vector<Row> rows;
     std::vector<Energies> energies; ///< of the groups
     std::vector<double> work, terms;
+    std::vector<double> sums, springs; ///< in measure_scale()
   };
 } // namespace taut
 

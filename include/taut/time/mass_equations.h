@@ -42,6 +42,7 @@ namespace taut
     const Reference &reference;
     FactoredStructure solvers;
     std::vector<std::size_t> with_constraints; ///< bodies of this rank that are a ConstrainedBody
+    std::vector<double> displacement;          ///< in factor_at()
     bool some_with_constraints;                ///< on any rank
     std::unique_ptr<SchurComplement> schur;
     bool set_up = false;

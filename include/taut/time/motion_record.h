@@ -51,7 +51,7 @@ namespace taut
     /// Records an accepted step. Places inside it are those of the cubic with its end velocities.
     void record(const State &state);
 
-    std::size_t n_samples() const { return places.size(); }
+    std::size_t n_samples() const { return n_recorded; }
 
     /**
      * Difference of this motion from another one, sample by sample. Impulses and energies jump at
@@ -66,7 +66,8 @@ namespace taut
     void load(InputArchive &archive);
 
   private:
-    using Energies = std::vector<std::array<double, 2>>; ///< of groups: kinetic, potential [J]
+    /// Of each group, sample after sample, the start first: kinetic, potential [J].
+    using Energies = std::vector<std::array<double, 2>>;
     struct Sizes;
 
     /// Places of each body, sample by sample [m].
@@ -74,7 +75,7 @@ namespace taut
     PlacesOfBodies places_of_bodies() const;
     void add_speeds(const State &state);
     void add_places(const State &state, double part);
-    Energies energies_of(const State &state);
+    void add_energies(const State &state);
     double time_of(const std::size_t sample) const { return begin + (sample + 1.) * interval; }
     Sizes sizes() const;
     void compare_places(const MotionRecord &other, const Sizes &size,
@@ -87,6 +88,7 @@ namespace taut
     const Reference &reference;
     const double begin, interval; ///< [s]
     const std::size_t n;
+    std::size_t n_recorded = 0;
 
     /// A DoF that is a displacement, and its group.
     struct Place
@@ -109,8 +111,8 @@ namespace taut
 
     std::vector<double> speed; ///< of the groups, largest so far [m/s]
     ImpulseRecord impulses;
-    std::vector<std::vector<double>> places; ///< of each sample [m]
-    std::vector<Energies> energies;          ///< the start first; shares of this rank
+    std::vector<double> places; ///< of all DoFs, sample after sample [m]
+    Energies energies;          ///< shares of this rank
     std::vector<double> work;
   };
 } // namespace taut

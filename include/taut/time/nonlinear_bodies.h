@@ -95,7 +95,7 @@ namespace taut
     double step = 0.;
     std::vector<double> last_dU, last_remainder, own_force;
     std::array<std::vector<double>, 3> tile;  ///< rows in set_guess()
-    mutable std::vector<double> end_U, end_V; ///< in end_force()
+    mutable std::vector<double> end_U, end_V; ///< in tangent() and end_force()
   };
 } // namespace taut
 

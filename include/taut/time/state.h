@@ -96,13 +96,21 @@ namespace taut
     return state;
   }
 
-  /// U_ref + U of body k, its displacement from the undeformed body [m, rad].
+  /// U = U_ref + U of body k, its displacement from the undeformed body [m, rad].
+  inline void copy_displacement(const Reference &reference, const State &state, const std::size_t k,
+                                std::vector<double> &U)
+  {
+    U = reference.displacement[k];
+    for (std::size_t i = 0; i < U.size(); ++i)
+      U[i] += state.U[k][i];
+  }
+
+  /// The same as a new vector.
   inline std::vector<double> displacement(const Reference &reference, const State &state,
                                           const std::size_t k)
   {
-    std::vector<double> U = reference.displacement[k];
-    for (std::size_t i = 0; i < U.size(); ++i)
-      U[i] += state.U[k][i];
+    std::vector<double> U;
+    copy_displacement(reference, state, k, U);
     return U;
   }
 } // namespace taut

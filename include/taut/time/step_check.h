@@ -26,7 +26,11 @@ namespace taut
     void set_time(const std::optional<double> &end) { time = end; }
 
     /// Calls @p work, which solves for multipliers, and names the constraints on failure.
-    void solve(const std::function<void()> &work) const;
+    template <typename Work>
+    void solve(const Work &work) const
+    {
+      named(std::cref(work)); // a reference allocates nothing
+    }
 
     /// Checks that the constraints hold.
     void check_constraints(const Certificate &certificate) const;
@@ -39,6 +43,7 @@ namespace taut
     std::string when() const;
 
   private:
+    void named(const std::function<void()> &work) const;
     [[noreturn]] void fail(const std::string &what, const std::string &entry = "") const;
     std::string remedy() const;
 

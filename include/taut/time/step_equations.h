@@ -113,6 +113,7 @@ namespace taut
     std::vector<double> compliance;
     std::size_t n_modes = 0;                ///< on all ranks
     std::vector<std::size_t> first_of_body; ///< first amplitude of each body here, and the end
+    std::vector<std::size_t> n_of_ranks;    ///< amplitudes of each rank
   };
 } // namespace taut
 

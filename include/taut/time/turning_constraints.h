@@ -79,7 +79,8 @@ namespace taut
     std::vector<Coordinates> used;  ///< directions of B_i
     std::vector<Coordinates> next;  ///< directions of the guess
     std::vector<double> offsets, next_offsets, increments;
-    std::vector<Coordinates> end; ///< Delta_1 of the last guess
+    std::vector<Coordinates> end;    ///< Delta_1 of the last guess
+    std::vector<Coordinates> motion; ///< Delta_1 - Delta_0 of the last guess
   };
 
   /// What to say of a constraint that turns and has a force where its ends meet, at time @p t [s];
