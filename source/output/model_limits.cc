@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/archive.h>
+#include <taut/base/instruction_set.h>
 #include <taut/base/text.h>
 #include <taut/cable/cable.h>
 #include <taut/output/model_limits.h>
@@ -279,6 +280,8 @@ namespace taut
     {
       const Line &line = lines[l];
       const double *const u = values.data() + line.first;
+      if (!may_exceed(line, u))
+        continue;
       for (std::size_t i = 0; i < line.n; ++i)
         if (!line.distances.empty())
           keep(distance, u[i], line.distances[i], line.positions[i], l);
@@ -286,6 +289,32 @@ namespace taut
           keep(slope, slope_after(line, u, i), largest_slope,
                .5 * (line.positions[i] + line.positions[i + 1]), l);
     }
+  }
+
+  /// False if a line certainly has no new extreme: a quick look at the lines of most scenes.
+  bool ModelLimits::may_exceed(const Line &line, const double *const u) const
+  {
+    if (line.n_directions > 1 || !line.chords.empty())
+      return true;
+    double largest = 0.;
+    vectorised(
+        [&]
+        {
+          const double *const s = line.positions.data(), *const d = line.distances.data();
+          const std::size_t n = line.n;
+          double found = 0.;
+          if (line.distances.empty())
+#pragma omp simd reduction(max : found)
+            for (std::size_t i = 1; i < n; ++i)
+              found = std::max(found, std::fabs(u[i] - u[i - 1]) / (s[i] - s[i - 1]));
+          else
+#pragma omp simd reduction(max : found)
+            for (std::size_t i = 0; i < n; ++i)
+              found = std::max(found, u[i] / d[i]);
+          largest = found;
+        });
+    return line.distances.empty() ? largest / largest_slope > slope.excess
+                                  : largest > distance.excess;
   }
 
   template <typename Archive>

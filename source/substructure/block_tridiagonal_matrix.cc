@@ -104,17 +104,36 @@ namespace taut
         [=] { product(begin, end, x, y - begin, [](double, const double sum) { return sum; }); });
   }
 
-  /// The product for one of the first or last rows.
+  /// The product for one node with known neighbours, so that short loops are unrolled.
+  template <int b>
+  template <bool has_before, bool has_after, typename Result>
+  void BlockTridiagonalMatrix<b>::product_at_node(const std::size_t node, const double *x,
+                                                  double *y, const Result &result) const
+  {
+    for (int r = 0; r < b; ++r)
+    {
+      const std::size_t i = node + r;
+      double sum = 0.;
+      for (int o = has_before ? -b - r : -r; o < (has_after ? 2 * b : b) - r; ++o)
+        sum += entry(i, o) * x[static_cast<std::ptrdiff_t>(i) + o];
+      y[i] = result(y[i], sum);
+    }
+  }
+
+  /// The product for the first or last nodes, rows begin to end - 1.
   template <int b>
   template <typename Result>
-  void BlockTridiagonalMatrix<b>::product_at_end(const std::size_t i, const double *x, double *y,
+  void BlockTridiagonalMatrix<b>::product_at_end(const std::size_t begin, const std::size_t end,
+                                                 const double *x, double *y,
                                                  const Result &result) const
   {
-    const std::size_t node = i / b * b;
-    double sum = 0.;
-    for (std::size_t j = node - std::min<std::size_t>(node, b); j < std::min(n, node + 2 * b); ++j)
-      sum += (j < i ? entries(i, j) : entries(j, i)) * x[j];
-    y[i] = result(y[i], sum);
+    for (std::size_t node = begin; node < end; node += b)
+      if (const bool has_after = node + b < n; node == 0)
+        has_after ? product_at_node<false, true>(node, x, y, result)
+                  : product_at_node<false, false>(node, x, y, result);
+      else
+        has_after ? product_at_node<true, true>(node, x, y, result)
+                  : product_at_node<true, false>(node, x, y, result);
   }
 
   /// y_i = result(y_i, (A x)_i) for i = begin to end - 1, both multiples of b.
@@ -126,8 +145,11 @@ namespace taut
     const std::size_t first = std::min<std::size_t>(n, 2 * b),
                       last = std::max(first, n - std::min<std::size_t>(n, 2 * b));
     std::size_t done = begin;
-    for (; done < std::min(first, end); ++done)
-      product_at_end(done, x, y, result);
+    if (done < std::min(first, end))
+    {
+      product_at_end(done, std::min(first, end), x, y, result);
+      done = std::min(first, end);
+    }
     for (const Repetition &repetition : repetitions)
     {
       if (repetition.end <= done || repetition.begin >= end)
@@ -167,8 +189,7 @@ namespace taut
       entries.product(done, std::min(last, end), x, y, result);
       done = std::min(last, end);
     }
-    for (; done < end; ++done)
-      product_at_end(done, x, y, result);
+    product_at_end(done, end, x, y, result);
   }
 
   template <int b>

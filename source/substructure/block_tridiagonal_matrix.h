@@ -64,8 +64,11 @@ namespace taut
     template <typename Result>
     void product(std::size_t begin, std::size_t end, const double *x, double *y,
                  const Result &result) const;
+    template <bool has_before, bool has_after, typename Result>
+    void product_at_node(std::size_t node, const double *x, double *y, const Result &result) const;
     template <typename Result>
-    void product_at_end(std::size_t i, const double *x, double *y, const Result &result) const;
+    void product_at_end(std::size_t begin, std::size_t end, const double *x, double *y,
+                        const Result &result) const;
 
     std::size_t n;
     std::conditional_t<is_cable, CableNodes, Diagonals<b>> entries;

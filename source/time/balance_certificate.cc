@@ -53,6 +53,23 @@ namespace taut
                 residual[i] = factor * residual[i] - (r[i] + kappa * r0[i]);
           });
     }
+
+    /// dU . (r + kappa r0) of a tile.
+    double work_of(const double *dU, const double *r, const double *r0, const double kappa,
+                   const std::size_t size)
+    {
+      double result = 0.;
+      vectorised(
+          [=, &result]
+          {
+            double sum = 0.;
+#pragma omp simd reduction(+ : sum)
+            for (std::size_t i = 0; i < size; ++i)
+              sum += dU[i] * (r[i] + kappa * r0[i]);
+            result = sum;
+          });
+      return result;
+    }
   } // namespace
 
   BalanceCertificate::BalanceCertificate(const Structure &structure, const Constraints &constraints,
@@ -150,13 +167,8 @@ namespace taut
         for (std::size_t i = 0; i < size; ++i)
           residual[i] -= impulses[k][begin + i];
       if (c.mean_force)
-      {
-        const double *dU = state.dU[k].data() + begin;
-        double power = 0.;
-        for (std::size_t i = 0; i < size; ++i)
-          power += dU[i] * (r[begin + i] + kappa * r0[begin + i]);
-        work_of_balance[k] += (1. - c.alpha_f) * power;
-      }
+        work_of_balance[k] += (1. - c.alpha_f) * work_of(state.dU[k].data() + begin, r + begin,
+                                                         r0 + begin, kappa, size);
       for (; constraint != body.constraints().end() && constraint->dof < end; ++constraint)
         residual[constraint->dof - begin] = 0.;
 

@@ -25,6 +25,18 @@ namespace taut
 
     /// Relative difference of compressions below which it gives no slope of the mean.
     constexpr double least_difference = 1e-5;
+
+    /// The compression @p u, or where the force is zero if it pulls at @p u. This place is searched
+    /// only if needed: most links stay closed.
+    template <typename Row>
+    double without_pull(const Row &row, const double u)
+    {
+      if (!std::isnan(row.open))
+        return std::max(u, row.open);
+      return row.force(u) >= 0.
+                 ? u
+                 : increasing_root([&](const double at) { return row.force(at); }, 0., row.u0);
+    }
   } // namespace
 
   ConstraintLaws::ConstraintLaws(const Constraints &constraints) : constraints(constraints)
@@ -123,7 +135,7 @@ namespace taut
       row.open = damping > 0. ? u - row.of_mean * row.law->energy(u) / (damping * u)
                               : -std::numeric_limits<double>::infinity();
       if (row.open > 0.)
-        row.open = increasing_root([&](const double at) { return row.force(at); }, 0., u);
+        row.open = std::numeric_limits<double>::quiet_NaN(); // see without_pull()
     }
     rows[row_of[i]] = row;
   }
@@ -141,7 +153,7 @@ namespace taut
   {
     result.clear();
     for (const Row &row : rows)
-      result.push_back(std::max(-gap[row.index], row.open));
+      result.push_back(without_pull(row, -gap[row.index]));
   }
 
   double ConstraintLaws::polished(const std::size_t i, const double u, const double L) const
@@ -241,7 +253,7 @@ namespace taut
     u.clear();
     // For a conserving constraint, start where slopes only fall.
     for (const Row &row : rows)
-      u.push_back(std::max(row.conserving ? -gap[row.index] : row.u0, row.open));
+      u.push_back(without_pull(row, row.conserving ? -gap[row.index] : row.u0));
     const MixedComplementaritySolution *solution = nullptr;
     Error before = {std::numeric_limits<double>::infinity(),
                     std::numeric_limits<double>::infinity()};
@@ -275,10 +287,10 @@ namespace taut
     }
     // An open constraint has its law at rest. The certificate measures the residuals of the others.
     for (const Row &row : rows)
-      if (solution->multiplier[row.index] == 0. && std::isfinite(row.open))
+      if (solution->multiplier[row.index] == 0. && !std::isinf(row.open))
       {
-        shift[row.index] = row.open;
-        problem.free_gap[row.index] = gap[row.index] + row.open;
+        shift[row.index] = std::isnan(row.open) ? without_pull(row, 0.) : row.open;
+        problem.free_gap[row.index] = gap[row.index] + shift[row.index];
       }
     return *solution;
   }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/dot.h>
 #include <taut/time/energy_gains.h>
 
 #include <cmath>
@@ -31,10 +32,9 @@ namespace taut
   {
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
-      product.assign(V[k].size(), 0.);
-      structure[k].mass().vmult_add(.5, V[k].data(), product.data());
-      of_groups[groups.of_body(k)] +=
-          std::inner_product(V[k].begin(), V[k].end(), product.begin(), 0.);
+      product.resize(V[k].size());
+      structure[k].mass().vmult_rows(0, product.size(), V[k].data(), product.data());
+      of_groups[groups.of_body(k)] += .5 * dot_in_lanes(V[k], product);
     }
   }
 

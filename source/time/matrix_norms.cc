@@ -17,14 +17,29 @@ namespace taut
     {
       largest = a > largest || std::isnan(a) ? a : largest;
     }
+
+    /// Joins the halves of @p n lanes.
+    template <std::size_t n, typename Lanes>
+    void fold(Lanes &largest, Lanes &sums)
+    {
+      for (std::size_t k = 0; k < n / 2; ++k)
+      {
+        largest[k] = std::max(largest[k], largest[k + n / 2]);
+        sums[k] += sums[k + n / 2];
+      }
+    }
   } // namespace
 
   template <std::size_t n_vectors>
   Largest<n_vectors>::Largest(const Substructure &body)
-      : body(body), lanes(8 % body.kind_pattern().size() == 0            ? 8
-                          : most_lanes % body.kind_pattern().size() == 0 ? most_lanes
-                                                                         : 0)
+      : body(body), period(body.kind_pattern().size()),
+        lanes(8 % period == 0            ? 8
+              : most_lanes % period == 0 ? most_lanes
+                                         : 0)
   {
+    for (std::size_t v = 0; v < n_vectors; ++v)
+      for (Lanes *const all : {&largest, &sums})
+        std::fill_n((*all)[v].begin(), lanes, 0.);
   }
 
   /// Adds rows of whole lanes.
@@ -73,13 +88,20 @@ namespace taut
   }
 
   template <std::size_t n_vectors>
-  std::array<PerKind, n_vectors> Largest<n_vectors>::result() const
+  std::array<PerKind, n_vectors> Largest<n_vectors>::result()
   {
-    std::array<PerKind, n_vectors> result = others;
+    std::size_t n = lanes;
+    if (lanes == 8 && period <= 2)
+      for (std::size_t v = 0; v < n_vectors; ++v)
+      {
+        fold<8>(largest[v], sums[v]);
+        fold<4>(largest[v], sums[v]);
+        n = 2;
+      }
     for (std::size_t v = 0; v < n_vectors; ++v)
-      for (std::size_t k = 0; k < lanes; ++k)
-        raise(result[v][body.kind(k)], std::isnan(sums[v][k]) ? sums[v][k] : largest[v][k]);
-    return result;
+      for (std::size_t k = 0; k < n; ++k)
+        raise(others[v][body.kind(k)], std::isnan(sums[v][k]) ? sums[v][k] : largest[v][k]);
+    return others;
   }
 
   template class Largest<1>;

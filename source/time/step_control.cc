@@ -77,7 +77,7 @@ namespace taut
         n_levels(halvings(parameters, step, may_halve, longest_steps)), step(step),
         shortest(std::ldexp(step, -static_cast<int>(n_levels))),
         end(std::min(n_steps, std::numeric_limits<long>::max() >> n_levels) << n_levels),
-        level(n_levels)
+        level(n_levels), last_open(longest_steps.size(), -std::numeric_limits<double>::infinity())
   {
   }
 
@@ -109,15 +109,17 @@ namespace taut
     n_calm = 0;
   }
 
-  /// Whether a contact is under way. With the same force before and after the step it rests and
-  /// needs no resolution.
+  /// Whether a contact is under way: it opens or closes, may still be a rebound, or its force
+  /// changes much. Others follow their bodies.
   bool StepControl::is_moving_contact(const std::size_t i, const State &state) const
   {
-    constexpr double same = 1e-2;
+    // Longest steps that a rebound takes, and the part of its force that a step may change.
+    constexpr double steps_of_rebound = 40., large_change = .2;
     const double first = before.multiplier[i], last = state.multiplier[i];
     if (!(first > 0.) || !(last > 0.))
       return first > 0. || last > 0.;
-    return !(std::fabs(last - first) <= same * std::max(first, last));
+    return state.time - last_open[i] < steps_of_rebound * longest_steps[i] ||
+           !(std::fabs(last - first) <= large_change * std::max(first, last));
   }
 
   /// A contact under way may need shorter steps than the last one.
@@ -188,5 +190,9 @@ namespace taut
       advance_adaptive(stepper);
     else
       advance_fixed(stepper);
+    const State &state = stepper.state();
+    for (std::size_t i = 0; i < last_open.size(); ++i)
+      if (!(state.multiplier[i] > 0.))
+        last_open[i] = state.time;
   }
 } // namespace taut

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/dot.h>
+#include <taut/time/matrix_norms.h>
 #include <taut/time/velocity_projection.h>
 
 #include <algorithm>
@@ -9,7 +10,8 @@ namespace taut
 {
   namespace
   {
-    /// Relative rates that are rounding: steps of thousands of operations, each with 1e-16.
+    /// Rates that are rounding, over the largest terms of all: steps of thousands of operations,
+    /// each with 1e-16. A joint far from all motion has no other rates.
     constexpr double rounding_of_rates = 1e-12;
 
     /// Part of the largest terms of a rate so far, and of the largest rate with the kinetic energy,
@@ -61,6 +63,10 @@ namespace taut
   bool VelocityProjection::has_to_act(const ContactConditions &conditions, const State &state)
   {
     bool acts = false;
+    const std::vector<double> &sizes = conditions.rates().velocity_sizes();
+    PerKind largest = {0., 0.};
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+      largest[constraints[i].rotational] = std::max(largest[constraints[i].rotational], sizes[i]);
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       takes_part[i] = 0;
@@ -72,10 +78,9 @@ namespace taut
       takes_part[i] = 1;
       if (conditions.remains_in_contact(i, state))
         continue;
-      acts = acts || std::fabs(state.gap_rate[i]) >
-                         rounding_of_rates *
-                             (conditions.rates().velocity_sizes()[i] +
-                              std::fabs(state.gap_rate[i] - conditions.rates().velocities()[i]));
+      const double convection = state.gap_rate[i] - conditions.rates().velocities()[i],
+                   size = largest[constraints[i].rotational] + std::fabs(convection);
+      acts = acts || std::fabs(state.gap_rate[i]) > rounding_of_rates * size;
       acts = acts || (constraints[i].cone.restitution(c.restitution) > 0. &&
                       conditions.rates().before_step()[i] < 0.);
     }
@@ -87,9 +92,8 @@ namespace taut
     double sum = 0.;
     for (std::size_t k = 0; k < structure.size(); ++k)
     {
-      std::fill(dV[k].begin(), dV[k].end(), 0.);
-      structure[k].mass().vmult_add(.5, state.V[k].data(), dV[k].data());
-      sum += dot(state.V[k], dV[k]);
+      structure[k].mass().vmult_rows(0, dV[k].size(), state.V[k].data(), dV[k].data());
+      sum += .5 * dot_in_lanes(state.V[k], dV[k]);
     }
     structure.communicator().sum(&sum, 1);
     return std::max(0., sum);

@@ -77,6 +77,7 @@ namespace taut
     void add_cables(const Scene &scene, const SceneBodies &structure);
     void take_chords_at_reference(const Communicator &processes);
     double slope_after(const Line &line, const double *u, std::size_t sample) const;
+    bool may_exceed(const Line &line, const double *u) const;
     void add_distances(const Scene &scene, const SceneBodies &structure);
     void compare_speeds(const Scene &scene);
     void compare_filter(const Scene &scene, double frequency, double step);

@@ -24,7 +24,8 @@ namespace taut
     /// Adds the next @p n entries of each vector; all pieces but the last consist of whole nodes.
     void add(const std::array<const double *, n_vectors> &x, std::size_t n);
 
-    std::array<PerKind, n_vectors> result() const;
+    /// To be called once, after the last piece.
+    std::array<PerKind, n_vectors> result();
 
   private:
     // Independent lanes compare in parallel. A comparison loses not-a-number, a sum keeps it.
@@ -35,8 +36,8 @@ namespace taut
     void add_rows(const std::array<const double *, n_vectors> &x, std::size_t n);
 
     const Substructure &body;
-    const std::size_t lanes; ///< multiple of the period of kinds; 0: no lanes
-    Lanes largest = {}, sums = {};
+    const std::size_t period, lanes; ///< of kinds; a multiple of it, or 0: no lanes
+    Lanes largest, sums;
     std::array<PerKind, n_vectors> others = {};
   };
 

@@ -46,14 +46,15 @@ namespace taut
    * prescribed motion, which is searched before each step. After two steps with a tenth of the
    * tolerance the length doubles, at a multiple of the new length.
    *
-   * A fixed step, too, is divided if a nonlinear body has no solution for it. So is a step while a
-   * constraint with a damper is closed whose contacts the step does not resolve.
+   * A fixed step, too, is divided if a nonlinear body has no solution for it. So is a step that
+   * does not resolve a contact of a constraint with a damper, from closing until no rebound can
+   * come.
    */
   class StepControl
   {
   public:
     /// From t = 0 to @p n_steps times @p step [s]. @p may_halve: some bodies are not linear.
-    /// @p longest_steps: for each constraint the longest step while it is closed [s]; empty: any.
+    /// @p longest_steps: for each constraint the longest step in a contact [s]; empty: any.
     StepControl(const StepParameters &parameters, double step, long n_steps, bool may_halve = false,
                 std::vector<double> longest_steps = {});
 
@@ -71,7 +72,7 @@ namespace taut
     template <typename Archive>
     void serialize(Archive &archive, unsigned int)
     {
-      archive &position &repeated &level &n_calm;
+      archive &position &repeated &level &n_calm &last_open;
     }
 
   private:
@@ -91,7 +92,8 @@ namespace taut
     const long end;              ///< in shortest steps
     long position = 0, repeated = 0;
     unsigned int level, n_calm = 0;
-    State before; ///< state before the step
+    std::vector<double> last_open; ///< time when each constraint was open [s]
+    State before;                  ///< state before the step
   };
 } // namespace taut
 
