@@ -133,9 +133,6 @@ namespace taut
   double ModelLimits::slope_after(const Line &line, const double *const u,
                                   const std::size_t sample) const
   {
-    if (line.n_directions == 1)
-      return std::fabs(u[sample + 1] - u[sample]) /
-             (line.positions[sample + 1] - line.positions[sample]);
     double change[3] = {0., 0., 0.};
     for (unsigned int d = 0; d < line.n_directions; ++d)
       change[d] = u[d * line.n + sample + 1] - u[d * line.n + sample];
