@@ -12,10 +12,6 @@ namespace taut
     /// Part of F_ii above which S fades the projection of elastic constraints out.
     constexpr double fading = .3;
 
-    /// S over that part of F_ii above which an elastic constraint takes no part: it would take a
-    /// thousandth of the impulse of a rigid one.
-    constexpr double absent = 30.;
-
     /// Most coefficients whose flexibilities are kept: more than there are lengths of adaptive
     /// steps.
     constexpr std::size_t most_known = 16;
@@ -73,22 +69,15 @@ namespace taut
       if (!constraints[i].cone.may_open() || S[i] == 0.)
         continue;
       const double ratio = S[i] / (fading * flexibility[i]);
-      relative[i] = constraints[i].spring.conserving || ratio > absent
-                        ? std::numeric_limits<double>::infinity()
-                        : ratio * ratio;
+      relative[i] = constraints[i].spring.conserving ? std::numeric_limits<double>::infinity()
+                                                     : ratio * ratio;
     }
   }
 
   void ProjectionCompliance::follow(const std::vector<double> &S, ComplementarityOperator &F,
                                     SchurComplement *const f)
   {
-    bool one_counts = false;
-    for (const std::size_t i : moving_elastic)
-    {
-      flexibility[i] = (F.diagonal(i) - S[i]) / theta; // joints only make it smaller
-      one_counts = one_counts || !(S[i] > absent * fading * flexibility[i]);
-    }
-    if (one_counts)
+    if (!moving_elastic.empty())
       find_flexibilities(moving_elastic, S, F);
     if (!has_laws && moving_elastic.empty())
       return;

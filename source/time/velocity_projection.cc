@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/dot.h>
-#include <taut/time/matrix_norms.h>
 #include <taut/time/velocity_projection.h>
 
 #include <algorithm>
@@ -10,8 +9,7 @@ namespace taut
 {
   namespace
   {
-    /// Rates that are rounding, over the largest terms of all: steps of thousands of operations,
-    /// each with 1e-16. A joint far from all motion has no other rates.
+    /// Relative rates that are rounding: steps of thousands of operations, each with 1e-16.
     constexpr double rounding_of_rates = 1e-12;
 
     /// Part of the largest terms of a rate so far, and of the largest rate with the kinetic energy,
@@ -63,10 +61,6 @@ namespace taut
   bool VelocityProjection::has_to_act(const ContactConditions &conditions, const State &state)
   {
     bool acts = false;
-    const std::vector<double> &sizes = conditions.rates().velocity_sizes();
-    PerKind largest = {0., 0.};
-    for (std::size_t i = 0; i < constraints.size(); ++i)
-      largest[constraints[i].rotational] = std::max(largest[constraints[i].rotational], sizes[i]);
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       takes_part[i] = 0;
@@ -78,9 +72,10 @@ namespace taut
       takes_part[i] = 1;
       if (conditions.remains_in_contact(i, state))
         continue;
-      const double convection = state.gap_rate[i] - conditions.rates().velocities()[i],
-                   size = largest[constraints[i].rotational] + std::fabs(convection);
-      acts = acts || std::fabs(state.gap_rate[i]) > rounding_of_rates * size;
+      acts = acts || std::fabs(state.gap_rate[i]) >
+                         rounding_of_rates *
+                             (conditions.rates().velocity_sizes()[i] +
+                              std::fabs(state.gap_rate[i] - conditions.rates().velocities()[i]));
       acts = acts || (constraints[i].cone.restitution(c.restitution) > 0. &&
                       conditions.rates().before_step()[i] < 0.);
     }
