@@ -94,7 +94,7 @@ namespace
     }
 
     /// Displacements, velocities and multipliers of the last record as raw doubles.
-    void save(const std::string &file) const
+    void write_arrays(const std::string &file) const
     {
       std::ofstream out(file, std::ios::binary);
       const auto write = [&](const std::vector<double> &v)
@@ -157,7 +157,7 @@ namespace
         std::printf("%s %016llx %ld %s\n", name.c_str(), static_cast<unsigned long long>(value),
                     digest.n_records, ending.c_str());
       if (!arrays.empty() && processes.size() == 1 && digest.n_records > 0)
-        digest.save(arrays + "/" + name);
+        digest.write_arrays(arrays + "/" + name);
     }
     catch (const std::exception &why)
     {
