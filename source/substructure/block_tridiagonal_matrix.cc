@@ -77,7 +77,8 @@ namespace taut
             if (o % n_directions != 0)
               directions_are_apart = false;
           }
-        if (!is_cable || directions_are_apart)
+        const bool is_faster = n > few_rows || repetition.is_zero; // than rows that are read
+        if (is_cable ? directions_are_apart : is_faster)
           repetitions.push_back(repetition);
       }
       begin = end;
@@ -136,12 +137,38 @@ namespace taut
                   : product_at_node<true, false>(node, x, y, result);
   }
 
+  /// The product for few rows, with a copy of x between zeros: the first and last nodes are like
+  /// all others, and whole vectors of rows are done at once.
+  template <int b>
+  template <typename Result>
+  void BlockTridiagonalMatrix<b>::product_of_few(const std::size_t begin, const std::size_t end,
+                                                 const double *x, double *y,
+                                                 const Result &result) const
+  {
+    constexpr std::size_t piece = Diagonals<b>::piece;
+    std::array<double, width + few_rows + piece + width> padded;
+    std::array<double, few_rows + piece> sums;
+    const std::size_t before = std::min<std::size_t>(begin, width),
+                      after = std::min<std::size_t>(n - end, width), size = end - begin;
+    double *const first = padded.data() + width;
+    std::fill(padded.data(), first - before, 0.);
+    std::copy(x + begin - before, x + end + after, first - before);
+    std::fill(first + size + after, first + size + piece + width, 0.);
+    entries.padded_product(begin, size, first, sums.data());
+#pragma omp simd
+    for (std::size_t i = 0; i < size; ++i)
+      y[begin + i] = result(y[begin + i], sums[i]);
+  }
+
   /// y_i = result(y_i, (A x)_i) for i = begin to end - 1, both multiples of b.
   template <int b>
   template <typename Result>
   void BlockTridiagonalMatrix<b>::product(const std::size_t begin, const std::size_t end,
                                           const double *x, double *y, const Result &result) const
   {
+    if constexpr (!is_cable)
+      if (end - begin <= few_rows && repetitions.empty())
+        return product_of_few(begin, end, x, y, result);
     const std::size_t first = std::min<std::size_t>(n, 2 * b),
                       last = std::max(first, n - std::min<std::size_t>(n, 2 * b));
     std::size_t done = begin;

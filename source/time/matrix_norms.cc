@@ -77,14 +77,26 @@ namespace taut
   template <std::size_t n_vectors>
   void Largest<n_vectors>::add(const std::array<const double *, n_vectors> &x, const std::size_t n)
   {
-    const std::size_t n_full = lanes == 0 ? 0 : n - n % lanes;
-    if (lanes == most_lanes)
-      add_rows<most_lanes>(x, n_full);
-    else
-      add_rows<8>(x, n_full);
+    if (lanes == 0)
+    {
+      for (std::size_t v = 0; v < n_vectors; ++v)
+        for (std::size_t i = 0; i < n; ++i)
+          raise(others[v][body.kind(i)], std::fabs(x[v][i]));
+      return;
+    }
+    const std::size_t n_full = n - n % lanes;
+    Lanes rest;
+    std::array<const double *, n_vectors> last;
     for (std::size_t v = 0; v < n_vectors; ++v)
-      for (std::size_t i = n_full; i < n; ++i)
-        raise(others[v][body.kind(i)], std::fabs(x[v][i]));
+    {
+      std::fill(std::copy(x[v] + n_full, x[v] + n, rest[v].begin()), rest[v].begin() + lanes, 0.);
+      last[v] = rest[v].data();
+    }
+    for (const auto &[begin, size] : {std::pair(x, n_full), {last, n_full < n ? lanes : 0}})
+      if (lanes == most_lanes)
+        add_rows<most_lanes>(begin, size);
+      else
+        add_rows<8>(begin, size);
   }
 
   template <std::size_t n_vectors>
