@@ -71,7 +71,8 @@ namespace taut
       {
         if (is_on_wire())
         {
-          check(t);
+          if (link.strip.empty())
+            check(t);
           append_link(bodies, link, place(t), terms);
         }
         else
@@ -80,14 +81,16 @@ namespace taut
 
       void append_rates(const double t, std::vector<Term> &terms) const override
       {
-        bodies.slope(place(t), link.direction, speed(), terms);
+        if (!is_beyond(t))
+          bodies.slope(place(t), link.direction, speed(), terms);
       }
 
       /// A contact on a cable: displacements count from the shape at rest, whose height the contact
       /// follows.
       double gap(const double t) const override
       {
-        return link.gap + link.profile(position(t), t) + (height(t) - start);
+        return link.gap + link.profile(sliding_position(t), t) + (height(t) - start) +
+               (is_beyond(t) ? out_of_reach : 0.);
       }
 
     protected:
@@ -98,7 +101,29 @@ namespace taut
       const Link link;
 
     private:
-      Attachment place(const double t) const { return SceneBodies::moved(link.to, position(t)); }
+      /// Gap of a strip to a wire that is not over it, beyond the height of the wire's end [m].
+      static constexpr double out_of_reach = 10.;
+
+      /// Position of the contact or, beyond the ends of the wire of a strip, of this end.
+      double sliding_position(const double t) const
+      {
+        const double s = position(t);
+        return is_beyond(t) ? std::clamp(s, 0., wire_length()) : s;
+      }
+
+      Attachment place(const double t) const
+      {
+        return SceneBodies::moved(link.to, sliding_position(t));
+      }
+
+      /// Whether the wire of a strip has not begun at a time, or has ended.
+      bool is_beyond(const double t) const
+      {
+        const double s = position(t);
+        return !link.strip.empty() && (s < 0. || s > wire_length());
+      }
+
+      double wire_length() const { return scene.wires[link.to.index].length(); }
 
       /// Height of the place on the cable at rest, along the direction of the contact [m].
       double height(const double t) const

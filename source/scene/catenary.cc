@@ -8,11 +8,6 @@
 
 #include <deal.II/base/parameter_handler.h>
 
-#include <algorithm>
-#include <cmath>
-#include <iomanip>
-#include <sstream>
-
 namespace taut
 {
   using namespace dealii::Patterns;
@@ -25,33 +20,8 @@ namespace taut
                       "Names, separated by commas; each has a section 'Pantograph <name>'. Empty: "
                       "the line alone",
                       List(Anything()));
-    prm.leave_subsection();
-  }
-
-  void Catenary::WireItem::declare(dealii::ParameterHandler &prm, const std::string &section)
-  {
-    prm.enter_subsection(section);
-    prm.add_parameter("Model", model, "'beam': tension and bending; 'string': tension only",
-                      Selection("beam|string"));
-    prm.add_parameter("Mass per length", mass_per_length, "[kg/m]", not_negative());
-    prm.add_parameter("Tension", tension, "[N]", not_negative());
-    prm.add_parameter("Bending stiffness", bending_stiffness, "EI; not used by a string [N m^2]",
-                      not_negative());
-    prm.add_parameter("Element size", element_size, "Largest length of an element [m]",
-                      not_negative());
-    prm.add_parameter("Degree", degree, "Polynomial degree of string elements [1]", Integer(1, 4));
-    prm.add_parameter("Mass damping", mass_damping, "Rayleigh damping, times the mass [1/s]",
-                      not_negative());
-    prm.add_parameter("Stiffness damping", stiffness_damping,
-                      "Rayleigh damping, times the stiffness [s]", not_negative());
-    prm.add_parameter("Stagger", stagger,
-                      "z at the first mast, where the wire is held aside; from mast to mast it "
-                      "changes its sign [m]",
-                      Double());
-    prm.add_parameter("Wind", wind,
-                      "Load along z, a formula in t and in s (= x); lengths of droppers are found "
-                      "without it [N/m]",
-                      Anything());
+    tension_lengths.declare_names(prm);
+    items.masses.declare_names(prm);
     prm.leave_subsection();
   }
 
@@ -63,6 +33,18 @@ namespace taut
                       List(not_negative(), 1));
     prm.add_parameter("Dampings", dampings, "Of the damper beside each spring [N s/m]",
                       List(not_negative(), 1));
+    prm.add_parameter(
+        "Lift", lift,
+        "Aerodynamic force on each mass over the square of the speed, upwards; empty: "
+        "none [N s^2/m^2]",
+        List(Double(), 0));
+    prm.add_parameter(
+        "Bump stop gaps", stop_gaps,
+        "Compression of the spring below each mass at which a stop pushes; 0 or empty: "
+        "no stop [m]",
+        List(not_negative(), 0));
+    prm.add_parameter("Bump stop stiffnesses", stop_stiffnesses, "Of these stops [N/m]",
+                      List(not_negative(), 0));
     prm.add_parameter("Static force", static_force,
                       "Upwards on the lowest mass, net of the weight [N]", Double());
     prm.add_parameter("Start", start, "x at t = 0 [m]", Double());
@@ -79,29 +61,22 @@ namespace taut
   {
     declare_names(prm);
     prm.enter_subsection("Catenary");
-    prm.add_parameter("Number of spans", n_spans, "[1]", Integer(1, 100000));
-    prm.add_parameter("Span length", span_length, "[m]", not_negative());
-    prm.add_parameter("Encumbrance", encumbrance,
-                      "Height of the messenger wire over the contact wire at the supports [m]",
-                      not_negative());
-    prm.add_parameter("Lateral component", lateral,
+    prm.add_parameter("Kind", kind,
+                      "'catenary': a contact wire on droppers under a messenger wire. 'conductor "
+                      "rail': a contact wire alone, a beam on the springs of its arms",
+                      Selection("catenary|conductor rail"));
+    prm.add_parameter("Lateral component", items.lateral,
                       "Motion along z, also where neither Stagger nor Wind asks for it");
-    contact.declare(prm, "Contact wire");
-    messenger.declare(prm, "Messenger wire");
-
-    prm.enter_subsection("Supports");
-    prm.add_parameter("Messenger stiffness", messenger_support_stiffness,
-                      "Of the messenger's supports at the inner masts; a number or 'rigid' [N/m]",
-                      Anything());
-    prm.add_parameter("Arm mass", arm_mass,
-                      "Point mass on the contact wire at each inner mast; its weight is carried by "
-                      "the arm [kg]",
-                      not_negative());
-    prm.add_parameter("Arm stiffness", arm_stiffness, "Vertical [N/m]", not_negative());
-    prm.add_parameter("Arm damping", arm_damping, "Vertical [N s/m]", not_negative());
-    prm.leave_subsection();
-
-    droppers.declare(prm);
+    items.contact.declare(prm, "Contact wire", true);
+    items.messenger.declare(prm, "Messenger wire", true);
+    items.stitch.declare(prm, "Stitch wires", false);
+    items.supports.declare(prm);
+    items.droppers.declare(prm);
+    items.masses.declare_parameters(prm);
+    if (tension_lengths.names.empty())
+      geometry.declare(prm);
+    else
+      tension_lengths.declare_parameters(prm);
 
     prm.add_parameter("Uplift positions", uplift_positions,
                       "x where the contact wire's motion is recorded; empty: all inner masts [m]",
@@ -116,96 +91,25 @@ namespace taut
     prm.leave_subsection();
   }
 
-  Wire Catenary::WireItem::wire(const std::string &name, const double y, const double length) const
+  std::string Catenary::section_of(const std::size_t tension_length) const
   {
-    Wire wire;
-    wire.name = name;
-    wire.origin = name == "contact" ? "Catenary/Contact wire" : "Catenary/Messenger wire";
-    wire.a = {0., y};
-    wire.b = {length, y};
-    wire.mass_per_length = mass_per_length;
-    wire.transverse = model == "beam" ? TransverseKind::beam : TransverseKind::string;
-    wire.tension = tension;
-    wire.bending_stiffness = model == "beam" ? bending_stiffness : 0.;
-    wire.degree = degree;
-    wire.element_size = element_size;
-    wire.damping = {mass_damping, stiffness_damping};
-    return wire;
+    return tension_lengths.names.empty() ? "Catenary" : tension_lengths.title(tension_length);
   }
 
-  void Catenary::add_wires(Scene &scene) const
+  std::vector<LineLayout> Catenary::layouts() const
   {
-    const double length = n_spans * span_length;
-    scene.wires = {messenger.wire("messenger", encumbrance, length),
-                   contact.wire("contact", 0., length)};
-    std::vector<double> masts;
-    for (unsigned int i = 1; i < n_spans; ++i)
-      masts.push_back(i * span_length);
-
-    Support ends;
-    ends.origin = "Catenary";
-    ends.positions = {0., length};
-    for (const std::size_t wire : {messenger_wire, contact_wire})
-    {
-      ends.name = scene.wires[wire].name + " ends";
-      ends.wire = wire;
-      scene.supports.push_back(ends);
-    }
-    if (!masts.empty())
-    {
-      Support mast;
-      mast.name = "messenger at masts";
-      mast.origin = "Catenary/Supports";
-      mast.wire = messenger_wire;
-      mast.positions = masts;
-      const double stiffness =
-          parse_stiffness(messenger_support_stiffness, "Catenary/Supports/Messenger stiffness");
-      mast.fixed = std::isinf(stiffness);
-      mast.stiffness = mast.fixed ? 0. : stiffness;
-      scene.supports.push_back(mast);
-      if (arm_mass > 0.)
-        scene.point_masses.push_back(
-            {"arm", "Catenary/Supports", contact_wire, masts, arm_mass, false});
-      if (arm_stiffness > 0. || arm_damping > 0.)
-      {
-        Support arm;
-        arm.name = "arm";
-        arm.origin = "Catenary/Supports";
-        arm.wire = contact_wire;
-        arm.positions = masts;
-        arm.fixed = false;
-        arm.stiffness = arm_stiffness;
-        arm.damping = arm_damping;
-        scene.supports.push_back(arm);
-      }
-    }
-
-    const std::vector<double> &places = uplift_positions.empty() ? masts : uplift_positions;
-    const bool whole = std::all_of(places.begin(), places.end(),
-                                   [](const double x) { return x == std::floor(x); });
-    for (const double x : places)
-    {
-      Probe probe;
-      probe.origin = "Catenary/Uplift positions";
-      // All names have the same number of decimals, so that no two names differ by the point alone.
-      std::ostringstream name;
-      name << std::fixed << std::setprecision(whole ? 0 : 3) << "contact wire at " << x << " m";
-      probe.name = name.str();
-      probe.point = {Attachment::Kind::wire, contact_wire, x};
-      scene.probes.push_back(probe);
-    }
+    if (tension_lengths.names.empty())
+      return {geometry.layout("Catenary")};
+    std::vector<LineLayout> result;
+    for (std::size_t i = 0; i < tension_lengths.items.size(); ++i)
+      result.push_back(tension_lengths.items[i].layout(section_of(i)));
+    return result;
   }
 
-  void Catenary::add_pantograph(const std::string &name, const PantographItem &item,
-                                Scene &scene) const
+  void Catenary::add_masses(const std::string &name, const PantographItem &item, Scene &scene) const
   {
     const std::string section = "Catenary/Pantograph " + name;
     const std::size_t n = item.masses.size(), first = scene.masses.size();
-    if (item.stiffnesses.size() != n || item.dampings.size() != n)
-      throw EntryError(section, "Masses, Stiffnesses and Dampings are lists of one length; got " +
-                                    std::to_string(n) + ", " +
-                                    std::to_string(item.stiffnesses.size()) + ", " +
-                                    std::to_string(item.dampings.size()));
     for (std::size_t i = 0; i < n; ++i)
     {
       Mass mass;
@@ -226,38 +130,104 @@ namespace taut
       spring.damping = item.dampings[i];
       scene.springs.push_back(spring);
     }
-    Load force;
-    force.name = name + " static force";
-    force.origin = section;
-    force.target = {Attachment::Kind::mass, first + n - 1, 0.};
-    force.magnitude = Expression(item.static_force);
-    scene.loads.push_back(force);
+    add_bump_stops(name, item, first, scene);
+    const auto push = [&](const std::string &what, const std::size_t mass, const double force)
+    {
+      Load load;
+      load.name = name + what;
+      load.origin = section;
+      load.target = {Attachment::Kind::mass, mass, 0.};
+      load.magnitude = Expression(force);
+      scene.loads.push_back(load);
+    };
+    push(" static force", first + n - 1, item.static_force);
+    const double v = item.speed / 3.6;
+    for (std::size_t i = 0; i < item.lift.size(); ++i)
+      if (item.lift[i] != 0.)
+        push(" lift " + std::to_string(i + 1), first + i, item.lift[i] * v * v);
+  }
 
+  void Catenary::add_bump_stops(const std::string &name, const PantographItem &item,
+                                const std::size_t first, Scene &scene) const
+  {
+    const std::string section = "Catenary/Pantograph " + name;
+    for (std::size_t i = 0; i < item.stop_gaps.size(); ++i)
+    {
+      if (item.stop_gaps[i] == 0.)
+        continue;
+      Link stop;
+      stop.name = name + " bump stop " + std::to_string(i + 1);
+      stop.origin = section;
+      stop.kind = LinkKind::stop;
+      if (i + 1 < item.masses.size())
+        stop.from = {Attachment::Kind::mass, first + i + 1, 0.};
+      stop.to = {Attachment::Kind::mass, first + i, 0.};
+      stop.gap = item.stop_gaps[i];
+      stop.stiffness = item.stop_stiffnesses[i];
+      scene.links.push_back(stop);
+    }
+  }
+
+  void Catenary::add_pantograph(const std::string &name, const PantographItem &item,
+                                const Line &line, Scene &scene) const
+  {
+    const std::string section = "Catenary/Pantograph " + name;
+    check_lists(item, section);
+    const std::size_t head = scene.masses.size();
+    add_masses(name, item, scene);
     Link contact_link;
     contact_link.name = name;
     contact_link.origin = section;
     contact_link.kind = LinkKind::sliding_contact;
-    contact_link.from = {Attachment::Kind::mass, first, 0.};
-    contact_link.to = {Attachment::Kind::wire, contact_wire, item.start};
+    contact_link.from = {Attachment::Kind::mass, head, 0.};
     contact_link.stiffness =
         parse_stiffness(item.contact_stiffness, section + "/Contact stiffness");
     contact_link.damping = item.contact_damping;
     contact_link.speed = item.speed / 3.6;
     contact_link.profile =
         Expression(item.profile, section + "/Height profile", Expression::Variables::position);
-    scene.links.push_back(contact_link);
+    for (const TensionLength &part : line)
+    {
+      if (line.size() > 1)
+      {
+        contact_link.strip = name;
+        contact_link.name = name + " on " + scene.wires[part.contact_wire()].name;
+      }
+      contact_link.to = {Attachment::Kind::wire, part.contact_wire(), item.start - part.begin()};
+      scene.links.push_back(contact_link);
+    }
   }
 
   void Catenary::fill(Scene &scene) const
   {
-    check_line();
-    check_pantographs();
-    add_wires(scene);
-    if (is_in_space())
-      add_lateral(scene);
-    droppers.add(messenger_wire, contact_wire, n_spans, span_length, scene);
+    check_wires();
+    LineItems all = items;
+    all.is_rail = kind == "conductor rail";
+    const std::vector<LineLayout> parts = layouts();
+    all.is_in_space = is_in_space();
+    Line line;
+    line.reserve(parts.size());
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      line.emplace_back(all, parts[i],
+                        tension_lengths.names.empty() ? "" : tension_lengths.names[i],
+                        section_of(i), scene);
+    check_uplift_positions(line);
+    check_pantographs(line);
+    for (TensionLength &part : line)
+    {
+      part.check();
+      part.add_supports();
+      part.add_point_masses();
+      part.add_probes(uplift_positions);
+      if (all.is_in_space)
+        part.add_lateral();
+      if (all.is_rail)
+        continue;
+      part.add_stitch_wires();
+      part.add_droppers();
+    }
     for (std::size_t i = 0; i < pantographs.size(); ++i)
-      add_pantograph(pantographs[i], pantograph_items[i], scene);
+      add_pantograph(pantographs[i], pantograph_items[i], line, scene);
   }
 
   namespace

@@ -3,9 +3,9 @@
 #include "catenary.h"
 
 #include <taut/base/exceptions.h>
+#include <taut/base/nearest_name.h>
 #include <taut/base/text.h>
 #include <taut/scene/entries.h>
-#include <taut/scene/shared_places.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,47 +13,107 @@
 
 namespace taut
 {
-  /// Checks of an overhead line beyond those of any scene.
-  void Catenary::check_line() const
+  namespace
   {
-    if (!(span_length > 0.))
-      throw EntryError("Catenary/Span length", "it must be positive");
-    constexpr double longest = 1e9;
-    if (!(n_spans * span_length <= longest))
-      throw EntryError("Catenary/Span length", "the line would be " +
-                                                   to_text(n_spans * span_length) +
-                                                   " m long; at most 1e9 m are possible");
-    const std::pair<const WireItem *, const char *> wires[] = {{&contact, "Contact wire"},
-                                                               {&messenger, "Messenger wire"}};
-    for (const auto &[wire, section] : wires)
-      if (!(wire->tension > 0.))
-        throw EntryError(std::string("Catenary/") + section + "/Tension",
-                         "it must be positive: the wire of an overhead line hangs by its tension");
+    /// The ends of the line, first and last x.
+    std::pair<double, double> reach(const std::vector<TensionLength> &line)
+    {
+      std::pair<double, double> ends(line.front().begin(), line.front().end());
+      for (const TensionLength &part : line)
+        ends = {std::min(ends.first, part.begin()), std::max(ends.second, part.end())};
+      return ends;
+    }
+  } // namespace
 
-    const double length = n_spans * span_length;
-    for (const double x : uplift_positions)
-      if (!(x >= 0. && x <= length))
-        throw EntryError("Catenary/Uplift positions", to_text(x) +
-                                                          " m is outside wire 'contact', 0 to " +
-                                                          to_text(length) + " m");
-
-    droppers.check(span_length,
-                   std::min(same_place(contact.wire("contact", 0., length)),
-                            same_place(messenger.wire("messenger", 0., length))),
-                   is_in_space());
+  bool Catenary::is_in_space() const
+  {
+    if (kind == "conductor rail")
+      return false;
+    const std::vector<LineLayout> parts = layouts();
+    const bool has_stagger =
+        std::any_of(parts.begin(), parts.end(),
+                    [](const LineLayout &part)
+                    {
+                      return std::any_of(part.masts.begin(), part.masts.end(),
+                                         [](const LineMast &mast) {
+                                           return mast.contact_z != 0. || mast.messenger_z != 0.;
+                                         });
+                    });
+    return items.lateral || has_stagger || !items.contact.wind_load("Contact wire").is_zero() ||
+           !items.messenger.wind_load("Messenger wire").is_zero();
   }
 
-  void Catenary::check_pantographs() const
+  void Catenary::check_wires() const
   {
-    const double length = n_spans * span_length;
+    const bool is_rail = kind == "conductor rail";
+    const std::pair<const LineWireItem *, const char *> wires[] = {
+        {&items.contact, "Contact wire"}, {&items.messenger, "Messenger wire"}};
+    for (const auto &[wire, section] : wires)
+      if (!is_rail && !(wire->tension > 0.))
+        throw EntryError(std::string("Catenary/") + section + "/Tension",
+                         "it must be positive: the wire of an overhead line hangs by its tension");
+    for (std::size_t i = 0; i < items.masses.items.size(); ++i)
+    {
+      std::vector<std::string> known = {"contact", "messenger"};
+      for (const std::string &name : tension_lengths.names)
+        for (const char *const wire : {"contact ", "messenger "})
+          known.push_back(wire + name);
+      const std::string &wire = items.masses.items[i].wire;
+      if (std::find(known.begin(), known.end(), wire) == known.end())
+        throw EntryError(items.masses.title(i) + "/Wire",
+                         "'" + wire + "' is not a wire" + suggestion(wire, known));
+    }
+  }
+
+  void Catenary::check_uplift_positions(const Line &line) const
+  {
+    for (const double x : uplift_positions)
+    {
+      const bool is_on_wire = std::any_of(line.begin(), line.end(),
+                                          [&](const TensionLength &part)
+                                          { return x >= part.begin() && x <= part.end(); });
+      if (is_on_wire)
+        continue;
+      const auto [first, last] = reach(line);
+      throw EntryError("Catenary/Uplift positions",
+                       to_text(x, " m is outside wire 'contact', ", first, " to ", last, " m"));
+    }
+  }
+
+  void Catenary::check_lists(const PantographItem &item, const std::string &section) const
+  {
+    const std::size_t n = item.masses.size();
+    if (item.stiffnesses.size() != n || item.dampings.size() != n)
+      throw EntryError(section, "Masses, Stiffnesses and Dampings are lists of one length; got " +
+                                    std::to_string(n) + ", " +
+                                    std::to_string(item.stiffnesses.size()) + ", " +
+                                    std::to_string(item.dampings.size()));
+    for (const auto &[list, entry] : {std::pair(&item.lift, "/Lift"),
+                                      {&item.stop_gaps, "/Bump stop gaps"},
+                                      {&item.stop_stiffnesses, "/Bump stop stiffnesses"}})
+      if (!list->empty() && list->size() != n)
+        throw EntryError(section + entry, std::to_string(list->size()) + " values for " +
+                                              std::to_string(n) +
+                                              " Masses; give one for each, or none");
+    for (std::size_t i = 0; i < item.stop_gaps.size(); ++i)
+      if (item.stop_gaps[i] > 0. &&
+          !(i < item.stop_stiffnesses.size() && item.stop_stiffnesses[i] > 0.))
+        throw EntryError(section + "/Bump stop stiffnesses",
+                         "give a positive one for each bump stop, of mass " +
+                             std::to_string(i + 1) + " too");
+  }
+
+  void Catenary::check_pantographs(const Line &line) const
+  {
+    const auto [first, last] = reach(line);
     for (std::size_t i = 0; i < pantographs.size(); ++i)
     {
       const PantographItem &item = pantograph_items[i];
       const std::string section = "Catenary/Pantograph " + pantographs[i];
-      if (!(item.start >= 0. && item.start <= length))
+      if (!(item.start >= first && item.start <= last))
         throw EntryError(section + "/Start", "the pantograph would stand outside the line, which "
-                                             "reaches from 0 to " +
-                                                 to_text(length) + " m");
+                                             "reaches from " +
+                                                 to_text(first, " to ", last) + " m");
       if (item.static_force < 0.)
         throw EntryError(section + "/Static force",
                          "it pushes the pantograph up, against the contact wire; a negative one "

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <set>
 #include <tuple>
 
@@ -74,6 +75,12 @@ namespace taut
              " m from the origin, so far that its elements of ",
              std::min(length, wire.element_size),
              " m are lost in rounding; put the origin beside it");
+      for (const TensionChange &c : wire.tension_changes)
+        if (!(c.from >= 0. && c.from < c.to && c.to <= length * (1. + 1e-12)) ||
+            !(wire.tension + c.change > 0.))
+          fail(wire, "Tension changes", what, "from ", c.from, " to ", c.to, " m by ", c.change,
+               " N: the part has to be inside the wire, 0 to ", length,
+               " m, and its tension positive");
       if (wire.has_axial && !(wire.axial_stiffness > 0.))
         fail(wire, "Axial stiffness", what, "a bar needs a positive one");
       if (wire.transverse == TransverseKind::string && !(wire.tension > 0.))
@@ -239,12 +246,13 @@ namespace taut
         return; // the length of the body is known when the body is made
       if (link.to.kind != Attachment::Kind::wire)
         fail(link, "To", what, "a sliding contact slides on a wire or a cable, 'wire @ start'");
-      const double end = link.to.position + link.speed * end_time;
       const Wire &wire = scene.wires[link.to.index];
       if (wire.transverse == TransverseKind::none)
         fail(link, "To", what, "it slides under wire '", wire.name,
              "', which has no transverse motion; give the wire the component string or beam");
-      const double length = wire.length();
+      if (!link.strip.empty())
+        return; // another wire may be there, see check_strips()
+      const double length = wire.length(), end = link.to.position + link.speed * end_time;
       if (!(end >= -1e-9 * length && end <= (1. + 1e-9) * length))
       {
         const double last = ((link.speed > 0. ? length : 0.) - link.to.position) / link.speed;
@@ -272,14 +280,45 @@ namespace taut
                "': the one before it is between the same two points; remove one of the positions");
     }
 
+    /// Each strip has a wire over it at all times.
+    void check_strips(const Scene &scene, const double end_time)
+    {
+      std::map<std::string, std::vector<const Link *>> strips;
+      for (const Link &link : scene.links)
+        if (link.moving() && !link.strip.empty())
+          strips[link.strip].push_back(&link);
+      for (const auto &[name, links] : strips)
+      {
+        // Parts of the way under each wire, from first to last.
+        std::vector<std::pair<double, double>> parts;
+        for (const Link *link : links)
+          parts.emplace_back(-link->to.position,
+                             scene.wires[link->to.index].length() - link->to.position);
+        std::sort(parts.begin(), parts.end());
+        const double end = links.front()->speed * end_time, first = std::min(0., end),
+                     last = std::max(0., end), same = 1e-9 * (std::fabs(end) + 1.);
+        double reached = first;
+        for (const auto &[from, to] : parts)
+          if (from <= reached + same)
+            reached = std::max(reached, to);
+        if (!(parts.front().first <= first + same && reached >= last - same))
+          fail(*links.front(), "To", "strip '", name, "': no wire is over it ",
+               std::max(0., parts.front().first > first + same ? parts.front().first : reached),
+               " m from its start, on a way of ", end,
+               " m. Lengthen the wires, or end the run earlier");
+      }
+    }
+
     void check_links(const Scene &scene, const double end_time)
     {
       check_repeated(scene);
+      check_strips(scene, end_time);
       for (const Link &link : scene.links)
       {
         const std::string what = "link '" + link.name + "': ";
         check_attachment(scene, link.from, link.rotational, link, "From", what);
-        check_attachment(scene, link.to, link.rotational, link, "To", what);
+        if (link.strip.empty())
+          check_attachment(scene, link.to, link.rotational, link, "To", what);
         if (link.from.kind == Attachment::Kind::ground && link.to.kind == Attachment::Kind::ground)
           fail(link, "To", what, "both ends are the ground");
         if (!link.moving() && same_point(link.from, link.to))

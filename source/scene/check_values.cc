@@ -96,6 +96,8 @@ namespace taut
         of.not_negative(wire.bending_stiffness, "Bending stiffness");
         of.not_negative(wire.damping.mass, "Mass damping");
         of.not_negative(wire.damping.stiffness, "Stiffness damping");
+        of.not_negative(wire.foundation_stiffness, "Foundation stiffness");
+        of.not_negative(wire.foundation_damping, "Foundation damping");
         if (wire.degree < 1 || wire.degree > most_degree)
           fail(wire, "Degree", "wire '", wire.name, "': its Degree is ", wire.degree,
                "; take 1 to ", most_degree);

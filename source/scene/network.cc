@@ -4,6 +4,7 @@
 
 #include <taut/base/exceptions.h>
 #include <taut/base/nearest_name.h>
+#include <taut/base/text.h>
 #include <taut/scene/entries.h>
 
 #include <algorithm>
@@ -15,6 +16,22 @@ namespace taut
     bool contains(const std::vector<std::string> &list, const std::string &name)
     {
       return std::find(list.begin(), list.end(), name) != list.end();
+    }
+
+    /// From "from, to, change; from, to, change".
+    std::vector<TensionChange> tension_changes(const std::string &text, const std::string &entry)
+    {
+      std::vector<TensionChange> result;
+      for (const std::string &part : split(text, ';'))
+      {
+        const std::vector<double> numbers = parse_positions(part, entry);
+        if (numbers.size() != 3)
+          throw EntryError(entry, "'" + part +
+                                      "': give three numbers, 'from, to, change', and ';' "
+                                      "between the parts");
+        result.push_back({numbers[0], numbers[1], numbers[2]});
+      }
+      return result;
     }
 
     std::size_t wire_index(const Scene &scene, const std::string &name, const std::string &title)
@@ -84,6 +101,9 @@ namespace taut
                                                          : MassMatrix::consistent;
       wire.element_size = item.element_size;
       wire.damping = {item.mass_damping, item.stiffness_damping};
+      wire.foundation_stiffness = item.foundation_stiffness;
+      wire.foundation_damping = item.foundation_damping;
+      wire.tension_changes = tension_changes(item.tension_changes, title + "/Tension changes");
       wire.weight = item.weight;
       const auto start =
           [&](const WireMotion motion, const std::string &displacement, const std::string &velocity)

@@ -26,6 +26,8 @@ namespace taut
       unsigned int degree = 2;
       std::string mass_matrix = "consistent";
       double element_size = 1., mass_damping = 0., stiffness_damping = 0.;
+      double foundation_stiffness = 0., foundation_damping = 0.;
+      std::string tension_changes;
       bool weight = true;
       std::string axial_displacement = "0", axial_velocity = "0";
       std::string transverse_displacement = "0", transverse_velocity = "0";

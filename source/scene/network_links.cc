@@ -3,6 +3,7 @@
 #include "network.h"
 
 #include <taut/base/exceptions.h>
+#include <taut/base/text.h>
 #include <taut/scene/contact_surface.h>
 #include <taut/scene/entries.h>
 
@@ -184,6 +185,49 @@ namespace taut
     }
   } // namespace
 
+  namespace
+  {
+    /// The wires that `To` of a sliding contact lists, each as "wire" or "wire @ start"; empty if
+    /// it is no such list.
+    std::vector<std::string> wires_of_strip(const Network::LinkItem &item, const Scene &scene)
+    {
+      const std::vector<std::string> parts = split(item.to, ',');
+      const bool are_wires = std::all_of(
+          parts.begin(), parts.end(),
+          [&](const std::string &part)
+          { return find_name(scene.wires, trim(part.substr(0, part.find('@')))) != ground; });
+      return item.type == "sliding contact" && parts.size() > 1 && are_wires
+                 ? parts
+                 : std::vector<std::string>();
+    }
+
+    /// A link to each wire over a strip. Without a start of its own it is below `From` along the
+    /// wire, also before its begin.
+    void add_strip(Link link, const std::vector<std::string> &wires, Scene &scene)
+    {
+      link.strip = link.name;
+      for (const std::string &text : wires)
+      {
+        const std::size_t at = text.find('@');
+        const std::string name = trim(text.substr(0, at));
+        const std::size_t index = find_name(scene.wires, name);
+        const Wire &wire = scene.wires[index];
+        link.name = link.strip + " on " + name;
+        link.to = {Attachment::Kind::wire, index,
+                   dot(place(scene, link.from) - wire.a, wire.tangent())};
+        if (at != std::string::npos)
+        {
+          const std::vector<double> start =
+              parse_positions(text.substr(at + 1), link.origin + "/To");
+          if (start.size() != 1)
+            throw EntryError(link.origin + "/To", "a strip has one start on each wire");
+          link.to.position = start[0];
+        }
+        scene.links.push_back(link);
+      }
+    }
+  } // namespace
+
   void Network::add_links(Scene &scene) const
   {
     for (std::size_t i = 0; i < links.items.size(); ++i)
@@ -192,6 +236,19 @@ namespace taut
       const std::string title = links.title(i);
       Link link = link_without_ends(item, title);
       const auto from = parse_attachments(item.from, scene, title + "/From");
+      if (const auto wires = wires_of_strip(item, scene); !wires.empty())
+      {
+        if (from.size() != 1 || from[0].kind != Attachment::Kind::mass)
+          throw EntryError(title + "/From", "the strip that slides along several wires is a mass");
+        if (item.direction.empty())
+          throw EntryError(title + "/Direction",
+                           "give that in which the strip pushes, e.g. '0, 1'");
+        link.name = links.names[i];
+        link.from = from[0];
+        link.direction = parse_direction_or_axis(item.rotational, item.direction, item.axis, title);
+        add_strip(link, wires, scene);
+        continue;
+      }
       const auto to = parse_attachments(item.to, scene, title + "/To");
       if (from.size() != to.size() && from.size() != 1 && to.size() != 1)
         throw EntryError(title, "From has " + std::to_string(from.size()) + " positions and To " +

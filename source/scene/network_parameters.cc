@@ -74,6 +74,15 @@ namespace taut
                       not_negative());
     prm.add_parameter("Stiffness damping", stiffness_damping, "Rayleigh damping, times K [s]",
                       not_negative());
+    prm.add_parameter("Foundation stiffness", foundation_stiffness,
+                      "Of an elastic bedding along the wire, across it [N/m^2]", not_negative());
+    prm.add_parameter("Foundation damping", foundation_damping, "Of the bedding [N s/m^2]",
+                      not_negative());
+    prm.add_parameter(
+        "Tension changes", tension_changes,
+        "Parts with another tension, 'from, to, change; from, to, change', e.g. where a "
+        "stitch wire takes its own [m, m, N]",
+        Anything());
     prm.add_parameter("Weight", weight, "Whether gravity acts on the wire");
     prm.add_parameter("Initial axial displacement", axial_displacement,
                       "At t = 0 if 'Start = given', a formula in s [m]");
@@ -163,8 +172,11 @@ namespace taut
         "From", from,
         "'ground', 'ground @ x, y, z', a mass, 'wire @ position' or 'body @ x, y, z'; several "
         "positions (numbers and ranges first:step:last) make one link each");
-    prm.add_parameter("To", to,
-                      "As From; for a sliding contact 'wire @ start' or 'cable @ start, 0'");
+    prm.add_parameter(
+        "To", to,
+        "As From; for a sliding contact 'wire @ start' or 'cable @ start, 0', or the wires "
+        "over a strip, 'wire, other wire', each from below From unless a start is "
+        "given; it may run beyond their ends");
     prm.add_parameter("Direction", direction,
                       "'x, y' or 'x, y, z' from From to To; a stop or sliding contact pushes To "
                       "along it. Empty: along the straight line between the ends",

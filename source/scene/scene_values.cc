@@ -2,6 +2,7 @@
 #include <taut/base/archive.h>
 #include <taut/base/exceptions.h>
 #include <taut/scene/scene_values.h>
+#include <taut/scene/travel.h>
 
 #include <type_traits>
 
@@ -48,11 +49,21 @@ namespace taut
       void write(const Expression &e) { all(e.formula(), e.depends_on_time()); }
       void write(const InitialMotion &m) { all(m.displacement, m.velocity); }
       void write(const Attachment &a) { all(a.kind, a.index, a.position, a.place, a.has_place); }
+      void write(const std::vector<TensionChange> &changes)
+      {
+        for (const TensionChange &c : changes)
+          all(c.from, c.to, c.change);
+      }
+      void write(const std::shared_ptr<const Travel> &travel)
+      {
+        write(travel ? travel->text() : std::string());
+      }
       void write(const Wire &w)
       {
         all(w.name, w.origin, w.a, w.b, w.mass_per_length, w.has_axial, w.axial_stiffness,
             w.transverse, w.has_lateral, w.tension, w.bending_stiffness, w.degree, w.mass_matrix,
-            w.element_size, w.damping.mass, w.damping.stiffness, w.weight, w.axial_start,
+            w.element_size, w.damping.mass, w.damping.stiffness, w.tension_changes,
+            w.foundation_stiffness, w.foundation_damping, w.weight, w.axial_start,
             w.transverse_start, w.lateral_start);
       }
       void write(const Support &s)
@@ -78,15 +89,15 @@ namespace taut
       {
         all(l.name, l.origin, l.kind, l.from, l.to, l.rotational, l.direction, l.stiffness,
             l.law ? l.law->description() : std::string(), l.damping, l.gap, l.turns,
-            l.unstressed_length, l.speed, l.straight, l.profile, l.form.find_length,
-            l.form.prescribed_displacement, l.form.axial_stiffness, l.form.mass_per_length,
-            l.length, l.form.find_direction, l.sideways.direction, l.sideways.stiffness,
-            l.sideways.gap, l.contact_mass);
+            l.unstressed_length, l.speed, l.travel, l.strip, l.straight, l.profile,
+            l.form.find_length, l.form.prescribed_displacement, l.form.axial_stiffness,
+            l.form.mass_per_length, l.length, l.form.find_direction, l.sideways.direction,
+            l.sideways.stiffness, l.sideways.gap, l.contact_mass);
       }
       void write(const Load &l)
       {
         all(l.name, l.origin, l.kind, l.target, l.rotational, l.direction, l.magnitude, l.speed,
-            l.acts_while_built);
+            l.travel, l.acts_while_built);
       }
       void write(const Probe &p) { all(p.name, p.origin, p.point, p.rotational, p.direction); }
 

@@ -2,6 +2,7 @@
 #include "entry_check.h"
 #include "file_text.h"
 
+#include <taut/base/csv_table.h>
 #include <taut/base/exceptions.h>
 #include <taut/base/nearest_name.h>
 #include <taut/scene/entries.h>
@@ -214,6 +215,7 @@ namespace taut
             file.set(o);
         });
     file.broadcast(processes);
+    set_data_folder(std::filesystem::path(file.name()).parent_path().string());
     try
     {
       declare_in_passes(file.text());

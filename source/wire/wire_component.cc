@@ -82,15 +82,25 @@ namespace taut
       }
     }
 
-    /// M and K of one element after the other.
+    /// Tension at a place of a wire.
+    double tension_at(const Wire &wire, const double s)
+    {
+      double tension = wire.tension;
+      for (const TensionChange &c : wire.tension_changes)
+        if (s > c.from && s < c.to)
+          tension += c.change;
+      return tension;
+    }
+
+    /// M and K of one element after the other, and the matrix of a bedding of stiffness 1.
     class ElementMatrices
     {
     public:
-      ElementMatrices(const Wire &wire, const double stretch, const bool beam,
-                      const unsigned int degree, const dealii::FiniteElement<1, 3> &element,
+      ElementMatrices(const Wire &wire, const bool beam, const unsigned int degree,
+                      const dealii::FiniteElement<1, 3> &element,
                       const dealii::Quadrature<1> &quadrature)
-          : m(element.n_dofs_per_cell()), k(element.n_dofs_per_cell()), wire(wire),
-            stretch(stretch), beam(beam),
+          : m(element.n_dofs_per_cell()), k(element.n_dofs_per_cell()),
+            bedding(element.n_dofs_per_cell()), wire(wire), beam(beam),
             exact_mass(beam || wire.mass_matrix == MassMatrix::consistent),
             values(element, quadrature,
                    dealii::update_values | dealii::update_gradients |
@@ -104,14 +114,14 @@ namespace taut
       {
       }
 
-      void compute(const dealii::DoFHandler<1, 3>::active_cell_iterator &cell)
+      void compute(const dealii::DoFHandler<1, 3>::active_cell_iterator &cell, const double stretch)
       {
         values.reinit(cell);
         if (!exact_mass)
           own_mass_values.reinit(cell);
         const dealii::FEValues<1, 3> &mass_values = exact_mass ? values : own_mass_values;
         const dealii::Tensor<1, 3> t = (cell->vertex(1) - cell->vertex(0)) / cell->diameter();
-        m = k = 0.;
+        m = k = bedding = 0.;
         for (unsigned int i = 0; i < m.m(); ++i)
           for (unsigned int j = 0; j <= i; ++j)
           {
@@ -121,6 +131,7 @@ namespace taut
             for (const unsigned int q : values.quadrature_point_indices())
             {
               const double JxW = values.JxW(q);
+              bedding(i, j) += values.shape_value(i, q) * values.shape_value(j, q) * JxW;
               k(i, j) +=
                   stretch * (values.shape_grad(i, q) * t) * (values.shape_grad(j, q) * t) * JxW;
               if (beam)
@@ -130,11 +141,10 @@ namespace taut
           }
       }
 
-      dealii::FullMatrix<double> m, k;
+      dealii::FullMatrix<double> m, k, bedding;
 
     private:
       const Wire &wire;
-      const double stretch;
       const bool beam, exact_mass;
       dealii::FEValues<1, 3> values, own_mass_values;
     };
@@ -201,6 +211,7 @@ namespace taut
       rotation_axis = wire.rotation_axis(motion);
     }
     bends_freely = beam && wire.tension == 0.;
+    is_bedded = motion != WireMotion::axial && wire.foundation_stiffness > 0.;
     degree = beam ? 3 : wire.degree;
     dofs_per_node = beam ? 2 : degree;
     mass_matrix = wire.mass_matrix;
@@ -344,22 +355,25 @@ namespace taut
 
   void WireComponent::assemble(const Wire &wire)
   {
-    const double stretch = motion == WireMotion::axial ? wire.axial_stiffness : wire.tension;
-    ElementMatrices element(wire, stretch, beam, degree, *discretisation->element,
+    const bool is_axial = motion == WireMotion::axial;
+    ElementMatrices element(wire, beam, degree, *discretisation->element,
                             discretisation->quadrature);
     const unsigned int n = discretisation->element->n_dofs_per_cell();
     std::vector<dealii::types::global_dof_index> dofs(n);
     std::vector<LinearForm> inertial;
     // Elements whose lengths differ by the rounding of their positions alone share their matrices.
     const double rounding = 4. * std::numeric_limits<double>::epsilon() * wire_length;
-    double length = -1.;
+    double length = -1., stretch = 0.;
     std::size_t e = 0;
     for (const auto &cell : discretisation->dof_handler.active_cell_iterators())
     {
       const double own_length = nodes[e + 1] - nodes[e];
-      if (std::fabs(own_length - length) > rounding)
+      const double own_stretch =
+          is_axial ? wire.axial_stiffness : tension_at(wire, .5 * (nodes[e] + nodes[e + 1]));
+      if (std::fabs(own_length - length) > rounding || own_stretch != stretch)
       {
-        element.compute(cell);
+        stretch = own_stretch;
+        element.compute(cell, stretch);
         length = own_length;
       }
       cell->get_dof_indices(dofs);
@@ -378,5 +392,27 @@ namespace taut
     }
     C->add(wire.damping.mass, *M);
     C->add(wire.damping.stiffness, *K);
+    if (!is_axial && (wire.foundation_stiffness != 0. || wire.foundation_damping != 0.))
+      add_bedding(wire);
+  }
+
+  /// After the damping of the wire itself: that of its bedding is given apart.
+  void WireComponent::add_bedding(const Wire &wire)
+  {
+    ElementMatrices element(wire, beam, degree, *discretisation->element,
+                            discretisation->quadrature);
+    const unsigned int n = discretisation->element->n_dofs_per_cell();
+    std::vector<dealii::types::global_dof_index> dofs(n);
+    for (const auto &cell : discretisation->dof_handler.active_cell_iterators())
+    {
+      element.compute(cell, 0.);
+      cell->get_dof_indices(dofs);
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j <= i; ++j)
+        {
+          K->add(dofs[i], dofs[j], wire.foundation_stiffness * element.bedding(i, j));
+          C->add(dofs[i], dofs[j], wire.foundation_damping * element.bedding(i, j));
+        }
+    }
   }
 } // namespace taut

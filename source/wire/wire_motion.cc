@@ -121,6 +121,8 @@ namespace taut
   {
     // Rigid body modes q0 + q1 (s - middle)/(L/2), with q1 only for a beam without tension. Each
     // DoF that supports hold is one condition on (q0, q1).
+    if (is_bedded)
+      return {};
     const double half = .5 * (nodes.back() - nodes.front()), middle = nodes.front() + half;
     const unsigned int n_rigid = bends_freely ? 2 : 1;
     std::vector<std::pair<double, double>> conditions;

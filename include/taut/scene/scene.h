@@ -17,6 +17,8 @@
 
 namespace taut
 {
+  class Travel;
+
   /// A scalar motion of a point of a wire: along the wire, along its normal, the slope of this
   /// displacement, along its binormal, and the slope of that displacement.
   enum class WireMotion
@@ -83,6 +85,14 @@ namespace taut
     Expression velocity;     ///< [m/s]
   };
 
+  /// A part of a wire with another tension: a stitch wire takes its own from the messenger wire
+  /// between its clamps.
+  struct TensionChange
+  {
+    double from, to; ///< s of the ends of the part [m]
+    double change;   ///< to add to the tension [N]
+  };
+
   /// A straight wire from a to b that moves by small amounts; take a cable for large motions. Each
   /// component of a wire is an independent scalar problem.
   struct Wire
@@ -101,7 +111,10 @@ namespace taut
     MassMatrix mass_matrix = MassMatrix::consistent;
     double element_size = 1.; ///< largest element [m]
     RayleighDamping damping;
-    bool weight = true; ///< gravity acts
+    std::vector<TensionChange> tension_changes;
+    double foundation_stiffness = 0.; ///< of an elastic bedding across the wire, per length [N/m^2]
+    double foundation_damping = 0.;   ///< of the bedding, per length [N s/m^2]
+    bool weight = true;               ///< gravity acts
     InitialMotion axial_start, transverse_start, lateral_start;
 
     double length() const;
@@ -274,6 +287,14 @@ namespace taut
 
     double speed = 0.; ///< of the `to` end along its wire [m/s]
 
+    /// Way of the `to` end in time; null: the constant speed.
+    std::shared_ptr<const Travel> travel = {};
+
+    /// Of a sliding contact: the name of its strip, if that may touch several wires, each by a link
+    /// of its own. Such a link may run beyond the ends of its wire, where it does not touch. Empty:
+    /// it has to remain on its wire.
+    std::string strip = {};
+
     /// The speed of a contact on a cable is that in space, along the line between the given ends of
     /// the cable and across `direction`, not that along the unstressed length.
     bool straight = false;
@@ -312,6 +333,9 @@ namespace taut
     Coordinates direction = {0., 1.};
     Expression magnitude; ///< [N, N m; N/m if distributed]
     double speed = 0.;    ///< of a moving force [m/s]
+
+    /// Way of a moving force in time; null: the constant speed.
+    std::shared_ptr<const Travel> travel = {};
 
     /// False: form finding of droppers leaves the load out.
     bool acts_while_built = true;

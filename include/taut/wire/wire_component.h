@@ -76,6 +76,7 @@ namespace taut
 
     void find_massless_dofs(const Scene &scene, std::size_t wire);
     void assemble(const Wire &wire);
+    void add_bedding(const Wire &wire);
     std::vector<LinearForm> inertial_forms(std::size_t element) const;
     void add_supports(const Scene &scene, std::size_t wire);
     void add_point_masses(const Scene &scene, std::size_t wire, double gravity);
@@ -93,6 +94,7 @@ namespace taut
     WireMotion motion;
     bool beam = false;
     bool bends_freely = false; ///< no tension: a rigid rotation costs nothing
+    bool is_bedded = false;    ///< a foundation resists rigid motions
     unsigned int degree = 1, dofs_per_node = 1;
     MassMatrix mass_matrix = MassMatrix::consistent;
     InitialMotion start;

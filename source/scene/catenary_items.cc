@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "catenary_items.h"
+
+#include <taut/base/patterns.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+namespace taut
+{
+  using namespace dealii::Patterns;
+
+  void LineWireItem::declare(dealii::ParameterHandler &prm, const std::string &section,
+                             const bool has_wind)
+  {
+    prm.enter_subsection(section);
+    prm.add_parameter("Model", model, "'beam': tension and bending; 'string': tension only",
+                      Selection("beam|string"));
+    prm.add_parameter("Mass per length", mass_per_length, "[kg/m]", not_negative());
+    prm.add_parameter("Tension", tension, "[N]", not_negative());
+    prm.add_parameter("Bending stiffness", bending_stiffness, "EI; not used by a string [N m^2]",
+                      not_negative());
+    prm.add_parameter("Element size", element_size, "Largest length of an element [m]",
+                      not_negative());
+    prm.add_parameter("Degree", degree, "Polynomial degree of string elements [1]", Integer(1, 4));
+    prm.add_parameter("Mass damping", mass_damping, "Rayleigh damping, times the mass [1/s]",
+                      not_negative());
+    prm.add_parameter("Stiffness damping", stiffness_damping,
+                      "Rayleigh damping, times the stiffness [s]", not_negative());
+    if (has_wind)
+      prm.add_parameter(
+          "Wind", wind,
+          "Load along z, a formula in t and in s (= x); lengths of droppers are found "
+          "without it [N/m]",
+          Anything());
+    prm.leave_subsection();
+  }
+
+  Wire LineWireItem::wire(const std::string &name, const std::string &section, const Coordinates &a,
+                          const Coordinates &b) const
+  {
+    Wire wire;
+    wire.name = name;
+    wire.origin = "Catenary/" + section;
+    wire.a = a;
+    wire.b = b;
+    wire.mass_per_length = mass_per_length;
+    wire.transverse = model == "beam" ? TransverseKind::beam : TransverseKind::string;
+    wire.tension = tension;
+    wire.bending_stiffness = model == "beam" ? bending_stiffness : 0.;
+    wire.degree = degree;
+    wire.element_size = element_size;
+    wire.damping = {mass_damping, stiffness_damping};
+    return wire;
+  }
+
+  Expression LineWireItem::wind_load(const std::string &section) const
+  {
+    return Expression(wind, "Catenary/" + section + "/Wind");
+  }
+
+  void LineSupportsItem::declare(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Supports");
+    prm.add_parameter("Messenger stiffness", messenger_stiffness,
+                      "Of the messenger's supports at the inner masts; a number or 'rigid' [N/m]",
+                      Anything());
+    prm.add_parameter("Messenger damping", messenger_damping,
+                      "Beside a stiffness that is a number [N s/m]", not_negative());
+    prm.add_parameter(
+        "Arm kind", arm_kind,
+        "Steady arm at each inner mast. 'point mass': a mass on the contact wire, whose weight the "
+        "arm carries. 'hinged': a uniform bar on a hinge at the mast and clamped to the wire; it "
+        "moves "
+        "as a lever, so that a third of its mass moves with the wire, and the wire carries half of "
+        "its weight",
+        Selection("point mass|hinged"));
+    prm.add_parameter("Arm mass", arm_mass, "[kg]", not_negative());
+    prm.add_parameter("Arm stiffness", arm_stiffness, "Vertical [N/m]", not_negative());
+    prm.add_parameter("Arm damping", arm_damping, "Vertical [N s/m]", not_negative());
+    prm.leave_subsection();
+  }
+
+  void LineDropperItem::declare(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Droppers");
+    prm.add_parameter("Stiffness", stiffness,
+                      "In tension; none in compression; a number or 'rigid' [N/m]", Anything());
+    prm.add_parameter("Axial stiffness", axial_stiffness,
+                      "EA; if not 0, the stiffness is EA / length [N]", not_negative());
+    prm.add_parameter("Damping", damping, "[N s/m]", not_negative());
+    prm.add_parameter("Mass per length", mass_per_length,
+                      "Half of a dropper's mass goes to each wire [kg/m]", not_negative());
+    prm.add_parameter("Messenger clamp mass", messenger_clamp_mass, "[kg]", not_negative());
+    prm.add_parameter("Contact clamp mass", contact_clamp_mass, "[kg]", not_negative());
+    prm.leave_subsection();
+  }
+
+  void LineMassItem::declare(dealii::ParameterHandler &prm)
+  {
+    prm.add_parameter(
+        "Wire", wire,
+        "'contact' or 'messenger', of all tension lengths that reach the positions, or "
+        "the name of one wire",
+        Anything());
+    prm.add_parameter("Positions", positions, "x: numbers and ranges first:step:last [m]",
+                      Anything());
+    prm.add_parameter("Mass", mass, "Of each; it hangs on the wire with its weight [kg]",
+                      not_negative());
+  }
+} // namespace taut

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_catenary_items_h
+#define taut_catenary_items_h
+
+#include <taut/scene/named_items.h>
+#include <taut/scene/scene.h>
+
+#include <string>
+#include <vector>
+
+namespace taut
+{
+  /// A wire of an overhead line, without its places.
+  struct LineWireItem
+  {
+    std::string model = "beam";
+    double mass_per_length, tension, bending_stiffness, element_size;
+    double mass_damping = 0.0125, stiffness_damping = 1e-4;
+    unsigned int degree = 2;
+    std::string wind = "0";
+
+    void declare(dealii::ParameterHandler &prm, const std::string &section, bool has_wind);
+
+    /// From a to b; @p section is that of the item.
+    Wire wire(const std::string &name, const std::string &section, const Coordinates &a,
+              const Coordinates &b) const;
+
+    Expression wind_load(const std::string &section) const;
+  };
+
+  /// What holds the wires at the inner masts.
+  struct LineSupportsItem
+  {
+    std::string messenger_stiffness = "rigid";
+    double messenger_damping = 0.;
+    std::string arm_kind = "point mass";
+    double arm_mass = 1., arm_stiffness = 0., arm_damping = 0.;
+    void declare(dealii::ParameterHandler &prm);
+  };
+
+  /// The droppers of an overhead line, without their places and lengths.
+  struct LineDropperItem
+  {
+    std::string stiffness = "100000";
+    double damping = 0., axial_stiffness = 0., mass_per_length = 0.;
+    double messenger_clamp_mass = 0., contact_clamp_mass = 0.;
+    void declare(dealii::ParameterHandler &prm);
+  };
+
+  /// Masses on a wire of an overhead line, such as insulators and clamps.
+  struct LineMassItem
+  {
+    std::string wire = "contact", positions;
+    double mass = 0.;
+    void declare(dealii::ParameterHandler &prm);
+  };
+
+  /// All that the tension lengths of an overhead line share.
+  struct LineItems
+  {
+    bool is_rail = false; ///< a contact wire without a messenger wire
+    LineWireItem contact{"beam", 1.35, 20000., 195., .5},
+        messenger{"beam", 1.07, 16000., 131.7, .5}, stitch{"beam", .34, 3500., 0., .5};
+    LineSupportsItem supports;
+    LineDropperItem droppers;
+    NamedItems<LineMassItem> masses{"Catenary", "Point masses", "Point mass",
+                                    "masses on the wires, e.g. insulators and clamps"};
+    bool lateral = false; ///< as an entry; see is_in_space
+
+    /// Wires move along z, too.
+    bool is_in_space = false;
+  };
+} // namespace taut
+
+#endif

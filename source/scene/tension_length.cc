@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "tension_length.h"
+
+#include <taut/base/exceptions.h>
+#include <taut/base/text.h>
+#include <taut/scene/entries.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+#include <utility>
+
+namespace taut
+{
+  TensionLength::TensionLength(const LineItems &items, const LineLayout &layout,
+                               const std::string &name, const std::string &section, Scene &scene)
+      : items(items), line(layout), name(name), section(section), scene(scene),
+        stitches(layout.masts.size(), ground)
+  {
+    const double above = line.masts.front().height + line.masts.front().encumbrance;
+    if (!items.is_rail)
+    {
+      messenger = scene.wires.size();
+      scene.wires.push_back(items.messenger.wire(named("messenger"), "Messenger wire",
+                                                 {begin(), above}, {end(), above}));
+    }
+    contact = scene.wires.size();
+    scene.wires.push_back(
+        items.contact.wire(named("contact"), "Contact wire", {begin(), 0.}, {end(), 0.}));
+  }
+
+  /// "contact", or "contact A" of a line with several tension lengths.
+  std::string TensionLength::named(const std::string &what) const
+  {
+    return name.empty() ? what : what + " " + name;
+  }
+
+  void TensionLength::hold(Support support, const std::vector<double> &s,
+                           const std::vector<double> &displacement)
+  {
+    const std::string first = support.name;
+    if (std::all_of(displacement.begin(), displacement.end(),
+                    [](const double d) { return d == 0.; }))
+    {
+      support.positions = s;
+      scene.supports.push_back(support);
+      return;
+    }
+    for (std::size_t i = 0; i < s.size(); ++i)
+    {
+      support.name = first + " " + std::to_string(i + 1);
+      support.positions = {s[i]};
+      support.prescribed = Expression(support.fixed ? displacement[i] : 0.);
+      scene.supports.push_back(support);
+      if (support.fixed || support.stiffness * displacement[i] == 0.)
+        continue;
+      // The spring is free of force at its height.
+      Load load;
+      load.name = support.name + " height";
+      load.origin = support.origin;
+      load.target = {Attachment::Kind::wire, support.wire, s[i]};
+      load.direction = scene.wires[support.wire].axis(support.motion);
+      load.magnitude = Expression(support.stiffness * displacement[i]);
+      scene.loads.push_back(load);
+    }
+  }
+
+  void TensionLength::add_supports()
+  {
+    const LineMast &first = line.masts.front(), &last = line.masts.back();
+    const double above = first.height + first.encumbrance;
+    Support ends;
+    ends.origin = section;
+    if (!items.is_rail)
+    {
+      ends.name = scene.wires[messenger].name + " ends";
+      ends.wire = messenger;
+      hold(ends, {0., line.length()}, {0., last.height + last.encumbrance - above});
+    }
+    ends.name = scene.wires[contact].name + " ends";
+    ends.wire = contact;
+    hold(ends, {0., line.length()}, {first.height, last.height});
+
+    std::vector<double> masts, heights;
+    for (std::size_t i = 1; i + 1 < line.masts.size(); ++i)
+    {
+      masts.push_back(line.masts[i].x);
+      heights.push_back(line.masts[i].height + line.masts[i].encumbrance - above);
+    }
+    if (masts.empty())
+      return;
+    if (!items.is_rail)
+    {
+      const std::string entry = "Catenary/Supports/Messenger ";
+      Support mast;
+      mast.name = named("messenger") + " at masts";
+      mast.origin = "Catenary/Supports";
+      mast.wire = messenger;
+      const double stiffness =
+          parse_stiffness(items.supports.messenger_stiffness, entry + "stiffness");
+      mast.fixed = std::isinf(stiffness);
+      mast.stiffness = mast.fixed ? 0. : stiffness;
+      mast.damping = items.supports.messenger_damping;
+      if (mast.fixed && mast.damping > 0.)
+        throw EntryError(entry + "damping",
+                         "a rigid support has none; give it a Messenger stiffness in N/m");
+      hold(mast, masts, heights);
+    }
+    add_arms(masts);
+  }
+
+  void TensionLength::add_arms(const std::vector<double> &masts)
+  {
+    const LineSupportsItem &own = items.supports;
+    const bool is_hinged = own.arm_kind == "hinged";
+    if (own.arm_mass > 0.)
+    {
+      // Energy of a uniform bar about its end: (m l^2 / 3) (v / l)^2 / 2.
+      scene.point_masses.push_back({named("arm"), "Catenary/Supports", contact, masts,
+                                    is_hinged ? own.arm_mass / 3. : own.arm_mass, false});
+      if (is_hinged)
+        for (std::size_t i = 0; i < masts.size(); ++i)
+        {
+          Load weight;
+          weight.name = named("arm") + " weight " + std::to_string(i + 1);
+          weight.origin = "Catenary/Supports";
+          weight.target = {Attachment::Kind::wire, contact, masts[i]};
+          weight.magnitude = Expression(.5 * own.arm_mass * scene.gravity.y);
+          scene.loads.push_back(weight);
+        }
+    }
+    if (own.arm_stiffness > 0. || own.arm_damping > 0.)
+    {
+      Support arm;
+      arm.name = named("arm");
+      arm.origin = "Catenary/Supports";
+      arm.wire = contact;
+      arm.fixed = false;
+      arm.stiffness = own.arm_stiffness;
+      arm.damping = own.arm_damping;
+      hold(arm, masts, line.heights(masts));
+    }
+  }
+
+  void TensionLength::add_point_masses()
+  {
+    for (std::size_t i = 0; i < items.masses.items.size(); ++i)
+    {
+      const LineMassItem &item = items.masses.items[i];
+      const std::string title = items.masses.title(i);
+      for (const std::size_t wire : {messenger, contact})
+      {
+        if (wire == messenger && items.is_rail)
+          continue;
+        if (item.wire != scene.wires[wire].name &&
+            item.wire != (wire == contact ? "contact" : "messenger"))
+          continue;
+        PointMass mass{named(items.masses.names[i]), title, wire, {}, item.mass, true};
+        for (const double x : parse_positions(item.positions, title + "/Positions"))
+          if (x >= begin() && x <= end())
+            mass.positions.push_back(x - begin());
+        if (!mass.positions.empty())
+          scene.point_masses.push_back(mass);
+      }
+    }
+  }
+
+  void TensionLength::add_probes(const std::vector<double> &x)
+  {
+    std::vector<double> places = x;
+    if (x.empty())
+      for (std::size_t i = 1; i + 1 < line.masts.size(); ++i)
+        places.push_back(begin() + line.masts[i].x);
+    const bool whole = std::all_of(places.begin(), places.end(),
+                                   [](const double p) { return p == std::floor(p); });
+    for (const double place : places)
+    {
+      if (place < begin() || place > end())
+        continue;
+      Probe probe;
+      probe.origin = "Catenary/Uplift positions";
+      // All names have the same number of decimals, so that no two names differ by the point alone.
+      std::ostringstream text;
+      text << std::fixed << std::setprecision(whole ? 0 : 3)
+           << (name.empty() ? "contact wire" : named("contact")) << " at " << place << " m";
+      probe.name = text.str();
+      probe.point = {Attachment::Kind::wire, contact, place - begin()};
+      scene.probes.push_back(probe);
+    }
+  }
+
+  /// Supports along z at all masts, each with its own name and place.
+  void TensionLength::hold_aside(const std::size_t wire, const std::string &what,
+                                 double LineMast::*const stagger)
+  {
+    for (std::size_t mast = 0; mast < line.masts.size(); ++mast)
+    {
+      Support support;
+      support.name = named(what) + " " + std::to_string(mast);
+      support.origin = section;
+      support.wire = wire;
+      support.positions = {line.masts[mast].x};
+      support.motion = WireMotion::lateral;
+      support.prescribed = Expression(line.masts[mast].*stagger);
+      scene.supports.push_back(support);
+    }
+  }
+
+  void TensionLength::add_lateral()
+  {
+    hold_aside(messenger, "messenger aside at mast", &LineMast::messenger_z);
+    hold_aside(contact, "steady arm at mast", &LineMast::contact_z);
+    const std::pair<std::size_t, Expression> loads[] = {
+        {messenger, items.messenger.wind_load("Messenger wire")},
+        {contact, items.contact.wind_load("Contact wire")}};
+    for (const auto &[wire, load] : loads)
+    {
+      scene.wires[wire].has_lateral = true;
+      if (load.is_zero())
+        continue;
+      Load wind;
+      wind.name = "wind on " + scene.wires[wire].name;
+      wind.origin = scene.wires[wire].origin;
+      wind.kind = Load::Kind::distributed;
+      wind.target = {Attachment::Kind::wire, wire, 0.};
+      wind.direction = {0., 0., 1.};
+      wind.magnitude = load;
+      wind.acts_while_built = false;
+      scene.loads.push_back(wind);
+    }
+  }
+} // namespace taut

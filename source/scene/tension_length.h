@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef taut_tension_length_h
+#define taut_tension_length_h
+
+#include "catenary_items.h"
+#include "line_geometry.h"
+
+#include <taut/scene/scene.h>
+
+#include <string>
+#include <vector>
+
+namespace taut
+{
+  /**
+   * One tension length of an overhead line in a scene: a contact wire that hangs on droppers under
+   * a messenger wire, and on stitch wires at its masts. The wires are straight at U = 0, and their
+   * heights are displacements.
+   */
+  class TensionLength
+  {
+  public:
+    /// @p name is empty for the only one. @p section has its geometry. Adds its wires.
+    TensionLength(const LineItems &items, const LineLayout &layout, const std::string &name,
+                  const std::string &section, Scene &scene);
+
+    /// Throws EntryError for a geometry that is impossible.
+    void check() const;
+
+    void add_supports();
+    void add_point_masses();
+
+    /// Probes of the contact wire at places x [m], or at all inner masts; those beyond its ends are
+    /// left out.
+    void add_probes(const std::vector<double> &x);
+
+    /// Stagger and wind.
+    void add_lateral();
+    void add_stitch_wires();
+    void add_droppers();
+
+    std::size_t contact_wire() const { return contact; }
+    const LineLayout &layout() const { return line; }
+    double begin() const { return line.begin; }
+    double end() const { return line.begin + line.length(); }
+
+  private:
+    /// Index of the wire that carries the droppers at a place, and the position there.
+    Attachment carrier(double x) const;
+
+    /// Supports at places s of a wire, at displacements from its straight line [m].
+    void hold(Support support, const std::vector<double> &s,
+              const std::vector<double> &displacement);
+    void add_arms(const std::vector<double> &masts);
+    void hold_aside(std::size_t wire, const std::string &name, double LineMast::*stagger);
+    void check_droppers() const;
+    std::string named(const std::string &what) const;
+
+    const LineItems &items;
+    const LineLayout line;
+    const std::string name, section;
+    Scene &scene;
+    std::size_t messenger = 0, contact = 0; ///< wires of the scene
+    std::vector<std::size_t> stitches;      ///< wire at each mast; `ground`: none
+  };
+} // namespace taut
+
+#endif

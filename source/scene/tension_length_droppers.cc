@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later Droppers and stitch wires of a tension length, and its
+// checks.
+#include "tension_length.h"
+
+#include <taut/base/exceptions.h>
+#include <taut/base/text.h>
+#include <taut/scene/entries.h>
+#include <taut/scene/shared_places.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace taut
+{
+  void TensionLength::add_stitch_wires()
+  {
+    for (std::size_t i = 0; i < line.masts.size(); ++i)
+    {
+      const LineMast &mast = line.masts[i];
+      if (mast.stitch_length == 0.)
+        continue;
+      const double first = mast.x - .5 * mast.stitch_length,
+                   last = mast.x + .5 * mast.stitch_length, y = scene.wires[messenger].a.y;
+      const std::string number = std::to_string(i);
+      Wire wire = items.stitch.wire(named("stitch") + " " + number, "Stitch wires",
+                                    {begin() + first, y}, {begin() + last, y});
+      wire.has_lateral = items.is_in_space;
+      stitches[i] = scene.wires.size();
+      scene.wires.push_back(wire);
+      scene.wires[messenger].tension_changes.push_back({first, last, -items.stitch.tension});
+      for (const bool is_last : {false, true})
+        for (const Coordinates &axis : {Coordinates{0., 1.}, Coordinates{0., 0., 1.}})
+        {
+          if (axis.z != 0. && !items.is_in_space)
+            continue;
+          Link clamp;
+          clamp.name = named("stitch clamp") + " " + number + (is_last ? " right" : " left") +
+                       (axis.z != 0. ? " z" : "");
+          clamp.origin = "Catenary/Stitch wires";
+          clamp.from = {Attachment::Kind::wire, messenger, is_last ? last : first};
+          clamp.to = {Attachment::Kind::wire, stitches[i], is_last ? wire.length() : 0.};
+          clamp.direction = axis;
+          scene.links.push_back(clamp);
+        }
+    }
+  }
+
+  Attachment TensionLength::carrier(const double x) const
+  {
+    for (std::size_t i = 0; i < line.masts.size(); ++i)
+    {
+      const double s = x - (line.masts[i].x - .5 * line.masts[i].stitch_length);
+      if (stitches[i] != ground && s > 0. && s < line.masts[i].stitch_length)
+        return {Attachment::Kind::wire, stitches[i], s};
+    }
+    return {Attachment::Kind::wire, messenger, x};
+  }
+
+  void TensionLength::add_droppers()
+  {
+    const double above = scene.wires[messenger].a.y - scene.wires[contact].a.y;
+    std::vector<double> places;
+    for (const std::vector<LineDropper> &span : line.spans)
+      for (const LineDropper &dropper : span)
+        places.push_back(dropper.x);
+    const std::vector<double> heights = line.heights(places);
+    std::vector<double> clamped;
+    std::size_t next = 0;
+    for (std::size_t span = 0; span < line.spans.size(); ++span)
+      for (std::size_t i = 0; i < line.spans[span].size(); ++i, ++next)
+      {
+        const LineDropper &dropper = line.spans[span][i];
+        Link link;
+        link.kind = LinkKind::dropper;
+        link.origin = "Catenary/Droppers";
+        // All names have the same number of digits: 1.11 and 11.1 are one name to programs that
+        // drop the point.
+        std::string index = std::to_string(i + 1);
+        index.insert(0, std::to_string(line.spans[span].size()).size() - index.size(), '0');
+        link.name = named("dropper") + " " + std::to_string(span + 1) + "." + index;
+        link.from = carrier(dropper.x);
+        link.to = {Attachment::Kind::wire, contact, dropper.x};
+        link.direction = {0., -1.};
+        link.stiffness = parse_stiffness(items.droppers.stiffness, "Catenary/Droppers/Stiffness");
+        link.damping = items.droppers.damping;
+        if (dropper.length == 0.)
+        {
+          link.form.find_length = true;
+          link.form.prescribed_displacement = heights[next] - dropper.pre_sag;
+          link.form.axial_stiffness = items.droppers.axial_stiffness;
+          link.form.mass_per_length = items.droppers.mass_per_length;
+          link.form.find_direction = items.is_in_space;
+        }
+        else
+        {
+          link.length = link.unstressed_length = dropper.length;
+          link.gap = dropper.length - above;
+        }
+        if (link.from.index == messenger)
+          clamped.push_back(dropper.x);
+        else if (items.droppers.messenger_clamp_mass > 0.)
+          scene.point_masses.push_back({link.name + " clamp",
+                                        link.origin,
+                                        link.from.index,
+                                        {link.from.position},
+                                        items.droppers.messenger_clamp_mass,
+                                        true});
+        scene.links.push_back(link);
+      }
+    const auto add_clamps = [&](const std::string &what, const std::size_t wire,
+                                const std::vector<double> &at, const double mass)
+    {
+      if (mass > 0. && !at.empty())
+        scene.point_masses.push_back({named(what), "Catenary/Droppers", wire, at, mass, true});
+    };
+    add_clamps("messenger clamp", messenger, clamped, items.droppers.messenger_clamp_mass);
+    add_clamps("contact clamp", contact, places, items.droppers.contact_clamp_mass);
+  }
+
+  void TensionLength::check_droppers() const
+  {
+    const std::string entry = section + "/Droppers/Positions";
+    const double same =
+        std::min(same_place(scene.wires[contact]), same_place(scene.wires[messenger]));
+    bool has_lengths = false;
+    for (std::size_t span = 0; span < line.spans.size(); ++span)
+    {
+      const double begin = line.masts[span].x, length = line.masts[span + 1].x - begin;
+      std::vector<double> sorted;
+      for (const LineDropper &dropper : line.spans[span])
+      {
+        sorted.push_back(dropper.x - begin);
+        has_lengths |= dropper.length > 0.;
+      }
+      std::sort(sorted.begin(), sorted.end());
+      for (std::size_t i = 0; i < sorted.size(); ++i)
+      {
+        if (!(sorted[i] > 0. && sorted[i] < length))
+          throw EntryError(entry,
+                           to_text(sorted[i], " m is not inside its span of ", length, " m"));
+        if (i > 0 && sorted[i] - sorted[i - 1] <= same)
+          throw EntryError(entry, to_text("two droppers hang at ", sorted[i],
+                                          " m; remove one, or give one the stiffness of both"));
+      }
+    }
+    if (items.droppers.axial_stiffness > 0. && has_lengths)
+      throw EntryError("Catenary/Droppers/Axial stiffness", "with given Lengths use Stiffness");
+    if (items.is_in_space && has_lengths)
+      throw EntryError(section + "/Droppers/Lengths",
+                       "they are for a line in the plane. With Stagger, Wind or Lateral component "
+                       "the directions of the droppers are found with their lengths; give the "
+                       "Pre-sag instead");
+  }
+
+  void TensionLength::check() const
+  {
+    if (items.is_rail)
+    {
+      if (!(items.supports.arm_stiffness > 0.))
+        throw EntryError("Catenary/Supports/Arm stiffness",
+                         "a conductor rail rests on the springs of its arms; give it one in N/m");
+      return;
+    }
+    for (std::size_t i = 0; i < line.masts.size(); ++i)
+    {
+      const LineMast &mast = line.masts[i];
+      if (mast.stitch_length == 0.)
+        continue;
+      const double half = .5 * mast.stitch_length;
+      if (i == 0 || i + 1 == line.masts.size() || !(half < mast.x - line.masts[i - 1].x) ||
+          !(half < line.masts[i + 1].x - mast.x))
+        throw EntryError(section + "/Stitch lengths",
+                         to_text("the stitch wire of ", mast.stitch_length, " m at x = ",
+                                 begin() + mast.x, " m reaches beyond a neighbouring mast"));
+      if (!(items.stitch.tension < items.messenger.tension))
+        throw EntryError("Catenary/Stitch wires/Tension",
+                         "the stitch wire takes it from the messenger wire between its clamps, and "
+                         "none is left there; give it less than the messenger wire has");
+    }
+    check_droppers();
+  }
+} // namespace taut
