@@ -162,6 +162,11 @@ namespace taut
         "'lengths'. Lengths in m",
         Anything());
     prm.add_parameter("Begin", begin, "x of the first mast [m]", Double());
+    prm.add_parameter(
+        "Offset", offset,
+        "z of the wires: those of tension lengths that overlap are beside each other, "
+        "and pass [m]",
+        Double());
     prm.add_parameter("Number of spans", n_spans, "[1]", Integer(1, 100000));
     prm.add_parameter("Span length", span_length, "[m]", not_negative());
     prm.add_parameter("Span lengths", span_lengths,
@@ -188,6 +193,7 @@ namespace taut
   {
     LineLayout result = table.empty() ? from_lists(section) : from_table(section);
     result.begin = begin;
+    result.offset = offset;
     constexpr double longest = 1e9;
     const std::string entry = section + (!table.empty()         ? "/Line"
                                          : span_lengths.empty() ? "/Span length"

@@ -34,7 +34,8 @@ namespace taut
   /// Where the parts of one tension length are.
   struct LineLayout
   {
-    double begin = 0.; ///< x of the first mast in the scene [m]
+    double begin = 0.;  ///< x of the first mast in the scene [m]
+    double offset = 0.; ///< z of the straight wires [m]
     std::vector<LineMast> masts;
     std::vector<std::vector<LineDropper>> spans; ///< droppers between each mast and the next
 
@@ -63,7 +64,7 @@ namespace taut
     LineLayout from_table(const std::string &section) const;
 
     std::string table;
-    double begin = 0.;
+    double begin = 0., offset = 0.;
     unsigned int n_spans = 10;
     double span_length = 60.;
     std::vector<double> span_lengths, encumbrances = {1.2}, heights = {0.}, stitch_lengths = {0.};

@@ -23,11 +23,12 @@ namespace taut
     {
       messenger = scene.wires.size();
       scene.wires.push_back(items.messenger.wire(named("messenger"), "Messenger wire",
-                                                 {begin(), above}, {end(), above}));
+                                                 {begin(), above, line.offset},
+                                                 {end(), above, line.offset}));
     }
     contact = scene.wires.size();
-    scene.wires.push_back(
-        items.contact.wire(named("contact"), "Contact wire", {begin(), 0.}, {end(), 0.}));
+    scene.wires.push_back(items.contact.wire(named("contact"), "Contact wire",
+                                             {begin(), 0., line.offset}, {end(), 0., line.offset}));
   }
 
   /// "contact", or "contact A" of a line with several tension lengths.

@@ -22,8 +22,9 @@ namespace taut
       const double first = mast.x - .5 * mast.stitch_length,
                    last = mast.x + .5 * mast.stitch_length, y = scene.wires[messenger].a.y;
       const std::string number = std::to_string(i);
-      Wire wire = items.stitch.wire(named("stitch") + " " + number, "Stitch wires",
-                                    {begin() + first, y}, {begin() + last, y});
+      Wire wire =
+          items.stitch.wire(named("stitch") + " " + number, "Stitch wires",
+                            {begin() + first, y, line.offset}, {begin() + last, y, line.offset});
       wire.has_lateral = items.is_in_space;
       stitches[i] = scene.wires.size();
       scene.wires.push_back(wire);

@@ -77,26 +77,35 @@ namespace taut
   template <std::size_t n_vectors>
   void Largest<n_vectors>::add(const std::array<const double *, n_vectors> &x, const std::size_t n)
   {
-    if (lanes == 0)
+    // A rest of many rows is padded with zeros to whole lanes.
+    const std::size_t rest = lanes == 0 ? n : n % lanes, n_full = n - rest;
+    const bool is_padded = lanes > 0 && rest >= lanes / 2;
+    const auto add_full =
+        [&](const std::array<const double *, n_vectors> &rows, const std::size_t size)
     {
-      for (std::size_t v = 0; v < n_vectors; ++v)
-        for (std::size_t i = 0; i < n; ++i)
-          raise(others[v][body.kind(i)], std::fabs(x[v][i]));
-      return;
-    }
-    const std::size_t n_full = n - n % lanes;
-    Lanes rest;
-    std::array<const double *, n_vectors> last;
-    for (std::size_t v = 0; v < n_vectors; ++v)
-    {
-      std::fill(std::copy(x[v] + n_full, x[v] + n, rest[v].begin()), rest[v].begin() + lanes, 0.);
-      last[v] = rest[v].data();
-    }
-    for (const auto &[begin, size] : {std::pair(x, n_full), {last, n_full < n ? lanes : 0}})
       if (lanes == most_lanes)
-        add_rows<most_lanes>(begin, size);
+        add_rows<most_lanes>(rows, size);
       else
-        add_rows<8>(begin, size);
+        add_rows<8>(rows, size);
+    };
+    if (n_full > 0)
+      add_full(x, n_full);
+    if (is_padded)
+    {
+      Lanes padded;
+      std::array<const double *, n_vectors> rows;
+      for (std::size_t v = 0; v < n_vectors; ++v)
+      {
+        double *const end = std::copy(x[v] + n_full, x[v] + n, padded[v].data());
+        std::fill(end, padded[v].data() + lanes, 0.);
+        rows[v] = padded[v].data();
+      }
+      add_full(rows, lanes);
+    }
+    else
+      for (std::size_t v = 0; v < n_vectors; ++v)
+        for (std::size_t i = n_full; i < n; ++i)
+          raise(others[v][body.kind(i)], std::fabs(x[v][i]));
   }
 
   template <std::size_t n_vectors>

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: a line of unequal spans from lists or a table is the line that its entries describe.
+// Sources: the reference line of EN 50318:2002, written as lists and as a table; sums of forces on
+// strings; an arm that is a stiff beam on a hinge.
+#include "scene_tests.h"
+
+#include <taut/base/csv_table.h>
+
+#include <filesystem>
+
+using namespace verification;
+
+namespace
+{
+  const Overrides short_run = {"Time/Step=1e-3", "Time/End=0.03", "Time/Scheme=backward Euler",
+                               "Statistics/Window="};
+
+  /// Forces of all constraints in all steps of the reference line with other entries.
+  std::vector<double> forces_with(const Overrides &overrides)
+  {
+    std::vector<double> forces;
+    run_scene(scene_file("en50318_2002_250"), short_run + overrides,
+              [&](const taut::StepView &view) {
+                forces.insert(forces.end(), view.state.multiplier.begin(),
+                              view.state.multiplier.end());
+              });
+    return forces;
+  }
+
+  /// A file in a folder of its own, which is removed again.
+  class File
+  {
+  public:
+    File(const std::string &name, const std::string &text)
+    {
+      std::string pattern = (std::filesystem::temp_directory_path() / "taut-line-XXXXXX").string();
+      folder = mkdtemp(pattern.data());
+      path = folder + "/" + name;
+      std::ofstream(path, std::ios::binary) << text;
+    }
+    ~File() { std::filesystem::remove_all(folder); }
+
+    std::string path;
+
+  private:
+    std::string folder;
+  };
+
+  std::string repeated(const std::string &text, const int n, const std::string &separator)
+  {
+    std::string all;
+    for (int i = 0; i < n; ++i)
+      all += (i > 0 ? separator : "") + text;
+    return all;
+  }
+
+  /// A line of strings without droppers and pantographs: one span of 40 m unless more is said.
+  const std::string strings = R"(Generator = catenary
+Start = equilibrium
+Catenary: Number of spans = 1; Span length = 40; Pantographs =
+Catenary/Contact wire: Model = string; Mass per length = 1; Tension = 10000; Element size = 1
+Catenary/Messenger wire: Model = string; Mass per length = 0.8; Tension = 12000; Element size = 1
+Catenary/Supports: Arm mass = 0
+Catenary/Droppers: Positions =
+Time: Step = 1e-3; End = 0; Scheme = backward Euler
+)";
+
+  constexpr double g = 9.81;
+
+  /// Shape of a string of length L under its weight w [N/m] and forces, from its chord.
+  double sag(const double x, const double L, const double w, const double T,
+             const std::vector<std::pair<double, double>> &forces = {})
+  {
+    double moment = .5 * w * x * (L - x);
+    for (const auto &[at, force] : forces)
+      moment += force * std::min(x, at) * (L - std::max(x, at)) / L;
+    return moment / T;
+  }
+} // namespace
+
+TEST(LinesAsBuilt, lists_of_equal_spans_are_the_reference_line)
+{
+  const std::vector<double> expected = forces_with({});
+  EXPECT_EQ(forces_with({"Catenary/Span lengths=" + repeated("60", 10, ", ")}), expected);
+  EXPECT_EQ(forces_with({"Catenary/Heights=" + repeated("0", 11, ", "),
+                         "Catenary/Encumbrance=" + repeated("1.2", 11, ", "),
+                         "Catenary/Droppers/Positions=" +
+                             repeated("5, 10.5, 17, 23.5, 30, 36.5, 43, 49.5, 55", 10, "; ")}),
+            expected);
+  std::string parts;
+  for (const double x : {5., 10.5, 17., 23.5, 30., 36.5, 43., 49.5, 55.})
+    parts += (parts.empty() ? "" : ", ") + number(x / 60.);
+  const std::vector<double> relative = forces_with(
+      {"Catenary/Droppers/Positions are=relative", "Catenary/Droppers/Positions=" + parts});
+  EXPECT_LE(largest_difference(relative, expected), 1e-9 * largest(expected));
+}
+
+TEST(LinesAsBuilt, a_table_is_the_line_of_its_lists)
+{
+  const std::vector<double> expected = forces_with({});
+  const std::string places = "5 10.5 17 23.5 30 36.5 43 49.5 55";
+  const File plain("line.csv", "span,droppers,encumbrance\n" +
+                                   repeated("60," + places + ",1.2\n", 10, "") + ",,1.2\n");
+  EXPECT_EQ(forces_with({"Catenary/Line=" + plain.path}), expected);
+
+  // A byte order mark, semicolons, decimal commas, quotes, comments and line ends of Windows.
+  std::string with_commas = places;
+  std::replace(with_commas.begin(), with_commas.end(), '.', ',');
+  const File other("line.csv", "\xEF\xBB\xBF# a line\r\nencumbrance ; span; droppers\r\n\r\n" +
+                                   repeated("1,2; \"60,0\"; " + with_commas + "\r\n", 10, "") +
+                                   "1,2;;\r\n");
+  EXPECT_EQ(forces_with({"Catenary/Line=" + other.path}), expected);
+}
+
+TEST(LinesAsBuilt, tables_that_are_no_lines_are_refused)
+{
+  const auto error = [](const std::string &text)
+  {
+    const File file("line.csv", text);
+    return error_of([&] { Session(strings, {"Catenary/Line=" + file.path}); });
+  };
+  EXPECT_EQ(error("span,droppers\n40,10 20\n,\n"), "");
+  EXPECT_TRUE(has(error("span,dropers\n40,10 20\n,\n"), "did you mean 'droppers'?"));
+  EXPECT_TRUE(has(error("span\n40\n\n"), "has no column 'droppers'"));
+  EXPECT_TRUE(has(error("span,droppers\n40,10 2x\n,\n"), "line 2: '2x' in column 'droppers'"));
+  EXPECT_TRUE(has(error("span,droppers\n40,10 20,3\n,\n"), "line 2: 3 cells for 2 columns"));
+  EXPECT_TRUE(
+      has(error("span,droppers,pre-sag\n40,10 20,0.1\n,,\n"), "1 values in 'pre-sag' for 2"));
+  EXPECT_TRUE(has(error("span,droppers\n40,10 20\n40,\n"), "line 3: the last mast has no span"));
+  EXPECT_TRUE(has(error("span,droppers\n"), "has no rows"));
+  EXPECT_TRUE(
+      has(error_of([] { Session(strings, {"Catenary/Line=none.csv"}); }), "cannot read the file"));
+}
+
+TEST(LinesAsBuilt, droppers_hold_the_contact_wire_at_the_heights_of_the_masts)
+{
+  const std::vector<double> spans = {40., 55., 48., 60.}, heights = {0., 0., 0.1, 0.3, 0.3},
+                            encumbrances = {1.2, 1.3, 1.1, 1.2, 1.4};
+  double mast = 0.;
+  run_scene(strings,
+            {"Catenary/Span lengths=40, 55, 48, 60", "Catenary/Heights=0, 0, 0.1, 0.3, 0.3",
+             "Catenary/Encumbrance=1.2, 1.3, 1.1, 1.2, 1.4",
+             "Catenary/Droppers/Positions are=relative",
+             "Catenary/Droppers/Positions=0.1, 0.3, 0.5, 0.7, 0.9",
+             "Catenary/Droppers/Pre-sag=0, 0.01, 0.02, 0.01, 0"},
+            [&](const taut::StepView &view)
+            {
+              const double sags[] = {0., .01, .02, .01, 0.};
+              double begin = 0.;
+              for (std::size_t span = 0; span < spans.size(); ++span)
+              {
+                const double low = heights[span], high = heights[span + 1];
+                for (int i = 0; i < 5; ++i)
+                {
+                  const double x = begin + spans[span] * (.1 + .2 * i),
+                               y = displacement(view, 1, x) + sags[i];
+                  EXPECT_GE(y, std::min(low, high) - 1e-9); // a level span is level
+                  EXPECT_LE(y, std::max(low, high) + 1e-9);
+                }
+                begin += spans[span];
+              }
+              for (std::size_t i = 0; i < heights.size(); ++i)
+              {
+                EXPECT_NEAR(1.2 + displacement(view, 0, mast), heights[i] + encumbrances[i], 1e-12);
+                if (i < spans.size())
+                  mast += spans[i];
+              }
+              EXPECT_NEAR(displacement(view, 1, mast), .3, 1e-12);
+              for (const double force : view.state.multiplier)
+                EXPECT_GT(force, 0.);
+            });
+  EXPECT_EQ(mast, 203.);
+}
+
+TEST(LinesAsBuilt, point_masses_hang_at_their_places)
+{
+  const double T = 10000., m = 3.;
+  run_scene(strings + "Catenary: Point masses = insulator; Begin = 100\n"
+                      "Catenary/Point mass insulator: Positions = 115; Mass = 3\n",
+            {},
+            [&](const taut::StepView &view)
+            {
+              for (const double x : {5., 15., 30.})
+                EXPECT_NEAR(displacement(view, 1, x), -sag(x, 40., g, T, {{15., m * g}}), 1e-10);
+            });
+}
+
+TEST(LinesAsBuilt, stitch_wires_take_their_tension_from_the_messenger)
+{
+  // Two spans of 50 m. The stitch wire of 16 m, whose clamps are at 42 and 58 m, carries two
+  // droppers at 45 and 55 m, which carry the contact wire alone.
+  const double T = 12000., S = 3000., w = .8 * g, own = .3 * g;
+  int n_seen = 0;
+  run_scene(strings +
+                "Catenary: Span lengths = 50, 50; Stitch lengths = 16\n"
+                "Catenary/Stitch wires: Model = string; Mass per length = 0.3; Tension = 3000\n"
+                "Catenary/Droppers: Positions = 45; 5\n",
+            {},
+            [&](const taut::StepView &view)
+            {
+              ++n_seen;
+              const std::size_t contact = 1, stitch = 2;
+              ASSERT_EQ(view.scene.links.size(), 4u); // two clamps, two droppers
+              const double force = view.state.multiplier[2];
+              EXPECT_NEAR(view.state.multiplier[3], force, 1e-9);
+              EXPECT_NEAR(displacement(view, contact, 45.), 0., 1e-9);
+              // The chord of the contact wire between droppers and end.
+              EXPECT_NEAR(force, g * .5 * (45. + 10.), 1e-6);
+              const double end = displacement(view, stitch, 0.);
+              EXPECT_NEAR(end, displacement(view, 0, 42.), 1e-12);
+              for (const double x : {2., 3., 8., 12.})
+                EXPECT_NEAR(displacement(view, stitch, x),
+                            end - sag(x, 16., own, S, {{3., force}, {13., force}}), 1e-9);
+              // Equilibrium of the messenger's clamp: slopes of the parabolas before and behind it.
+              const double at = displacement(view, 0, 42.), before = at / 42. + w * 42. / (2. * T),
+                           behind = -at / 8. - w * 8. / (2. * (T - S));
+              EXPECT_NEAR(T * before - (T - S) * behind, -(own * 8. + force), 1e-6);
+            });
+  EXPECT_EQ(n_seen, 1);
+}
+
+TEST(LinesAsBuilt, a_hinged_arm_moves_as_a_stiff_beam_on_a_hinge)
+{
+  // The contact wire of two spans swings down from the start under its weight, with an arm at its
+  // middle: as a lever, and as a beam of 1.2 m with a third of a metre to each element.
+  const std::string start = "Start = undeformed\nTime: End = 0.4; Scheme = generalised-alpha\n";
+  const std::string lever = strings + start +
+                            "Catenary: Number of spans = 2\n"
+                            "Catenary/Supports: Arm kind = hinged; Arm mass = 6\n";
+  const std::string beam = start + R"(Generator = network
+Wire contact: To = 80, 0; Components = string; Mass per length = 1; Tension = 10000; Element size = 1;
+  Mass damping = 0.0125; Stiffness damping = 1e-4
+Wire arm: From = 40, 0, 1.2; To = 40, 0, 0; Components = beam; Mass per length = 5; Bending stiffness = 1e7; Element size = 0.3
+Support ends: Wire = contact; Positions = 0, 80
+Support hinge: Wire = arm; Positions = 0
+Link clamp: Type = joint; From = arm @ 1.2; To = contact @ 40; Direction = 0, 1
+Time: Step = 1e-3
+)";
+  const auto middle = [](const std::size_t wire)
+  { return [wire](const taut::StepView &view) { return displacement(view, wire, 40.); }; };
+  const std::vector<double> of_lever = history_of(lever, {}, middle(1)),
+                            of_beam = history_of(beam, {}, middle(0));
+  EXPECT_GT(largest(of_lever), .1);
+  EXPECT_LE(largest_difference(of_lever, of_beam), 1e-4 * largest(of_lever));
+}
+
+TEST(LinesAsBuilt, messenger_supports_have_stiffness_and_damping)
+{
+  Session session(strings,
+                  {"Catenary/Number of spans=3", "Catenary/Supports/Messenger stiffness=4e5",
+                   "Catenary/Supports/Messenger damping=300"});
+  const taut::Scene scene = session.parameters().scene();
+  const auto found = std::find_if(scene.supports.begin(), scene.supports.end(),
+                                  [](const taut::Support &support)
+                                  { return support.name == "messenger at masts"; });
+  ASSERT_NE(found, scene.supports.end());
+  EXPECT_EQ(found->stiffness, 4e5);
+  EXPECT_EQ(found->damping, 300.);
+  EXPECT_TRUE(has(error_of(
+                      [] {
+                        Session(strings, {"Catenary/Number of spans=3",
+                                          "Catenary/Supports/Messenger damping=300"});
+                      }),
+                  "a rigid support has none"));
+}
+
+TEST(LinesAsBuilt, bump_stops_and_lift_of_a_pantograph_act_as_their_formulas)
+{
+  // Under 300 N and the lift of 360 km/h, 100 m/s, of 0.002 and 0.003 N s^2/m^2. The head's spring
+  // of 5 kN/m is stopped at 30 mm by 50 kN/m.
+  const double force = 300. + 30., on_head = 20.;
+  int n_seen = 0;
+  run_scene(strings + R"(Catenary: Pantographs = pantograph; Number of spans = 2
+Catenary/Supports: Messenger stiffness = rigid
+Pantograph pantograph: Masses = 7, 15; Stiffnesses = 5000, 0; Dampings = 10, 90; Static force = 300; Start = 20;
+  Speed = 360; Lift = 0.002, 0.003; Bump stop gaps = 0.03, 0; Bump stop stiffnesses = 5e4, 0
+Statistics: Window =
+)",
+            {},
+            [&](const taut::StepView &view)
+            {
+              ++n_seen;
+              ASSERT_EQ(view.scene.links.size(), 2u);
+              const double head = displacement(view, point_of_mass(view, 0)),
+                           frame = displacement(view, point_of_mass(view, 1)),
+                           compression = frame - head;
+              EXPECT_NEAR(view.state.multiplier[1], force + on_head, 1e-9);
+              EXPECT_NEAR(view.state.multiplier[0], 5e4 * (compression - .03), 1e-9);
+              EXPECT_NEAR(5e3 * compression + 5e4 * (compression - .03), force, 1e-9);
+            });
+  EXPECT_EQ(n_seen, 1);
+}
