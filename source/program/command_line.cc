@@ -28,6 +28,9 @@ namespace taut
                      "error of each")("accuracy", po::value<double>()->value_name("ERROR"),
                                       "find step and mesh for this relative error, such as 0.01, "
                                       "and store them for Study/Accuracy")(
+            "elasticity",
+            "measure the static uplift over a force along the contact wires, see section "
+            "Elasticity")(
             "sweep", "run the scene once for each case of its section Sweep and write a table of "
                      "quantities")("jobs,j", po::value<unsigned int>()->value_name("N"),
                                    "workers of a sweep: starts itself with 'mpirun -np N'")(
@@ -64,6 +67,7 @@ namespace taut
     void check_choice(const po::variables_map &arguments)
     {
       exclude(arguments, "sweep", {"study", "accuracy", "check", "sketch"});
+      exclude(arguments, "elasticity", {"sweep", "study", "accuracy", "check", "sketch", "resume"});
       exclude(arguments, "accuracy", {"study", "check", "sketch", "resume"});
       exclude(arguments, "resume", {"study", "check", "overwrite"});
       exclude(arguments, "study", {"check"});
@@ -100,6 +104,7 @@ namespace taut
       for (const auto &[name, flag] :
            std::initializer_list<std::pair<const char *, bool *>>{{"check", &line.check},
                                                                   {"study", &line.study},
+                                                                  {"elasticity", &line.elasticity},
                                                                   {"sweep", &line.sweep},
                                                                   {"overwrite", &line.overwrite},
                                                                   {"resume", &line.resume}})

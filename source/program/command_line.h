@@ -17,7 +17,8 @@ namespace taut
 
     std::optional<std::string> file; ///< a parameter file; none: write one with all defaults
     std::vector<std::string> overrides;
-    bool check = false, study = false, sweep = false, overwrite = false, resume = false;
+    bool check = false, elasticity = false, study = false, sweep = false, overwrite = false,
+         resume = false;
     std::optional<std::string> sketch;
     std::optional<double> accuracy;
     unsigned int jobs = 1;

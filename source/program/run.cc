@@ -11,6 +11,7 @@
 #include <taut/output/scene_report.h>
 #include <taut/simulation/simulation.h>
 #include <taut/study/accuracy_search.h>
+#include <taut/study/elasticity.h>
 #include <taut/study/study.h>
 #include <taut/study/sweep.h>
 
@@ -103,6 +104,15 @@ namespace
     search.run();
   }
 
+  void find_elasticity(const taut::CommandLine &line, const taut::Communicator &processes)
+  {
+    if (processes.size() > 1)
+      throw taut::UserError("--elasticity takes one process; run it without mpirun");
+    taut::Elasticity elasticity(*line.file, line.overrides, line.overwrite, std::cout);
+    elasticity.stop_if(taut::interruption);
+    elasticity.run();
+  }
+
   void run_study(const taut::CommandLine &line, const taut::Communicator &processes)
   {
     if (processes.size() > 1)
@@ -121,10 +131,11 @@ namespace
     if (!line.answer.empty())
       std::cout << line.answer;
     else if (line.file)
-      (line.sweep      ? run_sweep
-       : line.accuracy ? find_accuracy
-       : line.study    ? run_study
-                       : run_once)(line, processes);
+      (line.sweep        ? run_sweep
+       : line.accuracy   ? find_accuracy
+       : line.elasticity ? find_elasticity
+       : line.study      ? run_study
+                         : run_once)(line, processes);
     else if (processes.is_root())
       write_default_file();
     taut::check_memory();

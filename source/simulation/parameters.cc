@@ -128,6 +128,7 @@ namespace taut
     statistics.declare_parameters(prm);
     study.declare_parameters(prm);
     sweep.declare_parameters(prm);
+    elasticity.declare_parameters(prm);
     bodies.declare_parameters(prm);
     contacts.declare_names(prm);
     contacts.declare_parameters(prm);
@@ -297,6 +298,7 @@ namespace taut
     if (end_time > 0. && end_time < step * (1. - 1e-9))
       throw EntryError("Time/End", "it is shorter than one step; take a smaller Time/Step");
     check_pair(statistics.window, "Statistics/Window");
+    check_pair(elasticity.range, "Elasticity/Range");
     for (const auto &[figure, range] : statistics.expected)
       check_pair(range, "Statistics/Expected ranges/" + figure);
     study.parameter_lists(entry_values);

@@ -4,7 +4,7 @@
 // strings; an arm that is a stiff beam on a hinge.
 #include "scene_tests.h"
 
-#include <taut/base/csv_table.h>
+#include <taut/study/elasticity.h>
 
 #include <filesystem>
 
@@ -289,4 +289,76 @@ Statistics: Window =
               EXPECT_NEAR(5e3 * compression + 5e4 * (compression - .03), force, 1e-9);
             });
   EXPECT_EQ(n_seen, 1);
+}
+
+namespace
+{
+  /// Uplift of the reference line at rest under a pantograph that stands at x [m], over its force.
+  double uplift_over_force(const double x, const double force)
+  {
+    const auto height = [&](const Overrides &overrides)
+    {
+      return history_of(scene_file("en50318_2002_250"),
+                        Overrides{"Time/End=0", "Statistics/Window="} + overrides,
+                        [&](const taut::StepView &view) { return displacement(view, 1, x); })
+          .front();
+    };
+    const std::string section = "Catenary/Pantograph pantograph/";
+    return (height({section + "Start=" + number(x), section + "Static force=" + number(force)}) -
+            height({"Catenary/Pantographs="})) /
+           force;
+  }
+
+  taut::ElasticityOfWire elasticity_of_line(const Overrides &overrides)
+  {
+    Session session(scene_file("en50318_2002_250"));
+    std::ostringstream log;
+    taut::Elasticity elasticity(
+        scene_file("en50318_2002_250"),
+        Overrides{"Output/Folder=" + session.folder(), "Elasticity/Range=240, 300"} + overrides,
+        true, log);
+    return elasticity.run().front();
+  }
+} // namespace
+
+TEST(Elasticity, is_that_of_two_static_states_at_each_place)
+{
+  for (const double force : {100., 200.})
+  {
+    const taut::ElasticityOfWire found =
+        elasticity_of_line({"Elasticity/Spacing=7.5", "Elasticity/Slackening=true",
+                            "Elasticity/Force=" + number(force)});
+    ASSERT_EQ(found.x.size(), 9u);
+    for (std::size_t i = 0; i < found.x.size(); ++i)
+      EXPECT_NEAR(found.elasticity[i], uplift_over_force(found.x[i], force), 1e-7 * 5e-4)
+          << found.x[i];
+  }
+}
+
+TEST(Elasticity, is_linear_as_long_as_no_dropper_opens)
+{
+  const taut::ElasticityOfWire linear = elasticity_of_line({"Elasticity/Spacing=20"}),
+                               light = elasticity_of_line({"Elasticity/Spacing=20",
+                                                           "Elasticity/Slackening=true",
+                                                           "Elasticity/Force=1"}),
+                               heavy = elasticity_of_line({"Elasticity/Spacing=20",
+                                                           "Elasticity/Slackening=true",
+                                                           "Elasticity/Force=400"});
+  for (std::size_t i = 0; i < linear.x.size(); ++i)
+  {
+    EXPECT_NEAR(light.elasticity[i], linear.elasticity[i], 1e-5 * linear.elasticity[i]);
+    EXPECT_GE(heavy.elasticity[i],
+              linear.elasticity[i] * (1. - 1e-9)); // slack droppers hold nothing
+  }
+  EXPECT_GT(heavy.largest(), 1.05 * linear.largest());
+}
+
+TEST(Elasticity, at_midspan_follows_the_rule_of_thumb)
+{
+  // e = L / (3.5 (T_contact + T_messenger)) for a line with level contact wire.
+  const taut::ElasticityOfWire found = elasticity_of_line({"Elasticity/Spacing=3"});
+  const double rule = 60. / (3.5 * 36000.), middle = found.elasticity[found.x.size() / 2];
+  EXPECT_NEAR(middle, rule, .05 * rule);
+  EXPECT_NEAR(found.nonuniformity(),
+              (found.largest() - found.smallest()) / (found.largest() + found.smallest()), 1e-15);
 }

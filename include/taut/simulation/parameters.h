@@ -8,6 +8,7 @@
 #include <taut/partition/make_partition.h>
 #include <taut/scene/named_items.h>
 #include <taut/scene/scene_generator.h>
+#include <taut/simulation/elasticity_parameters.h>
 #include <taut/simulation/parameter_file.h>
 #include <taut/simulation/study_parameters.h>
 #include <taut/simulation/sweep_parameters.h>
@@ -121,6 +122,7 @@ namespace taut
     StatisticsParameters statistics;
     StudyParameters study;
     SweepParameters sweep;
+    ElasticityParameters elasticity;
 
     /// Folder of the stored study.
     std::string study_folder() const
