@@ -246,5 +246,40 @@ namespace taut
       file.end_line();
     }
     file.close();
+    write_droppers(places);
+  }
+
+  /// The table for who makes and mounts the droppers between wires.
+  void Simulation::write_droppers(const ScenePlaces &places) const
+  {
+    const auto is_between_wires = [](const Link &link)
+    {
+      return link.kind == LinkKind::dropper && link.from.kind == Attachment::Kind::wire &&
+             link.to.kind == Attachment::Kind::wire;
+    };
+    if (std::none_of(model.links.begin(), model.links.end(), is_between_wires))
+      return;
+    std::vector<double> masts;
+    for (const Support &support : model.supports)
+      if (support.motion == WireMotion::transverse)
+        for (const double s : support.positions)
+          masts.push_back(model.wires[support.wire].at(s).x);
+    std::sort(masts.begin(), masts.end());
+    TableFile file(parameters.output.folder + "/droppers.csv",
+                   {"dropper", "upper wire", "lower wire", "x [m]", "from the support before [m]",
+                    "height of the lower end [m]", "cut length [m]", "static force [N]"});
+    for (std::size_t i = 0; i < links.size(); ++i)
+    {
+      if (!links[i].is_link() || !is_between_wires(model.links[links[i].link]))
+        continue;
+      const Link &link = model.links[links[i].link];
+      const Coordinates &at = places.to[links[i].link];
+      const auto next = std::upper_bound(masts.begin(), masts.end(), at.x);
+      file << link.name << model.wires[link.from.index].name << model.wires[link.to.index].name
+           << at.x << (next == masts.begin() ? 0. : at.x - *(next - 1)) << at.y
+           << link.unstressed_length << motion->start().state.multiplier[i];
+      file.end_line();
+    }
+    file.close();
   }
 } // namespace taut

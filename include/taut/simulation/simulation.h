@@ -85,6 +85,7 @@ namespace taut
     std::vector<std::string> unused_scheme_entries() const;
     void prepare_results(bool resumes);
     void write_start(const ScenePlaces &places) const;
+    void write_droppers(const ScenePlaces &places) const;
     void add_observers();
     std::unique_ptr<StepAccuracy> step_accuracy();
     int signal() const;
