@@ -67,6 +67,14 @@ namespace taut
                       Selection("catenary|conductor rail"));
     prm.add_parameter("Lateral component", items.lateral,
                       "Motion along z, also where neither Stagger nor Wind asks for it");
+    prm.add_parameter("Contact wires", items.n_contact_wires,
+                      "2: twin contact wires side by side, each as section Contact wire says",
+                      Integer(1, 2));
+    prm.add_parameter(
+        "Twin droppers", twin_droppers,
+        "'both': at each place a dropper to each of twin contact wires; 'in turn': to "
+        "one and the other in turn",
+        Selection("both|in turn"));
     items.contact.declare(prm, "Contact wire", true);
     items.messenger.declare(prm, "Messenger wire", true);
     items.stitch.declare(prm, "Stitch wires", false);
@@ -186,16 +194,18 @@ namespace taut
     contact_link.speed = item.speed / 3.6;
     contact_link.profile =
         Expression(item.profile, section + "/Height profile", Expression::Variables::position);
+    const bool has_several = line.size() > 1 || line.front().contact_wires().size() > 1;
     for (const TensionLength &part : line)
-    {
-      if (line.size() > 1)
+      for (const std::size_t wire : part.contact_wires())
       {
-        contact_link.strip = name;
-        contact_link.name = name + " on " + scene.wires[part.contact_wire()].name;
+        if (has_several)
+        {
+          contact_link.strip = name;
+          contact_link.name = name + " on " + scene.wires[wire].name;
+        }
+        contact_link.to = {Attachment::Kind::wire, wire, item.start - part.begin()};
+        scene.links.push_back(contact_link);
       }
-      contact_link.to = {Attachment::Kind::wire, part.contact_wire(), item.start - part.begin()};
-      scene.links.push_back(contact_link);
-    }
   }
 
   void Catenary::fill(Scene &scene) const
@@ -203,6 +213,7 @@ namespace taut
     check_wires();
     LineItems all = items;
     all.is_rail = kind == "conductor rail";
+    all.hangs_in_turn = twin_droppers == "in turn";
     const std::vector<LineLayout> parts = layouts();
     all.is_in_space = is_in_space();
     Line line;

@@ -52,7 +52,7 @@ namespace taut
     void add_bump_stops(const std::string &name, const PantographItem &item, std::size_t first,
                         Scene &scene) const;
 
-    std::string kind = "catenary";
+    std::string kind = "catenary", twin_droppers = "both";
     LineItems items;
     LineGeometry geometry; ///< of the only tension length
     NamedItems<LineGeometry> tension_lengths{

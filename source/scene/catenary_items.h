@@ -59,6 +59,8 @@ namespace taut
   struct LineItems
   {
     bool is_rail = false; ///< a contact wire without a messenger wire
+    unsigned int n_contact_wires = 1;
+    bool hangs_in_turn = false; ///< droppers hold two contact wires in turn, not both
     LineWireItem contact{"beam", 1.35, 20000., 195., .5},
         messenger{"beam", 1.07, 16000., 131.7, .5}, stitch{"beam", .34, 3500., 0., .5};
     LineSupportsItem supports;

@@ -26,9 +26,13 @@ namespace taut
                                                  {begin(), above, line.offset},
                                                  {end(), above, line.offset}));
     }
-    contact = scene.wires.size();
-    scene.wires.push_back(items.contact.wire(named("contact"), "Contact wire",
-                                             {begin(), 0., line.offset}, {end(), 0., line.offset}));
+    for (unsigned int i = 0; i < items.n_contact_wires; ++i)
+    {
+      contacts.push_back(scene.wires.size());
+      scene.wires.push_back(items.contact.wire((i == 0 ? "" : "twin ") + named("contact"),
+                                               "Contact wire", {begin(), 0., line.offset},
+                                               {end(), 0., line.offset}));
+    }
   }
 
   /// "contact", or "contact A" of a line with several tension lengths.
@@ -79,9 +83,12 @@ namespace taut
       ends.wire = messenger;
       hold(ends, {0., line.length()}, {0., last.height + last.encumbrance - above});
     }
-    ends.name = scene.wires[contact].name + " ends";
-    ends.wire = contact;
-    hold(ends, {0., line.length()}, {first.height, last.height});
+    for (const std::size_t contact : contacts)
+    {
+      ends.name = scene.wires[contact].name + " ends";
+      ends.wire = contact;
+      hold(ends, {0., line.length()}, {first.height, last.height});
+    }
 
     std::vector<double> masts, heights;
     for (std::size_t i = 1; i + 1 < line.masts.size(); ++i)
@@ -108,23 +115,25 @@ namespace taut
                          "a rigid support has none; give it a Messenger stiffness in N/m");
       hold(mast, masts, heights);
     }
-    add_arms(masts);
+    for (const std::size_t contact : contacts)
+      add_arms(contact, masts);
   }
 
-  void TensionLength::add_arms(const std::vector<double> &masts)
+  void TensionLength::add_arms(const std::size_t contact, const std::vector<double> &masts)
   {
+    const std::string arm_name = (contact == contacts.front() ? "" : "twin ") + named("arm");
     const LineSupportsItem &own = items.supports;
     const bool is_hinged = own.arm_kind == "hinged";
     if (own.arm_mass > 0.)
     {
       // Energy of a uniform bar about its end: (m l^2 / 3) (v / l)^2 / 2.
-      scene.point_masses.push_back({named("arm"), "Catenary/Supports", contact, masts,
+      scene.point_masses.push_back({arm_name, "Catenary/Supports", contact, masts,
                                     is_hinged ? own.arm_mass / 3. : own.arm_mass, false});
       if (is_hinged)
         for (std::size_t i = 0; i < masts.size(); ++i)
         {
           Load weight;
-          weight.name = named("arm") + " weight " + std::to_string(i + 1);
+          weight.name = arm_name + " weight " + std::to_string(i + 1);
           weight.origin = "Catenary/Supports";
           weight.target = {Attachment::Kind::wire, contact, masts[i]};
           weight.magnitude = Expression(.5 * own.arm_mass * scene.gravity.y);
@@ -134,7 +143,7 @@ namespace taut
     if (own.arm_stiffness > 0. || own.arm_damping > 0.)
     {
       Support arm;
-      arm.name = named("arm");
+      arm.name = arm_name;
       arm.origin = "Catenary/Supports";
       arm.wire = contact;
       arm.fixed = false;
@@ -150,12 +159,14 @@ namespace taut
     {
       const LineMassItem &item = items.masses.items[i];
       const std::string title = items.masses.title(i);
-      for (const std::size_t wire : {messenger, contact})
+      std::vector<std::size_t> wires = contacts;
+      if (!items.is_rail)
+        wires.push_back(messenger);
+      for (const std::size_t wire : wires)
       {
-        if (wire == messenger && items.is_rail)
-          continue;
+        const bool is_messenger = !items.is_rail && wire == messenger;
         if (item.wire != scene.wires[wire].name &&
-            item.wire != (wire == contact ? "contact" : "messenger"))
+            item.wire != (is_messenger ? "messenger" : "contact"))
           continue;
         PointMass mass{named(items.masses.names[i]), title, wire, {}, item.mass, true};
         for (const double x : parse_positions(item.positions, title + "/Positions"))
@@ -186,7 +197,7 @@ namespace taut
       text << std::fixed << std::setprecision(whole ? 0 : 3)
            << (name.empty() ? "contact wire" : named("contact")) << " at " << place << " m";
       probe.name = text.str();
-      probe.point = {Attachment::Kind::wire, contact, place - begin()};
+      probe.point = {Attachment::Kind::wire, contacts.front(), place - begin()};
       scene.probes.push_back(probe);
     }
   }
@@ -211,10 +222,15 @@ namespace taut
   void TensionLength::add_lateral()
   {
     hold_aside(messenger, "messenger aside at mast", &LineMast::messenger_z);
-    hold_aside(contact, "steady arm at mast", &LineMast::contact_z);
-    const std::pair<std::size_t, Expression> loads[] = {
-        {messenger, items.messenger.wind_load("Messenger wire")},
-        {contact, items.contact.wind_load("Contact wire")}};
+    std::vector<std::pair<std::size_t, Expression>> loads = {
+        {messenger, items.messenger.wind_load("Messenger wire")}};
+    for (const std::size_t contact : contacts)
+    {
+      hold_aside(contact,
+                 contact == contacts.front() ? "steady arm at mast" : "twin steady arm at mast",
+                 &LineMast::contact_z);
+      loads.emplace_back(contact, items.contact.wind_load("Contact wire"));
+    }
     for (const auto &[wire, load] : loads)
     {
       scene.wires[wire].has_lateral = true;

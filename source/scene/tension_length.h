@@ -13,9 +13,9 @@
 namespace taut
 {
   /**
-   * One tension length of an overhead line in a scene: a contact wire that hangs on droppers under
-   * a messenger wire, and on stitch wires at its masts. The wires are straight at U = 0, and their
-   * heights are displacements.
+   * One tension length of an overhead line in a scene: one or two contact wires that hang on
+   * droppers under a messenger wire, and on stitch wires at its masts. The wires are straight at U
+   * = 0, and their heights are displacements.
    */
   class TensionLength
   {
@@ -39,7 +39,7 @@ namespace taut
     void add_stitch_wires();
     void add_droppers();
 
-    std::size_t contact_wire() const { return contact; }
+    const std::vector<std::size_t> &contact_wires() const { return contacts; }
     const LineLayout &layout() const { return line; }
     double begin() const { return line.begin; }
     double end() const { return line.begin + line.length(); }
@@ -51,7 +51,9 @@ namespace taut
     /// Supports at places s of a wire, at displacements from its straight line [m].
     void hold(Support support, const std::vector<double> &s,
               const std::vector<double> &displacement);
-    void add_arms(const std::vector<double> &masts);
+    void add_arms(std::size_t contact, const std::vector<double> &masts);
+    void add_dropper(const LineDropper &dropper, double height, const std::string &dropper_name,
+                     std::size_t contact);
     void hold_aside(std::size_t wire, const std::string &name, double LineMast::*stagger);
     void check_droppers() const;
     std::string named(const std::string &what) const;
@@ -60,8 +62,9 @@ namespace taut
     const LineLayout line;
     const std::string name, section;
     Scene &scene;
-    std::size_t messenger = 0, contact = 0; ///< wires of the scene
-    std::vector<std::size_t> stitches;      ///< wire at each mast; `ground`: none
+    std::size_t messenger = 0;         ///< wire of the scene
+    std::vector<std::size_t> contacts; ///< wires of the scene
+    std::vector<std::size_t> stitches; ///< wire at each mast; `ground`: none
   };
 } // namespace taut
 

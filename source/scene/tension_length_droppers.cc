@@ -57,72 +57,90 @@ namespace taut
     return {Attachment::Kind::wire, messenger, x};
   }
 
+  void TensionLength::add_dropper(const LineDropper &dropper, const double height,
+                                  const std::string &dropper_name, const std::size_t contact)
+  {
+    Link link;
+    link.kind = LinkKind::dropper;
+    link.origin = "Catenary/Droppers";
+    link.name = dropper_name;
+    link.from = carrier(dropper.x);
+    link.to = {Attachment::Kind::wire, contact, dropper.x};
+    link.direction = {0., -1.};
+    link.stiffness = parse_stiffness(items.droppers.stiffness, "Catenary/Droppers/Stiffness");
+    link.damping = items.droppers.damping;
+    if (dropper.length == 0.)
+    {
+      link.form.find_length = true;
+      link.form.prescribed_displacement = height - dropper.pre_sag;
+      link.form.axial_stiffness = items.droppers.axial_stiffness;
+      link.form.mass_per_length = items.droppers.mass_per_length;
+      link.form.find_direction = items.is_in_space;
+    }
+    else
+    {
+      link.length = link.unstressed_length = dropper.length;
+      link.gap = dropper.length - (scene.wires[messenger].a.y - scene.wires[contact].a.y);
+    }
+    if (link.from.index != messenger && items.droppers.messenger_clamp_mass > 0.)
+      scene.point_masses.push_back({link.name + " clamp",
+                                    link.origin,
+                                    link.from.index,
+                                    {link.from.position},
+                                    items.droppers.messenger_clamp_mass,
+                                    true});
+    scene.links.push_back(link);
+  }
+
   void TensionLength::add_droppers()
   {
-    const double above = scene.wires[messenger].a.y - scene.wires[contact].a.y;
     std::vector<double> places;
     for (const std::vector<LineDropper> &span : line.spans)
       for (const LineDropper &dropper : span)
         places.push_back(dropper.x);
     const std::vector<double> heights = line.heights(places);
-    std::vector<double> clamped;
+    std::vector<double> on_messenger;
+    std::vector<std::vector<double>> held(contacts.size());
     std::size_t next = 0;
     for (std::size_t span = 0; span < line.spans.size(); ++span)
       for (std::size_t i = 0; i < line.spans[span].size(); ++i, ++next)
       {
         const LineDropper &dropper = line.spans[span][i];
-        Link link;
-        link.kind = LinkKind::dropper;
-        link.origin = "Catenary/Droppers";
         // All names have the same number of digits: 1.11 and 11.1 are one name to programs that
         // drop the point.
         std::string index = std::to_string(i + 1);
         index.insert(0, std::to_string(line.spans[span].size()).size() - index.size(), '0');
-        link.name = named("dropper") + " " + std::to_string(span + 1) + "." + index;
-        link.from = carrier(dropper.x);
-        link.to = {Attachment::Kind::wire, contact, dropper.x};
-        link.direction = {0., -1.};
-        link.stiffness = parse_stiffness(items.droppers.stiffness, "Catenary/Droppers/Stiffness");
-        link.damping = items.droppers.damping;
-        if (dropper.length == 0.)
+        for (std::size_t k = 0; k < contacts.size(); ++k)
         {
-          link.form.find_length = true;
-          link.form.prescribed_displacement = heights[next] - dropper.pre_sag;
-          link.form.axial_stiffness = items.droppers.axial_stiffness;
-          link.form.mass_per_length = items.droppers.mass_per_length;
-          link.form.find_direction = items.is_in_space;
+          if (items.hangs_in_turn && i % contacts.size() != k)
+            continue;
+          add_dropper(dropper, heights[next],
+                      (k == 0 ? "" : "twin ") + named("dropper") + " " + std::to_string(span + 1) +
+                          "." + index,
+                      contacts[k]);
+          held[k].push_back(dropper.x);
+          if (scene.links.back().from.index == messenger)
+            on_messenger.push_back(dropper.x);
         }
-        else
-        {
-          link.length = link.unstressed_length = dropper.length;
-          link.gap = dropper.length - above;
-        }
-        if (link.from.index == messenger)
-          clamped.push_back(dropper.x);
-        else if (items.droppers.messenger_clamp_mass > 0.)
-          scene.point_masses.push_back({link.name + " clamp",
-                                        link.origin,
-                                        link.from.index,
-                                        {link.from.position},
-                                        items.droppers.messenger_clamp_mass,
-                                        true});
-        scene.links.push_back(link);
       }
     const auto add_clamps = [&](const std::string &what, const std::size_t wire,
                                 const std::vector<double> &at, const double mass)
     {
       if (mass > 0. && !at.empty())
-        scene.point_masses.push_back({named(what), "Catenary/Droppers", wire, at, mass, true});
+        scene.point_masses.push_back({what, "Catenary/Droppers", wire, at, mass, true});
     };
-    add_clamps("messenger clamp", messenger, clamped, items.droppers.messenger_clamp_mass);
-    add_clamps("contact clamp", contact, places, items.droppers.contact_clamp_mass);
+    add_clamps(named("messenger clamp"), messenger, on_messenger,
+               items.droppers.messenger_clamp_mass);
+    for (std::size_t k = 0; k < contacts.size(); ++k)
+      add_clamps((k == 0 ? "" : "twin ") + named("contact clamp"), contacts[k], held[k],
+                 items.droppers.contact_clamp_mass);
   }
 
   void TensionLength::check_droppers() const
   {
     const std::string entry = section + "/Droppers/Positions";
     const double same =
-        std::min(same_place(scene.wires[contact]), same_place(scene.wires[messenger]));
+        std::min(same_place(scene.wires[contacts.front()]), same_place(scene.wires[messenger]));
     bool has_lengths = false;
     for (std::size_t span = 0; span < line.spans.size(); ++span)
     {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/exceptions.h>
 #include <taut/base/instruction_set.h>
+#include <taut/base/text.h>
 #include <taut/model/form_finding.h>
 #include <taut/model/scene_constraints.h>
+#include <taut/output/line_constants.h>
 #include <taut/output/scene_report.h>
 #include <taut/output/table_file.h>
 #include <taut/simulation/free_bodies.h>
@@ -51,6 +53,15 @@ namespace taut
         << counted(model.links.size(), "link") << '\n';
     print_bodies();
     print_links();
+    for (const LineConstants &line : line_constants(model))
+      log << to_text(std::setprecision(3), "  '", line.contact, "' at ", line.speed, " m/s under '",
+                     line.wire, "', whose waves have ", line.wave_speed, " m/s: v/c ",
+                     line.speed / line.wave_speed, ", Doppler factor ", line.doppler,
+                     line.reflection > 0.
+                         ? to_text(std::setprecision(3), ", reflection at droppers ",
+                                   line.reflection, ", amplification ", line.amplification)
+                         : std::string(),
+                     '\n');
     for (const std::string &entry : parameters.unused_entries())
       log << "  not used: " << entry << '\n';
     log << "  instruction set of the loops: " << instruction_set_in_use() << '\n';

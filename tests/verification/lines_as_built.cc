@@ -4,6 +4,7 @@
 // strings; an arm that is a stiff beam on a hinge.
 #include "scene_tests.h"
 
+#include <taut/output/line_constants.h>
 #include <taut/study/elasticity.h>
 
 #include <filesystem>
@@ -392,4 +393,55 @@ TEST(LinesAsBuilt, the_table_of_droppers_has_what_a_fitter_needs)
     EXPECT_NEAR(table.at("cut length [m]")[i], 1.2 - depth - g * forces[i] / 1e5, 1e-9) << i;
   }
   EXPECT_TRUE(has(file_text(path), "dropper 2.4,messenger,contact,80,40,"));
+}
+
+namespace
+{
+  const std::string twin = strings + R"(Catenary: Contact wires = 2; Pantographs = pantograph
+Catenary/Droppers: Positions = 10, 20, 30
+Pantograph pantograph: Masses = 7, 15; Stiffnesses = 5000, 0; Dampings = 10, 90; Static force = 200; Start = 25; Speed = 36
+Statistics: Window =
+)";
+
+  /// Names and forces of the links at rest.
+  std::map<std::string, double> forces_at_rest(const std::string &lines)
+  {
+    std::map<std::string, double> forces;
+    run_scene(lines, {},
+              [&](const taut::StepView &view)
+              {
+                for (std::size_t i = 0; i < view.scene.links.size(); ++i)
+                  forces[view.scene.links[i].name] = view.state.multiplier[i];
+              });
+    return forces;
+  }
+} // namespace
+
+TEST(LinesAsBuilt, twin_contact_wires_share_pantograph_and_messenger)
+{
+  const std::string without = "Pantograph pantograph: -\nCatenary: Pantographs =\n";
+  const auto both = forces_at_rest(twin), alone = forces_at_rest(twin + without);
+  EXPECT_NEAR(both.at("pantograph on contact"), 100., 1e-9);
+  EXPECT_NEAR(both.at("pantograph on twin contact"), 100., 1e-9);
+  EXPECT_NEAR(alone.at("dropper 1.2"), 10. * g, 1e-9);
+  EXPECT_NEAR(alone.at("twin dropper 1.2"), 10. * g, 1e-9);
+
+  // In turn: the first wire hangs at 10 and 30 m, its twin at 20 m.
+  const auto in_turn = forces_at_rest(twin + without + "Catenary: Twin droppers = in turn\n");
+  EXPECT_EQ(in_turn.size(), 3u);
+  EXPECT_NEAR(in_turn.at("dropper 1.1"), 15. * g, 1e-9);
+  EXPECT_NEAR(in_turn.at("twin dropper 1.2"), 20. * g, 1e-9);
+}
+
+TEST(LinesAsBuilt, constants_of_waves_are_their_formulas)
+{
+  Session session(scene_file("en50318_2002_250"));
+  const auto found = taut::line_constants(session.parameters().scene());
+  ASSERT_EQ(found.size(), 1u);
+  const double c = std::sqrt(20000. / 1.35), v = 250. / 3.6;
+  EXPECT_NEAR(found[0].wave_speed, c, 1e-12 * c);
+  EXPECT_NEAR(found[0].doppler, (c - v) / (c + v), 1e-14);
+  const double above = std::sqrt(16000. * 1.07), below = std::sqrt(20000. * 1.35);
+  EXPECT_NEAR(found[0].reflection, above / (above + below), 1e-14);
+  EXPECT_NEAR(found[0].amplification * found[0].doppler, found[0].reflection, 1e-14);
 }
