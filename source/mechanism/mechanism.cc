@@ -91,7 +91,7 @@ namespace taut
       if (load.target.kind != Attachment::Kind::mass)
         continue;
       LinearForm row;
-      motion(load.target.index, load.rotational, load.direction, row);
+      motion(load.target.index, load.rotational, load.direction, row, load.target.place);
       if (row.index.empty())
         continue;
       if (load.magnitude.depends_on_time())
@@ -103,11 +103,13 @@ namespace taut
   }
 
   void Mechanism::motion(const std::size_t mass, const bool rotational,
-                         const Coordinates &direction, LinearForm &result) const
+                         const Coordinates &direction, LinearForm &result,
+                         const Coordinates &arm) const
   {
     result = {};
     const double factor[4] = {rotational ? 0. : direction.x, rotational ? 0. : direction.y,
-                              rotational ? direction.z : 0., rotational ? 0. : direction.z};
+                              rotational ? direction.z : arm.x * direction.y - arm.y * direction.x,
+                              rotational ? 0. : direction.z};
     for (unsigned int i = 0; i < dofs.size(); ++i)
       if (dofs[i].mass == mass && factor[dofs[i].motion] != 0.)
         result.add(i, factor[dofs[i].motion]);

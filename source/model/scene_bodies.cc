@@ -209,7 +209,8 @@ namespace taut
       const std::size_t k = mechanism_of_mass[point.index];
       if (k == elsewhere)
         return;
-      static_cast<const Mechanism &>((*this)[k]).motion(point.index, rotational, direction, form);
+      static_cast<const Mechanism &>((*this)[k])
+          .motion(point.index, rotational, direction, form, point.place);
       append(k, factor, form);
     }
     else if (point.kind == Attachment::Kind::body)

@@ -66,7 +66,8 @@ namespace taut
       if (end.kind == Attachment::Kind::ground)
         return end.has_place ? "ground @ " + text(end.place) : "ground";
       if (end.kind == Attachment::Kind::mass)
-        return scene.masses[end.index].name;
+        return scene.masses[end.index].name +
+               (end.place == Coordinates() ? std::string() : " @ " + text(end.place));
       if (end.kind == Attachment::Kind::body)
         return scene.bodies[end.index].name + " @ " + text(end.place);
       return to_text(scene.wires[end.index].name, " @ ", end.position);

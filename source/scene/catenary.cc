@@ -49,6 +49,15 @@ namespace taut
                       "Upwards on the lowest mass, net of the weight [N]", Double());
     prm.add_parameter("Start", start, "x at t = 0 [m]", Double());
     prm.add_parameter("Speed", speed, "[km/h]", Double());
+    prm.add_parameter("Strip distance", strip_distance,
+                      "Between two collector strips on a head that pitches; 0: one strip [m]",
+                      not_negative());
+    prm.add_parameter("Head inertia", head_inertia,
+                      "Moment of inertia of a head with two strips about its centre [kg m^2]",
+                      not_negative());
+    prm.add_parameter("Pitch stiffness", pitch_stiffness, "Of such a head [N m/rad]",
+                      not_negative());
+    prm.add_parameter("Pitch damping", pitch_damping, "Of such a head [N m s/rad]", not_negative());
     prm.add_parameter("Contact stiffness", contact_stiffness,
                       "Between head and contact wire; a number or 'rigid' [N/m]", Anything());
     prm.add_parameter("Contact damping", contact_damping, "Beside the stiffness [N s/m]",
@@ -194,18 +203,60 @@ namespace taut
     contact_link.speed = item.speed / 3.6;
     contact_link.profile =
         Expression(item.profile, section + "/Height profile", Expression::Variables::position);
-    const bool has_several = line.size() > 1 || line.front().contact_wires().size() > 1;
+    const bool has_wires = line.size() > 1 || line.front().contact_wires().size() > 1;
+    if (item.strip_distance == 0.)
+    {
+      if (has_wires)
+        contact_link.strip = name;
+      add_strip(contact_link, item.start, has_wires, line, scene);
+      return;
+    }
+    let_head_pitch(name, item, head, scene);
+    contact_link.strip = name;
+    for (const int strip : {1, 2})
+    {
+      const double arm = (strip == 1 ? -.5 : .5) * item.strip_distance;
+      contact_link.name = name + " strip " + std::to_string(strip);
+      contact_link.from.place = {arm};
+      add_strip(contact_link, item.start + arm, has_wires, line, scene);
+    }
+  }
+
+  /// A link of a strip at x to each contact wire.
+  void Catenary::add_strip(Link strip, const double x, const bool has_several, const Line &line,
+                           Scene &scene) const
+  {
+    const std::string name = strip.name;
     for (const TensionLength &part : line)
       for (const std::size_t wire : part.contact_wires())
       {
         if (has_several)
-        {
-          contact_link.strip = name;
-          contact_link.name = name + " on " + scene.wires[wire].name;
-        }
-        contact_link.to = {Attachment::Kind::wire, wire, item.start - part.begin()};
-        scene.links.push_back(contact_link);
+          strip.name = name + " on " + scene.wires[wire].name;
+        strip.to = {Attachment::Kind::wire, wire, x - part.begin()};
+        scene.links.push_back(strip);
       }
+  }
+
+  void Catenary::let_head_pitch(const std::string &name, const PantographItem &item,
+                                const std::size_t head, Scene &scene) const
+  {
+    const std::string section = "Catenary/Pantograph " + name;
+    if (!(item.head_inertia > 0.))
+      throw EntryError(section + "/Head inertia",
+                       "a head with two strips pitches; give it a moment of inertia in kg m^2");
+    scene.masses[head].moves[2] = true;
+    scene.masses[head].inertia = item.head_inertia;
+    if (item.pitch_stiffness == 0. && item.pitch_damping == 0.)
+      return;
+    Spring pitch;
+    pitch.name = name + " pitch spring";
+    pitch.origin = section;
+    pitch.to = head;
+    pitch.rotational = true;
+    pitch.direction = {0., 0., 1.};
+    pitch.stiffness = item.pitch_stiffness;
+    pitch.damping = item.pitch_damping;
+    scene.springs.push_back(pitch);
   }
 
   void Catenary::fill(Scene &scene) const

@@ -33,6 +33,7 @@ namespace taut
       std::vector<double> masses = {7.2, 15.}, stiffnesses = {4200., 50.}, dampings = {10., 90.};
       std::vector<double> lift, stop_gaps, stop_stiffnesses;
       double static_force = 120., start = 60., speed = 250.;
+      double strip_distance = 0., head_inertia = 0., pitch_stiffness = 0., pitch_damping = 0.;
       std::string contact_stiffness = "50000", profile = "0";
       double contact_damping = 0.;
       void declare(dealii::ParameterHandler &prm);
@@ -49,6 +50,9 @@ namespace taut
     void add_pantograph(const std::string &name, const PantographItem &item, const Line &line,
                         Scene &scene) const;
     void add_masses(const std::string &name, const PantographItem &item, Scene &scene) const;
+    void let_head_pitch(const std::string &name, const PantographItem &item, std::size_t head,
+                        Scene &scene) const;
+    void add_strip(Link strip, double x, bool has_several, const Line &line, Scene &scene) const;
     void add_bump_stops(const std::string &name, const PantographItem &item, std::size_t first,
                         Scene &scene) const;
 

@@ -25,10 +25,13 @@ namespace taut
     if (end.kind == Attachment::Kind::mass)
     {
       const Mass &mass = scene.masses[end.index];
+      const bool turns_under_arm =
+          mass.moves[2] &&
+          std::fabs(end.place.x * direction.y - end.place.y * direction.x) > tiny * norm(end.place);
       return rotational
                  ? mass.moves[2] && along({0., 0., 1.})
-                 : (mass.moves[0] && along({1., 0.})) || (mass.moves[1] && along({0., 1.})) ||
-                       (mass.moves[3] && along({0., 0., 1.}));
+                 : turns_under_arm || (mass.moves[0] && along({1., 0.})) ||
+                       (mass.moves[1] && along({0., 1.})) || (mass.moves[3] && along({0., 0., 1.}));
     }
     const Wire &wire = scene.wires[end.index];
     if (rotational)
@@ -108,6 +111,10 @@ namespace taut
         return;
       if (end.kind == Attachment::Kind::mass)
       {
+        if (!(end.place == Coordinates()) && !scene.masses[end.index].moves[2])
+          fail(item, entry, what, "a place beside the centre of mass '",
+               scene.masses[end.index].name,
+               "' is for a mass that rotates; add 'rotation' to its Motions");
         if (rotational && !scene.masses[end.index].moves[2])
           fail(item, entry, what, "mass '", scene.masses[end.index].name,
                "' does not rotate; add 'rotation' to its Motions");

@@ -206,6 +206,10 @@ namespace taut
       attachment.index = find_name(scene.wires, name);
       if (attachment.index != ground)
         return on_wire(attachment, text.substr(at + 1), entry);
+      attachment.kind = Attachment::Kind::mass;
+      attachment.index = find_name(scene.masses, name);
+      if (attachment.index != ground)
+        return on_body(attachment, text.substr(at + 1), entry, false);
       attachment.kind = Attachment::Kind::body;
       attachment.index = find_name(scene.bodies, name);
       if (attachment.index != ground)
@@ -229,7 +233,7 @@ namespace taut
     case Attachment::Kind::ground:
       return point.place;
     default:
-      return scene.masses[point.index].position;
+      return add_scaled(scene.masses[point.index].position, 1., point.place);
     }
   }
 } // namespace taut

@@ -50,9 +50,9 @@ namespace taut
     std::size_t mass_index(const Scene &scene, const std::string &name, const std::string &entry)
     {
       const Attachment end = parse_attachments(name, scene, entry).front();
-      if (end.kind == Attachment::Kind::wire)
-        throw EntryError(entry,
-                         "a spring acts between masses; between wires use a link with a stiffness");
+      if (end.kind == Attachment::Kind::wire || !(end.place == Coordinates()))
+        throw EntryError(entry, "a spring acts between the centres of masses; between other places "
+                                "use a link with a stiffness");
       return end.kind == Attachment::Kind::ground ? ground : end.index;
     }
   } // namespace

@@ -445,3 +445,36 @@ TEST(LinesAsBuilt, constants_of_waves_are_their_formulas)
   EXPECT_NEAR(found[0].reflection, above / (above + below), 1e-14);
   EXPECT_NEAR(found[0].amplification * found[0].doppler, found[0].reflection, 1e-14);
 }
+
+TEST(LinesAsBuilt, two_strips_on_a_head_that_pitches_share_as_its_equilibrium_says)
+{
+  // A string without weight under forces N at x: u = G N with the flexibilities G of the string.
+  // The head rises by y and pitches by r: strips at y -+ r d / 2 touch with a stiffness.
+  const double T = 10000., L = 40., d = 2., k = 4e3, contact = 1e5, force = 150., x = 9.;
+  int n_seen = 0;
+  run_scene(strings + R"(Gravity = 0, 0
+Catenary: Pantographs = pantograph
+Pantograph pantograph: Masses = 7, 15; Stiffnesses = 5000, 0; Dampings = 10, 90; Static force = 150; Start = 9; Speed = 0;
+  Strip distance = 2; Head inertia = 0.5; Pitch stiffness = 4000; Contact stiffness = 1e5
+Statistics: Window =
+)",
+            {},
+            [&](const taut::StepView &view)
+            {
+              ++n_seen;
+              ASSERT_EQ(view.scene.links.size(), 2u);
+              EXPECT_EQ(view.scene.links[0].strip, "pantograph");
+              const double N1 = view.state.multiplier[0], N2 = view.state.multiplier[1];
+              EXPECT_NEAR(N1 + N2, force, 1e-9);
+              const double a = x - .5 * d, b = x + .5 * d;
+              const auto G = [&](const double p, const double q)
+              { return std::min(p, q) * (L - std::max(p, q)) / (L * T); };
+              const double u1 = G(a, a) * N1 + G(a, b) * N2, u2 = G(a, b) * N1 + G(b, b) * N2;
+              EXPECT_NEAR(displacement(view, 1, a), u1, 1e-12);
+              // Strips are N / contact above the wire; the wire pushes them down.
+              const double pitch = ((u2 + N2 / contact) - (u1 + N1 / contact)) / d;
+              EXPECT_NEAR(k * pitch, .5 * d * (N1 - N2), 1e-9);
+              EXPECT_GT(N1, N2 + 1.); // the wire is stiffer towards its end
+            });
+  EXPECT_EQ(n_seen, 1);
+}

@@ -30,9 +30,10 @@ namespace taut
     NullSpace null_space() const override;
 
     /// Displacement along @p direction [m], or the rotation about z [rad], of a mass of the scene:
-    /// result . U. Motions that the mass lacks are zero.
-    void motion(std::size_t mass, bool rotational, const Coordinates &direction,
-                LinearForm &result) const;
+    /// result . U. Motions that the mass lacks are zero. @p arm is the place from its centre, which
+    /// small rotations move [m].
+    void motion(std::size_t mass, bool rotational, const Coordinates &direction, LinearForm &result,
+                const Coordinates &arm = {}) const;
 
   private:
     /// One scalar motion: 0 x, 1 y, 2 rotation, 3 z of a mass.
