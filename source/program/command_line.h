@@ -19,6 +19,7 @@ namespace taut
     std::vector<std::string> overrides;
     bool check = false, study = false, sweep = false, overwrite = false, resume = false;
     std::optional<std::string> sketch;
+    std::optional<std::string> network; ///< the file that the scene is written out to
     std::optional<double> accuracy;
     unsigned int jobs = 1;
   };
