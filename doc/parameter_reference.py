@@ -25,6 +25,7 @@ subsection Network
   set Springs      = ITEM
   set Links        = ITEM
   set Loads        = ITEM
+  set Probes       = mass
   subsection Wire ITEM
     set Components      = string
     set Mass per length = 1
@@ -51,6 +52,9 @@ subsection Network
   end
   subsection Load ITEM
     set On = mass
+  end
+  subsection Probe mass
+    set Point = mass
   end
 end
 subsection Time

@@ -24,6 +24,9 @@ namespace taut
         shown.add_options()("check", "read the file, check the scene and print it, without a run")(
             "sketch", po::value<std::string>()->value_name("FILE.svg"),
             "draw the undeformed scene before the check or the run")(
+            "write-network", po::value<std::string>()->value_name("FILE.prm"),
+            "write the scene with each wire, support, mass, spring, link and load by its own, as a "
+            "file for the generator 'network' that gives the same results, without a run")(
             "study", "run the scene with all settings of its section Study and measure cost and "
                      "error of each")("accuracy", po::value<double>()->value_name("ERROR"),
                                       "find step and mesh for this relative error, such as 0.01, "
@@ -66,6 +69,8 @@ namespace taut
 
     void check_choice(const po::variables_map &arguments)
     {
+      exclude(arguments, "write-network",
+              {"sweep", "study", "accuracy", "check", "sketch", "resume"});
       exclude(arguments, "sweep", {"study", "accuracy", "check", "sketch"});
       exclude(arguments, "elasticity", {"sweep", "study", "accuracy", "check", "sketch", "resume"});
       exclude(arguments, "accuracy", {"study", "check", "sketch", "resume"});
@@ -112,6 +117,7 @@ namespace taut
       assign<std::string>(arguments, "file", line.file);
       assign<std::vector<std::string>>(arguments, "set", line.overrides);
       assign<std::string>(arguments, "sketch", line.sketch);
+      assign<std::string>(arguments, "write-network", line.network);
       assign<double>(arguments, "accuracy", line.accuracy);
       assign<unsigned int>(arguments, "jobs", line.jobs);
     }

@@ -20,6 +20,7 @@ namespace taut
     bool check = false, elasticity = false, study = false, sweep = false, overwrite = false,
          resume = false;
     std::optional<std::string> sketch;
+    std::optional<std::string> network; ///< the file that the scene is written out to
     std::optional<double> accuracy;
     unsigned int jobs = 1;
   };

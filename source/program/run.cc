@@ -9,6 +9,7 @@
 #include <taut/base/write_file.h>
 #include <taut/output/progress.h>
 #include <taut/output/scene_report.h>
+#include <taut/simulation/network_file.h>
 #include <taut/simulation/simulation.h>
 #include <taut/study/accuracy_search.h>
 #include <taut/study/elasticity.h>
@@ -25,6 +26,8 @@
 #include <filesystem>
 #include <iostream>
 #include <sstream>
+#include <string>
+#include <vector>
 
 namespace
 {
@@ -45,6 +48,32 @@ namespace
     std::cout << "Wrote '" << default_file
               << "' with all entries and their defaults: a railway line with a pantograph.\n"
               << "Run it with 'taut " << default_file << "'; see 'taut --help'.\n";
+  }
+
+  void write_out(const taut::CommandLine &line, const taut::Communicator &processes)
+  {
+    taut::Parameters parameters;
+    parameters.read(*line.file, line.overrides, processes);
+    parameters.output.overwrite = line.overwrite;
+    processes.agree(
+        [&]
+        {
+          if (!processes.is_root())
+            return;
+          try
+          {
+            std::vector<std::string> left_out;
+            taut::write_network(parameters, *line.network, left_out);
+            std::cout << "Wrote '" << *line.network << "'\n";
+            for (const std::string &section : left_out)
+              std::cout << "Left out " << section << ", which varies entries of the generator '"
+                        << parameters.generator_name << "'\n";
+          }
+          catch (const taut::EntryError &e)
+          {
+            throw taut::UserError(parameters.explain(e));
+          }
+        });
   }
 
   void run_once(const taut::CommandLine &line, const taut::Communicator &processes)
@@ -131,7 +160,8 @@ namespace
     if (!line.answer.empty())
       std::cout << line.answer;
     else if (line.file)
-      (line.sweep        ? run_sweep
+      (line.network      ? write_out
+       : line.sweep      ? run_sweep
        : line.accuracy   ? find_accuracy
        : line.elasticity ? find_elasticity
        : line.study      ? run_study

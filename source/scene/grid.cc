@@ -92,6 +92,8 @@ namespace taut
       if (end.kind == Attachment::Kind::wire && end.index == wire)
         points.push_back(end.position);
     };
+    for (const TensionChange &change : scene.wires[wire].tension_changes)
+      points.insert(points.end(), {change.from, change.to});
     for (const Support &support : scene.supports)
       if (support.wire == wire)
         points.insert(points.end(), support.positions.begin(), support.positions.end());

@@ -12,10 +12,10 @@ namespace taut
   {
     for (const std::string &name : names)
     {
-      if (name.empty() || name.find_first_of("./@=#:") != std::string::npos)
+      if (name.empty() || name.find_first_of("/@=#:") != std::string::npos)
         throw EntryError(list_entry,
                          "'" + name +
-                             "' cannot be a name: a name is not empty and has none of . / @ = # :");
+                             "' cannot be a name: a name is not empty and has none of / @ = # :");
       if (std::count(names.begin(), names.end(), name) > 1)
         throw EntryError(list_entry, "the name '" + name + "' comes twice");
     }

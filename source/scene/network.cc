@@ -66,6 +66,7 @@ namespace taut
     add_springs(scene);
     add_links(scene);
     add_loads(scene);
+    add_probes(scene);
     add_pulls_of_kinks(scene);
   }
 
@@ -222,6 +223,7 @@ namespace taut
       load.rotational = item.rotational;
       load.direction = parse_direction_or_axis(item.rotational, item.direction, item.axis, title);
       load.speed = item.speed;
+      load.acts_while_built = item.acts_while_built;
       if (load.speed != 0. && load.kind != Load::Kind::moving)
         throw EntryError(title + "/Speed",
                          "a " + item.type + " load stands; set 'Type = moving', or Speed to 0");
@@ -241,6 +243,12 @@ namespace taut
         scene.loads.push_back(load);
       }
     }
+  }
+
+  void Network::add_probes(Scene &scene) const
+  {
+    for (std::size_t i = 0; i < probes.items.size(); ++i)
+      probes.items[i].add(probes.names[i], probes.title(i), scene);
   }
 
   namespace

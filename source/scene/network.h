@@ -3,6 +3,7 @@
 #define taut_network_h
 
 #include <taut/scene/named_items.h>
+#include <taut/scene/probe_item.h>
 #include <taut/scene/scene_generator.h>
 
 #include <string>
@@ -70,7 +71,8 @@ namespace taut
       std::string law = "linear", law_points, law_formula;
       double law_range = 0.;
       std::vector<double> direction, axis;
-      bool rotational = false, find_length = false, turns = false, straight = false;
+      bool rotational = false, find_length = false, find_direction = false, turns = false,
+           straight = false;
       double damping = 0., gap = 0., length = 0., speed = 0.;
       double prescribed_displacement = 0., axial_stiffness = 0., mass_per_length = 0.;
       void declare(dealii::ParameterHandler &prm);
@@ -85,7 +87,7 @@ namespace taut
     {
       std::string type = "point", on, magnitude = "0";
       std::vector<double> direction, axis;
-      bool rotational = false;
+      bool rotational = false, acts_while_built = true;
       double speed = 0.;
       void declare(dealii::ParameterHandler &prm);
     };
@@ -98,6 +100,7 @@ namespace taut
     void add_springs(Scene &scene) const;
     void add_links(Scene &scene) const;
     void add_loads(Scene &scene) const;
+    void add_probes(Scene &scene) const;
 
     NamedItems<WireItem> wires{"Network", "Wires", "Wire", "straight wires"};
     NamedItems<SupportItem> supports{"Network", "Supports", "Support", "supports of wires"};
@@ -109,7 +112,14 @@ namespace taut
     NamedItems<LinkItem> links{"Network", "Links", "Link",
                                "joints, stops, droppers and sliding contacts"};
     NamedItems<LoadItem> loads{"Network", "Loads", "Load", "forces and moments"};
+    NamedItems<ProbeItem> probes{"Network", "Probes", "Probe",
+                                 "points of the scene whose motion is recorded, before those of "
+                                 "Output"};
   };
+
+  /// The gap of a dropper of a known unstressed length whose direction stays: this length less the
+  /// distance of its undeformed ends along the direction [m].
+  double gap_of_length(const Link &link, const Scene &scene);
 } // namespace taut
 
 #endif

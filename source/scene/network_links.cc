@@ -11,6 +11,12 @@
 
 namespace taut
 {
+  double gap_of_length(const Link &link, const Scene &scene)
+  {
+    return link.unstressed_length -
+           dot(link.direction, place(scene, link.to) - place(scene, link.from));
+  }
+
   namespace
   {
     bool is_ball_joint(const Network::LinkItem &item)
@@ -68,11 +74,15 @@ namespace taut
     /// Checks entries of links that turn, and entries that only links that turn may have.
     void check_turns(const Network::LinkItem &item, const Link &link, const std::string &title)
     {
+      if (link.unstressed_length > 0. && link.gap != 0.)
+        throw EntryError(title + "/Gap", "it follows from the Length; leave one of them out");
       if (!link.turns)
       {
-        if (link.unstressed_length > 0.)
+        if (link.unstressed_length > 0. &&
+            (link.kind != LinkKind::dropper || link.rotational || item.find_length))
           throw EntryError(title + "/Length",
-                           "it is of a link that turns; set 'Turns = true', or give the Gap");
+                           "it is of a dropper, or of a link that turns; set 'Turns = true', or "
+                           "give the Gap");
         return;
       }
       if (is_ball_joint(item) || link.moving())
@@ -91,8 +101,37 @@ namespace taut
                                                               : "/Mass per length"),
                          "it is of a dropper whose length is found, along a direction that stays; "
                          "give a link that turns its Length and Stiffness");
-      if (link.unstressed_length > 0. && link.gap != 0.)
-        throw EntryError(title + "/Gap", "it follows from the Length; leave one of them out");
+    }
+
+    /// Sets the gap of a dropper with a given length, whose direction and ends are set.
+    void set_length(const Scene &scene, const std::string &title, Link &link)
+    {
+      if (!(link.unstressed_length > 0.) || link.turns)
+        return;
+      for (const Attachment *const end : {&link.from, &link.to})
+        if (end->kind == Attachment::Kind::body ||
+            (end->kind == Attachment::Kind::ground && !end->has_place))
+          throw EntryError(title + "/Length",
+                           "the distance of its ends is known between wires, masses and places of "
+                           "the ground, 'ground @ x, y, z'; give the Gap instead");
+      link.length = link.unstressed_length;
+      link.gap = gap_of_length(link, scene);
+    }
+
+    void check_found_direction(const Scene &scene, const std::string &title, const Link &link)
+    {
+      if (!link.form.find_direction)
+        return;
+      if (!link.form.find_length)
+        throw EntryError(title + "/Find direction",
+                         "it is found with the length; set 'Find length = true', or give the "
+                         "Direction from end to end alone");
+      for (const Attachment *const end : {&link.from, &link.to})
+        if (end->kind != Attachment::Kind::wire || !scene.wires[end->index].has_lateral ||
+            scene.wires[end->index].has_axial)
+          throw EntryError(title + "/Find direction",
+                           "it is of a dropper between wires with the component lateral and "
+                           "without bar; set it to false");
     }
 
     /// Throws EntryError for ends between which no such link is possible.
@@ -156,6 +195,7 @@ namespace taut
       link.form.prescribed_displacement = item.prescribed_displacement;
       link.form.axial_stiffness = item.axial_stiffness;
       link.form.mass_per_length = item.mass_per_length;
+      link.form.find_direction = item.find_direction;
       return link;
     }
 
@@ -270,6 +310,8 @@ namespace taut
           continue;
         }
         set_direction(item, scene, title, link);
+        set_length(scene, title, link);
+        check_found_direction(scene, title, link);
         scene.links.push_back(link);
       }
     }

@@ -27,6 +27,7 @@ namespace taut
     springs.declare_names(prm);
     links.declare_names(prm);
     loads.declare_names(prm);
+    probes.declare_names(prm);
     prm.leave_subsection();
   }
 
@@ -41,6 +42,7 @@ namespace taut
     springs.declare_parameters(prm);
     links.declare_parameters(prm);
     loads.declare_parameters(prm);
+    probes.declare_parameters(prm);
     prm.leave_subsection();
   }
 
@@ -186,7 +188,8 @@ namespace taut
         "The direction is that from end to end at each time, so that ends may move by any amount; "
         "a dropper then is a rope, a stop a prop. A ground end needs a place");
     prm.add_parameter("Length", length,
-                      "Of a link that turns, unstressed: the distance of its ends at which a rope "
+                      "Unstressed, of a link that turns or of a dropper between wires, masses and "
+                      "places of the ground: the distance of its ends at which a rope or dropper "
                       "becomes taut or a prop touches, instead of Gap; 0: as Gap says [m]",
                       not_negative());
     prm.add_parameter("Rotational", rotational,
@@ -237,6 +240,10 @@ namespace taut
     prm.add_parameter("Find length", find_length,
                       "A dropper as long as its To end needs to stand at the prescribed "
                       "displacement in the static state without sliding contacts");
+    prm.add_parameter("Find direction", find_direction,
+                      "Of a dropper between wires with lateral motion, with its length: it hangs "
+                      "from end to end in the static state, and Direction is that of the "
+                      "prescribed displacement");
     prm.add_parameter("Prescribed displacement", prescribed_displacement,
                       "Of the To end towards From, if the length is found [m]", Double());
     prm.add_parameter("Axial stiffness", axial_stiffness,
@@ -268,5 +275,7 @@ namespace taut
         "Magnitude", magnitude,
         "A formula in t and, on a wire or a cable, in the position s there [N, N/m, N m]");
     prm.add_parameter("Speed", speed, "Of a moving load [m/s]", Double());
+    prm.add_parameter("Acts while built", acts_while_built,
+                      "Whether lengths of droppers are found with this load; wind blows later");
   }
 } // namespace taut

@@ -36,6 +36,12 @@ namespace taut
         if (end.kind == Attachment::Kind::wire)
           add_place(end.index, end.position);
       };
+      for (std::size_t w = 0; w < scene.wires.size(); ++w)
+        for (TensionChange &change : scene.wires[w].tension_changes)
+        {
+          add_place(w, change.from);
+          add_place(w, change.to);
+        }
       for (Support &support : scene.supports)
         for (double &s : support.positions)
           add_place(support.wire, s);

@@ -9,6 +9,9 @@
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/utilities.h>
 
+#include <boost/property_tree/ptree.hpp>
+#include <boost/property_tree/xml_parser.hpp>
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -196,13 +199,47 @@ namespace taut
     }
   } // namespace
 
+  namespace
+  {
+    /// A name as it is declared; in XML deal.II writes other characters than letters and digits as
+    /// '_' and two hexadecimal digits.
+    std::string declared_name(const std::string &written)
+    {
+      std::string name;
+      for (std::size_t i = 0; i < written.size(); ++i)
+        if (written[i] == '_' && i + 2 < written.size())
+        {
+          name += static_cast<char>(std::stoi(written.substr(i + 1, 2), nullptr, 16));
+          i += 2;
+        }
+        else
+          name += written[i];
+      return name;
+    }
+
+    nlohmann::json as_json(const boost::property_tree::ptree &node)
+    {
+      if (node.empty())
+        return node.data();
+      nlohmann::json result = nlohmann::json::object();
+      const bool is_entry = node.count("pattern_description") > 0;
+      for (const auto &[name, child] : node)
+        result[is_entry ? name : declared_name(name)] = as_json(child);
+      return result;
+    }
+  } // namespace
+
   nlohmann::json listing_of(const dealii::ParameterHandler &prm)
   {
     std::stringstream text;
-    // To sort the entries takes deal.II longer than all else here; JSON sorts them itself.
-    prm.print_parameters(text, dealii::ParameterHandler::JSON |
+    // Not as JSON, where deal.II takes a name with a dot for two. To sort the entries takes deal.II
+    // longer than all else here; JSON sorts them itself.
+    prm.print_parameters(text, dealii::ParameterHandler::XML |
                                    dealii::ParameterHandler::KeepDeclarationOrder);
-    return nlohmann::json::parse(text);
+    boost::property_tree::ptree tree;
+    boost::property_tree::read_xml(text, tree);
+    const nlohmann::json listing = as_json(tree.get_child("ParameterHandler"));
+    return listing.is_object() ? listing : nlohmann::json::object();
   }
 
   void check_entries(const ParameterFile &file, const nlohmann::json &listing)

@@ -8,18 +8,6 @@ namespace taut
 {
   using namespace dealii::Patterns;
 
-  void OutputParameters::ProbeItem::declare(dealii::ParameterHandler &prm)
-  {
-    prm.add_parameter("Point", point, "A mass or 'wire @ position'", Anything());
-    prm.add_parameter("Direction", direction,
-                      "'x, y' or 'x, y, z'; the length does not matter. Empty: 0, 1",
-                      List(Double(), 0, 3));
-    prm.add_parameter("Rotational", rotational, "Slope or rotation instead of displacement");
-    prm.add_parameter("Axis", axis,
-                      "Of a rotation, 'x, y, z'; the length does not matter. Empty: z",
-                      List(Double(), 0, 3));
-  }
-
   void OutputParameters::declare_names(dealii::ParameterHandler &prm)
   {
     prm.enter_subsection("Output");

@@ -125,6 +125,30 @@ namespace taut
     open_files.pop_back();
   }
 
+  /// Parts between dots; names of sections of the file may have dots of their own.
+  std::vector<std::string> ParameterFile::split_at_dots(const std::string &text) const
+  {
+    const std::vector<std::string> parts = split(text, '.');
+    std::vector<std::string> path;
+    for (std::size_t i = 0, next = 0; i < parts.size(); i = next)
+    {
+      next = i + 1;
+      std::string name = parts[i], longer = name;
+      for (std::size_t k = i + 1; k < parts.size(); ++k)
+      {
+        longer += "." + parts[k];
+        std::vector<std::string> section = path;
+        section.push_back(longer);
+        if (section_index.count(join(section)) == 0)
+          continue;
+        name = longer;
+        next = k + 1;
+      }
+      path.push_back(name);
+    }
+    return path;
+  }
+
   const ParameterFile::Entry &ParameterFile::set(const std::string &assignment)
   {
     const std::size_t equals = assignment.find('=');
@@ -132,10 +156,7 @@ namespace taut
       throw UserError("--set '" + assignment + "': write Section.Entry=value");
     Entry entry{{}, trim(assignment.substr(equals + 1)), "--set"};
     const std::string path = assignment.substr(0, equals);
-    const char separator = path.find('/') != std::string::npos ? '/' : '.';
-    std::istringstream parts(path);
-    for (std::string part; std::getline(parts, part, separator);)
-      entry.path.push_back(trim(part));
+    entry.path = path.find('/') != std::string::npos ? split(path, '/') : split_at_dots(path);
     if (entry.value.find_first_of("\n#") != std::string::npos)
       throw UserError("--set '" + assignment + "': a value has no line end and no '#'");
     check_text(assignment, "--set");

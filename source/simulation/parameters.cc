@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "entry_check.h"
 #include "file_text.h"
+#include "visit_entries.h"
 
 #include <taut/base/csv_table.h>
 #include <taut/base/exceptions.h>
@@ -11,8 +12,6 @@
 #include <taut/simulation/stored_study.h>
 
 #include <deal.II/base/parameter_handler.h>
-
-#include <nlohmann/json.hpp>
 
 #include <cerrno>
 #include <filesystem>
@@ -34,20 +33,6 @@ namespace taut
         throw EntryError(entry, "give two numbers, the first and the last, or leave it empty");
       if (pair[0] > pair[1])
         throw EntryError(entry, "the first number is the smaller one; swap them");
-    }
-
-    /// Calls @p see with path and node of each entry in a listing, or below @p section of it.
-    template <typename See>
-    void visit_entries(const nlohmann::json &listing, const See &see,
-                       const std::string &section = "")
-    {
-      for (const auto &[name, child] : listing.items())
-        if (!child.is_object())
-          continue;
-        else if (child.contains("pattern_description"))
-          see(section + name, child);
-        else
-          visit_entries(child, see, section + name + "/");
     }
 
     /// Values and defaults of all entries in a listing, by their paths.
@@ -332,7 +317,7 @@ namespace taut
                                                 dealii::ParameterHandler::KeepDeclarationOrder);
   }
 
-  Scene Parameters::scene() const
+  Scene Parameters::generated_scene() const
   {
     Scene scene;
     scene.bodies = bodies.bodies();
@@ -342,6 +327,12 @@ namespace taut
                   : start == "undeformed" ? Start::undeformed
                                           : Start::given;
     generator->fill(scene);
+    return scene;
+  }
+
+  Scene Parameters::scene() const
+  {
+    Scene scene = generated_scene();
     const ContactMass contact_mass = mass_redistribution == "mass"      ? ContactMass::keeps_total
                                      : mass_redistribution == "inertia" ? ContactMass::keeps_inertia
                                                                         : ContactMass::stays;
@@ -349,23 +340,7 @@ namespace taut
       if (link.rigid() && link.unilateral() && !link.moving() && !link.turns)
         link.contact_mass = contact_mass;
     for (std::size_t i = 0; i < output.probes.items.size(); ++i)
-    {
-      const OutputParameters::ProbeItem &item = output.probes.items[i];
-      const std::string title = output.probes.title(i);
-      const auto points = parse_attachments(item.point, scene, title + "/Point");
-      for (std::size_t k = 0; k < points.size(); ++k)
-      {
-        Probe probe;
-        probe.name =
-            output.probes.names[i] + (points.size() > 1 ? " " + std::to_string(k + 1) : "");
-        probe.origin = title;
-        probe.point = points[k];
-        probe.rotational = item.rotational;
-        probe.direction =
-            parse_direction_or_axis(item.rotational, item.direction, item.axis, title);
-        scene.probes.push_back(probe);
-      }
-    }
+      output.probes.items[i].add(output.probes.names[i], output.probes.title(i), scene);
     share_places(scene);
     check(scene, end_time);
     statistics.check_window(scene, end_time);

@@ -136,7 +136,7 @@ TEST(TurningStatics, what_cannot_turn_is_refused)
   expect(error_of("From = ground @ 1, 0; To = m0; Type = dropper; Length = 1"),
          "start at one place");
   expect(error_of(ends + "; Type = dropper; Length = .9"), "starts with a gap");
-  expect(error_of(ends + "; Type = dropper; Turns = false; Length = .9"), "set 'Turns = true'");
+  expect(error_of(ends + "; Type = stop; Turns = false; Length = .9"), "set 'Turns = true'");
   const std::string good = ends + "; Type = dropper; Length = 1";
   EXPECT_EQ(error_of(good), "");
   expect(error_of(good, {"Time/Scheme=Newmark"}), "gains energy where link 'l0' turns");

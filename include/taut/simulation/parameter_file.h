@@ -31,7 +31,7 @@ namespace taut
     void read(const std::string &file);
 
     /// Sets "A.B.Entry=value" or "A/B/Entry=value" from the command line, in place of an existing
-    /// entry. Returns the entry.
+    /// entry. Returns the entry. Between dots, sections of the file may have names with dots.
     const Entry &set(const std::string &assignment);
 
     /// Sends the data of the root to all ranks.
@@ -53,6 +53,7 @@ namespace taut
 
   private:
     void read_prm(const std::string &file, std::vector<std::string> &path);
+    std::vector<std::string> split_at_dots(const std::string &text) const;
     void add(Entry entry);
     void add_section(const std::vector<std::string> &path, const std::string &place);
 

@@ -7,6 +7,7 @@
 #include <taut/output/statistics.h>
 #include <taut/partition/make_partition.h>
 #include <taut/scene/named_items.h>
+#include <taut/scene/probe_item.h>
 #include <taut/scene/scene_generator.h>
 #include <taut/simulation/elasticity_parameters.h>
 #include <taut/simulation/parameter_file.h>
@@ -37,14 +38,6 @@ namespace taut
     bool resume = false;                ///< from the command line
     bool writes = true;                 ///< false: a run writes no files
 
-    /// A named probe.
-    struct ProbeItem
-    {
-      std::string point;
-      std::vector<double> direction, axis;
-      bool rotational = false;
-      void declare(dealii::ParameterHandler &prm);
-    };
     NamedItems<ProbeItem> probes{"Output", "Probes", "Probe", "points whose motion is recorded"};
 
     void declare_names(dealii::ParameterHandler &prm);
@@ -102,6 +95,18 @@ namespace taut
 
     /// The scene of the generator with gravity, start and probes, checked.
     Scene scene() const;
+
+    /// The scene as the generator fills it, without what other sections add, and not checked.
+    Scene generated_scene() const;
+
+    /**
+     * The parameter file with the scene of its generator written out: `Generator = network`, an
+     * item for each wire, support, mass, spring, link, load and probe, and all other entries as
+     * given. Parameters of studies and sweeps that vary entries of the generator are left out; @p
+     * left_out gets their sections. A file for the generator `network` remains as it is, with its
+     * includes and overrides. Throws UserError for what no entry says.
+     */
+    std::string as_network(std::vector<std::string> &left_out) const;
 
     /// Message of an error about an entry, with file, line and value.
     std::string explain(const EntryError &error) const

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/scene/entries.h>
+#include <taut/scene/probe_item.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+namespace taut
+{
+  void ProbeItem::declare(dealii::ParameterHandler &prm)
+  {
+    using namespace dealii::Patterns;
+    prm.add_parameter("Point", point, "A mass or 'wire @ position'", Anything());
+    prm.add_parameter("Direction", direction,
+                      "'x, y' or 'x, y, z'; the length does not matter. Empty: 0, 1",
+                      List(Double(), 0, 3));
+    prm.add_parameter("Rotational", rotational, "Slope or rotation instead of displacement");
+    prm.add_parameter("Axis", axis,
+                      "Of a rotation, 'x, y, z'; the length does not matter. Empty: z",
+                      List(Double(), 0, 3));
+  }
+
+  void ProbeItem::add(const std::string &name, const std::string &title, Scene &scene) const
+  {
+    const std::vector<Attachment> points = parse_attachments(point, scene, title + "/Point");
+    for (std::size_t k = 0; k < points.size(); ++k)
+    {
+      Probe probe;
+      probe.name = name + (points.size() > 1 ? " " + std::to_string(k + 1) : "");
+      probe.origin = title;
+      probe.point = points[k];
+      probe.rotational = rotational;
+      probe.direction = parse_direction_or_axis(rotational, direction, axis, title);
+      scene.probes.push_back(probe);
+    }
+  }
+} // namespace taut
