@@ -2,7 +2,7 @@
 #include "entry_check.h"
 #include "file_text.h"
 
-#include <taut/base/csv_table.h>
+#include <taut/base/data_files.h>
 #include <taut/base/exceptions.h>
 #include <taut/base/nearest_name.h>
 #include <taut/scene/entries.h>
