@@ -71,7 +71,8 @@ namespace taut
       double law_range = 0.;
       std::vector<double> direction, axis;
       bool rotational = false, find_length = false, turns = false, straight = false;
-      double damping = 0., gap = 0., length = 0., speed = 0.;
+      double damping = 0., gap = 0., length = 0.;
+      std::string speed = "0";
       double prescribed_displacement = 0., axial_stiffness = 0., mass_per_length = 0.;
       void declare(dealii::ParameterHandler &prm);
 
@@ -86,7 +87,7 @@ namespace taut
       std::string type = "point", on, magnitude = "0";
       std::vector<double> direction, axis;
       bool rotational = false;
-      double speed = 0.;
+      std::string speed = "0";
       void declare(dealii::ParameterHandler &prm);
     };
 

@@ -6,6 +6,7 @@
 #include <taut/base/text.h>
 #include <taut/scene/contact_surface.h>
 #include <taut/scene/entries.h>
+#include <taut/scene/travel.h>
 
 #include <algorithm>
 
@@ -148,7 +149,9 @@ namespace taut
       link.turns = item.turns;
       link.unstressed_length = item.length;
       check_turns(item, link, title);
-      link.speed = item.speed;
+      const Speed speed = parse_speed(item.speed, title + "/Speed");
+      link.speed = speed.constant;
+      link.travel = speed.travel;
       link.straight = item.straight;
       link.profile =
           Expression(item.profile, title + "/Height profile", Expression::Variables::position);

@@ -222,8 +222,9 @@ namespace taut
   void Network::LinkItem::declare_sliding(dealii::ParameterHandler &prm)
   {
     prm.add_parameter("Speed", speed,
-                      "Of a sliding contact along its wire or its unstressed cable [m/s]",
-                      Double());
+                      "Of a sliding contact along its wire or its unstressed cable: a number, or a "
+                      "formula in t [m/s]",
+                      Anything());
     prm.add_parameter("Straight", straight,
                       "Of a sliding contact on a cable: its Speed is that in space, along the line "
                       "from From to To of the cable and across Direction, and it touches what of "
@@ -267,6 +268,7 @@ namespace taut
     prm.add_parameter(
         "Magnitude", magnitude,
         "A formula in t and, on a wire or a cable, in the position s there [N, N/m, N m]");
-    prm.add_parameter("Speed", speed, "Of a moving load [m/s]", Double());
+    prm.add_parameter("Speed", speed, "Of a moving load: a number, or a formula in t [m/s]",
+                      Anything());
   }
 } // namespace taut
