@@ -7,6 +7,7 @@
 #include <taut/base/nearest_name.h>
 #include <taut/scene/entries.h>
 #include <taut/scene/shared_places.h>
+#include <taut/scene/travel.h>
 #include <taut/simulation/parameters.h>
 #include <taut/simulation/stored_study.h>
 
@@ -227,6 +228,7 @@ namespace taut
       for (const ParameterFile::Entry &entry : file.entries())
         entry_values[entry.name()] =
             declared.entries->get({entry.path.begin(), entry.path.end() - 1}, entry.path.back());
+      end_time = find_end_time();
       check_values();
     }
     catch (const EntryError &e)
@@ -330,7 +332,8 @@ namespace taut
                                                 dealii::ParameterHandler::KeepDeclarationOrder);
   }
 
-  Scene Parameters::scene() const
+  /// Without probes, and not checked.
+  Scene Parameters::scene_of_generator() const
   {
     Scene scene;
     scene.bodies = bodies.bodies();
@@ -340,6 +343,13 @@ namespace taut
                   : start == "undeformed" ? Start::undeformed
                                           : Start::given;
     generator->fill(scene);
+    return scene;
+  }
+
+  Scene Parameters::scene() const
+  {
+    Scene scene = scene_of_generator();
+    prepare_travels(scene, end_time);
     const ContactMass contact_mass = mass_redistribution == "mass"      ? ContactMass::keeps_total
                                      : mass_redistribution == "inertia" ? ContactMass::keeps_inertia
                                                                         : ContactMass::stays;
