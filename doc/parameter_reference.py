@@ -207,6 +207,16 @@ items, `<name>` below, are yours: list them in the entry that says so, then give
 brackets; a formula knows `pi`, `t` [s], on a wire `s` [m], and in sections `Body` and `Contact` `x`, `y`, `z` [m]. Types of
 bodies from plugins have entries of their own.
 
+A formula may take measured data: `table(FILE.csv, column)` is a column of a CSV file over its first column, alone or inside of a
+formula, as in `0.001*table(profile.csv, height) + 0.01*sin(s)`. The first column is s in entries of s, t in entries of t, d in
+elongations; where a formula has several variables, a word says which: `table(FILE.csv, column, t)`. Between its rows, which are
+sorted, a table is straight; with the word `cubic` at the end, a monotone cubic. Rows have to cover what is used; `t < 1 ? 0 : table(...)`
+asks a table only where it is chosen. Names of files are relative to the parameter file, and a run copies its tables into its
+results folder, beside `used.prm`.
+
+`include FILE` reads another parameter file in this place; its name is relative to the file that includes it. What an included file
+sets may be set again after the include, by the file that includes it. Any other entry that is set twice is an error.
+
 ## Top of the file
 """
 out = HEAD.splitlines() + [""]

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <taut/base/csv_table.h>
+#include <taut/base/data_files.h>
 #include <taut/base/exceptions.h>
 #include <taut/base/nearest_name.h>
 #include <taut/base/text.h>
@@ -9,31 +10,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
+#include <sstream>
 
 namespace taut
 {
   namespace
   {
-    std::string data_folder;
-
     constexpr std::size_t none = static_cast<std::size_t>(-1);
   } // namespace
 
-  void set_data_folder(const std::string &folder)
-  {
-    data_folder = folder;
-  }
-
   CsvTable::CsvTable(const std::string &name, const std::string &entry) : name(name), entry(entry)
   {
-    const std::filesystem::path path = std::filesystem::path(data_folder) / name;
-    std::ifstream in(path);
-    if (!in || std::filesystem::is_directory(path))
-      throw EntryError(entry, "cannot read the file '" + path.string() +
-                                  "'; names of files are relative to the folder of the parameter "
-                                  "file");
+    std::istringstream in(*read_data_file(name, entry));
     std::size_t number = 0;
     for (std::string line; std::getline(in, line);)
     {

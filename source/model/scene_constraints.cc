@@ -4,6 +4,7 @@
 #include <taut/cable/cable.h>
 #include <taut/model/scene_constraints.h>
 #include <taut/model/surface_constraints.h>
+#include <taut/scene/travel.h>
 
 #include <algorithm>
 #include <cmath>
@@ -56,7 +57,7 @@ namespace taut
       return result;
     }
 
-    /// A contact that slides along a wire or a cable at constant speed.
+    /// A contact that slides along a wire or a cable at a speed that does not depend on the motion.
     class SlidingPlace : public MovingPlace
     {
     public:
@@ -65,7 +66,7 @@ namespace taut
       {
       }
 
-      double position(const double t) const override { return link.to.position + link.speed * t; }
+      double position(const double t) const override { return link.to.position + way(link, t); }
 
       void append_terms(const double t, std::vector<Term> &terms) const override
       {
@@ -82,7 +83,7 @@ namespace taut
       void append_rates(const double t, std::vector<Term> &terms) const override
       {
         if (!is_beyond(t))
-          bodies.slope(place(t), link.direction, speed(), terms);
+          bodies.slope(place(t), link.direction, speed(t), terms);
       }
 
       /// A contact on a cable: displacements count from the shape at rest, whose height the contact
@@ -94,7 +95,7 @@ namespace taut
       }
 
     protected:
-      virtual double speed() const { return link.speed; }
+      virtual double speed(const double t) const { return speed_at(link, t); }
 
       const Scene &scene;
       const SceneBodies &bodies;
@@ -201,8 +202,8 @@ namespace taut
       void follow(const Motion &motion, const double start, const double end) override
       {
         if (!is_known)
-          known.origin = reached(motion, position(start), start) - link.speed * start;
-        const double before = position(start), way = known.origin + link.speed * end,
+          known.origin = reached(motion, position(start), start) - taut::way(link, start);
+        const double before = position(start), way = known.origin + taut::way(link, end),
                      enough = same_place * (length + std::fabs(way)),
                      first_error = reached(motion, before, end) - way;
         // A place on this leg of the cable.
@@ -254,7 +255,10 @@ namespace taut
       static constexpr double difference = 1e-3;    ///< over the length of an element
       static constexpr int most_searches = 50;      ///< a secant method takes five
 
-      double speed() const override { return is_known ? known.speed : link.speed; }
+      double speed(const double t) const override
+      {
+        return is_known ? known.speed : speed_at(link, t);
+      }
 
       Coordinates rest(const double s) const
       {

@@ -4,6 +4,7 @@
 #include <taut/base/text.h>
 #include <taut/cable/cable.h>
 #include <taut/output/model_limits.h>
+#include <taut/scene/travel.h>
 
 #include <algorithm>
 #include <cmath>
@@ -208,10 +209,12 @@ namespace taut
     };
     for (const Link &link : scene.links)
       if (link.moving())
-        compare("sliding contact '" + link.name + "'", link.to, link.speed);
+        compare("sliding contact '" + link.name + "'", link.to,
+                link.travel ? link.travel->range().fastest : link.speed);
     for (const Load &load : scene.loads)
       if (load.kind == Load::Kind::moving)
-        compare("load '" + load.name + "'", load.target, load.speed);
+        compare("load '" + load.name + "'", load.target,
+                load.travel ? load.travel->range().fastest : load.speed);
   }
 
   void ModelLimits::compare_filter(const Scene &scene, const double frequency, const double step)

@@ -5,6 +5,7 @@
 #include <taut/cable/cable.h>
 #include <taut/output/scene_report.h>
 #include <taut/scene/entries.h>
+#include <taut/scene/travel.h>
 
 #include <algorithm>
 #include <cmath>
@@ -210,6 +211,16 @@ namespace taut
     return places;
   }
 
+  namespace
+  {
+    /// Of a link or a load.
+    template <typename Item>
+    std::string speed_text(const Item &item)
+    {
+      return item.travel ? item.travel->text() : to_text(item.speed);
+    }
+  } // namespace
+
   void print_scene(const Scene &scene, const ScenePlaces &places, std::ostream &out)
   {
     print_bodies(scene, out);
@@ -226,7 +237,7 @@ namespace taut
       links.add(l.name, kinds[static_cast<int>(l.kind)], text(scene, l.from, places.from[i]),
                 text(scene, l.to, places.to[i]),
                 l.turns ? "turns" : direction(l.rotational, l.direction), stiffness, l.gap,
-                l.unstressed_length, l.speed);
+                l.unstressed_length, speed_text(l));
     }
     links.print("Links", out);
 
@@ -237,7 +248,7 @@ namespace taut
       const Load &l = scene.loads[i];
       loads.add(l.name, load_kinds[static_cast<int>(l.kind)],
                 text(scene, l.target, places.loads[i]), direction(l.rotational, l.direction),
-                l.magnitude.formula(), l.speed);
+                l.magnitude.formula(), speed_text(l));
     }
     loads.print("Loads", out);
 

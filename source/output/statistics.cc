@@ -5,6 +5,7 @@
 #include <taut/output/statistics.h>
 
 #include <taut/base/exceptions.h>
+#include <taut/scene/travel.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -106,9 +107,10 @@ namespace taut
         continue;
       if (link.straight)
         return; // the end of a run shows how far it slides on its cable
-      const double start = link.to.position, end = start + link.speed * end_time;
-      if (std::max(start, end) >= window[0] - slack(window) &&
-          std::min(start, end) <= window[1] + slack(window))
+      const double start = link.to.position, end = start + way(link, end_time);
+      const TravelRange range = travel_range(link, end_time);
+      if (start + range.greatest >= window[0] - slack(window) &&
+          start + range.least <= window[1] + slack(window))
         return;
       ways << (ways.tellp() > 0 ? ", '" : "'") << link.name << "' goes from " << start << " to "
            << end << " m";

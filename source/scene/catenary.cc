@@ -3,8 +3,10 @@
 
 #include <taut/base/exceptions.h>
 #include <taut/base/patterns.h>
+#include <taut/base/text.h>
 #include <taut/scene/entries.h>
 #include <taut/scene/named_items.h>
+#include <taut/scene/travel.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -48,7 +50,7 @@ namespace taut
     prm.add_parameter("Static force", static_force,
                       "Upwards on the lowest mass, net of the weight [N]", Double());
     prm.add_parameter("Start", start, "x at t = 0 [m]", Double());
-    prm.add_parameter("Speed", speed, "[km/h]", Double());
+    prm.add_parameter("Speed", speed, "A number, or a formula in t [km/h]", Anything());
     prm.add_parameter("Strip distance", strip_distance,
                       "Between two collector strips on a head that pitches; 0: one strip [m]",
                       not_negative());
@@ -158,10 +160,18 @@ namespace taut
       scene.loads.push_back(load);
     };
     push(" static force", first + n - 1, item.static_force);
-    const double v = item.speed / 3.6;
+    const Speed speed = speed_of(item, section);
+    const double v = speed.constant;
     for (std::size_t i = 0; i < item.lift.size(); ++i)
-      if (item.lift[i] != 0.)
-        push(" lift " + std::to_string(i + 1), first + i, item.lift[i] * v * v);
+    {
+      if (item.lift[i] == 0.)
+        continue;
+      push(" lift " + std::to_string(i + 1), first + i, item.lift[i] * v * v);
+      if (speed.travel)
+        scene.loads.back().magnitude =
+            Expression(to_text(std::setprecision(17), item.lift[i], "*((", item.speed, ")/3.6)^2"),
+                       section + "/Speed", Expression::Variables::time);
+    }
   }
 
   void Catenary::add_bump_stops(const std::string &name, const PantographItem &item,
@@ -200,7 +210,9 @@ namespace taut
     contact_link.stiffness =
         parse_stiffness(item.contact_stiffness, section + "/Contact stiffness");
     contact_link.damping = item.contact_damping;
-    contact_link.speed = item.speed / 3.6;
+    const Speed speed = speed_of(item, section);
+    contact_link.speed = speed.constant;
+    contact_link.travel = speed.travel;
     contact_link.profile =
         Expression(item.profile, section + "/Height profile", Expression::Variables::position);
     const bool has_wires = line.size() > 1 || line.front().contact_wires().size() > 1;

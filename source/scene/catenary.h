@@ -7,6 +7,7 @@
 #include "tension_length.h"
 
 #include <taut/scene/scene_generator.h>
+#include <taut/scene/travel.h>
 
 #include <string>
 #include <vector>
@@ -32,8 +33,9 @@ namespace taut
     {
       std::vector<double> masses = {7.2, 15.}, stiffnesses = {4200., 50.}, dampings = {10., 90.};
       std::vector<double> lift, stop_gaps, stop_stiffnesses;
-      double static_force = 120., start = 60., speed = 250.;
+      double static_force = 120., start = 60.;
       double strip_distance = 0., head_inertia = 0., pitch_stiffness = 0., pitch_damping = 0.;
+      std::string speed = "250";
       std::string contact_stiffness = "50000", profile = "0";
       double contact_damping = 0.;
       void declare(dealii::ParameterHandler &prm);
@@ -46,6 +48,10 @@ namespace taut
     void check_wires() const;
     void check_uplift_positions(const Line &line) const;
     void check_pantographs(const Line &line) const;
+    /// The entry Speed of a pantograph in @p section.
+    static Speed speed_of(const PantographItem &item, const std::string &section);
+    static bool is_as_fast(const PantographItem &a, const PantographItem &b,
+                           const std::string &section);
     void check_lists(const PantographItem &item, const std::string &section) const;
     void add_pantograph(const std::string &name, const PantographItem &item, const Line &line,
                         Scene &scene) const;

@@ -6,6 +6,7 @@
 #include <taut/base/nearest_name.h>
 #include <taut/base/text.h>
 #include <taut/scene/entries.h>
+#include <taut/scene/travel.h>
 
 #include <algorithm>
 #include <cmath>
@@ -103,6 +104,21 @@ namespace taut
                              std::to_string(i + 1) + " too");
   }
 
+  Speed Catenary::speed_of(const PantographItem &item, const std::string &section)
+  {
+    constexpr double kilometres_per_hour = 3.6;
+    return parse_speed(item.speed, section + "/Speed", kilometres_per_hour);
+  }
+
+  bool Catenary::is_as_fast(const PantographItem &a, const PantographItem &b,
+                            const std::string &section)
+  {
+    if (a.speed == b.speed)
+      return true;
+    const Speed first = speed_of(a, section), second = speed_of(b, section);
+    return !first.travel && !second.travel && first.constant == second.constant;
+  }
+
   void Catenary::check_pantographs(const Line &line) const
   {
     const auto [first, last] = reach(line);
@@ -123,7 +139,8 @@ namespace taut
         throw EntryError(section + "/Contact damping",
                          "a rigid contact has none; give it a finite Contact stiffness");
       for (std::size_t k = 0; k < i; ++k)
-        if (item.start == pantograph_items[k].start && item.speed == pantograph_items[k].speed)
+        if (item.start == pantograph_items[k].start &&
+            is_as_fast(item, pantograph_items[k], section))
           throw EntryError(section + "/Start", "pantograph '" + pantographs[k] +
                                                    "' stands at the same place; give them "
                                                    "different ones");

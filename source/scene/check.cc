@@ -2,6 +2,7 @@
 #include "check_parts.h"
 
 #include <taut/scene/scene.h>
+#include <taut/scene/travel.h>
 
 #include <algorithm>
 #include <cmath>
@@ -245,30 +246,6 @@ namespace taut
               (a.index == b.index && a.position == b.position && a.place == b.place));
     }
 
-    void check_sliding(const Scene &scene, const Link &link, const std::string &what,
-                       const double end_time)
-    {
-      if (link.to.kind == Attachment::Kind::body &&
-          scene.bodies[link.to.index].type_name == "cable")
-        return; // the length of the body is known when the body is made
-      if (link.to.kind != Attachment::Kind::wire)
-        fail(link, "To", what, "a sliding contact slides on a wire or a cable, 'wire @ start'");
-      const Wire &wire = scene.wires[link.to.index];
-      if (wire.transverse == TransverseKind::none)
-        fail(link, "To", what, "it slides under wire '", wire.name,
-             "', which has no transverse motion; give the wire the component string or beam");
-      if (!link.strip.empty())
-        return; // another wire may be there, see check_strips()
-      const double length = wire.length(), end = link.to.position + link.speed * end_time;
-      if (!(end >= -1e-9 * length && end <= (1. + 1e-9) * length))
-      {
-        const double last = ((link.speed > 0. ? length : 0.) - link.to.position) / link.speed;
-        fail(link, "Speed", what, "it leaves wire '", wire.name,
-             "' before the end: at t = ", end_time, " s it would be at ", end, " m of ", length,
-             " m. Set Time/End to ", last, " s at most, or lengthen the wire");
-      }
-    }
-
     /// Two links of one section between the same points along the same direction come from a
     /// position that was written twice.
     void check_repeated(const Scene &scene)
@@ -285,35 +262,6 @@ namespace taut
         if (!link.origin.empty() && !link.moving() && !known.insert(key(link)).second)
           fail(link, "To", "link '", link.name,
                "': the one before it is between the same two points; remove one of the positions");
-    }
-
-    /// Each strip has a wire over it at all times.
-    void check_strips(const Scene &scene, const double end_time)
-    {
-      std::map<std::string, std::vector<const Link *>> strips;
-      for (const Link &link : scene.links)
-        if (link.moving() && !link.strip.empty())
-          strips[link.strip].push_back(&link);
-      for (const auto &[name, links] : strips)
-      {
-        // Parts of the way under each wire, from first to last.
-        std::vector<std::pair<double, double>> parts;
-        for (const Link *link : links)
-          parts.emplace_back(-link->to.position,
-                             scene.wires[link->to.index].length() - link->to.position);
-        std::sort(parts.begin(), parts.end());
-        const double end = links.front()->speed * end_time, first = std::min(0., end),
-                     last = std::max(0., end), same = 1e-9 * (std::fabs(end) + 1.);
-        double reached = first;
-        for (const auto &[from, to] : parts)
-          if (from <= reached + same)
-            reached = std::max(reached, to);
-        if (!(parts.front().first <= first + same && reached >= last - same))
-          fail(*links.front(), "To", "strip '", name, "': no wire is over it ",
-               std::max(0., parts.front().first > first + same ? parts.front().first : reached),
-               " m from its start, on a way of ", end,
-               " m. Lengthen the wires, or end the run earlier");
-      }
     }
 
     void check_links(const Scene &scene, const double end_time)
@@ -346,7 +294,7 @@ namespace taut
                "half of its mass would go to a body, which brings its own; set it to 0");
         if (link.moving())
           check_sliding(scene, link, what, end_time);
-        else if (link.speed != 0. || !link.profile.is_zero())
+        else if (moves(link) || !link.profile.is_zero())
           fail(link, "Speed", what, "Speed and Height profile are for a sliding contact");
       }
     }

@@ -24,6 +24,14 @@ namespace taut
   bool can_move(const Scene &scene, const Attachment &end, bool rotational,
                 const Coordinates &direction);
 
+  /// Throws an EntryError if a sliding contact has no wire to slide on, or leaves it before @p
+  /// end_time [s]. @p what begins the message.
+  void check_sliding(const Scene &scene, const Link &link, const std::string &what,
+                     double end_time);
+
+  /// Throws an EntryError unless each strip has a wire over it until @p end_time [s].
+  void check_strips(const Scene &scene, double end_time);
+
   /// Throws an EntryError for items of one kind with one name, or with names that tables cannot
   /// tell apart.
   void check_names(const Scene &scene);

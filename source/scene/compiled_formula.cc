@@ -138,14 +138,23 @@ namespace taut
   class CompiledFormula::Program
   {
   public:
-    Program(const std::string &text, const std::vector<std::string> &variables)
+    Program(const std::string &text, const std::vector<std::string> &variables,
+            const Tables &tables)
     try
     {
+      uses.reserve(tables.size());
+      for (const auto &table : tables)
+      {
+        uses.push_back({*table, is_compiled});
+        parser.DefineFunUserData("table_" + std::to_string(uses.size() - 1), value_of, &uses.back(),
+                                 false);
+      }
       for (std::size_t i = 0; i < variables.size(); ++i)
         parser.DefineVar(variables[i], &values[i]);
       define_functions(parser);
       parser.SetExpr(text);
       parser.Eval(); // compiles it
+      is_compiled = true;
     }
     catch (const mu::ParserError &error)
     {
@@ -159,14 +168,30 @@ namespace taut
     }
 
   private:
+    struct Use
+    {
+      const TabulatedFunction &table;
+      const bool &is_compiled;
+    };
+
+    /// A table has a value at zero or not: the compiler does not ask.
+    static double value_of(void *use, const double x)
+    {
+      const Use &own = *static_cast<const Use *>(use);
+      return own.is_compiled ? own.table(x) : 0.;
+    }
+
+    bool is_compiled = false;
+    std::vector<Use> uses;
     mu::Parser parser;
     Values values = {};
   };
 
   CompiledFormula::CompiledFormula(const std::string &text,
-                                   const std::vector<std::string> &variables)
-      : text(one_formula(text)), variables(variables), owner(std::this_thread::get_id()),
-        program(std::make_unique<Program>(this->text, variables))
+                                   const std::vector<std::string> &variables, const Tables &tables)
+      : text(one_formula(text)), variables(variables), tables(tables),
+        owner(std::this_thread::get_id()),
+        program(std::make_unique<Program>(this->text, variables, tables))
   {
   }
 
@@ -182,7 +207,7 @@ namespace taut
     const std::lock_guard<std::mutex> lock(mutex);
     std::unique_ptr<Program> &own = others[std::this_thread::get_id()];
     if (!own)
-      own = std::make_unique<Program>(text, variables);
+      own = std::make_unique<Program>(text, variables, tables);
     return (*own)(values);
   }
 } // namespace taut

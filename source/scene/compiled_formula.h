@@ -2,6 +2,8 @@
 #ifndef taut_compiled_formula_h
 #define taut_compiled_formula_h
 
+#include "tabulated_function.h"
+
 #include <array>
 #include <map>
 #include <memory>
@@ -32,11 +34,16 @@ namespace taut
     static constexpr std::size_t most_variables = 4;
     using Values = std::array<double, most_variables>;
 
-    /// @p variables are the names of the first values. Throws FormulaError.
-    CompiledFormula(const std::string &text, const std::vector<std::string> &variables);
+    using Tables = std::vector<std::shared_ptr<const TabulatedFunction>>;
+
+    /// @p variables are the names of the first values, and table_0, table_1, ... functions of the
+    /// formula. Throws FormulaError.
+    CompiledFormula(const std::string &text, const std::vector<std::string> &variables,
+                    const Tables &tables = {});
     ~CompiledFormula();
 
-    /// Value of the formula; not finite where it is not defined.
+    /// Value of the formula; not finite where it is not defined. Throws
+    /// TabulatedFunction::Outside.
     double operator()(const Values &values);
 
   private:
@@ -46,6 +53,7 @@ namespace taut
 
     const std::string text;
     const std::vector<std::string> variables;
+    const Tables tables;
     const std::thread::id owner;
     std::unique_ptr<Program> program; ///< of the owner
     std::mutex mutex;                 ///< of the other threads

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "compiled_formula.h"
+#include "table_calls.h"
 
 #include <taut/base/exceptions.h>
 #include <taut/base/text.h>
@@ -40,11 +41,29 @@ namespace taut
       }
     }
 
+    /// What tables of a formula may be of.
+    std::vector<std::string> abscissae(const Expression::Variables variables)
+    {
+      switch (variables)
+      {
+      case Expression::Variables::position:
+        return {"s"};
+      case Expression::Variables::time:
+        return {"t"};
+      case Expression::Variables::elongation:
+        return {"d"};
+      case Expression::Variables::space:
+        return {"x", "y", "z", "t"};
+      default:
+        return {"s", "t"};
+      }
+    }
+
     /// The fault of a formula of this entry; empty if there is none.
     std::string objection(const std::string &formula, const Expression::Variables variables)
     {
       if (std::regex_search(formula, std::regex("^[^()+*,]*\\.[A-Za-z]{2}[A-Za-z0-9]*$")))
-        return "it looks like the name of a file, and no file is read here";
+        return "it looks like the name of a file; a column of a file is 'table(FILE.csv, column)'";
       for (const std::string random : {"rand", "rand_seed"})
         if (mentions(formula, random))
           return "'" + random +
@@ -85,7 +104,9 @@ namespace taut
     };
     if (is_number)
       throw bad("the number is out of range");
-    const std::string wrong = objection(text, variables);
+    const TableCalls calls(text, abscissae(variables), entry);
+    tables = calls.tables;
+    const std::string wrong = objection(calls.formula, variables);
     if (!wrong.empty())
       throw bad(wrong);
     names = variables == Variables::space        ? std::vector<std::string>{"x", "y", "z", "t"}
@@ -93,13 +114,21 @@ namespace taut
                                                  : std::vector<std::string>{"s", "t"};
     try
     {
-      compiled = std::make_shared<CompiledFormula>(text, names);
+      compiled = std::make_shared<CompiledFormula>(calls.formula, names, tables);
     }
     catch (const std::exception &e)
     {
       throw bad(e.what());
     }
-    time_dependent = mentions(text, "t");
+    time_dependent = mentions(calls.formula, "t");
+    if (!calls.alone.empty())
+      variable_alone =
+          static_cast<int>(std::find(names.begin(), names.end(), calls.alone) - names.begin());
+    if (!tables.empty())
+    {
+      varies = true;
+      return;
+    }
     constant = (*compiled)({});
     varies = !std::isfinite(constant) || // an error when it is evaluated
              std::any_of(names.begin(), names.end(),
@@ -112,23 +141,46 @@ namespace taut
     const CompiledFormula::Values values = names.size() == 2
                                                ? CompiledFormula::Values{x.x, t}
                                                : CompiledFormula::Values{x.x, x.y, x.z, t};
-    const double value = (*compiled)(values);
+    double value = 0.;
+    try
+    {
+      value = variable_alone >= 0 ? (*tables.front())(values[variable_alone]) : (*compiled)(values);
+    }
+    catch (const TabulatedFunction::Outside &e)
+    {
+      throw EntryError(entry, "'" + text + "' has no value at " + place(values) + ": " + e.what() +
+                                  ", or the formula may choose, e.g. 'condition ? a : b'");
+    }
     if (!std::isfinite(value))
       fail(values);
     return value;
   }
 
-  void Expression::fail(const std::array<double, 4> &values) const
+  std::string Expression::content() const
+  {
+    std::string result = text;
+    for (const auto &table : tables)
+      result += " [" + table->content() + "]";
+    return result;
+  }
+
+  /// "s = 3 m, t = 0.5 s"
+  std::string Expression::place(const std::array<double, 4> &values) const
   {
     std::ostringstream out;
-    out << "'" << text << "' is not finite at ";
     const std::size_t n = names.size() - 1;
     for (std::size_t i = 0; i < n; ++i)
       out << names[i] << (i + 1 < n ? ", " : " = ");
     for (std::size_t i = 0; i < n; ++i)
       out << values[i] << (i + 1 < n ? ", " : " m, t = ");
-    out << values[n]
-        << " s. Restrict the formula to where it is defined, e.g. with if(condition, a, b).";
-    throw EntryError(entry, out.str());
+    out << values[n] << " s";
+    return out.str();
+  }
+
+  void Expression::fail(const std::array<double, 4> &values) const
+  {
+    throw EntryError(entry, "'" + text + "' is not finite at " + place(values) +
+                                ". Restrict the formula to where it is defined, e.g. with "
+                                "if(condition, a, b).");
   }
 } // namespace taut

@@ -45,7 +45,7 @@ namespace taut
 
       std::string description() const override
       {
-        return "formula " + formula.formula() + " up to " + number(range);
+        return "formula " + formula.content() + " up to " + number(range);
       }
 
     private:

@@ -6,6 +6,7 @@
 #include <taut/base/nearest_name.h>
 #include <taut/base/text.h>
 #include <taut/scene/entries.h>
+#include <taut/scene/travel.h>
 
 #include <algorithm>
 
@@ -222,9 +223,11 @@ namespace taut
                                              : Load::Kind::point;
       load.rotational = item.rotational;
       load.direction = parse_direction_or_axis(item.rotational, item.direction, item.axis, title);
-      load.speed = item.speed;
       load.acts_while_built = item.acts_while_built;
-      if (load.speed != 0. && load.kind != Load::Kind::moving)
+      const Speed speed = parse_speed(item.speed, title + "/Speed");
+      load.speed = speed.constant;
+      load.travel = speed.travel;
+      if (moves(load) && load.kind != Load::Kind::moving)
         throw EntryError(title + "/Speed",
                          "a " + item.type + " load stands; set 'Type = moving', or Speed to 0");
       std::string on = item.on;

@@ -73,7 +73,8 @@ namespace taut
       std::vector<double> direction, axis;
       bool rotational = false, find_length = false, find_direction = false, turns = false,
            straight = false;
-      double damping = 0., gap = 0., length = 0., speed = 0.;
+      double damping = 0., gap = 0., length = 0.;
+      std::string speed = "0", strip;
       double prescribed_displacement = 0., axial_stiffness = 0., mass_per_length = 0.;
       void declare(dealii::ParameterHandler &prm);
 
@@ -88,7 +89,7 @@ namespace taut
       std::string type = "point", on, magnitude = "0";
       std::vector<double> direction, axis;
       bool rotational = false, acts_while_built = true;
-      double speed = 0.;
+      std::string speed = "0";
       void declare(dealii::ParameterHandler &prm);
     };
 

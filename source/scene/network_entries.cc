@@ -289,16 +289,6 @@ namespace taut
       }
     }
 
-    /// The links of a strip, which come one after the other, are one item.
-    std::string ends_of_strip(const Scene &scene, const std::size_t first, std::size_t &next)
-    {
-      std::string text;
-      for (next = first;
-           next < scene.links.size() && scene.links[next].strip == scene.links[first].strip; ++next)
-        text += (next > first ? ", " : "") + text_of(scene, scene.links[next].to);
-      return text;
-    }
-
     void write_link(Items &items, const Link &link, const Scene &scene)
     {
       const bool has_length = link.unstressed_length > 0.;
@@ -332,17 +322,13 @@ namespace taut
     void write_links(const Scene &scene, std::vector<WrittenEntry> &all)
     {
       Items links(all, "Links", "Link");
-      for (std::size_t i = 0, next = 0; i < scene.links.size(); i = next)
+      for (const Link &link : scene.links)
       {
-        const Link &link = scene.links[i];
-        next = i + 1;
-        std::string to = text_of(scene, link.to);
-        if (!link.strip.empty())
-          to = ends_of_strip(scene, i, next);
-        links.begin(link.strip.empty() ? link.name : link.strip);
+        links.begin(link.name);
         links.set_text("joint", "Type", text_of(link.kind));
         links.set("From", text_of(scene, link.from));
-        links.set("To", to);
+        links.set("To", text_of(scene, link.to));
+        links.set_text("", "Strip", link.strip);
         write_link(links, link, scene);
       }
     }

@@ -6,6 +6,7 @@
 #include <taut/base/text.h>
 #include <taut/scene/contact_surface.h>
 #include <taut/scene/entries.h>
+#include <taut/scene/travel.h>
 
 #include <algorithm>
 
@@ -187,7 +188,9 @@ namespace taut
       link.turns = item.turns;
       link.unstressed_length = item.length;
       check_turns(item, link, title);
-      link.speed = item.speed;
+      const Speed speed = parse_speed(item.speed, title + "/Speed");
+      link.speed = speed.constant;
+      link.travel = speed.travel;
       link.straight = item.straight;
       link.profile =
           Expression(item.profile, title + "/Height profile", Expression::Variables::position);
@@ -245,14 +248,16 @@ namespace taut
     /// wire, also before its begin.
     void add_strip(Link link, const std::vector<std::string> &wires, Scene &scene)
     {
-      link.strip = link.name;
+      const std::string first_name = link.name;
+      if (link.strip.empty())
+        link.strip = link.name;
       for (const std::string &text : wires)
       {
         const std::size_t at = text.find('@');
         const std::string name = trim(text.substr(0, at));
         const std::size_t index = find_name(scene.wires, name);
         const Wire &wire = scene.wires[index];
-        link.name = link.strip + " on " + name;
+        link.name = first_name + " on " + name;
         link.to = {Attachment::Kind::wire, index,
                    dot(place(scene, link.from) - wire.a, wire.tangent())};
         if (at != std::string::npos)
@@ -276,6 +281,9 @@ namespace taut
       const std::string title = links.title(i);
       Link link = link_without_ends(item, title);
       const auto from = parse_attachments(item.from, scene, title + "/From");
+      link.strip = item.strip;
+      if (!link.strip.empty() && !link.moving())
+        throw EntryError(title + "/Strip", "it is of a sliding contact; leave it empty");
       if (const auto wires = wires_of_strip(item, scene); !wires.empty())
       {
         if (from.size() != 1 || from[0].kind != Attachment::Kind::mass)

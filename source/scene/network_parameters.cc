@@ -170,10 +170,11 @@ namespace taut
                       "in that plane. 'stop': pushes them apart. 'dropper': pulls them together. "
                       "'sliding contact': a stop whose second end moves on a wire or a cable",
                       Selection("joint|ball joint|stop|dropper|sliding contact"));
-    prm.add_parameter(
-        "From", from,
-        "'ground', 'ground @ x, y, z', a mass, 'wire @ position' or 'body @ x, y, z'; several "
-        "positions (numbers and ranges first:step:last) make one link each");
+    prm.add_parameter("From", from,
+                      "'ground', 'ground @ x, y, z', a mass, 'mass @ x, y' beside the centre of "
+                      "one that rotates, "
+                      "'wire @ position' or 'body @ x, y, z'; several "
+                      "positions (numbers and ranges first:step:last) make one link each");
     prm.add_parameter(
         "To", to,
         "As From; for a sliding contact 'wire @ start' or 'cable @ start, 0', or the wires "
@@ -225,8 +226,15 @@ namespace taut
   void Network::LinkItem::declare_sliding(dealii::ParameterHandler &prm)
   {
     prm.add_parameter("Speed", speed,
-                      "Of a sliding contact along its wire or its unstressed cable [m/s]",
-                      Double());
+                      "Of a sliding contact along its wire or its unstressed cable: a number, or a "
+                      "formula in t [m/s]",
+                      Anything());
+    prm.add_parameter(
+        "Strip", strip,
+        "Of a sliding contact: links with the same name here are one collector strip, "
+        "or strips of one head, whose forces add; each may run beyond the ends of its "
+        "wire, where it does not touch",
+        Anything());
     prm.add_parameter("Straight", straight,
                       "Of a sliding contact on a cable: its Speed is that in space, along the line "
                       "from From to To of the cable and across Direction, and it touches what of "
@@ -274,7 +282,8 @@ namespace taut
     prm.add_parameter(
         "Magnitude", magnitude,
         "A formula in t and, on a wire or a cable, in the position s there [N, N/m, N m]");
-    prm.add_parameter("Speed", speed, "Of a moving load [m/s]", Double());
+    prm.add_parameter("Speed", speed, "Of a moving load: a number, or a formula in t [m/s]",
+                      Anything());
     prm.add_parameter("Acts while built", acts_while_built,
                       "Whether lengths of droppers are found with this load; wind blows later");
   }

@@ -46,7 +46,7 @@ namespace taut
       void write(const std::vector<double> &values) { archive << values; }
       void write(const Coordinates &c) { all(c.x, c.y, c.z); }
       /// Messages name an entry in the section of the part.
-      void write(const Expression &e) { all(e.formula(), e.depends_on_time()); }
+      void write(const Expression &e) { all(e.content(), e.depends_on_time()); }
       void write(const InitialMotion &m) { all(m.displacement, m.velocity); }
       void write(const Attachment &a) { all(a.kind, a.index, a.position, a.place, a.has_place); }
       void write(const std::vector<TensionChange> &changes)

@@ -35,6 +35,7 @@ namespace taut
     }
     try
     {
+      end_time = find_end_time();
       check_values();
     }
     catch (const EntryError &e)

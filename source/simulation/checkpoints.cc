@@ -23,13 +23,26 @@ namespace taut
       return version() + ", " + instruction_set_in_use();
     }
 
+    /// Begins the names of files among those of entries.
+    const std::string file_mark = "file ";
+
+    std::map<std::string, std::string> with_files(std::map<std::string, std::string> entries,
+                                                  const DataFiles &files)
+    {
+      for (const auto &[name, text] : files)
+        entries[file_mark + name] = digest(*text);
+      return entries;
+    }
+
     /// Data of bodies, by their number in the system.
     using StoredBodies = std::map<std::size_t, std::string>;
   } // namespace
 
   Checkpoints::Checkpoints(const std::string &folder, const double interval, std::ostream &log,
-                           const std::map<std::string, std::string> &entries)
-      : folder(folder), interval(interval), log(log), entries(entries), next(interval)
+                           const std::map<std::string, std::string> &entries,
+                           const DataFiles &files)
+      : folder(folder), interval(interval), log(log), entries(with_files(entries, files)),
+        next(interval)
   {
   }
 
@@ -72,6 +85,10 @@ namespace taut
       const auto before = stored.entries.find(path);
       if (path == own_folder || (before != stored.entries.end() && before->second == value))
         continue;
+      if (path.compare(0, file_mark.size(), file_mark) == 0)
+        throw UserError("the file '" + path.substr(file_mark.size()) +
+                        "' is not what it was in the run that is to be resumed; put back the copy "
+                        "that is in its folder, or begin anew with --overwrite");
       throw EntryError(path,
                        "the run that is to be resumed had " +
                            (before == stored.entries.end() ? std::string("no such entry")

@@ -23,6 +23,14 @@ namespace taut
         text += (text.empty() ? "" : "/") + part;
       return text;
     }
+
+    /// Whether the file that an entry was read in was included by the one that is read now.
+    bool is_included(const std::vector<std::string> &open_then,
+                     const std::vector<std::string> &open_now)
+    {
+      return open_then.size() > open_now.size() &&
+             std::equal(open_now.begin(), open_now.end(), open_then.begin());
+    }
   } // namespace
 
   std::string ParameterFile::Entry::name() const
@@ -35,6 +43,7 @@ namespace taut
     main_file = file;
     list.clear();
     section_list.clear();
+    set_in.clear();
     index.clear();
     section_index.clear();
     if (std::filesystem::path(file).extension() == ".json")
@@ -61,10 +70,19 @@ namespace taut
         throw UserError(entry.place + ": " + entry.name() + " = '" + entry.value +
                         "': '\\' at the end continues a line, but there is none; remove it");
     const auto [known, is_new] = index.emplace(entry.name(), list.size());
+    if (!is_new && !open_files.empty() && is_included(set_in[known->second], open_files))
+    {
+      set_in[known->second] = open_files;
+      list[known->second] = std::move(entry);
+      return;
+    }
     if (!is_new)
       throw UserError(entry.place + ": '" + entry.name() + "' was set before, at " +
-                      list[known->second].place + "; remove one of them");
+                      list[known->second].place +
+                      "; remove one of them. Only an entry of an included file is set again, after "
+                      "the include");
     list.push_back(std::move(entry));
+    set_in.push_back(open_files);
   }
 
   void ParameterFile::add_section(const std::vector<std::string> &path, const std::string &place)

@@ -3,11 +3,12 @@
 #include "file_text.h"
 #include "visit_entries.h"
 
-#include <taut/base/csv_table.h>
+#include <taut/base/data_files.h>
 #include <taut/base/exceptions.h>
 #include <taut/base/nearest_name.h>
 #include <taut/scene/entries.h>
 #include <taut/scene/shared_places.h>
+#include <taut/scene/travel.h>
 #include <taut/simulation/parameters.h>
 #include <taut/simulation/stored_study.h>
 
@@ -213,6 +214,7 @@ namespace taut
       for (const ParameterFile::Entry &entry : file.entries())
         entry_values[entry.name()] =
             declared.entries->get({entry.path.begin(), entry.path.end() - 1}, entry.path.back());
+      end_time = find_end_time();
       check_values();
     }
     catch (const EntryError &e)
@@ -333,6 +335,7 @@ namespace taut
   Scene Parameters::scene() const
   {
     Scene scene = generated_scene();
+    prepare_travels(scene, end_time);
     const ContactMass contact_mass = mass_redistribution == "mass"      ? ContactMass::keeps_total
                                      : mass_redistribution == "inertia" ? ContactMass::keeps_inertia
                                                                         : ContactMass::stays;

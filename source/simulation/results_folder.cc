@@ -2,6 +2,7 @@
 #include "results_folder.h"
 #include "checkpoint.h"
 
+#include <taut/base/data_files.h>
 #include <taut/base/exceptions.h>
 #include <taut/base/memory.h>
 #include <taut/base/version.h>
@@ -58,6 +59,26 @@ namespace taut
       return results;
     }
 
+    /// Copies of the files that a run reads must not take the place of others.
+    void check_copies(const OutputParameters &output)
+    {
+      const std::set<std::string> results = names_of_results();
+      for (const auto &[name, text] : data_files())
+      {
+        const std::string copy = copied_name(name);
+        if (results.count(copy))
+          throw EntryError("Output/Folder", "a file that the run reads has the name '" + copy +
+                                                "' of a file of results; rename it");
+        std::error_code error;
+        if (!output.overwrite && fs::exists(fs::path(output.folder) / copy, error) &&
+            !changed_copy({{name, text}}, output.folder).empty())
+          throw EntryError("Output/Folder",
+                           "'" + output.folder + "' has another file '" + copy +
+                               "' than the run reads; name another folder, or run with "
+                               "--overwrite");
+      }
+    }
+
     void check_resumed_folder(const Parameters &parameters)
     {
       const OutputParameters &output = parameters.output;
@@ -94,6 +115,7 @@ namespace taut
     const fs::path folder = parameters.output.folder;
     std::error_code error;
     check_folder(parameters);
+    check_copies(parameters.output);
     // Files of a longer run would mix with new ones. used.prm goes last, as it names their run.
     const fs::path used_file = folder / "used.prm";
     for (const fs::path &file : results_in(folder))
@@ -113,6 +135,7 @@ namespace taut
       used << "# " << comment << '\n';
     parameters.print(used);
     check_memory();
+    copy_data_files(data_files(), folder.string());
     replace_file(used_file, used.str());
   }
 

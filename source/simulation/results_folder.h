@@ -13,7 +13,8 @@ namespace taut
   void check_folder(const Parameters &parameters);
 
   /// Makes the folder, removes results of an earlier run, and writes used.prm with @p comments,
-  /// lines without '#', before the entries. Throws an EntryError.
+  /// lines without '#', before the entries, beside copies of the files that the run read. Throws an
+  /// EntryError.
   void prepare_folder(const Parameters &parameters, const std::vector<std::string> &comments);
 } // namespace taut
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "results_folder.h"
 
+#include <taut/base/data_files.h>
 #include <taut/base/exceptions.h>
 #include <taut/base/interruption.h>
 #include <taut/base/memory.h>
@@ -55,7 +56,8 @@ namespace taut
     const OutputParameters &output = parameters.output;
     if (output.writes)
       check_results_folder(parameters, processes);
-    Checkpoints checkpoints(output.folder, output.checkpoint_interval, log, parameters.values());
+    Checkpoints checkpoints(output.folder, output.checkpoint_interval, log, parameters.values(),
+                            data_files());
     if (output.resume)
       checkpoints.find(processes);
     describe();

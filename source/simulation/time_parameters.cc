@@ -16,8 +16,11 @@ namespace taut
                           Registry<TimeIntegrator>::instance().descriptions(),
                       Selection("automatic|" + Registry<TimeIntegrator>::instance().names()));
     prm.add_parameter("Step", step, "[s]", not_negative());
-    prm.add_parameter("End", end_time, "0: the start only, e.g. a static equilibrium [s]",
-                      not_negative());
+    prm.add_parameter(
+        "End", end,
+        "A time; 0: the start only, e.g. a static equilibrium. 'until x = 540 m': the "
+        "time at which the first sliding contact of the scene comes to this x [s]",
+        Anything());
     step_parameters.declare_parameters(prm);
     prm.add_parameter(
         "Check steps", check_steps,

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/data_files.h>
 #include <taut/base/exceptions.h>
 #include <taut/base/growing_file.h>
 #include <taut/base/interruption.h>
@@ -109,12 +110,20 @@ namespace taut
         throw EntryError("Sweep/Folder", "'" + folder.string() +
                                              "' holds a sweep with other entries: resume it as it "
                                              "was, or run with --overwrite");
+      const std::string changed = changed_copy(data_files(), folder.string());
+      if (!changed.empty())
+        throw EntryError("Sweep/Folder", "the file '" + changed +
+                                             "' is not what it was when the sweep in '" +
+                                             folder.string() +
+                                             "' began: put back the copy that is there, or run "
+                                             "with --overwrite");
       continue_table(table);
       return;
     }
     fs::remove(table, error);
     std::ostringstream used;
     parameters.print(used);
+    copy_data_files(data_files(), folder.string());
     replace_file(entries, used.str());
     write_file(table, header);
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later Supports, point masses and loads of a wire.
 #include "distributed_load.h"
 
+#include <taut/scene/travel.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -75,7 +77,7 @@ namespace taut
 
     void add(const double t, std::vector<double> &P) const override
     {
-      const double s = load.target.position + load.speed * t;
+      const double s = load.target.position + way(load, t);
       if (s < 0. || s > wire.wire_length || !wire.owns(s))
         return;
       if (load.rotational)

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Formulas of parameter files: the time of one evaluation, beside that of sin alone.
+#include <taut/base/data_files.h>
 #include <taut/scene/expression.h>
 
 #include <benchmark/benchmark.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 
 namespace
 {
@@ -35,6 +38,38 @@ namespace
     benchmark::DoNotOptimize(sum);
   }
 
+  /// Of a table with so many rows that is read along its way, alone and inside of a formula.
+  void evaluate_table(benchmark::State &state, const char *text)
+  {
+    const auto folder = std::filesystem::temp_directory_path();
+    const int n = static_cast<int>(state.range(0));
+    taut::set_data_folder(folder.string());
+    {
+      std::ofstream file(folder / "formula_benchmark.csv");
+      file << "s,height\n";
+      for (int i = 0; i < n; ++i)
+        file << 101. * i / (n - 1) << ',' << i % 7 << '\n';
+    }
+    const Expression formula(text, "formula", Expression::Variables::position);
+    double s = 0., sum = 0.;
+    for (auto _ : state)
+    {
+      s = s > 100. ? 0. : s + .01;
+      sum += formula(s, s);
+    }
+    benchmark::DoNotOptimize(sum);
+    std::filesystem::remove(folder / "formula_benchmark.csv");
+  }
+
+  BENCHMARK_CAPTURE(evaluate_table, linear, "table(formula_benchmark.csv, height)")
+      ->Arg(100)
+      ->Arg(100000);
+  BENCHMARK_CAPTURE(evaluate_table, cubic, "table(formula_benchmark.csv, height, cubic)")
+      ->Arg(100)
+      ->Arg(100000);
+  BENCHMARK_CAPTURE(evaluate_table, inside, "0.001*table(formula_benchmark.csv, height)")
+      ->Arg(100)
+      ->Arg(100000);
   BENCHMARK(sine);
   BENCHMARK_CAPTURE(evaluate, number, "120");
   BENCHMARK_CAPTURE(evaluate, sum_of_numbers, "120 + 22.2*9.81");

@@ -8,10 +8,6 @@
 
 namespace taut
 {
-  /// The folder that names of files in entries are relative to: that of the parameter file. Empty
-  /// at first: the working folder.
-  void set_data_folder(const std::string &folder);
-
   /**
    * A table of a file: names of the columns in its first line, then a line for each row. Columns
    * are separated by semicolons if the first line has one, else by commas. Cells may be quoted.
@@ -21,7 +17,8 @@ namespace taut
   class CsvTable
   {
   public:
-    /// Reads a file. @p name is relative to the folder of the parameter file. Throws EntryError on
+    /// Reads a file by read_data_file(). @p name is relative to the folder of the parameter file.
+    /// Throws EntryError on
     /// @p entry, which names the file, if it cannot be read or a line has another number of cells
     /// than the first.
     CsvTable(const std::string &name, const std::string &entry);

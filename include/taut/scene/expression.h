@@ -12,12 +12,16 @@
 namespace taut
 {
   class CompiledFormula;
+  class TabulatedFunction;
 
   /**
    * A scalar function of the position s [m] along a wire, of a point x, y, z [m], or of an
    * elongation d [m], and of the time t [s], written as a formula in the syntax of deal.II's
-   * FunctionParser; pi is known. The formula is compiled once, and copies share it. An evaluation
-   * allocates nothing; any thread may evaluate.
+   * FunctionParser; pi is known. In it 'table(FILE.csv, column)' is a column of a file over its
+   * first one: s or d or t, whichever the formula depends on; 'table(FILE.csv, column, t)' says
+   * which where there are several. A further word 'cubic' takes monotone cubics in the place of
+   * straight lines. The formula is compiled and its files are read once, and copies share both. An
+   * evaluation allocates nothing; any thread may evaluate.
    */
   class Expression
   {
@@ -36,14 +40,15 @@ namespace taut
     };
 
     /// @p entry names the parameter in error messages. A formula that cannot be parsed, that
-    /// depends on other variables, or that is random is an EntryError.
+    /// depends on other variables, that is random, or whose tables cannot be read is an EntryError.
     Expression(const std::string &formula, const std::string &entry,
                Variables variables = Variables::both);
 
     /// A constant.
     explicit Expression(double constant);
 
-    /// Value at s [m], t [s]. A value that is not finite is a UserError that names entry, s and t.
+    /// Value at s [m], t [s]. A value that is not finite or outside of a table is an EntryError
+    /// that names entry, s and t.
     double operator()(const double s, const double t) const
     {
       return varies ? evaluate({s, 0., 0.}, t) : constant;
@@ -57,6 +62,9 @@ namespace taut
 
     const std::string &formula() const { return text; }
 
+    /// The formula with digests of its tables: differs where values may differ.
+    std::string content() const;
+
     /// The value of a constant; 0 for other formulas.
     double constant_part() const { return compiled ? 0. : constant; }
 
@@ -67,11 +75,16 @@ namespace taut
     bool depends_on_time() const { return time_dependent; }
 
   private:
+    using Tables = std::vector<std::shared_ptr<const TabulatedFunction>>;
+
     double evaluate(const Coordinates &x, double t) const;
+    std::string place(const std::array<double, 4> &values) const;
     [[noreturn]] void fail(const std::array<double, 4> &values) const;
 
     std::shared_ptr<CompiledFormula> compiled; ///< null for a number
-    std::vector<std::string> names;            ///< of its variables, the last is t
+    Tables tables;
+    int variable_alone = -1;        ///< of a formula that is a table; -1 for others
+    std::vector<std::string> names; ///< of its variables, the last is t
     std::string text = "0";
     std::string entry;
     double constant = 0.; ///< value of a number, and of a formula without variables

@@ -204,7 +204,8 @@ namespace taut
     Kind kind = Kind::ground;
     std::size_t index = 0;  ///< of the wire, mass or body
     double position = 0.;   ///< s on the wire [m], at t = 0 if it moves
-    Coordinates place = {}; ///< on a body, in its undeformed coordinates; of the ground [m]
+    Coordinates place = {}; ///< on a body, in its undeformed coordinates; of the ground; on a mass
+                            ///< that rotates, from its centre [m]
     bool has_place = false; ///< whether the ground has a place
   };
 

@@ -2,6 +2,7 @@
 #ifndef taut_checkpoints_h
 #define taut_checkpoints_h
 
+#include <taut/base/data_files.h>
 #include <taut/output/observer.h>
 
 #include <iosfwd>
@@ -22,13 +23,15 @@ namespace taut
   {
   public:
     /// Stores every @p interval [s] of a run in @p folder; 0: never. Messages go to @p log. The
-    /// @p entries, by name, have to be the same in a continued run.
+    /// @p entries, by name, and the contents of the @p files have to be the same in a continued
+    /// run.
     Checkpoints(const std::string &folder, double interval, std::ostream &log,
-                const std::map<std::string, std::string> &entries = {});
+                const std::map<std::string, std::string> &entries = {},
+                const DataFiles &files = {});
     ~Checkpoints() override;
 
-    /// Reads the last checkpoint of the folder, if any. Throws UserError if it is unusable, and
-    /// EntryError on an entry that differs. Called by all ranks together.
+    /// Reads the last checkpoint of the folder, if any. Throws UserError if it is unusable or a
+    /// file differs, and EntryError on an entry that differs. Called by all ranks together.
     void find(const Communicator &communicator = Communicator());
     bool is_found() const { return found != nullptr; }
 

@@ -13,7 +13,7 @@ namespace taut
 {
   /// The entries of a parameter file and their places, before interpretation. Reads deal.II's .prm
   /// format (subsection, set, end, include, comments, continued lines). An included file is sought
-  /// beside the including file.
+  /// beside the including file, which may set entries of it again after the include.
   class ParameterFile
   {
   public:
@@ -60,7 +60,8 @@ namespace taut
     std::vector<Entry> list, section_list;
     std::map<std::string, std::size_t> index, section_index; ///< by name, in the lists
     std::string main_file;
-    std::vector<std::string> open_files; ///< during reading, to detect a loop of includes
+    std::vector<std::string> open_files;          ///< during reading, to detect a loop of includes
+    std::vector<std::vector<std::string>> set_in; ///< files open at each entry of the list
   };
 } // namespace taut
 

@@ -48,7 +48,9 @@ namespace taut
   struct TimeParameters
   {
     std::string scheme = "automatic";
-    double step = 1e-3, end_time = 6.912; ///< [s]
+    double step = 1e-3;        ///< [s]
+    std::string end = "6.912"; ///< as in the file
+    double end_time = 6.912;   ///< that follows from it [s]
     std::string mass_redistribution = "automatic";
     bool allow_unsuitable_scheme = false;
     std::string check_steps = "automatic"; ///< or "yes", "no"
@@ -179,6 +181,7 @@ namespace taut
     void read_entries(const std::string &file, const std::vector<std::string> &overrides,
                       const Communicator &processes);
     void check_values() const;
+    double find_end_time() const;
     void begin_entries();
     void load_registered();
     void declare_in_passes(const std::string &text);

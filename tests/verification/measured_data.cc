@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: a scene with tables is the scene with the same functions as formulas; its results take
+// their tables with them, and no run goes on with another table. Sources: the same functions.
+#include "scene_tests.h"
+
+#include <unistd.h>
+
+#include <filesystem>
+
+using namespace verification;
+namespace fs = std::filesystem;
+
+namespace
+{
+  /// A mass on a contact spring that slides along a sloping wire under a changing force.
+  std::string scene(const std::string &profile, const std::string &force)
+  {
+    return prm(R"(Gravity = 0, 0; Start = equilibrium
+Wire wire: To = 10, 0; Components = string; Mass per length = 1; Tension = 1000; Element size = 0.5
+Support ends: Wire = wire; Positions = 0, 10
+Mass mass: Position = 1, 0; Mass = 5; Motions = y
+Spring spring: From = ground; To = mass; Stiffness = 2000
+Link contact: Type = sliding contact; From = mass; To = wire @ 1; Direction = 0, 1;
+  Stiffness = 10000; Speed = 4; Height profile = )" +
+               profile + R"(
+Load force: Type = point; On = mass; Magnitude = )" +
+               force + R"(
+Time: Scheme = generalised-alpha; Step = 1e-2; End = 2
+)");
+  }
+
+  /// A folder with a scene, its tables and results.
+  class MeasuredData : public ::testing::Test
+  {
+  protected:
+    MeasuredData()
+        : folder(fs::temp_directory_path() / ("taut_measured_" + std::to_string(getpid())))
+    {
+      fs::create_directories(folder / "data");
+      write("data/profile.csv", "s, height\n0, 0\n4, 0.004\n10, 0.001\n");
+      write("force.csv", "t; F\n0; 60\n1; 70,5\n2; 60\n");
+      write("scene.prm", scene("table(data/profile.csv, height)", "table(force.csv, F)"));
+      write("formulas.prm",
+            scene("if(s < 4, 0.001*s, 0.006 - 0.0005*s)", "if(t < 1, 60 + 10.5*t, 81 - 10.5*t)"));
+    }
+    ~MeasuredData() override
+    {
+      std::error_code ignored;
+      fs::remove_all(folder, ignored);
+    }
+
+    void write(const std::string &name, const std::string &text) const
+    {
+      std::ofstream(folder / name) << text;
+    }
+
+    /// Runs a file with results in a folder; returns the table of the contact.
+    std::string run(const fs::path &file, const std::string &results,
+                    const Overrides &overrides = {}, const bool resume = false) const
+    {
+      taut::Parameters parameters;
+      parameters.read(file.string(),
+                      Overrides{"Output.Folder=" + (folder / results).string()} + overrides);
+      parameters.output.resume = resume;
+      std::ostringstream log;
+      taut::Simulation(parameters, log).run();
+      return file_text((folder / results / "sliding.csv").string());
+    }
+
+    const fs::path folder;
+  };
+
+  TEST_F(MeasuredData, tables_are_formulas)
+  {
+    std::vector<double> forces[2];
+    for (const char *const name : {"scene.prm", "formulas.prm"})
+      run_scene((folder / name).string(), {},
+                [&](const taut::StepView &view)
+                { forces[name[0] == 's'].push_back(view.state.multiplier.back()); });
+    EXPECT_GT(largest(forces[0]), 40.);
+    EXPECT_LT(largest_difference(forces[0], forces[1]), 1e-10 * largest(forces[0]));
+  }
+
+  TEST_F(MeasuredData, results_take_their_tables_with_them)
+  {
+    const std::string first = run(folder / "scene.prm", "results");
+    EXPECT_TRUE(fs::exists(folder / "results/force.csv"));
+    EXPECT_TRUE(fs::exists(folder / "results/data/profile.csv"));
+    fs::remove_all(folder / "data");
+    fs::remove(folder / "force.csv");
+    EXPECT_EQ(run(folder / "results/used.prm", "again"), first);
+    EXPECT_EQ(run(folder / "again/used.prm", "once more"), first);
+  }
+
+  TEST_F(MeasuredData, tables_from_elsewhere_are_copied_beside_the_scene)
+  {
+    fs::create_directories(folder / "scenes");
+    write("scenes/scene.prm", scene("table(../data/profile.csv, height)",
+                                    "table(" + (folder / "force.csv").string() + ", F)"));
+    const std::string first = run(folder / "scenes/scene.prm", "results/a/b");
+    EXPECT_TRUE(fs::exists(folder / "results/a/b/profile.csv"));
+    fs::remove_all(folder / "data");
+    fs::remove(folder / "force.csv");
+    EXPECT_EQ(run(folder / "results/a/b/used.prm", "again"), first);
+  }
+
+  TEST_F(MeasuredData, no_run_goes_on_with_another_table)
+  {
+    const Overrides often = {"Output.Checkpoint interval=0.5"};
+    const std::string first = run(folder / "scene.prm", "results", often);
+    EXPECT_EQ(run(folder / "scene.prm", "results", often, true), first);
+    write("force.csv", "t; F\n0; 60\n1; 70,5\n2; 60,1\n");
+    const std::string error = error_of([&] { run(folder / "scene.prm", "results", often, true); });
+    EXPECT_TRUE(has(error, "the file 'force.csv' is not what it was")) << error;
+    EXPECT_TRUE(has(error, "begin anew with --overwrite")) << error;
+  }
+
+  TEST_F(MeasuredData, tables_have_no_names_of_results)
+  {
+    write("links.csv", "t; F\n0; 60\n2; 60\n");
+    write("bad.prm", scene("0", "table(links.csv, F)"));
+    const std::string error = error_of([&] { run(folder / "bad.prm", "results"); });
+    EXPECT_TRUE(has(error, "'links.csv' of a file of results; rename it")) << error;
+  }
+
+  TEST_F(MeasuredData, tables_end_before_the_run_does)
+  {
+    const std::string error =
+        error_of([&] { run(folder / "scene.prm", "results", {"Time/End=2.2"}); });
+    EXPECT_TRUE(has(error, "Network/Load force/Magnitude")) << error;
+    EXPECT_TRUE(has(error, "file 'force.csv' has 'F' from 0 to 2 and none at ")) << error;
+  }
+} // namespace
