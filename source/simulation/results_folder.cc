@@ -24,8 +24,9 @@ namespace taut
     /// be from another run.
     std::set<std::string> names_of_results()
     {
-      std::set<std::string> names = {"used.prm",  "start.csv",       "droppers.csv",
-                                     "wires.pvd", "statistics.json", "links.pvd"};
+      std::set<std::string> names = {"used.prm",           "start.csv", "droppers.csv",
+                                     "dropper_cycles.csv", "wires.pvd", "statistics.json",
+                                     "links.pvd"};
       for (const char *const table : {"sliding", "links", "probes", "supports", "certificate"})
         for (const char *const ending : {".csv", ".bin"})
           names.insert(std::string(table) + ending);

@@ -63,6 +63,9 @@ namespace taut
     /// Statistics of the steps so far.
     const Statistics &statistics() const { return figures; }
 
+    /// Quantities of the observers so far; before a run of those that it will have.
+    std::vector<NamedQuantity> observed_quantities() const;
+
     /// Number of steps that fit into the time of the run.
     long n_steps() const;
 
