@@ -42,8 +42,9 @@ namespace taut
     bool is_in_space() const;
     std::vector<LineLayout> layouts() const;
     std::string section_of(std::size_t tension_length) const;
+    void check_given() const;
     void check_wires() const;
-    void check_uplift_positions(const Line &line) const;
+    void check_uplift_positions(const std::vector<double> &positions, const Line &line) const;
     void check_pantographs(const Line &line) const;
     void check_lists(const PantographItem &item, const std::string &section) const;
     void add_pantograph(const std::string &name, const PantographItem &item, const Line &line,
@@ -58,7 +59,7 @@ namespace taut
     NamedItems<LineGeometry> tension_lengths{
         "Catenary", "Tension lengths", "Tension length",
         "parts of the line with wires of their own, which may overlap; empty: one"};
-    std::vector<double> uplift_positions;
+    std::string uplift_positions;
     std::vector<std::string> pantographs = {"pantograph"};
     std::vector<PantographItem> pantograph_items;
   };
