@@ -121,9 +121,10 @@ namespace taut
         {
           throw EntryError(droppers[i].origin,
                            to_text("dropper '", droppers[i].name, "' would have to push with ",
-                                   -tension,
-                                   " N to hold its wire at the prescribed height. Move or remove "
-                                   "it, or prescribe another height."));
+                                   -tension, " N to hold its wire at the prescribed height, ",
+                                   -droppers[i].form.prescribed_displacement,
+                                   " m as it was read. Move or remove it, or prescribe another "
+                                   "height."));
         }
         result.push_back(tension);
       }
@@ -187,9 +188,13 @@ namespace taut
         if (!(form.length[i] > 0.))
           throw EntryError(
               droppers[i].origin,
-              "dropper '" + droppers[i].name +
-                  "' would have no length: its wires touch in the static state. Increase the "
-                  "encumbrance or the tension of the upper wire.");
+              to_text(
+                  "dropper '", droppers[i].name,
+                  "' would have no length: its wires touch in the static state. Undeformed they "
+                  "are ",
+                  dot(between[i], droppers[i].direction),
+                  " m apart as it was read: are lengths in millimetres? Otherwise increase the "
+                  "encumbrance or the tension of the upper wire."));
       if (!finds_directions)
         return form;
 

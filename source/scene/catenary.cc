@@ -98,8 +98,9 @@ namespace taut
       tension_lengths.declare_parameters(prm);
 
     prm.add_parameter("Uplift positions", uplift_positions,
-                      "x where the contact wire's motion is recorded; empty: all inner masts [m]",
-                      List(Double(), 0));
+                      "x where the contact wire's motion is recorded: numbers and ranges "
+                      "first:step:last; empty: all inner masts [m]",
+                      Anything());
     pantograph_items.resize(pantographs.size());
     for (std::size_t i = 0; i < pantographs.size(); ++i)
     {
@@ -285,14 +286,16 @@ namespace taut
       line.emplace_back(all, parts[i],
                         tension_lengths.names.empty() ? "" : tension_lengths.names[i],
                         section_of(i), scene);
-    check_uplift_positions(line);
+    const std::vector<double> uplifts =
+        parse_positions(uplift_positions, "Catenary/Uplift positions");
+    check_uplift_positions(uplifts, line);
     check_pantographs(line);
     for (TensionLength &part : line)
     {
       part.check();
       part.add_supports();
       part.add_point_masses();
-      part.add_probes(uplift_positions);
+      part.add_probes(uplifts);
       if (all.is_in_space)
         part.add_lateral();
       if (all.is_rail)

@@ -45,8 +45,9 @@ namespace taut
     bool is_in_space() const;
     std::vector<LineLayout> layouts() const;
     std::string section_of(std::size_t tension_length) const;
+    void check_given() const;
     void check_wires() const;
-    void check_uplift_positions(const Line &line) const;
+    void check_uplift_positions(const std::vector<double> &positions, const Line &line) const;
     void check_pantographs(const Line &line) const;
     /// The entry Speed of a pantograph in @p section.
     static Speed speed_of(const PantographItem &item, const std::string &section);
@@ -68,7 +69,7 @@ namespace taut
     NamedItems<LineGeometry> tension_lengths{
         "Catenary", "Tension lengths", "Tension length",
         "parts of the line with wires of their own, which may overlap; empty: one"};
-    std::vector<double> uplift_positions;
+    std::string uplift_positions;
     std::vector<std::string> pantographs = {"pantograph"};
     std::vector<PantographItem> pantograph_items;
   };

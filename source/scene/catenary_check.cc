@@ -44,11 +44,32 @@ namespace taut
            !items.messenger.wind_load("Messenger wire").is_zero();
   }
 
+  void Catenary::check_given() const
+  {
+    const LineItems usual;
+    const std::string reference = "the reference line of EN 50318:2002";
+    items.contact.check_given("Contact wire", usual.contact, reference);
+    if (kind == "conductor rail")
+      return;
+    items.messenger.check_given("Messenger wire", usual.messenger, reference);
+    const std::vector<LineLayout> parts = layouts();
+    const bool has_stitches = std::any_of(parts.begin(), parts.end(),
+                                          [](const LineLayout &part)
+                                          {
+                                            return std::any_of(part.masts.begin(), part.masts.end(),
+                                                               [](const LineMast &mast)
+                                                               { return mast.stitch_length > 0.; });
+                                          });
+    if (has_stitches)
+      items.stitch.check_given("Stitch wires", usual.stitch, "a usual stitch wire");
+  }
+
   void Catenary::check_wires() const
   {
     const bool is_rail = kind == "conductor rail";
     const std::pair<const LineWireItem *, const char *> wires[] = {
         {&items.contact, "Contact wire"}, {&items.messenger, "Messenger wire"}};
+    check_given();
     for (const auto &[wire, section] : wires)
       if (!is_rail && !(wire->tension > 0.))
         throw EntryError(std::string("Catenary/") + section + "/Tension",
@@ -66,9 +87,10 @@ namespace taut
     }
   }
 
-  void Catenary::check_uplift_positions(const Line &line) const
+  void Catenary::check_uplift_positions(const std::vector<double> &positions,
+                                        const Line &line) const
   {
-    for (const double x : uplift_positions)
+    for (const double x : positions)
     {
       const bool is_on_wire = std::any_of(line.begin(), line.end(),
                                           [&](const TensionLength &part)

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "catenary_items.h"
 
+#include <taut/base/exceptions.h>
 #include <taut/base/patterns.h>
+#include <taut/base/text.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -17,6 +19,10 @@ namespace taut
                       Selection("beam|string"));
     prm.add_parameter("Mass per length", mass_per_length, "[kg/m]", not_negative());
     prm.add_parameter("Tension", tension, "[N]", not_negative());
+    // To add an action runs it, too; later it runs for entries of the file alone.
+    prm.add_action("Mass per length", [this](const std::string &) { has_mass = true; });
+    prm.add_action("Tension", [this](const std::string &) { has_tension = true; });
+    has_mass = has_tension = false;
     prm.add_parameter("Bending stiffness", bending_stiffness, "EI; not used by a string [N m^2]",
                       not_negative());
     prm.add_parameter("Element size", element_size, "Largest length of an element [m]",
@@ -33,6 +39,21 @@ namespace taut
           "without it [N/m]",
           Anything());
     prm.leave_subsection();
+  }
+
+  void LineWireItem::check_given(const std::string &section, const LineWireItem &usual,
+                                 const std::string &known_line) const
+  {
+    const auto check = [&](const bool is_given, const char *const entry, const double value,
+                           const char *const unit)
+    {
+      if (!is_given)
+        throw EntryError("Catenary/" + section + "/" + entry,
+                         to_text("it is not given, and decides how the line moves: give it in ",
+                                 unit, "; ", known_line, " has ", value));
+    };
+    check(has_mass, "Mass per length", usual.mass_per_length, "kg/m");
+    check(has_tension, "Tension", usual.tension, "N");
   }
 
   Wire LineWireItem::wire(const std::string &name, const std::string &section, const Coordinates &a,

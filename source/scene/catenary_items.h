@@ -19,7 +19,14 @@ namespace taut
     unsigned int degree = 2;
     std::string wind = "0";
 
+    /// Whether the parameter file says them: they have no silent default.
+    bool has_mass = false, has_tension = false;
+
     void declare(dealii::ParameterHandler &prm, const std::string &section, bool has_wind);
+
+    /// Throws EntryError unless mass and tension are given; @p usual has those of a known line.
+    void check_given(const std::string &section, const LineWireItem &usual,
+                     const std::string &known_line) const;
 
     /// From a to b; @p section is that of the item.
     Wire wire(const std::string &name, const std::string &section, const Coordinates &a,

@@ -150,28 +150,33 @@ namespace taut
       return attachments;
     }
 
-    /// Throws an EntryError with all names that attachments may have.
+    /// Throws an EntryError with names that attachments may have, the nearest one first.
     [[noreturn]] void refuse_unknown(const std::string &text, const std::string &name,
                                      const Scene &scene, const std::string &entry)
     {
+      constexpr std::size_t most = 12;
       std::vector<std::string> names = {"ground"};
       std::string known = "ground, ground @ x, y";
       const auto add = [&](const auto &parts, const std::string &place)
       {
         for (const auto &part : parts)
         {
-          known += ", " + part.name + place;
+          if (names.size() < most)
+            known += ", " + part.name + place;
           names.push_back(part.name);
         }
       };
       add(scene.bodies, " @ x, y");
       add(scene.masses, "");
       add(scene.wires, " @ position");
-      const std::string near = nearest_name(name, names);
+      if (names.size() > most)
+        known += " and " + std::to_string(names.size() - most) + " more";
       if (name.empty())
         throw EntryError(entry, "it says not where; write one of: " + known);
-      throw EntryError(entry, "'" + text + "' is not known; known are: " + known +
-                                  (near.empty() ? "" : "; did you mean '" + near + "'?"));
+      const std::string near = nearest_name(name, names);
+      throw EntryError(entry, "'" + text + "' is not known; " +
+                                  (near.empty() ? "" : "did you mean '" + near + "'? ") +
+                                  "Known are: " + known);
     }
   } // namespace
 

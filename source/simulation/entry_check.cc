@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "entry_check.h"
+#include "file_text.h"
 
 #include <taut/base/exceptions.h>
 #include <taut/base/memory.h>
@@ -87,7 +88,7 @@ namespace taut
         };
         if (std::none_of(file.sections().begin(), file.sections().end(), begins) &&
             std::none_of(file.entries().begin(), file.entries().end(), begins))
-          throw UserError(entry.place + ": " + entry.name() + " = '" + entry.value +
+          throw UserError(entry.place + ": " + entry.name() + " = '" + shortened(entry.value) +
                           "': there is no section '" + path.back() +
                           "', so that all would be defaults; add it, or remove '" + name + "'");
       }
@@ -264,7 +265,7 @@ namespace taut
       {
         const std::string near = nearest_name(
             entry.value, selection_of(node[name]["pattern_description"].get<std::string>()));
-        throw UserError(entry.place + ": " + entry.name() + " = '" + entry.value +
+        throw UserError(entry.place + ": " + entry.name() + " = '" + shortened(entry.value) +
                         "' is not allowed; expected " + expectation(*pattern) +
                         hint(entry.value, expectation(*pattern)) +
                         (near.empty() ? "" : "; did you mean '" + near + "'?"));

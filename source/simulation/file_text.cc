@@ -113,4 +113,15 @@ namespace taut
       throw UserError("cannot read '" + file + "' to its end");
     return lines;
   }
+
+  std::string shortened(const std::string &value)
+  {
+    constexpr std::size_t most = 80;
+    if (value.size() <= most)
+      return value;
+    std::size_t end = most;
+    while (end > 0 && (static_cast<unsigned char>(value[end]) & 0xc0) == 0x80)
+      --end; // not within a character
+    return value.substr(0, end) + "...";
+  }
 } // namespace taut

@@ -21,6 +21,9 @@ namespace taut
   /// Lines of a file without comments, continued lines joined, each with the number of its first
   /// line. Throws UserError if it cannot be read or is not text.
   std::vector<std::pair<int, std::string>> lines_of(const std::string &file);
+
+  /// A value for a message: its beginning, if it is long.
+  std::string shortened(const std::string &value);
 } // namespace taut
 
 #endif

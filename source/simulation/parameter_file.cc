@@ -247,7 +247,8 @@ namespace taut
     {
       const auto around = index.find(path);
       if (around != index.end())
-        return list[around->second].place + ": " + path + " = '" + list[around->second].value + "'";
+        return list[around->second].place + ": " + path + " = '" +
+               shortened(list[around->second].value) + "'";
       const auto section = section_index.find(path);
       if (section != section_index.end())
         return section_list[section->second].place + suffix;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "results_folder.h"
 #include "checkpoint.h"
+#include "folder_lock.h"
 
 #include <taut/base/data_files.h>
 #include <taut/base/exceptions.h>
@@ -145,8 +146,10 @@ namespace taut
     processes.agree(
         [&]
         {
-          if (processes.is_root())
-            check_folder(parameters);
+          if (!processes.is_root())
+            return;
+          FolderLock().take(parameters.output.folder);
+          check_folder(parameters);
         });
   }
 } // namespace taut

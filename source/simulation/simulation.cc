@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "folder_lock.h"
 #include "results_folder.h"
 
 #include <taut/base/data_files.h>
@@ -54,8 +55,19 @@ namespace taut
   void Simulation::run()
   {
     const OutputParameters &output = parameters.output;
+    FolderLock lock;
+    const auto keep_folder = [&]
+    {
+      processes.agree(
+          [&]
+          {
+            if (processes.is_root() && output.writes)
+              lock.take(output.folder);
+          });
+    };
     if (output.writes)
       check_results_folder(parameters, processes);
+    keep_folder();
     Checkpoints checkpoints(output.folder, output.checkpoint_interval, log, parameters.values(),
                             data_files());
     if (output.resume)
@@ -71,6 +83,7 @@ namespace taut
     accuracy = std::make_unique<AccuracyReport>(motion->measures(), step_accuracy());
     stop_before_start();
     prepare_results(checkpoints.is_found());
+    keep_folder(); // which may be new
     add_observers();
     if (has_time())
       observed->observe(checkpoints);

@@ -7,6 +7,7 @@
 #include <taut/output/line_constants.h>
 #include <taut/output/scene_report.h>
 #include <taut/output/table_file.h>
+#include <taut/scene/unheld_wires.h>
 #include <taut/simulation/free_bodies.h>
 #include <taut/simulation/simulation.h>
 #include <taut/substructure/slender_body.h>
@@ -64,6 +65,8 @@ namespace taut
                      '\n');
     for (const std::string &entry : parameters.unused_entries())
       log << "  not used: " << entry << '\n';
+    for (const std::string &warning : warnings_of_unheld_wires(model))
+      log << "Warning: " << warning << '\n';
     log << "  instruction set of the loops: " << instruction_set_in_use() << '\n';
     const double end = n_steps() * parameters.step;
     if (has_time() && std::fabs(end - parameters.end_time) > 1e-6 * parameters.step)

@@ -49,15 +49,18 @@ namespace taut
     return best;
   }
 
-  /// End of a message about an unknown name: the nearest known name, or all known names.
+  /// End of a message about an unknown name: the nearest known name, or the first known names.
   inline std::string suggestion(const std::string &name, const std::vector<std::string> &known)
   {
     const std::string nearest = nearest_name(name, known);
     if (!nearest.empty())
       return "; did you mean '" + nearest + "'?";
+    constexpr std::size_t most = 20;
     std::string all;
-    for (const std::string &k : known)
-      all += (all.empty() ? "" : ", ") + k;
+    for (std::size_t i = 0; i < std::min(known.size(), most); ++i)
+      all += (i == 0 ? "" : ", ") + known[i];
+    if (known.size() > most)
+      all += " and " + std::to_string(known.size() - most) + " more";
     return all.empty() ? "; there is none here" : "; known here: " + all + ".";
   }
 } // namespace taut

@@ -21,8 +21,8 @@ namespace taut
   struct SharedParts;
 
   /// Throws an EntryError on Output/Folder if a run cannot write its results there: it is a file,
-  /// or has results of another run. Changes nothing. Use it before constructing a large scene.
-  /// Called by all ranks together.
+  /// has results of another run, or another run writes there now. Changes nothing. Use it before
+  /// constructing a large scene. Called by all ranks together.
   void check_results_folder(const Parameters &parameters,
                             const Communicator &processes = Communicator());
 

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Claim: input that is allowed but hardly meant gets a warning, messages begin with their reason
+// and are short, and a folder has the results of one run at a time.
+#include "scene_tests.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+using namespace verification;
+
+namespace
+{
+  const std::string line = R"(Gravity = 0, -9.81
+Start = undeformed
+Wire line: From = 0, 0; To = 10, 0; Components = string; Mass per length = 1; Tension = 1000
+Time: Step = 0.01; End = 0.02
+)";
+} // namespace
+
+TEST(UnheldWire, with_tension_has_a_warning)
+{
+  const std::string log = log_of(line);
+  EXPECT_TRUE(has(log, "Warning: wire 'line' has a tension of 1000 N and neither a support"))
+      << log;
+  EXPECT_TRUE(has(log, "support at 0, 10 m"));
+}
+
+TEST(UnheldWire, that_something_holds_has_none)
+{
+  for (const std::string holds :
+       {"Support ends: Wire = line; Positions = 0, 10\n", "Wire line: Foundation stiffness = 10\n",
+        "Link hook: Type = dropper; From = ground; To = line @ 5; Direction = 0, -1\n"})
+    EXPECT_FALSE(has(log_of(line + holds), "neither a support")) << holds;
+}
+
+TEST(UpliftPositions, take_ranges)
+{
+  Session session(scene_file("en50318_2002_250"), {"Catenary/Uplift positions=240:60:360, 400.5",
+                                                   "Time/End=0", "Statistics/Window="});
+  std::vector<double> found;
+  for (const taut::Probe &probe : session.simulation().scene().probes)
+    found.push_back(probe.point.position);
+  EXPECT_EQ(found, (std::vector<double>{240., 300., 360., 400.5}));
+}
+
+TEST(Messages, about_a_name_in_a_long_list_are_short_and_begin_with_the_reason)
+{
+  std::string masses = "set Generator = network\nsubsection Network\nset Masses = ", sections;
+  for (int i = 0; i < 400; ++i)
+  {
+    masses += (i > 0 ? ", mass " : "mass ") + std::to_string(i);
+    sections += "subsection Mass mass " + std::to_string(i) + "\nset Mass = 1\nend\n";
+  }
+  const std::string of_list = error_of(
+      [&]
+      { Session(masses + ", lost\n" + sections + "end\nsubsection Time\nset End = 0\nend\n"); });
+  EXPECT_TRUE(has(of_list, "there is no section 'Mass lost'")) << of_list;
+  EXPECT_LT(of_list.size(), 400u);
+
+  const std::string of_end = error_of(
+      [&]
+      {
+        Session(masses + "\nset Loads = push\n" + sections +
+                "subsection Load push\nset On = nobody of these\nend\nend\n"
+                "subsection Time\nset End = 0\nend\n");
+      });
+  EXPECT_TRUE(has(of_end, "'nobody of these' is not known")) << of_end;
+  EXPECT_TRUE(has(of_end, "and 389 more"));
+  EXPECT_LT(of_end.size(), 500u);
+}
+
+TEST(ResultsFolder, of_a_run_on_its_way_is_refused_to_another)
+{
+  Session first(line + "Support ends: Wire = line; Positions = 0, 10\n");
+  bool was_asked = false;
+  first.run(
+      [&](const taut::StepView &)
+      {
+        if (std::exchange(was_asked, true))
+          return;
+        taut::Parameters parameters;
+        parameters.read(scene_file("en50318_2002_250"),
+                        {"Output/Folder=" + first.folder(), "Statistics/Window="});
+        parameters.output.overwrite = true;
+        const std::string error = error_of([&] { taut::check_results_folder(parameters); });
+        EXPECT_TRUE(has(error, "another run writes its results to '" + first.folder())) << error;
+      });
+  EXPECT_TRUE(was_asked);
+  // Its end, also a violent one, ends the lock, and leaves no file of it.
+  const int folder = open(first.folder().c_str(), O_RDONLY | O_DIRECTORY);
+  EXPECT_EQ(flock(folder, LOCK_EX | LOCK_NB), 0);
+  close(folder);
+  for (const auto &entry : std::filesystem::directory_iterator(first.folder()))
+    EXPECT_FALSE(has(entry.path().filename().string(), "lock"));
+}
