@@ -214,7 +214,7 @@ TEST(Strips, an_overlap_hands_a_pantograph_over)
   {
     double largest = 0., before = 0.;
     bool both = false;
-    Session session(scene_file("overlap_line"),
+    Session session(scene_file("real_line"),
                     fixed + Overrides{std::string("Time/Step=") + step});
     std::size_t first = 0;
     while (session.simulation().scene().links[first].strip != "trailing")

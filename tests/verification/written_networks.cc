@@ -92,7 +92,7 @@ TEST(WrittenNetwork, line_at_rest_has_the_same_lengths_bit_by_bit)
 
 TEST(WrittenNetwork, overlap_with_stitch_wires_and_strips_runs_bit_by_bit)
 {
-  expect_same_run("overlap_line", {"Time.End=0.02", "Statistics.Window="}, 5);
+  expect_same_run("real_line", {"Time.End=0.02", "Statistics.Window="}, 5);
 }
 
 TEST(WrittenNetwork, droppers_of_given_lengths_run_bit_by_bit)
