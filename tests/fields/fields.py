@@ -3,7 +3,6 @@
 """Fields, read back by VTK, say the same as the tables of the run; taut-plot makes pictures, and its figures are those
 of statistics.json. Tables hold doubles and fields floats: half a unit in the last place of a float is 6e-8."""
 import csv
-import importlib.util
 import json
 import pathlib
 import shutil
@@ -11,7 +10,6 @@ import subprocess
 import sys
 import time
 import xml.etree.ElementTree as xml
-from importlib.machinery import SourceFileLoader
 
 try:
     import matplotlib  # noqa: F401
@@ -23,7 +21,7 @@ except ImportError as missing:
     sys.exit(77)
 
 sys.path.append(str(pathlib.Path(__file__).parents[1]))
-from checks import entries, errors, finish, parse
+from checks import entries, errors, finish, load_plot, parse
 
 arguments = parse(__doc__, "program", "root", "results")
 
@@ -212,15 +210,6 @@ def check_pictures(folder, names, script):
             content = path.read_bytes() if path.exists() else b""
             if not content.startswith(magic) or len(content) < 5000:
                 errors.append(f"{path} is missing or empty")
-
-
-def load_plot(script):
-    """taut-plot as a module."""
-    loader = SourceFileLoader("taut_plot", str(script))
-    plot = importlib.util.module_from_spec(importlib.util.spec_from_loader("taut_plot", loader))
-    sys.dont_write_bytecode = True
-    loader.exec_module(plot)
-    return plot
 
 
 def check_plot_reads(folder, script):
