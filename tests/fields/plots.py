@@ -325,7 +325,7 @@ def check_film():
         frames = []
         for i in range(film.n_frames):
             film.seek(i)
-            frames.append(np.asarray(film.convert("L")))
+            frames.append(np.asarray(film.convert("L"))[film.height // 6:])  # without the title
     expect("frames of the film", len(frames) == n_fields and all((a != b).any() for a, b in zip(frames, frames[1:])), len(frames))
     expect("motions that are seen are not magnified", magnification({"a": np.array([[[[0, 0, 0]], [[1, 1, 0]]], [[[0, 0, 0]], [[1, 2, 0]]]])}) == 1)
     small = np.array([[[[0, 0, 0], [1, 1, 0]]], [[[0, 0, 0], [1, 1.002, 0]]]])
