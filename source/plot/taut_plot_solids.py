@@ -10,7 +10,7 @@ import zlib
 
 import numpy as np
 from taut_plot_files import UserError, read_collection
-from taut_plot_style import panels
+from taut_plot_style import BLUE, panels
 
 HEIGHT = 2.4  # of a panel, inches
 TYPES = {"Float32": "<f4", "Float64": "<f8", "Int32": "<i4", "UInt8": "u1"}
@@ -72,7 +72,9 @@ def contact_pressure(results, _):
         along = int(np.argmax(np.ptp(x, axis=0)))
         order = np.argsort(x[:, along])
         scale, unit = (1e-6, "MPa") if arrays["pressure"].max() >= 1e5 else (1.0, "Pa")
-        panel.plot(x[order, along], scale * arrays["pressure"][order], ".-", markersize=3, color="#0072B2")
+        # Many points of a surface have the same x: no line joins them.
+        style = ".-" if len(np.unique(x[:, along])) > 0.9 * len(x) else "."
+        panel.plot(x[order, along], scale * arrays["pressure"][order], style, markersize=3, color=BLUE)
         panel.set_xlabel(f"{'xyz'[along]} [m]")
         panel.set_ylabel(f"pressure [{unit}]")
         panel.set_title(f"{name}, t = {time:g} s", loc="left")

@@ -221,6 +221,19 @@ def check_sweep():
     expect("its units", panel.get_xlabel() == "mass [kg] / k [N/m]", panel.get_xlabel())
 
 
+def check_study():
+    path = arguments.results / "study"
+    shutil.rmtree(path, ignore_errors=True)
+    path.mkdir(parents=True)
+    (path / "study.json").write_text('{"parameters": [{"name": "scheme", "values": ["HHT", "BDF2"]}], "end [s]": 2}')
+    (path / "work_precision.csv").write_text(
+        "scheme,error [1],error of finer ones too [1],error of the reference [1],seconds,x real time,front,message\n"
+        "HHT,0.1,0.1,0.001,1,2,1,\nHHT,0.01,0.01,0.001,4,0.5,1,\nBDF2,0.2,0.2,0.001,2,1,0,\nBDF2,0,0,0,0,0,0,diverged\n")
+    figure, _ = plot.work_precision(str(path))
+    lines = [line.get_xydata().tolist() for line in figure.axes[0].get_lines()]
+    expect("errors over cost", lines.count([[1, 0.1], [4, 0.01]]) == 3 and lines.count([[2, 0.2]]) == 2, lines)
+
+
 def check_several():
     one = folder("one/result", sliding=contact_table(pan=FORCE), probes={"time [s]": TIME, "tip [m]": TIME})
     two = folder("two/result", sliding=contact_table(pan=2 * FORCE), probes={"time [s]": TIME, "tip [m]": 3 * TIME})
@@ -336,7 +349,7 @@ def check_film():
                "install it or take --film gif\n", done.stderr)
 
 
-for check in (check_contacts, check_strips, check_probes, check_links, check_sweep, check_several, check_sizes, check_pipe, check_line,
+for check in (check_contacts, check_strips, check_probes, check_links, check_sweep, check_study, check_several, check_sizes, check_pipe, check_line,
               check_shapes, check_film):
     check()
     matplotlib.pyplot.close("all")
