@@ -3,7 +3,6 @@
 
 import textwrap
 
-import matplotlib
 import numpy as np
 from matplotlib import pyplot as plt
 
@@ -152,7 +151,3 @@ def mark_places(panel, results, wire=None):
         handles += panel.plot(ticks, np.full(len(ticks), 1.0), "|", color=BLACK, markersize=4, markeredgewidth=0.5,
                               transform=panel.get_xaxis_transform(), clip_on=False, label=kind)
     return handles
-
-
-def step_colours(n, name="viridis"):
-    return [matplotlib.colormaps[name](0.9 * i / max(1, n - 1)) for i in range(n)]
