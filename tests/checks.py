@@ -2,9 +2,11 @@
 """What the tests in Python share: their command line, what they expect, and comparisons of tables."""
 import argparse
 import csv
+import importlib.util
 import math
 import pathlib
 import sys
+from importlib.machinery import SourceFileLoader
 
 errors = []
 
@@ -69,3 +71,12 @@ def largest_difference(one, many):
             except ValueError:
                 return math.inf
     return worst
+
+
+def load_plot(script):
+    """taut-plot as a module."""
+    loader = SourceFileLoader("taut_plot", str(script))
+    plot = importlib.util.module_from_spec(importlib.util.spec_from_loader("taut_plot", loader))
+    sys.dont_write_bytecode = True
+    loader.exec_module(plot)
+    return plot

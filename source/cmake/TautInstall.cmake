@@ -26,7 +26,7 @@ install(DIRECTORY include/taut DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MAT
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/include/taut/base/version.h
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/taut/base)
 install(PROGRAMS source/plot/taut-plot source/plot/show_in_paraview.py DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(FILES source/plot/taut_plot_files.py source/plot/taut_plot_line.py source/plot/taut_plot_solids.py source/plot/taut_plot_sweep.py DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(DIRECTORY source/plot/ DESTINATION ${CMAKE_INSTALL_BINDIR} FILES_MATCHING PATTERN "taut_plot_*.py")
 install(DIRECTORY prm DESTINATION ${CMAKE_INSTALL_DATADIR}/taut FILES_MATCHING PATTERN "*.prm" PATTERN "*.csv")
 install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY doc/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/doc

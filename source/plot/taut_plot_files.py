@@ -79,6 +79,26 @@ def read_entries(path):
     return entries
 
 
+def read_units(path):
+    """{path of the entry: unit} of a parameter file as taut writes it: what stands in brackets at the end of the help."""
+    units, sections, helped = {}, [], ""
+    with open(path, encoding="utf-8") as file:
+        for line in map(str.strip, file):
+            word, _, rest = line.partition(" ")
+            if line.startswith("#"):
+                helped += line
+                continue
+            found = re.search(r"\[([^]]*)\]\s*$", helped)
+            if word == "set" and found:
+                units["/".join([*sections, rest.partition("=")[0].strip()])] = found[1]
+            elif word == "subsection":
+                sections.append(rest.strip())
+            elif word == "end" and sections:
+                sections.pop()
+            helped = ""
+    return units
+
+
 def numbers(text):
     """Numbers and ranges first:step:last with commas between them; none if there are names in it."""
     values = []
@@ -101,7 +121,9 @@ class Results:
         if not self.has("used.prm"):
             raise UserError(f"'{folder}' holds no results of taut: there is no used.prm in it")
         self.entries = read_entries(self.path("used.prm"))
-        self.is_static = self.has("start.csv") and not self.has("certificate.csv") and not self.has("certificate.bin")
+        # A run at rest writes no certificate of steps.
+        self.is_static = not (self.has("certificate.csv") or self.has("certificate.bin")) and \
+            (self.has("start.csv") or numbers(self.entries.get("Time/End", "")) == [0.0])
         self.statistics = {}
         if self.has("statistics.json"):
             try:
@@ -138,29 +160,61 @@ class Results:
         with open(self.path("start.csv"), newline="", encoding="utf-8") as file:
             return list(csv.DictReader(file))
 
-    def links(self):
-        """What the links hang at, and x [m] of each, without sliding contacts."""
+    def sliding(self):
+        """Names of the sliding contacts."""
         table = self.table("sliding.csv")
-        moving = {name for name, _ in table.series(" force [N]")} if table else set()
+        return [name for name, _ in table.series(" force [N]")] if table else []
+
+    def points(self):
+        """{link: [x, y, z]} [m] at the start, sliding contacts too."""
         try:
-            places = sorted({float(line["x [m]"]) for line in self.start() if line["link"] not in moving})
+            return {line["link"]: [float(line[f"{axis} [m]"]) for axis in "xyz"] for line in self.start()}
         except (KeyError, TypeError, ValueError) as error:
             raise UserError(f"'{self.path('start.csv')}' is damaged: {error!r}") from error
-        return "droppers" if self.entries.get("Generator") == "catenary" else "links", places
+
+    def places(self):
+        """{link: x [m]} at the start."""
+        return {name: point[0] for name, point in self.points().items()}
+
+    def links(self, wire=None):
+        """What the links hang at, and x [m] of each, of all wires or of the tension length of one; without sliding contacts
+        and stops."""
+        is_line = self.entries.get("Generator") == "catenary"
+        part = re.search(r" (\d+)$", wire or "") if is_line else None
+        kinds = tuple(f"{kind} {part[1]} " if part else kind for kind in ("dropper", "stitch clamp"))
+        moving = set(self.sliding())
+        places = sorted({x for name, x in self.places().items() if name not in moving and "bump stop" not in name and
+                         (not is_line or name.startswith(kinds))})
+        return "droppers" if is_line else "links", places
+
+    def is_dropper(self, name):
+        """Whether a link is a dropper; a link of a network may stand for several, with a number behind its name."""
+        if self.entries.get("Generator") == "catenary":
+            return name.startswith("dropper")
+        return any(self.entries.get(f"Network/Link {one}/Type") == "dropper" for one in (name, name.rpartition(" ")[0]))
+
+    def masts(self, wire=None):
+        """x [m] of the masts of a line; of tension lengths from tables the inner ones, where uplifts are recorded."""
+        if not self.entries.get("Catenary/Tension lengths"):
+            n, length = (numbers(self.entries.get(f"Catenary/{name}", "")) for name in ("Number of spans", "Span length"))
+            return (np.arange(n[0] + 1) * length[0]).tolist() if n and length else []
+        table = self.table("probes.csv")
+        names = list(table.columns) if table and not self.entries.get("Catenary/Uplift positions") else []
+        found = [re.fullmatch(r"(.*) at (\S+) m \[m\]", name) for name in names]
+        return sorted({x for match in found if match and wire in (None, match[1]) for x in numbers(match[2])})
 
     def supports(self, wire=None):
         """What holds the wires, and x [m] of each: masts of a line, otherwise supports of the wire, or of all wires,
         that are horizontal."""
         entries = self.entries
         if entries.get("Generator") == "catenary":
-            n, length = (numbers(entries.get(f"Catenary/{name}", "")) for name in ("Number of spans", "Span length"))
-            return "masts", (np.arange(n[0] + 1) * length[0]).tolist() if n and length else []
+            return "masts", self.masts(wire)
         places = set()
         for name in entries.get("Network/Supports", "").split(","):
             section = f"Network/Support {name.strip()}"
             on = entries.get(f"{section}/Wire", "")
             ends = [numbers(entries.get(f"Network/Wire {on}/{end}", "")) for end in ("From", "To")]
-            if wire in (None, on) and all(len(end) == 2 for end in ends) and ends[0][1] == ends[1][1]:
+            if wire in (None, on) and all(len(end) >= 2 for end in ends) and ends[0][1:] == ends[1][1:]:
                 way = 1 if ends[1][0] > ends[0][0] else -1
                 places |= {ends[0][0] + way * at for at in numbers(entries.get(f"{section}/Positions", ""))}
         return "supports", sorted(places)

@@ -9,11 +9,10 @@ import xml.etree.ElementTree as xml
 import zlib
 
 import numpy as np
-from matplotlib import pyplot as plt
-
 from taut_plot_files import UserError, read_collection
+from taut_plot_style import BLUE, panels
 
-WIDTH, HEIGHT = 6.3, 2.4  # of a panel, inches
+HEIGHT = 2.4  # of a panel, inches
 TYPES = {"Float32": "<f4", "Float64": "<f8", "Int32": "<i4", "UInt8": "u1"}
 QUADRILATERAL, TRIANGLE = 9, 5  # numbers of VTK
 
@@ -67,13 +66,15 @@ def contact_pressure(results, _):
     contacts = [c for c in last_fields(results, "contact") if "pressure" in c[2]]
     if not contacts:
         return None, None
-    figure, panels = plt.subplots(len(contacts), 1, figsize=(WIDTH, HEIGHT * len(contacts)), squeeze=False)
-    for panel, (name, time, arrays) in zip(panels[:, 0], contacts):
+    figure, grid = panels(len(contacts), HEIGHT)
+    for panel, (name, time, arrays) in zip(grid[:, 0], contacts):
         x = arrays["positions"].astype(float)
         along = int(np.argmax(np.ptp(x, axis=0)))
         order = np.argsort(x[:, along])
         scale, unit = (1e-6, "MPa") if arrays["pressure"].max() >= 1e5 else (1.0, "Pa")
-        panel.plot(x[order, along], scale * arrays["pressure"][order], ".-", markersize=3, color="#0072B2")
+        # Many points of a surface have the same x: no line joins them.
+        style = ".-" if len(np.unique(x[:, along])) > 0.9 * len(x) else "."
+        panel.plot(x[order, along], scale * arrays["pressure"][order], style, markersize=3, color=BLUE)
         panel.set_xlabel(f"{'xyz'[along]} [m]")
         panel.set_ylabel(f"pressure [{unit}]")
         panel.set_title(f"{name}, t = {time:g} s", loc="left")
@@ -96,8 +97,8 @@ def stress(results, _):
               for name_of in arrays if "mises" in name_of.lower() and not np.ptp(arrays["positions"][:, 2])]
     if not bodies:
         return None, None
-    figure, panels = plt.subplots(len(bodies), 1, figsize=(WIDTH, 2 * HEIGHT * len(bodies)), squeeze=False)
-    for panel, (name, time, arrays, name_of) in zip(panels[:, 0], bodies):
+    figure, grid = panels(len(bodies), 2 * HEIGHT)
+    for panel, (name, time, arrays, name_of) in zip(grid[:, 0], bodies):
         x, values = arrays["positions"], arrays[name_of]
         scale, unit = (1e-6, "MPa") if values.max() >= 1e5 else (1.0, "Pa")
         shown = panel.tripcolor(x[:, 0], x[:, 1], triangles(arrays), scale * values, shading="gouraud", cmap="viridis")

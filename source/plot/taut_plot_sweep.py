@@ -7,12 +7,11 @@ import os
 import re
 
 import numpy as np
-from matplotlib import pyplot as plt
-from taut_plot_files import UserError, read_entries
+from taut_plot_files import UserError, read_entries, read_units
+from taut_plot_style import BLUE, MOST_PANELS, ORANGE, Page
+from taut_plot_style import panels as rows_of_panels
 
-BLUE, ORANGE, GREY = "#0072B2", "#E69F00", "#9a9a9a"
-WIDTH = 6.3  # inches: the text width of an A4 page
-MOST_PANELS = 6
+MOST_TICKS = 8  # with the values of all zipped entries
 LEAST_CHANGE = 1e-3  # of a quantity that is drawn unasked, over its largest value
 PERCENTILES = (5, 50, 95)
 # What is drawn if nobody asks for more, in this order: of sliding contacts, of probes, of links.
@@ -27,6 +26,7 @@ class Sweep:
             with open(os.path.join(folder, "sweep.csv"), newline="", encoding="utf-8") as file:
                 text = file.read()
             entries = read_entries(os.path.join(folder, "sweep.prm"))
+            units = read_units(os.path.join(folder, "sweep.prm"))
         except OSError as error:
             raise UserError(f"'{folder}' holds no whole sweep: {error}") from error
         rows = list(csv.reader(text[:text.rfind("\n") + 1].splitlines()))
@@ -40,6 +40,14 @@ class Sweep:
         self.quantities = [name for name in self.columns if re.search(r": .* \[.*\]$", name)]
         self.parameters = self.columns[1:self.columns.index(self.quantities[0])] if self.quantities else []
         self.is_random = int(entries.get("Sweep/Samples", "0")) > 0
+        self.is_zipped = entries.get("Sweep/Combination") == "zipped" and not self.is_random
+        self.units = {name: units.get(entries.get(f"Sweep/Parameter {name}/Entries", "").partition(",")[0].strip(), "")
+                      for name in self.parameters}
+
+    def label(self, parameter):
+        """Its name with its unit; of units that depend, as [N/m, N m/rad], the first one."""
+        unit = self.units[parameter].partition(",")[0]
+        return f"{parameter} [{unit}]" if unit else parameter
 
     def text(self, name):
         return [row[self.columns.index(name)] for row in self.rows]
@@ -65,32 +73,47 @@ class Sweep:
 
 
 def panels(n, height=2.1):
-    columns = 1 if n == 1 else 2
-    rows = (n + columns - 1) // columns
-    figure, grid = plt.subplots(rows, columns, figsize=(WIDTH, height * rows + 0.3), squeeze=False)
+    columns = 1 if n == 1 or Page.is_column else 2
+    figure, grid = rows_of_panels((n + columns - 1) // columns, height, columns)
     for panel in grid.flat[n:]:
         panel.set_visible(False)
     return figure, list(grid.flat[:n])
 
 
 def curves(sweep, quantities, parameter):
-    """Over one entry; a curve for each combination of the others."""
+    """Over one entry; a curve for each combination of the others, of zipped ones a single one."""
     x = sweep.values(parameter)
-    others = [name for name in sweep.parameters if name != parameter]
+    others = [name for name in sweep.parameters if name != parameter and len(set(sweep.text(name))) > 1]
+    zipped = others if sweep.is_zipped else []
+    others = [] if sweep.is_zipped else others
     keys = list(zip(*(sweep.text(name) for name in others))) if others else [()] * len(x)
-    figure, grid = panels(len(quantities))
+    figure, grid = panels(len(quantities), 2.4 if zipped else 2.1)
     for panel, quantity in zip(grid, quantities):
         y = sweep.values(quantity)
         for key in dict.fromkeys(keys):
             mine = np.array([i for i, k in enumerate(keys) if k == key])
-            mine = mine[np.argsort(x[mine])]
-            panel.plot(x[mine], y[mine], "o-", markersize=3,
-                       label=", ".join(f"{name} {value}" for name, value in zip(others, key)))
-        panel.set_xlabel(parameter)
+            mine = mine[np.argsort(x[mine], kind="stable")]
+            panel.plot(x[mine], y[mine], "o-", markersize=3, color=None if others else BLUE,
+                       label=", ".join(f"{name} {value}" for name, value in zip(map(sweep.label, others), key)))
+        panel.set_xlabel(sweep.label(parameter))
+        if zipped:
+            zipped_axis(panel, sweep, parameter, zipped)
         panel.set_ylabel(quantity.replace(": ", ":\n"))
     if others and len(set(keys)) <= 8:
         grid[0].legend()
     return figure
+
+
+def zipped_axis(panel, sweep, parameter, others):
+    """Says below the values of an entry which ones of the others go with them."""
+    x, names = sweep.text(parameter), [sweep.label(name) for name in (parameter, *others)]
+    lines = [tuple(sweep.text(name)[i] for name in (parameter, *others)) for i in range(len(x))]
+    if len(set(lines)) <= MOST_TICKS and len(set(x)) == len(set(lines)):
+        panel.set_xticks([float(line[0]) for line in lines], ["\n".join(line) for line in lines])
+        panel.set_xlabel(" / ".join(names))
+    else:
+        ends = [f"{name} {sweep.text(other)[0]} to {sweep.text(other)[-1]}" for name, other in zip(names[1:], others)]
+        panel.set_xlabel(f"{names[0]}; with it {', '.join(ends)}")
 
 
 def maps(sweep, quantities, first, second):
@@ -103,8 +126,8 @@ def maps(sweep, quantities, first, second):
         field[np.searchsorted(ys, y), np.searchsorted(xs, x)] = sweep.values(quantity)
         image = panel.pcolormesh(xs, ys, field, shading="nearest", cmap="viridis")
         figure.colorbar(image, ax=panel, label=quantity.replace(": ", ":\n"))
-        panel.set_xlabel(first)
-        panel.set_ylabel(second)
+        panel.set_xlabel(sweep.label(first))
+        panel.set_ylabel(sweep.label(second))
     return figure
 
 
@@ -125,15 +148,15 @@ def distributions(sweep, quantities):
     return figure
 
 
-def sweep_picture(folder, wanted):
+def sweep_picture(folder, options):
     """The figure of a sweep and what is to be said of it."""
     sweep = Sweep(folder)
-    quantities = sweep.chosen(wanted)
+    quantities = sweep.chosen(options.quantity)
     varied = [name for name in sweep.parameters if sweep.values(name) is not None and len(set(sweep.text(name))) > 1]
     pairs = {tuple(pair) for pair in zip(*(sweep.text(name) for name in varied))}
     if sweep.is_random or not varied:
         figure = distributions(sweep, quantities)
-    elif len(varied) == 2 and len(sweep.parameters) == 2 and \
+    elif len(varied) == 2 and len(sweep.parameters) == 2 and not sweep.is_zipped and \
             min(len(set(sweep.text(name))) for name in varied) > 2 and len(pairs) > 8:
         figure = maps(sweep, quantities, *varied)
     else:
