@@ -30,7 +30,7 @@ LIBRARIES = {
     "include/taut/complementarity": None,
     "source/complementarity": None,
     "include/taut/scene": None,
-    "source/scene": r"boost/.*|deal\.II/base/.*|muParser\.h",
+    "source/scene": r"boost/.*|deal\.II/base/.*|muParser\.h|math\.h",
 }
 TRILINOS = r"(Epetra|Aztec|az_aztec|Belos|Teuchos|Ifpack|Amesos|Tpetra|ML|ml|Komplex|Isorropia)\w*\.(h|hpp)" \
            r"|deal\.II/lac/trilinos.*"
