@@ -82,14 +82,17 @@ namespace taut
                             first, " to ", last, " and none at ", x,
                             "; the rows have to cover what is used"));
     x = std::clamp(x, first, last);
-    const auto is_in = [&](const std::size_t i) { return x >= rows[i].x && x < rows[i + 1].x; };
+    // Rows at equal distances lead from the last interval to that of x, or next to it.
     const std::size_t before = hint.load(std::memory_order_relaxed), n = rows.size() - 1;
-    std::size_t i;
-    if (before + 1 < n && is_in(before + 1))
-      i = before + 1;
-    else if (before > 0 && is_in(before - 1))
-      i = before - 1;
-    else
+    const double intervals = (x - rows[before].x) / (rows[before + 1].x - rows[before].x),
+                 guess = static_cast<double>(before) + intervals;
+    std::size_t i =
+        guess > 0. ? static_cast<std::size_t>(std::min(guess, static_cast<double>(n - 1))) : 0;
+    if (x < rows[i].x && i > 0)
+      --i;
+    else if (x >= rows[i + 1].x && i + 1 < n)
+      ++i;
+    if (!(x >= rows[i].x && (x < rows[i + 1].x || i + 1 == n)))
     {
       const auto next = std::upper_bound(
           rows.begin(), rows.end(), x, [](const double at, const Row &row) { return at < row.x; });
