@@ -51,13 +51,19 @@ namespace taut
     return static_cast<MovingPlace &>(*constraints[i].geometry);
   }
 
+  double Constraints::distance_beyond(const std::size_t i, const double t) const
+  {
+    constexpr double out_of_reach = 10.;
+    return slides(i) && place(i).is_beyond(t) ? out_of_reach : 0.;
+  }
+
   /// Moves a sliding constraint to its place at time @p t.
   void Constraints::move(const std::size_t i, const double t)
   {
     ConstraintData &constraint = constraints[i];
     constraint.terms.clear();
     place(i).append_terms(t, constraint.terms);
-    constraint.gap = place(i).gap(t);
+    constraint.gap = place(i).gap(t) + distance_beyond(i, t);
     check_terms(constraint, constraint.terms, structure);
     if (!std::isfinite(constraint.gap))
       throw EntryError(constraint.origin,

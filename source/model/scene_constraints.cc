@@ -61,7 +61,7 @@ namespace taut
     {
     public:
       SlidingPlace(const Scene &scene, const SceneBodies &bodies, const Link &link)
-          : scene(scene), bodies(bodies), link(link), start(height(0.))
+          : scene(scene), bodies(bodies), link(link), start(height(0.)), foot(foot_of_strip())
       {
       }
 
@@ -90,7 +90,35 @@ namespace taut
       double gap(const double t) const override
       {
         return link.gap + link.profile(sliding_position(t), t) + (height(t) - start) +
-               (is_beyond(t) ? out_of_reach : 0.);
+               height_above_strip(t);
+      }
+
+      /// Whether the wire of a strip has not begun at a time, or has ended, not by rounding.
+      bool is_beyond(const double t) const override
+      {
+        if (link.strip.empty())
+          return false;
+        const double s = position(t), rounding = same_end * wire_length();
+        return s < -rounding || s > wire_length() + rounding;
+      }
+
+      /// A wire takes over from above the strip. Its end at the height of the strip, or below it,
+      /// would be hit from the side, which no gap along the direction of the contact describes.
+      void follow(const Motion &motion, const double start, const double end) override
+      {
+        if (!is_beyond(start) || is_beyond(end))
+          return;
+        ends_of_strip.clear();
+        append_link(bodies, link, place(start), ends_of_strip);
+        const double D = motion(ends_of_strip, start) + gap(start);
+        if (!(D < -same_height))
+          return;
+        const Wire &wire = scene.wires[link.to.index];
+        throw EntryError(link.origin,
+                         to_text("strip '", link.strip, "' comes to an end of wire '", wire.name,
+                                 "' at t = ", end, " s that is ", -D,
+                                 " m below it: it would hit this end from the side. Raise this end "
+                                 "of the wire, or start the strip beside it, not before it"));
       }
 
     protected:
@@ -101,14 +129,14 @@ namespace taut
       const Link link;
 
     private:
-      /// Gap of a strip to a wire that is not over it, beyond the height of the wire's end [m].
-      static constexpr double out_of_reach = 10.;
+      static constexpr double same_end = 1e-9;    ///< over the length of a wire
+      static constexpr double same_height = 1e-6; ///< of a strip and the end of a wire [m]
 
       /// Position of the contact or, beyond the ends of the wire of a strip, of this end.
       double sliding_position(const double t) const
       {
         const double s = position(t);
-        return is_beyond(t) ? std::clamp(s, 0., wire_length()) : s;
+        return link.strip.empty() ? s : std::clamp(s, 0., wire_length());
       }
 
       Attachment place(const double t) const
@@ -116,11 +144,25 @@ namespace taut
         return SceneBodies::moved(link.to, sliding_position(t));
       }
 
-      /// Whether the wire of a strip has not begun at a time, or has ended.
-      bool is_beyond(const double t) const
+      /// Height of the first wire of the strip at the start, along the direction of the contact
+      /// [m].
+      double foot_of_strip() const
       {
-        const double s = position(t);
-        return !link.strip.empty() && (s < 0. || s > wire_length());
+        for (const Link &other : scene.links)
+          if (!link.strip.empty() && other.strip == link.strip)
+            return height_of_wire(other, other.to.position);
+        return 0.;
+      }
+
+      double height_of_wire(const Link &other, const double s) const
+      {
+        return dot(link.direction, scene.wires[other.to.index].at(s));
+      }
+
+      /// Undeformed wires of a strip may have different heights and slopes [m].
+      double height_above_strip(const double t) const
+      {
+        return link.strip.empty() ? 0. : height_of_wire(link, sliding_position(t)) - foot;
       }
 
       double wire_length() const { return scene.wires[link.to.index].length(); }
@@ -153,7 +195,7 @@ namespace taut
       {
         const Wire &wire = scene.wires[link.to.index];
         const double length = wire.length(), s = position(t);
-        if (s >= -1e-9 * length && s <= (1. + 1e-9) * length)
+        if (s >= -same_end * length && s <= (1. + same_end) * length)
           return;
         throw EntryError(link.origin,
                          to_text("sliding contact '", link.name, "' leaves wire '", wire.name,
@@ -161,7 +203,8 @@ namespace taut
                                  " m. End the run earlier or lengthen the wire."));
       }
 
-      const double start;
+      const double start, foot;
+      std::vector<Term> ends_of_strip; ///< in follow()
     };
 
     /// A contact with this speed in space, on a cable that moves along under it. The place at the

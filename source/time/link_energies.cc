@@ -28,7 +28,7 @@ namespace taut
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
       rows[i].multiplier = start.multiplier[i];
-      rows[i].gap = start.gap[i];
+      rows[i].gap = start.gap[i] - constraints.distance_beyond(i, start.time);
       rows[i].u = start.link_springs[i].u;
       rows[i].noise = rounding_of_gaps * (terms[i] + std::fabs(constraints[i].gap));
       rows[i].begin = start.time;
@@ -57,6 +57,9 @@ namespace taut
   {
     const ConstraintData &constraint = constraints[i];
     const Row &row = rows[i];
+    // What a contact stores is lost where its wire ends, and not by the step.
+    if (constraints.distance_beyond(i, state.time) > 0.)
+      return 0.;
     const double change = state.gap[i] - row.gap;
     const bool is_mean = c.mean_force && state.is_mean[i];
     if (is_mean && !constraints.slides(i))
@@ -100,8 +103,8 @@ namespace taut
         continue;
       Row &row = rows[i];
       // A closed elastic constraint moves with its spring. Rounding of the gap has no speed.
-      const double moved = std::fabs(state.gap[i] - row.gap) +
-                           std::fabs(state.link_springs[i].u - row.u),
+      const double gap = state.gap[i] - constraints.distance_beyond(i, state.time);
+      const double moved = std::fabs(gap - row.gap) + std::fabs(state.link_springs[i].u - row.u),
                    N = state.multiplier[i], rate = std::max(moved, row.noise) / state.last_step;
       if (row.multiplier > 0. || N > 0.)
       {
@@ -126,7 +129,7 @@ namespace taut
       row.multiplier = N;
       row.rate = rate;
       row.end = state.time;
-      row.gap = state.gap[i];
+      row.gap = gap;
       row.u = state.link_springs[i].u;
     }
   }

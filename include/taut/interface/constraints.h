@@ -141,6 +141,10 @@ namespace taut
     /// Position of a sliding constraint on its wire at time t [m].
     double position(std::size_t i, double t) const { return place(i).position(t); }
 
+    /// What the gap has at time @p t [s] beside that of the place: 0, or where a sliding constraint
+    /// is beyond the ends of its body a distance out of reach [m].
+    double distance_beyond(std::size_t i, double t) const;
+
     /// B^T U: motions of the constraints, summed over all ranks [m, rad].
     std::vector<double> motions(const BodyVectors &U) const;
 

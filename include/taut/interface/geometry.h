@@ -54,6 +54,10 @@ namespace taut
     /// D at U = 0, N = 0 [m].
     virtual double gap(double t) const = 0;
 
+    /// Whether the body has not begun at the place at time @p t [s], or has ended: the constraint
+    /// is open then. Its terms and gap are those at this end of the body.
+    virtual bool is_beyond(double /*t*/) const { return false; }
+
     /// B U of a linear form at a time near the start of a step, over all ranks [m].
     using Motion = std::function<double(const std::vector<Term> &form, double t)>;
 
