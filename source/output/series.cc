@@ -3,6 +3,9 @@
 #include <taut/output/reactions.h>
 #include <taut/output/series.h>
 
+#include <algorithm>
+#include <limits>
+
 namespace taut
 {
   void Series::begin(const RunView &run)
@@ -15,9 +18,18 @@ namespace taut
       *table = IntervalTable(constraints ? interval : 0.);
     for (IntervalTable *table : {&links, &supports})
       *table = IntervalTable(link_interval);
-    for (std::size_t i = 0; constraints && i < constraints->size(); ++i)
+    for (std::size_t i = 0; constraints && i < constraints->size() && !constraints->slides(i); ++i)
       if ((*constraints)[i].is_link())
         add_link((*constraints)[i]);
+    if (constraints)
+      contacts = sliding_contacts(scene, *constraints);
+    for (const SlidingContact &contact : contacts)
+    {
+      if (contact.is_strip)
+        add_strip(contact.name);
+      for (const std::size_t link : contact.links)
+        add_link((*constraints)[constraints->index_of_link(link)]);
+    }
     for (const SupportPoint &point : support_points(scene))
       supports.add_quantity(point.name + (point.is_moment ? " moment" : " force"),
                             point.is_moment ? "N m" : "N");
@@ -59,24 +71,64 @@ namespace taut
       table.add_value(gap, unit);
   }
 
-  void Series::record_links(const StepView &step, const bool moving, IntervalTable &table)
+  void Series::add_strip(const std::string &name)
+  {
+    sliding.add_value(name + " position", "m");
+    sliding.add_quantity(name + " force", "N");
+    sliding.add_quantity(name + " gap", "m");
+    sliding.add_state(name);
+  }
+
+  void Series::record_link(const StepView &step, const std::size_t row)
+  {
+    values.push_back(step.state.multiplier[row]);
+    values.push_back(step.state.geometric_gap[row]);
+    if (step.constraints[row].cone.may_open())
+      values.push_back(step.state.multiplier[row] != 0.);
+  }
+
+  /// The strip touches where it touches one of its wires.
+  void Series::record_strip(const StepView &step, const SlidingContact &contact)
   {
     const State &state = step.state;
-    values.clear();
-    for (std::size_t i = 0; i < step.constraints.size(); ++i)
+    double force = 0., gap = std::numeric_limits<double>::infinity();
+    for (const std::size_t link : contact.links)
     {
-      const ConstraintData &constraint = step.constraints[i];
-      if (step.constraints.slides(i) != moving || !constraint.is_link())
-        continue;
-      if (moving)
-        values.push_back(step.constraints.position(i, state.time));
-      values.push_back(state.multiplier[i]);
-      values.push_back(state.geometric_gap[i]);
-      if (constraint.cone.may_open())
-        values.push_back(state.multiplier[i] != 0.);
+      const std::size_t row = step.constraints.index_of_link(link);
+      force += state.multiplier[row];
+      gap = std::min(gap, state.geometric_gap[row]);
+    }
+    values.push_back(
+        step.constraints.position(step.constraints.index_of_link(contact.links[0]), state.time));
+    values.insert(values.end(), {force, gap, double(force != 0.)});
+  }
+
+  void Series::record_links(const StepView &step)
+  {
+    values.clear();
+    for (std::size_t i = 0; i < step.constraints.size() && !step.constraints.slides(i); ++i)
+      if (step.constraints[i].is_link())
+        record_link(step, i);
+    if (!values.empty())
+      links.record(step.state.time, values);
+  }
+
+  void Series::record_sliding(const StepView &step)
+  {
+    values.clear();
+    for (const SlidingContact &contact : contacts)
+    {
+      if (contact.is_strip)
+        record_strip(step, contact);
+      for (const std::size_t link : contact.links)
+      {
+        const std::size_t row = step.constraints.index_of_link(link);
+        values.push_back(step.constraints.position(row, step.state.time));
+        record_link(step, row);
+      }
     }
     if (!values.empty())
-      table.record(state.time, values);
+      sliding.record(step.state.time, values);
   }
 
   void Series::record(const StepView &step)
@@ -85,8 +137,10 @@ namespace taut
       return;
     const double time = step.state.time;
     if (constraints)
-      for (const bool moving : {true, false})
-        record_links(step, moving, moving ? sliding : links);
+    {
+      record_sliding(step);
+      record_links(step);
+    }
     if (!step.supports.empty())
       supports.record(time, step.supports);
     if (!step.probes.empty())

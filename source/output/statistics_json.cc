@@ -47,9 +47,9 @@ namespace taut
       for (const auto &row : rows)
       {
         json &entry = result[identifier(row.name)] = quantity(row.value, row.unit);
-        if (row.expected == nullptr || !judged)
+        if (row.expected.empty() || !judged)
           continue;
-        const double low = (*row.expected)[0], high = (*row.expected)[1];
+        const double low = row.expected[0], high = row.expected[1];
         entry["expected"] = {low, high};
         entry["inside"] = row.value >= low && row.value <= high;
       }
@@ -83,7 +83,39 @@ namespace taut
       evaluated.erase("contact_loss");
       if (f.are_judged())
         entry[f.is_filtered ? "filtered" : "raw"] = evaluated;
+      add_figures(all.figures(contact), entry);
+      if (contact.of.is_strip)
+        entry["wires"] = shares(all, contact);
       return entry;
+    }
+
+    static void add_figures(const ContactFigures &f, json &entry)
+    {
+      json &bands = entry["bands"] = json::array();
+      for (const ContactFigures::Band &band : f.bands)
+      {
+        bands.push_back({{"from", band.from}, {"to", band.to}, {"unit", "Hz"}});
+        if (band.is_resolved)
+          bands.back()["standard_deviation"] = quantity(band.deviation, "N");
+      }
+      json &losses = entry["losses"] = json::array();
+      for (const ContactFigures::Losses &l : f.losses)
+        losses.push_back({{"longer_than", quantity(1e3 * l.longer_than, "ms")},
+                          {"number", l.number},
+                          {"share", quantity(100. * l.share, "%")}});
+      entry["height_range"] = quantity(1e3 * f.height_range, "mm");
+    }
+
+    static json shares(const Statistics &all, const Contact &contact)
+    {
+      json result = json::object();
+      for (std::size_t i = 0; i < contact.wires.size(); ++i)
+      {
+        const ContactQuantities f = all.quantities(contact, contact.wires[i]);
+        json &entry = result[contact.of.names[i]] = quantities_of(all.table(f, true), false);
+        entry["not_touched"] = quantity(100. * f.loss, "%");
+      }
+      return result;
     }
 
     static json of_certificates(const Statistics &all)
@@ -119,7 +151,8 @@ namespace taut
     }
   };
 
-  void Statistics::write(const std::string &path, const RunDescription &run) const
+  void Statistics::write(const std::string &path, const RunDescription &run,
+                         const std::vector<NamedQuantity> &others) const
   {
     json root = {
         {"scene", run.scene},        {"generator", run.generator}, {"version", version()},
@@ -127,7 +160,7 @@ namespace taut
         {"partial", run.is_partial}, {"until", until()},           {"verdict", verdict().text()}};
     json &of_contacts = root["sliding_contacts"] = json::object();
     for (const Contact &contact : contacts)
-      of_contacts[contact.name] = Json::of(*this, contact);
+      of_contacts[contact.of.name] = Json::of(*this, contact);
     json &of_probes = root["probes"] = json::object();
     for (const ProbeQuantities &probe : probes)
       of_probes[probe.name] = quantities_of(table(probe), true);
@@ -139,6 +172,12 @@ namespace taut
                              {"largest_force", quantity(link.largest_force, unit)},
                              {"impulse", quantity(link.impulse, unit + " s")},
                              {"largest_impulse", quantity(link.largest_impulse, unit + " s")}};
+      if (link.is_dropper)
+        of_links[link.name].update(
+            {{"smallest_force", quantity(link.dropper.least, unit)},
+             {"mean_force", quantity(link.dropper.mean, unit)},
+             {"standard_deviation", quantity(link.dropper.deviation(), unit)},
+             {"slackenings", link.dropper.n_slackenings}});
     }
     json &of_supports = root["supports"] = json::object();
     for (const SupportQuantities &support : supports)
@@ -148,6 +187,8 @@ namespace taut
                                    {"largest", quantity(support.largest, unit)},
                                    {"smallest", quantity(support.smallest, unit)}};
     }
+    for (const NamedQuantity &q : others)
+      root["observers"][q.item][q.quantity] = quantity(q.value, q.unit);
     root["certificate"] = Json::of_certificates(*this);
     json &warnings = root["warnings"] = json::array();
     for (const Warning &warning : run.warnings)

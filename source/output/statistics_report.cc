@@ -3,6 +3,7 @@
 #include <taut/output/statistics.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <ostream>
 
@@ -21,22 +22,26 @@ namespace taut
     }
 
     /// "   expected 1.00 to 2.00   inside"; empty without a range.
-    std::string comparison(const double value, const std::vector<double> *range, const bool judged)
+    std::string comparison(const double value, const std::vector<double> &range, const bool judged)
     {
-      if (range == nullptr)
+      if (range.empty())
         return "";
-      return "   expected " + fixed((*range)[0]) + " to " + fixed((*range)[1]) + "   " +
-             (!judged                    ? "not judged"
-              : is_inside(value, *range) ? "inside"
-                                         : "OUTSIDE");
+      const std::string bounds = !std::isfinite(range[0]) ? "at most " + fixed(range[1])
+                                 : !std::isfinite(range[1])
+                                     ? "at least " + fixed(range[0])
+                                     : fixed(range[0]) + " to " + fixed(range[1]);
+      return "   expected " + bounds + "   " +
+             (!judged                   ? "not judged"
+              : is_inside(value, range) ? "inside"
+                                        : "OUTSIDE");
     }
   } // namespace
 
-  const std::vector<double> *Statistics::expected_range(const std::string &quantity) const
+  std::vector<double> Statistics::expected_range(const std::string &quantity) const
   {
     const auto range = parameters.expected.find(quantity);
-    return range != parameters.expected.end() && range->second.size() == 2 ? &range->second
-                                                                           : nullptr;
+    return range != parameters.expected.end() && range->second.size() == 2 ? range->second
+                                                                           : std::vector<double>();
   }
 
   std::vector<Statistics::Quantity> Statistics::table(const ContactQuantities &f,
@@ -51,18 +56,21 @@ namespace taut
                                   {"Minimum", "N", m.minimum}};
     if (raw)
       return rows;
+    rows.push_back({"Standard deviation over mean", "1", m.mean > 0. ? m.deviation / m.mean : 0.});
     rows.push_back({"Contact loss", "%", 100. * f.loss});
     for (Quantity &row : rows)
       row.expected = expected_range(row.name);
+    if (std::vector<double> range = parameters.mean_force_range(f.speed); !range.empty())
+      rows.push_back({"Mean at this speed", "N", m.mean, std::move(range)});
     return rows;
   }
 
   std::vector<Statistics::Quantity> Statistics::table(const ProbeQuantities &probe) const
   {
     const std::string unit = probe.rotates ? "mrad" : "mm";
-    return {
-        {"Largest", unit, 1e3 * probe.largest, probe.rotates ? nullptr : expected_range("Uplift")},
-        {"Smallest", unit, 1e3 * probe.smallest}};
+    return {{"Largest", unit, 1e3 * probe.largest,
+             probe.rotates ? std::vector<double>() : expected_range("Uplift")},
+            {"Smallest", unit, 1e3 * probe.smallest}};
   }
 
   Statistics::Verdict Statistics::verdict() const
@@ -71,15 +79,15 @@ namespace taut
     const auto judge = [&](const std::vector<Quantity> &quantities)
     {
       for (const Quantity &quantity : quantities)
-        if (quantity.expected != nullptr)
-          ++(is_inside(quantity.value, *quantity.expected) ? result.n_inside : result.n_outside);
+        if (!quantity.expected.empty())
+          ++(is_inside(quantity.value, quantity.expected) ? result.n_inside : result.n_outside);
     };
     for (const Contact &contact : contacts)
     {
       const ContactQuantities f = quantities(contact);
       const std::vector<Quantity> rows = table(f, false);
-      const bool expected =
-          std::any_of(rows.begin(), rows.end(), [](const Quantity &r) { return r.expected; });
+      const bool expected = std::any_of(rows.begin(), rows.end(),
+                                        [](const Quantity &r) { return !r.expected.empty(); });
       if (f.are_judged())
         judge(rows);
       if (expected && !(f.are_judged() && f.is_complete))
@@ -113,7 +121,7 @@ namespace taut
   void Statistics::print_contact(const Contact &contact, std::ostream &out) const
   {
     const ContactQuantities f = quantities(contact);
-    out << "Contact force of '" << contact.name << "'" << window_text(f) << " (" << f.n_samples
+    out << "Contact force of '" << contact.of.name << "'" << window_text(f) << " (" << f.n_samples
         << " samples, ";
     if (f.is_filtered)
       out << "low-passed; unfiltered beside it)\n";
@@ -133,6 +141,44 @@ namespace taut
           << rows[i].value << ' ' << std::left << std::setw(3) << rows[i].unit << std::right
           << std::setw(12) << (i < raw.size() ? fixed(raw[i].value) : "")
           << comparison(rows[i].value, rows[i].expected, f.are_judged()) << '\n';
+    print_figures(contact, f.loss, out);
+    if (contact.of.is_strip)
+      print_shares(contact, out);
+  }
+
+  void Statistics::print_figures(const Contact &contact, const double loss, std::ostream &out) const
+  {
+    const ContactFigures f = figures(contact);
+    const auto begin = [&](const std::string &text) -> std::ostream &
+    { return out << "  " << std::left << std::setw(36) << text << std::right; };
+    begin("Standard deviation at 0-2, 0-5, 5-20 Hz");
+    for (std::size_t i = 0; i < 3; ++i)
+      out << (f.bands[i].is_resolved ? ' ' + fixed(f.bands[i].deviation) : " -");
+    out << " N\n";
+    if (contact.has_height)
+      begin("Range of the height of the contact")
+          << std::setw(10) << 1e3 * f.height_range << " mm\n";
+    if (!(loss > 0.))
+      return;
+    begin("Losses longer than 5, 10, 20 ms");
+    for (const ContactFigures::Losses &l : f.losses)
+      out << ' ' << l.number;
+    out << ", for";
+    for (const ContactFigures::Losses &l : f.losses)
+      out << ' ' << fixed(100. * l.share);
+    out << " %, for the time of arcs\n";
+  }
+
+  void Statistics::print_shares(const Contact &contact, std::ostream &out) const
+  {
+    out << "  Sum over its wires, unfiltered: mean, maximum, time without this wire\n";
+    for (std::size_t i = 0; i < contact.wires.size(); ++i)
+    {
+      const ContactQuantities f = quantities(contact, contact.wires[i]);
+      out << "    " << std::left << std::setw(34) << contact.of.names[i] << std::right
+          << std::setw(10) << f.raw.mean << std::setw(10) << f.raw.maximum << " N  " << std::setw(8)
+          << 100. * f.loss << " %\n";
+    }
   }
 
   void Statistics::print_links(std::ostream &out) const
@@ -171,7 +217,7 @@ namespace taut
       out << "  " << std::left << std::setw(36) << probe.name << std::right << std::setw(10)
           << rows[0].value << std::setw(10) << rows[1].value << ' ' << std::left << std::setw(4)
           << rows[0].unit << std::right;
-      if (rows[0].expected != nullptr)
+      if (!rows[0].expected.empty())
         out << "    " << comparison(rows[0].value, rows[0].expected, true);
       out << '\n';
     }

@@ -189,6 +189,17 @@ namespace taut
       print_cost(log);
   }
 
+  std::vector<NamedQuantity> ObservedRun::quantities() const
+  {
+    std::vector<NamedQuantity> all;
+    for (const Observer *observer : observers)
+    {
+      const std::vector<NamedQuantity> own = observer->quantities();
+      all.insert(all.end(), own.begin(), own.end());
+    }
+    return all;
+  }
+
   void ObservedRun::print_cost(std::ostream &log) const
   {
     const TimeStepper &stepper = motion.time_stepper();

@@ -296,6 +296,7 @@ namespace taut
           "Time/End takes more than 1e10 such steps; take a larger step or an earlier end");
     if (end_time > 0. && end_time < step * (1. - 1e-9))
       throw EntryError("Time/End", "it is shorter than one step; take a smaller Time/Step");
+    statistics.check();
     check_pair(statistics.window, "Statistics/Window");
     for (const auto &[figure, range] : statistics.expected)
       check_pair(range, "Statistics/Expected ranges/" + figure);

@@ -49,6 +49,21 @@ namespace taut
     return values;
   }
 
+  void Parameters::write_nothing()
+  {
+    output.writes = false;
+    output.field_interval = 0.;
+    output.checkpoint_interval = 0.;
+    std::vector<std::string> measuring;
+    for (const std::string &name : output.observers)
+    {
+      const std::unique_ptr<Observer> observer = make_observer(name);
+      if (observer->files().empty() && !observer->quantities().empty())
+        measuring.push_back(name);
+    }
+    output.observers = measuring;
+  }
+
   std::unique_ptr<Observer> Parameters::make_observer(const std::string &name) const
   {
     std::unique_ptr<Observer> result = Registry<Observer>::instance().create(name);

@@ -23,8 +23,8 @@ namespace taut
     /// be from another run.
     std::set<std::string> names_of_results()
     {
-      std::set<std::string> names = {"used.prm", "start.csv", "wires.pvd", "statistics.json",
-                                     "links.pvd"};
+      std::set<std::string> names = {"used.prm",        "start.csv",          "wires.pvd",
+                                     "statistics.json", "dropper_cycles.csv", "links.pvd"};
       for (const char *const table : {"sliding", "links", "probes", "supports", "certificate"})
         for (const char *const ending : {".csv", ".bin"})
           names.insert(std::string(table) + ending);

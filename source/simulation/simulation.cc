@@ -227,6 +227,23 @@ namespace taut
     observed->observe(*limits);
   }
 
+  std::vector<NamedQuantity> Simulation::observed_quantities() const
+  {
+    if (observed)
+      return measured;
+    std::vector<NamedQuantity> all;
+    const auto append = [&](const Observer &observer)
+    {
+      const std::vector<NamedQuantity> own = observer.quantities();
+      all.insert(all.end(), own.begin(), own.end());
+    };
+    for (const Observer *guest : guests)
+      append(*guest);
+    for (const std::string &name : parameters.output.observers)
+      append(*parameters.make_observer(name));
+    return all;
+  }
+
   void Simulation::step_to_the_end()
   {
     observed->begin();
@@ -241,11 +258,16 @@ namespace taut
   void Simulation::finish(const bool is_partial)
   {
     observed->finish();
+    measured = observed->quantities();
     if (is_partial)
       log << "Partial results: until t = " << figures.until() << " s of " << parameters.end_time
           << " s\n";
     if (processes.is_root() && parameters.output.writes && has_time())
-      figures.write(parameters.output.folder + "/statistics.json", description(is_partial));
+    {
+      figures.write(parameters.output.folder + "/statistics.json", description(is_partial),
+                    observed_quantities());
+      figures.write_tables(parameters.output.folder);
+    }
   }
 
   RunDescription Simulation::description(const bool is_partial) const

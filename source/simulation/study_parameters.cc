@@ -36,11 +36,15 @@ namespace taut
 
   void StudyParameters::QuantityItem::declare(dealii::ParameterHandler &prm)
   {
-    prm.add_parameter("Of", of, "Name of a sliding contact, another link or a probe", Anything());
+    prm.add_parameter("Of", of,
+                      "Name of a sliding contact or strip, another link or a probe, or "
+                      "an item of an observer",
+                      Anything());
     prm.add_parameter(
         "Quantity", quantity,
         "Of a sliding contact: 'mean', 'standard deviation', 'maximum', 'minimum', 'contact "
-        "loss', of the filtered force in the window of the statistics. Of another link: 'open "
+        "loss', of the filtered force in the window of the statistics; of a wire of a strip 'mean "
+        "share', 'largest share'. Of another link: 'open "
         "time', 'closed time', 'largest force', 'impulse'. Of a probe: 'largest', 'smallest', "
         "'last'. Of each: 'history', the root mean square over the run of the difference to the "
         "reference, of force or displacement",

@@ -7,6 +7,17 @@
 
 namespace taut
 {
+  namespace
+  {
+    std::vector<NamedQuantity> quantities_of(const Simulation &simulation)
+    {
+      std::vector<NamedQuantity> all = simulation.statistics().named_quantities();
+      const std::vector<NamedQuantity> others = simulation.observed_quantities();
+      all.insert(all.end(), others.begin(), others.end());
+      return all;
+    }
+  } // namespace
+
   std::vector<Statistics::NamedQuantity> CaseRunner::quantities()
   {
     set_parameters({});
@@ -14,7 +25,7 @@ namespace taut
     try
     {
       const Simulation simulation(*parameters, silent, Communicator(), &shared);
-      return simulation.statistics().named_quantities();
+      return quantities_of(simulation);
     }
     catch (const EntryError &e)
     {
@@ -31,8 +42,7 @@ namespace taut
       Simulation simulation(*parameters, silent, Communicator(), &shared);
       simulation.stop_if(stop_asked);
       simulation.run();
-      return {simulation.statistics().named_quantities(),
-              simulation.statistics().worst_certificate()};
+      return {quantities_of(simulation), simulation.statistics().worst_certificate()};
     }
     catch (const EntryError &e)
     {
@@ -50,10 +60,7 @@ namespace taut
     all.insert(all.end(), entries.begin(), entries.end());
     auto fresh = std::make_unique<Parameters>();
     fresh->read(file, all);
-    fresh->output.writes = false;
-    fresh->output.field_interval = 0.;
-    fresh->output.checkpoint_interval = 0.;
-    fresh->output.observers.clear();
+    fresh->write_nothing();
     parameters = std::move(fresh);
   }
 } // namespace taut

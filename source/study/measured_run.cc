@@ -40,7 +40,8 @@ namespace taut
     std::ostringstream silent;
     const Simulation simulation(parameters, silent);
     const QuantityRecorder recorder(parameters.study, parameters.statistics, simulation.scene(),
-                                    simulation.constraints());
+                                    simulation.constraints(),
+                                    [&] { return simulation.observed_quantities(); });
   }
 
   MeasuredRun measure_run(const Parameters &parameters, const bool with_quantities,
@@ -53,7 +54,8 @@ namespace taut
         throw EntryError("Time/Step control", "a study compares fixed steps; set 'fixed'");
       Simulation simulation(parameters, silent);
       QuantityRecorder recorder(parameters.study, parameters.statistics, simulation.scene(),
-                                simulation.constraints());
+                                simulation.constraints(),
+                                [&] { return simulation.observed_quantities(); });
       Stopwatch stopwatch(simulation.n_steps());
       simulation.stop_if(stop_asked);
       simulation.observe(stopwatch);
@@ -61,7 +63,7 @@ namespace taut
         simulation.observe(recorder);
       simulation.run();
       const Certificate &worst = recorder.worst_certificate();
-      return {with_quantities ? recorder.quantities() : std::vector<StudyQuantity>(),
+      return {with_quantities ? recorder.study_quantities() : std::vector<StudyQuantity>(),
               stopwatch.seconds(), std::max(worst.complementarity, worst.balance),
               simulation.n_steps()};
     }

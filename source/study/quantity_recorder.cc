@@ -32,8 +32,8 @@ namespace taut
 
   QuantityRecorder::QuantityRecorder(const StudyParameters &study,
                                      const StatisticsParameters &statistics, const Scene &scene,
-                                     const Constraints &rows)
-      : statistics(statistics, scene, rows)
+                                     const Constraints &rows, Others others)
+      : statistics(statistics, scene, rows), others(std::move(others))
   {
     for (std::size_t i = 0; i < study.quantities.items.size(); ++i)
       sources.push_back(find(study.quantities.items[i], study.quantities.title(i), scene, rows));
@@ -43,14 +43,14 @@ namespace taut
                                                   const std::string &title, const Scene &scene,
                                                   const Constraints &rows) const
   {
-    const std::vector<Statistics::NamedQuantity> known = statistics.named_quantities();
+    const std::vector<NamedQuantity> known = numbers();
     std::vector<std::string> items, quantities;
     for (std::size_t i = 0; i < known.size(); ++i)
     {
       if (known[i].item == item.of)
       {
         if (known[i].quantity == item.quantity)
-          return {Source::Kind::number, i, {}};
+          return {Source::Kind::number, i};
         quantities.push_back(known[i].quantity);
       }
       if (items.empty() || items.back() != known[i].item)
@@ -65,11 +65,23 @@ namespace taut
                                                 suggestion(item.quantity, quantities));
     for (std::size_t i = 0; i < scene.probes.size(); ++i)
       if (scene.probes[i].name == item.of)
-        return {Source::Kind::probe, i, {}};
+        return {Source::Kind::probe, i};
+    for (const SlidingContact &contact : sliding_contacts(scene, rows))
+      if (contact.is_strip && contact.name == item.of)
+      {
+        std::vector<std::size_t> of_wires;
+        for (const std::size_t link : contact.links)
+          of_wires.push_back(rows.index_of_link(link));
+        return {Source::Kind::force_of_constraints, 0, of_wires};
+      }
     std::size_t row = 0;
-    while (!rows[row].is_link() || rows[row].name != item.of)
+    while (row < rows.size() && (!rows[row].is_link() || rows[row].name != item.of))
       ++row;
-    return {Source::Kind::force_of_constraint, row, {}};
+    if (row == rows.size())
+      throw EntryError(title + "/Quantity", "'" + item.of +
+                                                "' is what an observer measures, which has no "
+                                                "history; take one of its quantities");
+    return {Source::Kind::force_of_constraints, 0, {row}};
   }
 
   void QuantityRecorder::record(const StepView &step)
@@ -79,19 +91,32 @@ namespace taut
     for (Source &source : sources)
       if (source.kind == Source::Kind::probe)
         source.history.push_back(step.probes[source.index]);
-      else if (source.kind == Source::Kind::force_of_constraint)
-        source.history.push_back(step.state.multiplier[source.index]);
+      else if (source.kind == Source::Kind::force_of_constraints)
+      {
+        double force = 0.;
+        for (const std::size_t row : source.rows)
+          force += step.state.multiplier[row];
+        source.history.push_back(force);
+      }
   }
 
-  std::vector<StudyQuantity> QuantityRecorder::quantities() const
+  std::vector<NamedQuantity> QuantityRecorder::numbers() const
   {
-    const std::vector<Statistics::NamedQuantity> numbers = statistics.named_quantities();
+    std::vector<NamedQuantity> all = statistics.named_quantities();
+    const std::vector<NamedQuantity> of_others = others();
+    all.insert(all.end(), of_others.begin(), of_others.end());
+    return all;
+  }
+
+  std::vector<StudyQuantity> QuantityRecorder::study_quantities() const
+  {
+    const std::vector<NamedQuantity> all = numbers();
     std::vector<StudyQuantity> list;
     for (const Source &source : sources)
     {
       StudyQuantity quantity;
       if (source.kind == Source::Kind::number)
-        quantity.value = numbers[source.index].value;
+        quantity.value = all[source.index].value;
       else
       {
         quantity.time = times;

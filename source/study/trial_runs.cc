@@ -91,9 +91,7 @@ namespace taut
     all.insert(all.end(), entries.begin(), entries.end());
     Parameters chosen;
     chosen.read(file, all);
-    chosen.output.writes = false;
-    chosen.output.field_interval = chosen.output.checkpoint_interval = 0.;
-    chosen.output.observers.clear();
+    chosen.write_nothing();
     return measure_run(chosen, true, [this]() { return ask(); });
   }
 

@@ -7,6 +7,7 @@
 #include <taut/base/registry.h>
 #include <taut/interface/constraints.h>
 #include <taut/model/scene_bodies.h>
+#include <taut/output/named_quantity.h>
 #include <taut/time/certificate.h>
 #include <taut/time/contact_measures.h>
 #include <taut/time/integrator.h>
@@ -104,6 +105,15 @@ namespace taut
 
     /// Called once after the last step, also if a run ends early or with an error.
     virtual void finish() {}
+
+    /**
+     * Its results so far, each one number: statistics.json has them in "observers", tables of
+     * sweeps and studies know them by item and quantity. Names and their order are the same at all
+     * times, also before begin(), when values do not count yet. It must not communicate; what the
+     * root says counts. Sweeps and studies write no files: of the observers of the file, those with
+     * quantities and without files() are in their runs.
+     */
+    virtual std::vector<NamedQuantity> quantities() const { return {}; }
 
     /// Called after finish(): writes the final report to the log. It must not communicate if the
     /// run @p failed, as other ranks may not know.

@@ -4,6 +4,7 @@
 
 #include <taut/output/interval_table.h>
 #include <taut/output/observer.h>
+#include <taut/output/sliding_contacts.h>
 
 #include <memory>
 #include <string>
@@ -12,7 +13,8 @@
 namespace taut
 {
   /**
-   * Writes time series as tables: sliding.csv (position, force, gap of each sliding contact),
+   * Writes time series as tables: sliding.csv (position, force, gap of each sliding contact; of a
+   * strip the sum of the forces and the least gap, and beside them those of each wire),
    * links.csv (force and gap of each fixed link), supports.csv (force of each support on its wire),
    * probes.csv, certificate.csv; .bin for binary tables. Empty files are not made. With an
    * interval, all tables but the last have the extremes since the line before, and for unilateral
@@ -46,7 +48,11 @@ namespace taut
 
   private:
     void add_link(const ConstraintData &constraint);
-    void record_links(const StepView &step, bool moving, IntervalTable &table);
+    void add_strip(const std::string &name);
+    void record_link(const StepView &step, std::size_t row);
+    void record_strip(const StepView &step, const SlidingContact &contact);
+    void record_links(const StepView &step);
+    void record_sliding(const StepView &step);
 
     const Scene &scene;
     const Constraints *const constraints; ///< nullptr: at rest
@@ -54,6 +60,7 @@ namespace taut
     const double link_interval;
     bool is_open = false; ///< on the root
     double interval = 0., next = 0.;
+    std::vector<SlidingContact> contacts;
     IntervalTable sliding, links, supports, probes;
     std::unique_ptr<TableFile> certificate;
     std::vector<double> values; ///< of one table and step

@@ -2,37 +2,19 @@
 #ifndef taut_statistics_h
 #define taut_statistics_h
 
+#include <taut/output/contact_figures.h>
+#include <taut/output/contact_quantities.h>
+#include <taut/output/link_force.h>
 #include <taut/output/model_limits.h>
 #include <taut/output/observer.h>
+#include <taut/output/sliding_contacts.h>
 
 #include <iosfwd>
-#include <map>
 #include <string>
 #include <vector>
 
-namespace dealii
-{
-  class ParameterHandler;
-}
-
 namespace taut
 {
-  /// Parameters of the statistics, with expected ranges.
-  struct StatisticsParameters
-  {
-    std::vector<double> window;    ///< positions of a sliding contact [m]; empty: whole run
-    double filter_frequency = 20.; ///< [Hz]
-
-    /// Lower and upper bound by quantity; empty: no bounds.
-    std::map<std::string, std::vector<double>> expected;
-
-    /// Declares the members in subsection "Statistics".
-    void declare_parameters(dealii::ParameterHandler &prm);
-
-    /// Throws an EntryError if no sliding contact enters the window before @p end_time [s].
-    void check_window(const Scene &scene, double end_time) const;
-  };
-
   /// Description of the run in the file of statistics.
   struct RunDescription
   {
@@ -44,16 +26,9 @@ namespace taut
     std::vector<Warning> warnings;
   };
 
-  /// Mean, standard deviation and extremes of a record.
-  struct Moments
-  {
-    double mean = 0., deviation = 0., minimum = 0., maximum = 0.;
-    static Moments of(const std::vector<double> &record);
-  };
-
-  /// Statistics of a run: contact forces of sliding contacts, raw and low-passed, in a window;
-  /// contact loss; uplift of the probes; open time, largest force and impulse of the fixed links;
-  /// extremes of the forces of supports; certificates.
+  /// Statistics of a run: contact forces of sliding contacts, of a strip the sum over its wires,
+  /// raw and low-passed, in a window; contact loss; uplift of the probes; open time, largest force
+  /// and impulse of the fixed links; extremes of the forces of supports; certificates.
   class Statistics : public Observer
   {
   public:
@@ -63,38 +38,26 @@ namespace taut
     void save(OutputArchive &archive) override;
     void resume(InputArchive &archive, const StepView &step) override;
 
-    /// Contact force of one sliding contact in the window.
-    struct ContactQuantities
-    {
-      Moments raw, filtered;
-      double loss = 0.;
-      std::size_t n_samples = 0;
-      bool is_filtered = false;
-      bool is_complete = true;     ///< the contact passed the whole window
-      double begin = 0., end = 0.; ///< positions of the first and last sample [m]
-      double longest_step = 0.;    ///< that resolves the filter frequency; 0: no filter [s]
-
-      /// Whether expected ranges apply, which are for the filtered force.
-      bool are_judged() const { return n_samples > 0 && (is_filtered || longest_step == 0.); }
-    };
+    using ContactQuantities = taut::ContactQuantities;
     std::size_t n_contacts() const { return contacts.size(); }
 
-    /// @p contact counts the sliding contacts in the order of the scene.
+    /// @p contact counts the sliding contacts in the order of the scene; a strip is one.
     ContactQuantities contact_quantities(std::size_t contact) const
     {
       return quantities(contacts[contact]);
     }
 
+    /// Force of one of the wires of a strip, at the times when the strip is in the window. Its loss
+    /// is the share of the samples in which the wire is not touched.
+    ContactQuantities share(std::size_t contact, std::size_t wire) const
+    {
+      return quantities(contacts[contact], contacts[contact].wires[wire]);
+    }
+
     /// Largest displacement of a probe [m, rad].
     double largest_displacement(std::size_t probe) const { return probes[probe].largest; }
 
-    /// A quantity of a sliding contact, another link or a probe.
-    struct NamedQuantity
-    {
-      std::string item, quantity;
-      double value;
-      std::string unit;
-    };
+    using NamedQuantity = taut::NamedQuantity;
 
     /// All quantities that are one number; sliding contacts count with their filtered force.
     std::vector<NamedQuantity> named_quantities() const;
@@ -105,20 +68,27 @@ namespace taut
     /// Prints the table of quantities with their expected ranges.
     void report(std::ostream &log, bool failed) const override;
 
-    /// Writes the table as JSON. Throws UserError if the file cannot be written.
-    void write(const std::string &path, const RunDescription &run) const;
+    /// Writes the table as JSON, with the quantities of @p others. Throws UserError if the file
+    /// cannot be written.
+    void write(const std::string &path, const RunDescription &run,
+               const std::vector<NamedQuantity> &others = {}) const;
+
+    /// Writes the tables of StatisticsParameters::tables into a folder. Throws UserError if a file
+    /// cannot be written.
+    void write_tables(const std::string &folder) const;
 
     /// Time of the last recorded step, or 0 [s].
     double until() const { return times.empty() ? 0. : times.back(); }
 
   private:
-    /// Record of one sliding contact.
+    /// Record of one sliding contact: a link, or a strip with its wires.
     struct Contact
     {
-      std::string name;
-      std::size_t link; ///< of the scene
-      std::vector<double> position, force;
-      std::vector<double> mean_force = {}; ///< over the time that the element resolves
+      SlidingContact of;
+      std::vector<double> places = {}; ///< position and height of each step, in turn [m]
+      bool has_height = false;
+      std::vector<Term> foot = {};           ///< displacement of its `from` end along its direction
+      std::vector<ContactRecord> wires = {}; ///< without positions
     };
     /// Quantities of a fixed link.
     struct LinkQuantities
@@ -127,6 +97,8 @@ namespace taut
       bool unilateral = false, rotates = false;
       double open_time = 0., closed_time = 0., largest_force = 0., impulse = 0.;
       double largest_impulse = 0.;
+      bool is_dropper = false;
+      LinkForce dropper = {};
     };
 
     /// Displacement of a probe from rest.
@@ -149,14 +121,20 @@ namespace taut
     void record_certificate(const StepView &step);
     template <typename Archive>
     void store(Archive &archive);
+    void record_contacts(const StepView &step);
+    static double height_of(Contact &contact, const StepView &step);
+    ContactFigures figures(const Contact &contact) const;
+    static void add_places(const Contact &contact, ContactRecord &record);
+    ContactRecord sum(const Contact &contact) const;
     ContactQuantities quantities(const Contact &contact) const;
+    ContactQuantities quantities(const Contact &contact, ContactRecord wire) const;
 
     /// A row of a table.
     struct Quantity
     {
       std::string name, unit;
       double value;
-      const std::vector<double> *expected = nullptr; ///< range in the same unit
+      std::vector<double> expected = {}; ///< range in the same unit; empty: none
     };
 
     /// Rows of a sliding contact: raw force if @p raw, otherwise filtered force and loss.
@@ -165,7 +143,7 @@ namespace taut
     /// Rows with the largest and smallest displacement of a probe.
     std::vector<Quantity> table(const ProbeQuantities &probe) const;
 
-    const std::vector<double> *expected_range(const std::string &quantity) const;
+    std::vector<double> expected_range(const std::string &quantity) const;
 
     /// Comparison of the quantities with their expected ranges.
     struct Verdict
@@ -178,6 +156,8 @@ namespace taut
     class Json; ///< parts of the file
     std::string window_text(const ContactQuantities &quantities) const;
     void print_contact(const Contact &contact, std::ostream &out) const;
+    void print_figures(const Contact &contact, double loss, std::ostream &out) const;
+    void print_shares(const Contact &contact, std::ostream &out) const;
     void print_links(std::ostream &out) const;
 
     StatisticsParameters parameters;

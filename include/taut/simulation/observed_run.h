@@ -84,6 +84,9 @@ namespace taut
     /// Reports of the observers, and the cost of the steps; see Observer::report().
     void report(std::ostream &log, bool failed = false) const;
 
+    /// Quantities of the observers, see Observer::quantities().
+    std::vector<NamedQuantity> quantities() const;
+
     /// Checkpoint data of each observer, complete on the root.
     std::vector<std::string> save() const;
 

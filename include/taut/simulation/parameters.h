@@ -146,6 +146,10 @@ namespace taut
     /// Values of all entries with a path "Section/...", by the rest of the path.
     std::map<std::string, std::string> entries_below(const std::string &section) const;
 
+    /// For runs that write nothing: no fields, no checkpoints, and only observers with quantities
+    /// and without files.
+    void write_nothing();
+
     /// New observer of this name with its entries from the file.
     std::unique_ptr<Observer> make_observer(const std::string &name) const;
 

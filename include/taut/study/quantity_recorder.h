@@ -5,6 +5,7 @@
 #include <taut/output/statistics.h>
 #include <taut/simulation/study_parameters.h>
 
+#include <functional>
 #include <vector>
 
 namespace taut
@@ -30,14 +31,17 @@ namespace taut
   class QuantityRecorder : public Observer
   {
   public:
+    /// What the other observers of the run measure so far.
+    using Others = std::function<std::vector<NamedQuantity>()>;
+
     /// Throws EntryError if the scene lacks an item of the study, or the item lacks the quantity.
     QuantityRecorder(const StudyParameters &study, const StatisticsParameters &statistics,
-                     const Scene &scene, const Constraints &rows);
+                     const Scene &scene, const Constraints &rows, Others others);
 
     void record(const StepView &step) override;
 
     /// The quantities, in the order of the study.
-    std::vector<StudyQuantity> quantities() const;
+    std::vector<StudyQuantity> study_quantities() const;
 
     const Certificate &worst_certificate() const { return statistics.worst_certificate(); }
 
@@ -47,17 +51,22 @@ namespace taut
     {
       enum class Kind
       {
-        number,              ///< `index` in Statistics::named_quantities()
-        force_of_constraint, ///< history of the force of row `index`
-        probe                ///< history of probe `index`
+        number,               ///< `index` in numbers()
+        force_of_constraints, ///< history of the force of `rows`, of a strip those of its wires
+        probe                 ///< history of probe `index`
       } kind = Kind::number;
       std::size_t index = 0;
-      std::vector<double> history;
+      std::vector<std::size_t> rows = {};
+      std::vector<double> history = {};
     };
     Source find(const StudyParameters::QuantityItem &item, const std::string &title,
                 const Scene &scene, const Constraints &rows) const;
 
+    /// Those of the statistics, and then those of the others.
+    std::vector<NamedQuantity> numbers() const;
+
     Statistics statistics;
+    Others others;
     std::vector<Source> sources;
     std::vector<double> times;
   };

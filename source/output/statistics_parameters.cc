@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <taut/base/exceptions.h>
+#include <taut/output/statistics_parameters.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <sstream>
+
+namespace taut
+{
+  namespace
+  {
+    /// Distance by which a position may miss the end of the window [m].
+    double slack(const std::vector<double> &window)
+    {
+      return 1e-9 * (1. + std::fabs(window[1]));
+    }
+
+    const char *const expected_quantities[] = {"Mean",
+                                               "Standard deviation",
+                                               "Mean + 3 standard deviations",
+                                               "Mean - 3 standard deviations",
+                                               "Maximum",
+                                               "Minimum",
+                                               "Standard deviation over mean",
+                                               "Contact loss",
+                                               "Uplift"};
+  } // namespace
+
+  void StatisticsParameters::declare_parameters(dealii::ParameterHandler &prm)
+  {
+    using namespace dealii::Patterns;
+    prm.enter_subsection("Statistics");
+    prm.add_parameter(
+        "Window", window,
+        "First and last position of a sliding contact on its wire between which its "
+        "force is evaluated, of a strip on its first wire, also beyond the ends of it; "
+        "empty: the whole run [m]",
+        List(Double(), 0, 2));
+    prm.add_parameter("Filter frequency", filter_frequency,
+                      "Low-pass filter of the contact force, third-order Butterworth forwards and "
+                      "backwards, -3 dB in total at this frequency; 0: none. Expected ranges of "
+                      "the force are of the filtered one: a step that does not resolve the "
+                      "frequency is not compared with them [Hz]",
+                      Double(0., Double::max_double_value));
+    const std::string curve =
+        " mean of the force over the speed v in km/h: 'a, b' for a v^2 + b, 'a, b, v1, c, d' for c "
+        "v^2 + d above v1. Give the curve of your edition of EN 50367 or the TSI for your supply; "
+        "empty: no limit [N]";
+    prm.add_parameter("Least mean force", least_mean, "Least" + curve, List(Double()));
+    prm.add_parameter("Largest mean force", largest_mean, "Largest" + curve, List(Double()));
+    prm.add_parameter("Tables", tables,
+                      "Which files to write beside statistics.json. 'histogram': samples of the "
+                      "contact force in the window by classes, contact_<name>_histogram.csv. "
+                      "'spectrum': its power spectral density by Welch's method, "
+                      "contact_<name>_spectrum.csv. 'cycles': rainflow cycles of the force of each "
+                      "dropper by ASTM E1049, dropper_cycles.csv",
+                      List(Selection("histogram|spectrum|cycles")));
+    prm.add_parameter("Histogram class width", class_width, "Width of a class of the histogram [N]",
+                      Double(1e-6, Double::max_double_value));
+    prm.enter_subsection("Expected ranges");
+    for (const char *name : expected_quantities)
+      prm.add_parameter(name, expected[name],
+                        "Lower and upper bound, printed beside the quantity; empty: none " +
+                            std::string(std::string(name) == "Contact loss" ? "[%]"
+                                        : std::string(name) == "Uplift"     ? "[mm]"
+                                        : std::string(name) == "Standard deviation over mean"
+                                            ? "[1]"
+                                            : "[N]"),
+                        List(Double(), 0, 2));
+    prm.leave_subsection();
+    prm.leave_subsection();
+  }
+
+  void StatisticsParameters::check() const
+  {
+    for (const auto &[curve, entry] :
+         {std::make_pair(&least_mean, "Statistics/Least mean force"),
+          std::make_pair(&largest_mean, "Statistics/Largest mean force")})
+      if (!curve->empty() && curve->size() % 3 != 2)
+        throw EntryError(entry, "it has " + std::to_string(curve->size()) +
+                                    " numbers; give 'a, b' for a v^2 + b, or 'a, b, v1, c, d' "
+                                    "for c v^2 + d above the speed v1");
+  }
+
+  bool StatisticsParameters::has_table(const std::string &name) const
+  {
+    return std::find(tables.begin(), tables.end(), name) != tables.end();
+  }
+
+  std::vector<double> StatisticsParameters::mean_force_range(const double speed) const
+  {
+    if (least_mean.empty() && largest_mean.empty())
+      return {};
+    const double v = 3.6 * speed;
+    const auto value = [&](const std::vector<double> &curve, const double none)
+    {
+      if (curve.empty())
+        return none;
+      std::size_t i = 0;
+      while (i + 4 < curve.size() && v > curve[i + 2])
+        i += 3;
+      return curve[i] * v * v + curve[i + 1];
+    };
+    const double infinity = std::numeric_limits<double>::infinity();
+    return {value(least_mean, -infinity), value(largest_mean, infinity)};
+  }
+
+  bool StatisticsParameters::is_in_window(const double position) const
+  {
+    if (window.size() < 2)
+      return true;
+    const double slack = taut::slack(window);
+    return position >= window[0] - slack && position <= window[1] + slack;
+  }
+
+  void StatisticsParameters::check_window(const Scene &scene, const double end_time) const
+  {
+    if (window.size() < 2 || !(end_time > 0.))
+      return;
+    std::ostringstream ways;
+    std::set<std::string> strips;
+    for (const Link &link : scene.links)
+    {
+      if (!link.moving() || !strips.insert(link.strip.empty() ? link.name : link.strip).second)
+        continue; // the position of a strip is that on its first wire
+      if (link.straight)
+        return; // the end of a run shows how far it slides on its cable
+      const double start = link.to.position, end = start + link.speed * end_time;
+      if (std::max(start, end) >= window[0] - slack(window) &&
+          std::min(start, end) <= window[1] + slack(window))
+        return;
+      ways << (ways.tellp() > 0 ? ", '" : "'") << (link.strip.empty() ? link.name : link.strip)
+           << "' goes from " << start << " to " << end << " m";
+    }
+    if (ways.tellp() > 0)
+      throw EntryError("Statistics/Window", "no contact comes there until Time/End: " + ways.str() +
+                                                ". Move the window, run longer, or leave it empty "
+                                                "to evaluate the whole run");
+  }
+} // namespace taut
