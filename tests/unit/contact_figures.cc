@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Figures of contact forces and of droppers against records whose figures are known.
+#include "common.h"
+
+#include <taut/base/exceptions.h>
+#include <taut/output/contact_figures.h>
+#include <taut/output/link_force.h>
+#include <taut/output/power_spectrum.h>
+#include <taut/output/rainflow.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+using namespace taut;
+
+namespace
+{
+  const double pi = std::acos(-1.);
+
+  /// 100 N, and waves of 8 N at 1 Hz and 4 N at 10 Hz, for 20 s at 1 ms and 10 m/s.
+  ContactRecord waves(std::vector<double> &times)
+  {
+    ContactRecord record;
+    for (int i = 0; i <= 20000; ++i)
+    {
+      const double t = 1e-3 * i;
+      times.push_back(t);
+      record.position.push_back(10. * t);
+      record.force.push_back(100. + 8. * std::sin(2. * pi * t) + 4. * std::sin(20. * pi * t));
+      record.height.push_back(.03 * std::cos(pi * t / 10.));
+    }
+    record.mean_force = record.force;
+    return record;
+  }
+
+  /// Amplitude of low_pass() by its definition.
+  double damping(const double f, const double cutoff)
+  {
+    return 1. / (1. + (std::sqrt(2.) - 1.) * std::pow(f / cutoff, 6));
+  }
+} // namespace
+
+// Expected: each wave is damped by the amplitude of the filter, and its standard deviation is its
+// amplitude over the root of two. The window is 10 s long: ten and a hundred
+// periods, in which the height goes from 0 to -0.03 m and back.
+TEST(ContactFigures, bands_have_the_deviation_of_the_waves_in_them)
+{
+  std::vector<double> times;
+  const ContactRecord record = waves(times);
+  StatisticsParameters parameters;
+  parameters.window = {50., 149.99};
+  const ContactFigures f = ContactFigures::of(record, times, parameters);
+  const auto deviation = [](const double slow, const double fast)
+  { return std::sqrt(.5 * (64. * slow * slow + 16. * fast * fast)); };
+  const auto pass = [](const double f, const double from, const double to)
+  { return damping(f, to) * (from > 0. ? 1. - damping(f, from) : 1.); };
+  for (const ContactFigures::Band &band : f.bands)
+  {
+    EXPECT_TRUE(band.is_resolved);
+    EXPECT_NEAR(band.deviation,
+                deviation(pass(1., band.from, band.to), pass(10., band.from, band.to)), 2e-3)
+        << band.from << " to " << band.to << " Hz";
+  }
+  EXPECT_NEAR(f.height_range, .03, 1e-9);
+}
+
+// Expected: four losses of 4, 6, 12 and 30 samples of 1 ms.
+TEST(ContactFigures, losses_are_counted_by_their_duration)
+{
+  std::vector<double> times;
+  ContactRecord record;
+  const auto touch = [&](const int n, const double force)
+  {
+    for (int i = 0; i < n; ++i)
+    {
+      times.push_back(1e-3 * times.size());
+      record.position.push_back(0.);
+      record.force.push_back(force);
+    }
+  };
+  for (const int n : {4, 6, 12, 30})
+  {
+    touch(20, 50.);
+    touch(n, 0.);
+  }
+  touch(68, 50.);
+  record.mean_force = record.force;
+  EXPECT_EQ(lengths_of_losses(record.force), (std::vector<std::size_t>{4, 6, 12, 30}));
+  const ContactFigures f = ContactFigures::of(record, times, {});
+  const std::size_t number[] = {3, 2, 1};
+  const double share[] = {48. / 200., 42. / 200., 30. / 200.};
+  for (int i = 0; i < 3; ++i)
+  {
+    EXPECT_EQ(f.losses[i].number, number[i]);
+    EXPECT_NEAR(f.losses[i].share, share[i], 1e-12);
+  }
+}
+
+TEST(ContactFigures, a_histogram_counts_each_sample_once)
+{
+  const Histogram h = histogram({-3., 0., 9.99, 10., 25.}, 10.);
+  EXPECT_EQ(h.begin, -10.);
+  EXPECT_EQ(h.number, (std::vector<std::size_t>{1, 2, 1, 1}));
+  EXPECT_TRUE(histogram({}, 10.).number.empty());
+}
+
+// Parseval: the density times the interval of frequencies sums up to the variance. Expected of a
+// wave with whole periods in a segment: half its squared amplitude, at its frequency.
+TEST(ContactFigures, the_spectrum_sums_up_to_the_variance)
+{
+  const double step = 1e-3, frequency = 40. / (1024. * step);
+  std::vector<double> record;
+  for (int i = 0; i < 2048; ++i)
+    record.push_back(100. + 6. * std::sin(2. * pi * frequency * step * i));
+  const PowerSpectrum s = power_spectrum(record, step);
+  ASSERT_EQ(s.frequency.size(), 513u);
+  double sum = 0.;
+  std::size_t largest = 0;
+  for (std::size_t k = 0; k < s.density.size(); ++k)
+  {
+    sum += s.density[k] * s.frequency[1];
+    if (s.density[k] > s.density[largest])
+      largest = k;
+  }
+  EXPECT_NEAR(sum, 18., 1e-9);
+  EXPECT_NEAR(s.frequency[largest], frequency, 1e-9);
+  EXPECT_NEAR(s.frequency.back(), 500., 1e-9);
+  EXPECT_TRUE(power_spectrum({1., 2.}, step).density.empty());
+}
+
+// Source: the example of rainflow counting in ASTM E1049-85 (figure 6): half a cycle of 3, 6 and 9,
+// one and a half of 4, one of 8.
+TEST(ContactFigures, rainflow_cycles_are_those_of_the_example_of_the_standard)
+{
+  std::map<double, double> counts;
+  for (const LoadCycle &cycle : rainflow({-2., 1., -3., 5., -1., 3., -4., 4., -2.}))
+    counts[cycle.range] += cycle.count;
+  EXPECT_EQ(counts, (std::map<double, double>{{3., .5}, {4., 1.5}, {6., .5}, {8., 1.}, {9., .5}}));
+
+  // The same with values between the reversals, and some twice.
+  EXPECT_EQ(reversals({-2., -1., 1., 1., 0., -3., 5., 2., -1., 3., 3.}),
+            (std::vector<double>{-2., 1., -3., 5., -1., 3.}));
+  EXPECT_TRUE(rainflow({1.}).empty());
+}
+
+// Expected: 10 N for 1 s, 0 for 2 s, 40 N for 1 s, 0 for 1 s: mean 10 N, and of the squares 340
+// N^2.
+TEST(ContactFigures, droppers_have_extremes_spread_and_slackenings)
+{
+  LinkForce force;
+  force.keeps_reversals = true;
+  force.start(10.);
+  for (const auto &[value, dt] :
+       {std::make_pair(10., 1.), {0., .5}, {0., 1.5}, {40., 1.}, {0., 1.}})
+    force.add(value, dt);
+  EXPECT_EQ(force.least, 0.);
+  EXPECT_EQ(force.largest, 40.);
+  EXPECT_EQ(force.n_slackenings, 2u);
+  EXPECT_NEAR(force.mean, 10., 1e-12);
+  EXPECT_NEAR(force.deviation(), std::sqrt(340. - 100.), 1e-12);
+  EXPECT_EQ(force.reversals, (std::vector<double>{10., 0., 40., 0.}));
+}
+
+// Expected: a v^2 + b with v in km/h, of the part of the curve that the speed is in.
+TEST(ContactFigures, limits_of_the_mean_force_are_those_of_the_speed)
+{
+  StatisticsParameters parameters;
+  EXPECT_TRUE(parameters.mean_force_range(50.).empty());
+  parameters.least_mean = {1e-3, 50.};
+  parameters.largest_mean = {1e-3, 100., 180., 2e-3, 60.};
+  EXPECT_NO_THROW(parameters.check());
+  const std::vector<double> slow = parameters.mean_force_range(100. / 3.6),
+                            fast = parameters.mean_force_range(200. / 3.6);
+  EXPECT_NEAR(slow[0], 60., 1e-9);
+  EXPECT_NEAR(slow[1], 110., 1e-9);
+  EXPECT_NEAR(fast[0], 90., 1e-9);
+  EXPECT_NEAR(fast[1], 140., 1e-9);
+  parameters.least_mean = {1e-3};
+  EXPECT_THROW(parameters.check(), EntryError);
+}
