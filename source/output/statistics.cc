@@ -16,6 +16,7 @@ namespace taut
     {
       contacts.push_back({std::move(contact)});
       contacts.back().wires.resize(contacts.back().of.links.size());
+      contacts.back().has_height = contacts.back().of.links[0] < scene.links.size();
     }
     for (std::size_t i = 0; i < rows.size(); ++i)
       if (!rows.slides(i) && rows[i].is_link())
@@ -54,33 +55,33 @@ namespace taut
     }
   }
 
+  /// Height of the `from` end along the direction of the contact, over all ranks [m].
+  double Statistics::height_of(Contact &contact, const StepView &step)
+  {
+    if (!contact.has_height)
+      return 0.;
+    const Link &link = step.scene.links[contact.of.links[0]];
+    if (contact.foot.empty())
+      step.structure.motion(link.from, false, link.direction, 1., contact.foot);
+    double height =
+        evaluate(contact.foot, step.reference.displacement) + evaluate(contact.foot, step.state.U);
+    step.structure.communicator().sum(&height, 1);
+    return height;
+  }
+
   void Statistics::record_contacts(const StepView &step)
   {
     for (Contact &contact : contacts)
+    {
+      const double position =
+          rows->position(rows->index_of_link(contact.of.links[0]), step.state.time);
+      contact.places.insert(contact.places.end(), {position, height_of(contact, step)});
       for (std::size_t i = 0; i < contact.wires.size(); ++i)
       {
         const std::size_t row = rows->index_of_link(contact.of.links[i]);
-        if (i == 0)
-          contact.position.push_back(rows->position(row, step.state.time));
         contact.wires[i].force.push_back(step.state.multiplier[row]);
         contact.wires[i].mean_force.push_back(step.measures.mean_force(row));
       }
-  }
-
-  /// Heights of the `from` ends, over all ranks.
-  void Statistics::record_heights(const StepView &step)
-  {
-    for (Contact &contact : contacts)
-    {
-      if (contact.of.links[0] >= step.scene.links.size())
-        continue;
-      const Link &link = step.scene.links[contact.of.links[0]];
-      if (contact.foot.empty())
-        step.structure.motion(link.from, false, link.direction, 1., contact.foot);
-      double height = evaluate(contact.foot, step.reference.displacement) +
-                      evaluate(contact.foot, step.state.U);
-      step.structure.communicator().sum(&height, 1);
-      contact.height.push_back(height);
     }
   }
 
@@ -93,7 +94,6 @@ namespace taut
     measures = &step.measures;
     rows = &step.constraints;
     record_contacts(step);
-    record_heights(step);
     record_links(step, dt);
     for (std::size_t i = 0; i < probes.size(); ++i)
     {
@@ -141,7 +141,7 @@ namespace taut
     archive &worst_complementarity_time &worst_balance_time;
     for (Contact &contact : contacts)
     {
-      archive &contact.position &contact.height;
+      archive &contact.places;
       for (ContactRecord &wire : contact.wires)
         archive &wire.force &wire.mean_force;
     }
@@ -166,13 +166,21 @@ namespace taut
     rows = &step.constraints;
   }
 
+  void Statistics::add_places(const Contact &contact, ContactRecord &record)
+  {
+    for (std::size_t i = 0; i < contact.places.size(); i += 2)
+    {
+      record.position.push_back(contact.places[i]);
+      record.height.push_back(contact.places[i + 1]);
+    }
+  }
+
   ContactRecord Statistics::sum(const Contact &contact) const
   {
     ContactRecord result = contact.wires[0];
     for (std::size_t i = 1; i < contact.wires.size(); ++i)
       result.add(contact.wires[i]);
-    result.position = contact.position;
-    result.height = contact.height;
+    add_places(contact, result);
     return result;
   }
 
@@ -188,7 +196,7 @@ namespace taut
 
   ContactQuantities Statistics::quantities(const Contact &contact, ContactRecord wire) const
   {
-    wire.position = contact.position;
+    add_places(contact, wire);
     return ContactQuantities::of(wire, times, parameters);
   }
 

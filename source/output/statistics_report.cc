@@ -155,7 +155,7 @@ namespace taut
     for (std::size_t i = 0; i < 3; ++i)
       out << (f.bands[i].is_resolved ? ' ' + fixed(f.bands[i].deviation) : " -");
     out << " N\n";
-    if (!contact.height.empty())
+    if (contact.has_height)
       begin("Range of the height of the contact")
           << std::setw(10) << 1e3 * f.height_range << " mm\n";
     if (!(loss > 0.))

@@ -245,7 +245,7 @@ namespace taut
   std::vector<NamedQuantity> Simulation::observed_quantities() const
   {
     if (observed)
-      return observed->quantities();
+      return measured;
     std::vector<NamedQuantity> all;
     const auto append = [&](const Observer &observer)
     {
@@ -273,6 +273,7 @@ namespace taut
   void Simulation::finish(const bool is_partial)
   {
     observed->finish();
+    measured = observed->quantities();
     if (is_partial)
       log << "Partial results: until t = " << figures.until() << " s of " << parameters.end_time
           << " s\n";

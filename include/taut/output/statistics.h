@@ -85,7 +85,8 @@ namespace taut
     struct Contact
     {
       SlidingContact of;
-      std::vector<double> position = {}, height = {};
+      std::vector<double> places = {}; ///< position and height of each step, in turn [m]
+      bool has_height = false;
       std::vector<Term> foot = {};           ///< displacement of its `from` end along its direction
       std::vector<ContactRecord> wires = {}; ///< without positions
     };
@@ -121,8 +122,9 @@ namespace taut
     template <typename Archive>
     void store(Archive &archive);
     void record_contacts(const StepView &step);
-    void record_heights(const StepView &step);
+    static double height_of(Contact &contact, const StepView &step);
     ContactFigures figures(const Contact &contact) const;
+    static void add_places(const Contact &contact, ContactRecord &record);
     ContactRecord sum(const Contact &contact) const;
     ContactQuantities quantities(const Contact &contact) const;
     ContactQuantities quantities(const Contact &contact, ContactRecord wire) const;

@@ -63,7 +63,7 @@ namespace taut
     /// Statistics of the steps so far.
     const Statistics &statistics() const { return figures; }
 
-    /// Quantities of the observers so far; before a run of those that it will have.
+    /// Quantities of the observers at the end of the run; before it, of those that it will have.
     std::vector<NamedQuantity> observed_quantities() const;
 
     /// Number of steps that fit into the time of the run.
@@ -115,6 +115,7 @@ namespace taut
     std::unique_ptr<ObservedRun> observed;
     std::unique_ptr<AccuracyReport> accuracy;
     std::unique_ptr<ModelLimits> limits;
+    std::vector<NamedQuantity> measured; ///< by the observers, at the end
   };
 } // namespace taut
 
