@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "catenary.h"
+#include "wave_speed.h"
 
 #include <taut/base/exceptions.h>
 #include <taut/base/patterns.h>
@@ -49,6 +50,10 @@ namespace taut
                       "Upwards on the lowest mass, net of the weight [N]", Double());
     prm.add_parameter("Start", start, "x at t = 0 [m]", Double());
     prm.add_parameter("Speed", speed, "[km/h]", Double());
+    prm.add_parameter(
+        "Faster than waves", faster_than_waves,
+        "Lets it run at least as fast as the waves of the contact wire, sqrt(tension / mass per "
+        "length), which is an error otherwise");
     prm.add_parameter("Contact stiffness", contact_stiffness,
                       "Between head and contact wire; a number or 'rigid' [N/m]", Anything());
     prm.add_parameter("Contact damping", contact_damping, "Beside the stiffness [N s/m]",
@@ -189,6 +194,8 @@ namespace taut
         Expression(item.profile, section + "/Height profile", Expression::Variables::position);
     for (const TensionLength &part : line)
     {
+      check_speed(scene.wires[part.contact_wire()], contact_link.speed, item.faster_than_waves,
+                  section);
       if (line.size() > 1)
       {
         contact_link.strip = name;

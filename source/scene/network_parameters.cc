@@ -227,6 +227,10 @@ namespace taut
     prm.add_parameter("Speed", speed,
                       "Of a sliding contact along its wire or its unstressed cable [m/s]",
                       Double());
+    prm.add_parameter(
+        "Faster than waves", faster_than_waves,
+        "Lets it run at least as fast as the waves of its wire, sqrt(tension / mass per "
+        "length), which is an error otherwise");
     prm.add_parameter("Straight", straight,
                       "Of a sliding contact on a cable: its Speed is that in space, along the line "
                       "from From to To of the cable and across Direction, and it touches what of "
@@ -275,6 +279,10 @@ namespace taut
         "Magnitude", magnitude,
         "A formula in t and, on a wire or a cable, in the position s there [N, N/m, N m]");
     prm.add_parameter("Speed", speed, "Of a moving load [m/s]", Double());
+    prm.add_parameter(
+        "Faster than waves", faster_than_waves,
+        "Lets it run at least as fast as the waves of its wire, sqrt(tension / mass per "
+        "length), which is an error otherwise");
     prm.add_parameter("Acts while built", acts_while_built,
                       "Whether lengths of droppers are found with this load; wind blows later");
   }
