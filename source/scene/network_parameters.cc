@@ -172,7 +172,9 @@ namespace taut
                       Selection("joint|ball joint|stop|dropper|sliding contact"));
     prm.add_parameter(
         "From", from,
-        "'ground', 'ground @ x, y, z', a mass, 'wire @ position' or 'body @ x, y, z'; several "
+        "'ground', 'ground @ x, y, z', a mass, 'wire @ position', 'body @ x, y, z', or on a cable "
+        "its "
+        "unstressed arc length, 'cable @ s, 0', or its x at rest, 'cable @ x = 12.5'; several "
         "positions (numbers and ranges first:step:last) make one link each");
     prm.add_parameter(
         "To", to,
